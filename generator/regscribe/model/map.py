@@ -1,0 +1,235 @@
+"""A register map: the models of a device family, and what is common to them."""
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+from fractions import Fraction
+
+from regscribe.model.condition import Condition
+from regscribe.model.diagnostic import Span
+from regscribe.model.protocol import Protocol
+from regscribe.model.register import Array, Group, Register
+from regscribe.model.wire import Space
+
+
+@dataclass(frozen=True, slots=True)
+class Manual:
+    """The document that was transcribed."""
+
+    title: str
+    number: str = ""
+    date: str = ""
+    publisher: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Notation:
+    """Another way to write an address of a space: the wire address plus `offset`."""
+
+    name: str
+    space: Space
+    offset: int
+
+
+class GivenKind(StrEnum):
+    """What a given is: a set of register codes, or yes/no."""
+
+    CODES = "codes"
+    BOOLEAN = "boolean"
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """A fact that decoding needs and this manual does not hold: a constructor argument without default."""
+
+    id: str
+    kind: GivenKind
+    description: str
+    reason: str
+    register: str = ""
+    span: Span = Span("")
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One request of a command: words to an address, or a wait in milliseconds."""
+
+    address: int = 0
+    words: tuple[int, ...] = ()
+    function: int = 16
+    wait: int = 0
+    register: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Command:
+    """A value or a sequence that makes the device act; `danger` says what may be lost (empty: harmless)."""
+
+    id: str
+    name: str
+    steps: tuple[Step, ...]
+    description: str = ""
+    section: str = ""
+    danger: str = ""
+    group: str = ""
+    span: Span = Span("")
+
+
+@dataclass(frozen=True, slots=True)
+class Identity:
+    """Under `when`, the device is one of `models` (several: the answer does not tell them apart)."""
+
+    when: Condition
+    models: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Model:
+    """One product: only the registers it has, with its own enums, ranges and defaults.
+
+    `members` keeps arrays folded, in the manual's order; `registers` is the same with arrays expanded.
+    """
+
+    name: str
+    class_name: str
+    description: str = ""
+    members: tuple[Register | Array, ...] = ()
+    registers: tuple[Register, ...] = ()
+    groups: tuple[Group, ...] = ()
+    commands: tuple[Command, ...] = ()
+    by_path: dict[str, Register] = field(default_factory=dict, compare=False, hash=False, repr=False)
+    span: Span = Span("")
+
+    def register(self, path: str) -> Register:
+        """Find a register by its path; KeyError if this model has none of that name."""
+        if not self.by_path:
+            self.by_path.update({register.path: register for register in self.registers})
+        return self.by_path[path]
+
+
+@dataclass(frozen=True, slots=True)
+class Erratum:
+    """A place where the manual is wrong, contradicts itself or lost something: what it prints, what is read, why."""
+
+    where: str
+    printed: str
+    read: str
+    why: str
+
+
+class Outcome(StrEnum):
+    """What decoding the words of an example must give."""
+
+    VALUE = "value"
+    SATURATED = "saturated"
+    FAULT = "fault"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ValueExample:
+    """The manual's words and value of one register, under the values of others (`state`: path, value).
+
+    With `stored`, the device holds that number and transmits `words`; with `value`, the words decode to it and (unless
+    `lossy`) it encodes to them. `value` is a number, a text, or the sentinel's id where `outcome` is FAULT.
+    """
+
+    source: str
+    model: str
+    register: str
+    view: str
+    words: tuple[int, ...]
+    state: tuple[tuple[str, Fraction], ...] = ()
+    stored: Fraction | None = None
+    value: Fraction | str | None = None
+    flags: tuple[str, ...] | None = None
+    outcome: Outcome = Outcome.VALUE
+    lossy: bool = False
+    span: Span = Span("")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FrameExample:
+    """An RTU frame that the manual prints and what it says: `writes` are (path, value) pairs under `state`.
+
+    `crc`: whether the frame ends in its CRC. `answer`: the frame comes from the device.
+    """
+
+    source: str
+    model: str
+    frame: bytes
+    crc: bool
+    answer: bool
+    unit: int
+    function: int
+    address: int | None = None
+    count: int | None = None
+    words: tuple[int, ...] | None = None
+    writes: tuple[tuple[str, Fraction], ...] = ()
+    view: str = ""
+    state: tuple[tuple[str, Fraction], ...] = ()
+    command: str = ""
+    span: Span = Span("")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TimingExample:
+    """The manual's times in milliseconds, to two decimals, for one request at a line setting."""
+
+    source: str
+    baud: int
+    format: str
+    function: int
+    words: int
+    gap: Fraction
+    earliest: Fraction
+    latest: Fraction
+    span: Span = Span("")
+
+
+Example = ValueExample | FrameExample | TimingExample
+
+
+@dataclass(frozen=True, slots=True)
+class Waiver:
+    """A rule that does not count for one thing in this map, and why."""
+
+    rule: str
+    at: str
+    reason: str
+    span: Span = Span("")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RegisterMap:
+    """A device family, read from one YAML file. `content_hash` is the SHA-256 of the file's bytes, in hex."""
+
+    id: str
+    title: str
+    maker: str
+    class_prefix: str
+    source: str
+    content_hash: str
+    manual: Manual
+    models: tuple[Model, ...]
+    protocol: Protocol = Protocol()
+    description: str = ""
+    notations: tuple[Notation, ...] = ()
+    givens: tuple[Given, ...] = ()
+    reserved: tuple[tuple[Space, int, int], ...] = ()
+    identity: tuple[Identity, ...] = ()
+    errata: tuple[Erratum, ...] = ()
+    examples: tuple[Example, ...] = ()
+    waivers: tuple[Waiver, ...] = ()
+    notes: tuple[str, ...] = ()
+    unit_symbols: tuple[str, ...] = ()
+    span: Span = Span("")
+
+    def model(self, name: str) -> Model:
+        """Find a model by its manual name; KeyError if the map has none."""
+        return next(model for model in self.models if model.name == name) if self.has(name) else self._no_model(name)
+
+    def has(self, name: str) -> bool:
+        """Whether the map covers a model of this name."""
+        return any(model.name == name for model in self.models)
+
+    def _no_model(self, name: str) -> Model:
+        raise KeyError(name)

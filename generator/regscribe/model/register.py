@@ -1,0 +1,160 @@
+"""Registers, arrays of registers and groups, as one model has them."""
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+from fractions import Fraction
+
+from regscribe.model.condition import Cases, Condition, always
+from regscribe.model.diagnostic import Span
+from regscribe.model.value import IDENTITY, BitField, Conversion, Enum, Range, Sentinel, Special
+from regscribe.model.wire import View
+
+
+class Kind(StrEnum):
+    """What a value is to a program.
+
+    `NUMBER` may have a fraction, `INTEGER` never has, `RAW` is a whole number whose scale the manual does not state;
+    `FLAGS` is a word of single bits, `FIELDS` a word with at least one wider field; `VERSION` packs decimal digits.
+    """
+
+    NUMBER = "number"
+    INTEGER = "integer"
+    RAW = "raw"
+    ENUM = "enum"
+    FLAGS = "flags"
+    FIELDS = "fields"
+    STRING = "string"
+    VERSION = "version"
+    BOOLEAN = "boolean"
+
+
+class Access(StrEnum):
+    """Whether a register can be read and written."""
+
+    READ = "r"
+    READ_WRITE = "rw"
+    WRITE = "w"
+
+    @property
+    def readable(self) -> bool:
+        """Whether it can be read."""
+        return self is not Access.WRITE
+
+    @property
+    def writable(self) -> bool:
+        """Whether it can be written (perhaps under a condition)."""
+        return self is not Access.READ
+
+
+@dataclass(frozen=True, slots=True)
+class Writable:
+    """When a write is accepted: the condition and the manual's reason in own words."""
+
+    when: Condition
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class Inferred:
+    """Something the manual does not say outright: what was concluded and why."""
+
+    what: str
+    why: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Register:
+    """One logical parameter of one model, whatever the number of its views.
+
+    `id` is its Python name inside its owner, `path` its name in the model (`segments[3].soak_level`).
+    `views[0]` is the base view; `aliases` are further addresses that transmit the base view.
+    `scale` goes from the stored value to the value of use; `default` is a value of use: a number (an enum's code, a
+    word's bits), a text, or None where the manual gives none. `section` is where the manual describes it.
+    `rescales` names the unit (of the map's units) whose registers the device converts when this one is written.
+    `unlock` and `apply` name commands that must precede and follow a write.
+    `version_digits` is how many decimal digits a `VERSION` packs, `version_groups` how many digits stand in a group.
+    """
+
+    id: str
+    path: str
+    name: str
+    kind: Kind
+    access: Access
+    views: tuple[View, ...]
+    symbol: str = ""
+    description: str = ""
+    section: str = ""
+    group: str = ""
+    aliases: tuple[int, ...] = ()
+    scale: Cases[Conversion] = field(default_factory=lambda: always(IDENTITY))
+    unit: Cases[str] = field(default_factory=lambda: always(""))
+    unit_id: str = ""
+    range: Cases[Range] = ()
+    specials: tuple[Special, ...] = ()
+    sentinels: tuple[Sentinel, ...] = ()
+    default: Fraction | str | None = None
+    enum: Enum | None = None
+    fields: tuple[BitField, ...] = ()
+    writable: Writable | None = None
+    persistence: str = ""
+    endurance: int | None = None
+    rescales: str = ""
+    unlock: str = ""
+    apply: str = ""
+    danger: str = ""
+    inferred: tuple[Inferred, ...] = ()
+    version_digits: int = 0
+    version_group: int = 0
+    array: str = ""
+    index: tuple[int, ...] = ()
+    span: Span = Span("")
+
+    @property
+    def base(self) -> View:
+        """The view whose address the manual's table prints."""
+        return self.views[0]
+
+    @property
+    def preferred(self) -> View:
+        """The view that drivers use unless told otherwise."""
+        return next((view for view in self.views if view.preferred), self.views[0])
+
+    @property
+    def bits(self) -> int:
+        """Width of the base view in bits."""
+        return self.base.type.bits if self.base.type.is_integer else 16 * self.base.words
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Array:
+    """A repeated structure: element i stands `stride` steps after element i-1, from `first` on, `count` of them.
+
+    `members` are the registers (and arrays) of the *first* element; a step is one unit of a register's `at`, which a
+    view may stretch (an IEEE view moves by 2 a step: `View.stride`).
+    """
+
+    id: str
+    name: str
+    first: int
+    count: int
+    stride: int
+    members: tuple["Register | Array", ...]
+    description: str = ""
+    section: str = ""
+    span: Span = Span("")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Group:
+    """A named, ordered set of registers: `members` are paths, in the order in which they should be written.
+
+    `order` is the group's place in the map's write order (None: it has none).
+    """
+
+    id: str
+    name: str
+    members: tuple[str, ...]
+    description: str = ""
+    section: str = ""
+    order: int | None = None
+    span: Span = Span("")

@@ -1,0 +1,143 @@
+"""What a number means: scales, limits, special values, sentinels, enums and bit fields."""
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from regscribe.model.condition import Cases
+from regscribe.model.diagnostic import Span
+
+
+@dataclass(frozen=True, slots=True)
+class Decimals:
+    """A register holds the number of decimals: the factor is 10 to the power of it, at most `at_most`."""
+
+    register: str
+    at_most: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Conversion:
+    """value = (`multiply` x stored + `add`) / 10^d, d from `decimals` (0 without); exact.
+
+    `step` is the smallest increment of the *stored* value, if the device has one (1: it stores whole digits).
+    """
+
+    multiply: Fraction = Fraction(1)
+    add: Fraction = Fraction(0)
+    decimals: Decimals | None = None
+    step: Fraction | None = None
+
+
+IDENTITY = Conversion()
+
+
+@dataclass(frozen=True, slots=True)
+class Number:
+    """A limit that is a number, in the unit of the value."""
+
+    value: Fraction
+
+
+@dataclass(frozen=True, slots=True)
+class Reference:
+    """A limit that is the present value of another register."""
+
+    register: str
+
+
+@dataclass(frozen=True, slots=True)
+class Open:
+    """A limit that the manual names but does not give: nothing is checked against it."""
+
+    text: str
+
+
+Limit = Number | Reference | Open
+
+
+@dataclass(frozen=True, slots=True)
+class Interval:
+    """From `low` to `high`, both included."""
+
+    low: Limit
+    high: Limit
+
+
+@dataclass(frozen=True, slots=True)
+class Range:
+    """A union of intervals; number limits are divided by 10^d of `decimals`, if there is one."""
+
+    intervals: tuple[Interval, ...]
+    decimals: Decimals | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Special:
+    """A value with a meaning of its own, allowed beside the range: 0 = off.
+
+    `code` is the value as the range counts; `means` is the number it stands for, if it stands for one (0 = 0.2 s).
+    """
+
+    code: Fraction
+    label: str
+    id: str
+    means: Fraction | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Sentinel:
+    """A stored number that is a fault and no value: -32768 = sensor low."""
+
+    stored: Fraction
+    label: str
+    id: str
+
+
+@dataclass(frozen=True, slots=True)
+class Member:
+    """One code of an enum; `id` is its Python name in capitals."""
+
+    code: int
+    label: str
+    id: str
+    description: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Enum:
+    """Codes with meanings, as one model has them; `invalid` lists codes that the manual calls invalid, with why.
+
+    `id` is the map's name; models whose members differ have enums of the same id with different members.
+    """
+
+    id: str
+    members: tuple[Member, ...]
+    invalid: tuple[tuple[int, str], ...] = ()
+    description: str = ""
+    span: Span = Span("")
+
+
+@dataclass(frozen=True, slots=True)
+class BitField:
+    """Bits `low` to `high` (0 is the least significant) of a word: one flag, a number or an enum."""
+
+    id: str
+    label: str
+    low: int
+    high: int
+    enum: Enum | None = None
+    description: str = ""
+
+    @property
+    def width(self) -> int:
+        """How many bits."""
+        return self.high - self.low + 1
+
+    @property
+    def is_flag(self) -> bool:
+        """Whether it is one bit with no enum."""
+        return self.width == 1 and self.enum is None
+
+
+Units = Cases[str]
+"""Engineering unit symbols by condition; an empty symbol: no unit."""
