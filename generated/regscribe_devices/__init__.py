@@ -1,0 +1,1 @@
+"""Generated drivers; see each module. Regenerate with `regscribe generate`."""
