@@ -1,0 +1,61 @@
+"""A collection while it is being read, and the places of YAML events."""
+
+from dataclasses import dataclass, field
+
+from yaml.events import Event
+
+from regscribe.source.document import Node, Place, Plain
+
+
+@dataclass(slots=True)
+class Frame:
+    """A collection that is being read: in a mapping `key` is the key whose value comes next."""
+
+    place: Place
+    anchor: str | None
+    flow: bool
+    is_key: bool
+    data: dict[str, Plain] | list[Plain]
+    children: dict[str, Node] | list[Node]
+    keys: dict[str, Place] = field(default_factory=dict)
+    awaits_value: bool = False
+    key: str | None = None
+    size: int = 1
+    height: int = 1
+
+    @property
+    def awaits_key(self) -> bool:
+        """Whether the next event starts a key."""
+        return isinstance(self.data, dict) and not self.awaits_value
+
+    def attach(self, node: Node) -> None:
+        """Add a value; the value of a key that was refused is dropped."""
+        self.size += node.size
+        self.height = max(self.height, node.height + 1)
+        if isinstance(self.data, list) and isinstance(self.children, list):
+            self.data.append(node.value)
+            self.children.append(node)
+        elif isinstance(self.data, dict) and isinstance(self.children, dict):
+            self.awaits_value = False
+            if self.key is not None:
+                self.data[self.key] = node.value
+                self.children[self.key] = node
+
+    def close(self, end: Event) -> Node:
+        """Return the finished collection; in block style it ends where its last child ends."""
+        members = self.children if isinstance(self.children, dict) else None
+        elements = self.children if isinstance(self.children, list) else None
+        last = next(reversed(members.values() if members is not None else elements or ()), None)
+        place = place_of(end)
+        if not self.flow:
+            place = last.place if last else self.place
+        whole = Place(self.place.line, self.place.column, place.end_line, place.end_column)
+        return Node(self.data, whole, self.keys, members, elements, self.size, self.height)
+
+
+def place_of(event: Event) -> Place:
+    """Return where an event stands in the text."""
+    start, end = event.start_mark, event.end_mark
+    if start is None or end is None:
+        return Place(0, 0, 0, 0)
+    return Place(start.line, start.column, end.line, end.column)
