@@ -1,0 +1,77 @@
+"""The JSON export: the whole model under `schema/export.schema.json`, ready for programs in any language."""
+
+import json
+from collections.abc import Callable, Iterable
+from dataclasses import fields
+from enum import Enum as PythonEnum
+from fractions import Fraction
+from typing import Any
+
+from regscribe.emit.header import FORMAT
+from regscribe.model import Array, FrameExample, Model, Register, RegisterMap, TimingExample, ValueExample, exact, show
+
+EXAMPLES = {ValueExample: "value", FrameExample: "frame", TimingExample: "timing"}
+PLACES = frozenset({"span", "by_path"})
+"""Fields that say where something stands in a file, or that only speed a look-up."""
+
+Json = Any  # what the json module writes: nested lists and dicts of str, int, float, bool and None
+
+
+def json_text(maps: Iterable[RegisterMap]) -> str:
+    """Return all facts of the maps as one JSON document, indented, with a line end."""
+    document = {"format": FORMAT, "maps": [_map(register_map) for register_map in maps]}
+    return json.dumps(document, ensure_ascii=False, indent=1) + "\n"
+
+
+def number(value: Fraction) -> Json:
+    """Return a JSON number where its decimal text is exact also for readers of doubles, else both halves."""
+    if value.denominator == 1:
+        return value.numerator
+    try:
+        nearest = float(value)
+    except OverflowError:
+        nearest = 0.0
+    if exact(nearest) == value:
+        return nearest
+    return {"numerator": value.numerator, "denominator": value.denominator, "text": show(value)}
+
+
+def _map(register_map: RegisterMap) -> Json:
+    return {key: value for key, value in _fields(register_map).items() if key != "source"}
+
+
+def _model(model: Model) -> Json:
+    return _fields(model) | {"members": [_tree(member) for member in model.members]}
+
+
+def _tree(member: Register | Array) -> Json:
+    """Arrays stay folded as a tree whose leaves are the paths of the first element's registers."""
+    if isinstance(member, Register):
+        return member.path
+    return _fields(member) | {"members": [_tree(inner) for inner in member.members]}
+
+
+def _fields(record: Any) -> dict[str, Json]:  # noqa: ANN401 (any dataclass of the model)
+    return {item.name: _plain(getattr(record, item.name)) for item in fields(record) if item.name not in PLACES}
+
+
+def _example(example: Any) -> Json:  # noqa: ANN401 (one of the types in EXAMPLES)
+    return {"type": EXAMPLES[type(example)]} | _fields(example)
+
+
+WRITERS: dict[type, Callable[[Any], Json]] = {
+    Fraction: number,
+    bytes: lambda frame: frame.hex(" ").upper(),
+    tuple: lambda items: [_plain(item) for item in items],
+    Model: _model,
+    **dict.fromkeys(EXAMPLES, _example),
+}
+"""Types that are not written as an object of their fields."""
+
+
+def _plain(value: Any) -> Json:  # noqa: ANN401 (any value of the model)
+    if isinstance(value, PythonEnum):
+        return value.value
+    if value is None or isinstance(value, str | bool | int):
+        return value
+    return WRITERS.get(type(value), _fields)(value)

@@ -1,0 +1,201 @@
+"""The CSV export: one row for each value of each model; docs/export.md is its contract."""
+
+import csv
+import io
+import json
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import astuple, dataclass, fields
+
+from regscribe.emit.text import (
+    bits_words,
+    cases_words,
+    conversion_words,
+    labels_of,
+    limit_words,
+    listed,
+    map_cases,
+    one_line,
+    plain_interval,
+)
+from regscribe.model import (
+    IDENTITY,
+    BitField,
+    Case,
+    Command,
+    Kind,
+    Model,
+    Range,
+    Register,
+    RegisterMap,
+    Space,
+    Step,
+    View,
+    show,
+)
+
+BIT_FUNCTIONS = frozenset({5, 15})
+"""Function codes that write coils; every other write goes to holding registers."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Row:
+    """One row of the table; the fields are the columns, in order, and every one is text."""
+
+    map: str
+    model: str
+    id: str
+    name: str
+    symbol: str = ""
+    space: str = ""
+    address: str = ""
+    words: str = ""
+    aliases: str = ""
+    access: str
+    kind: str
+    type: str = ""
+    unit: str = ""
+    minimum: str = ""
+    maximum: str = ""
+    default: str = ""
+    values: str = "{}"
+    bits: str = "{}"
+    views: str = "{}"
+    scale: str = ""
+    persistence: str = ""
+    group: str = ""
+    section: str = ""
+
+
+COLUMNS = tuple(field.name for field in fields(Row))
+
+
+def csv_text(maps: Iterable[RegisterMap]) -> str:
+    r"""Return the table as RFC 4180 text with `\n` line ends, header first, ordered by map, model, manual."""
+    buffer = io.StringIO()
+    writer = csv.writer(buffer, lineterminator="\n")
+    writer.writerow(COLUMNS)
+    writer.writerows(astuple(row) for row in rows(maps))
+    return buffer.getvalue()
+
+
+def rows(maps: Iterable[RegisterMap]) -> Iterator[Row]:
+    """Yield the rows of all maps: the registers of each model (arrays expanded), then its commands."""
+    for register_map in maps:
+        for model in register_map.models:
+            for register in model.registers:
+                yield _register_row(register_map, model, register)
+            for command in model.commands:
+                yield _command_row(register_map, model, command)
+
+
+def _register_row(register_map: RegisterMap, model: Model, register: Register) -> Row:
+    minimum, maximum = _limits(register)
+    return Row(
+        map=register_map.id,
+        model=one_line(model.name),
+        id=register.path,
+        name=one_line(register.name),
+        symbol=one_line(register.symbol),
+        space=register.base.space.value,
+        address=str(register.base.address),
+        words=str(register.base.words),
+        aliases=" ".join(map(str, register.aliases)),
+        access=register.access.value,
+        kind=register.kind.value,
+        type=register.base.type.value,
+        unit=cases_words(map_cases(register.unit, one_line)),
+        minimum=minimum,
+        maximum=maximum,
+        default=_default(register),
+        values=_object(_values(register)),
+        bits=_object({bits_words(field): _bit_label(field) for field in register.fields}),
+        views=_object({view.name: _view(view) for view in register.views}),
+        scale=_scale(register),
+        persistence=one_line(register.persistence),
+        group=register.group,
+        section=one_line(register.section),
+    )
+
+
+def _command_row(register_map: RegisterMap, model: Model, command: Command) -> Row:
+    requests = [step for step in command.steps if step.words]
+    first = requests[0] if requests else None
+    return Row(
+        map=register_map.id,
+        model=one_line(model.name),
+        id=command.id,
+        name=one_line(command.name),
+        space=_step_space(first) if first else "",
+        address=str(first.address) if first else "",
+        words=str(sum(len(step.words) for step in requests)),
+        access="w",
+        kind="command",
+        values=_object(_written(requests)),
+        group=command.group,
+        section=one_line(command.section),
+    )
+
+
+def _step_space(step: Step) -> str:
+    return (Space.COIL if step.function in BIT_FUNCTIONS else Space.HOLDING).value
+
+
+def _written(requests: Iterable[Step]) -> dict[str, str]:
+    """Words by the address they go to; several requests to one address are joined by a comma."""
+    written: dict[str, str] = {}
+    for step in requests:
+        words = " ".join(map(str, step.words))
+        key = str(step.address)
+        written[key] = f"{written[key]}, {words}" if key in written else words
+    return written
+
+
+def _object(members: Mapping[str, object]) -> str:
+    return json.dumps(members, ensure_ascii=False)
+
+
+def _view(view: View) -> dict[str, object]:
+    return {"address": view.address, "words": view.words, "type": view.type.value}
+
+
+def _values(register: Register) -> dict[str, str]:
+    """Codes with a meaning: enum members, special values, and stored numbers that are faults."""
+    codes = {str(code): one_line(label) for code, label in labels_of(register.enum).items()}
+    codes |= {show(special.code): one_line(special.label) for special in register.specials}
+    return codes | {show(sentinel.stored): one_line(sentinel.label) for sentinel in register.sentinels}
+
+
+def _bit_label(field: BitField) -> str:
+    codes = ", ".join(f"{code} = {one_line(label)}" for code, label in labels_of(field.enum).items())
+    return f"{one_line(field.label)}: {codes}" if codes else one_line(field.label)
+
+
+def _default(register: Register) -> str:
+    default = register.default
+    return "" if default is None else one_line(default) if isinstance(default, str) else show(default)
+
+
+def _scale(register: Register) -> str:
+    if register.kind is Kind.RAW:
+        return "not stated"
+    if all(case.then == IDENTITY for case in register.scale):
+        return ""
+    return cases_words(map_cases(register.scale, conversion_words))
+
+
+def _limits(register: Register) -> tuple[str, str]:
+    """Numbers where the range is one interval between numbers, else the limits of each case in words."""
+    plain = plain_interval(register.range)
+    if plain:
+        return show(plain[0]), show(plain[1])
+    sides = (_side(register, low=True), _side(register, low=False))
+    return sides[0], sides[1]
+
+
+def _side(register: Register, *, low: bool) -> str:
+    return cases_words(tuple(Case(case.when, _range_side(case.then, low=low)) for case in register.range))
+
+
+def _range_side(limits: Range, *, low: bool) -> str:
+    ends = (interval.low if low else interval.high for interval in limits.intervals)
+    return listed([limit_words(end, decimals=limits.decimals) for end in ends])

@@ -1,0 +1,208 @@
+"""A small device built by hand: an array, a scale by condition, open limits, an enum, bits, sentinels, two models."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+
+from regscribe.model import (
+    Access,
+    Array,
+    BitField,
+    Case,
+    CodeRange,
+    Command,
+    Condition,
+    Conversion,
+    Enum,
+    Erratum,
+    FrameExample,
+    Group,
+    Interval,
+    Kind,
+    Manual,
+    Member,
+    Model,
+    Number,
+    Open,
+    Order,
+    OrderFromRegister,
+    Range,
+    Reference,
+    Register,
+    RegisterMap,
+    Sentinel,
+    Space,
+    Special,
+    Step,
+    Test,
+    TimingExample,
+    ValueExample,
+    View,
+    WireType,
+    always,
+)
+
+TEMPERATURE = Condition((Test("input_type", codes=(CodeRange(Fraction(0), Fraction(12)),)),), "temperature_input")
+LINEAR = Condition((Test("input_type", given="linear_inputs"),))
+
+
+def _view(address: int, kind: WireType = WireType.INT16) -> View:
+    return View("base", Space.HOLDING, address, kind, words=kind.words)
+
+
+def _limits(low: int, high: int) -> Range:
+    return Range((Interval(Number(Fraction(low)), Number(Fraction(high))),))
+
+
+def _ramp(index: int) -> Register:
+    return Register(
+        id="ramp_time",
+        path=f"segments[{index}].ramp_time",
+        name="Ramp Time",
+        kind=Kind.INTEGER,
+        access=Access.READ_WRITE,
+        views=(_view(30 + 2 * index),),
+        range=always(_limits(0, 9600)),
+        specials=(Special(Fraction(0), "off", "OFF"),),
+        default=Fraction(5),
+        array="segments",
+        index=(index,),
+        group="profile",
+        section="4.9",
+    )
+
+
+def _input_type() -> Register:
+    members = (Member(0, "J thermocouple", "J_THERMOCOUPLE"), Member(13, "linear", "LINEAR"))
+    return Register(
+        id="input_type",
+        path="input_type",
+        name="Input Type",
+        symbol="INPT",
+        kind=Kind.ENUM,
+        access=Access.READ_WRITE,
+        views=(_view(3, WireType.UINT16),),
+        enum=Enum("input_type", members, invalid=((4, "not fitted"),)),
+        default=Fraction(13),
+        group="input",
+        section="4.1",
+        persistence="eeprom",
+    )
+
+
+def _setpoint() -> Register:
+    order = OrderFromRegister("input_type", ((0, Order.BIG), (13, Order.LITTLE)))
+    ieee = View("ieee", Space.HOLDING, 8002, WireType.FLOAT32, words=2, word_order=order, functions=(3, 16), align=2)
+    open_end = Range((Interval(Open("sensor low limit"), Open("sensor high limit")),))
+    registers = Range((Interval(Reference("low_limit"), Reference("high_limit")),))
+    return Register(
+        id="setpoint",
+        path="setpoint",
+        name="Setpoint",
+        kind=Kind.NUMBER,
+        access=Access.READ_WRITE,
+        views=(_view(1), ieee),
+        aliases=(101, 201),
+        scale=(
+            Case(TEMPERATURE, Conversion(Fraction(1, 10))),
+            Case(LINEAR, Conversion(Fraction(1, 10), Fraction("-1999.9"))),
+            Case(Condition(), Conversion()),
+        ),
+        unit=always("°C"),
+        range=(Case(TEMPERATURE, open_end), Case(LINEAR, registers)),
+        sentinels=(Sentinel(Fraction(-32768), "sensor low", "LOW"),),
+        default=Fraction("25.1"),
+        group="input",
+        section="4.2",
+    )
+
+
+def _status() -> Register:
+    mode = Enum("mode", (Member(0, "normal", "NORMAL"), Member(3, "manual", "MANUAL")))
+    return Register(
+        id="status",
+        path="status",
+        name="Status",
+        kind=Kind.FIELDS,
+        access=Access.READ,
+        views=(_view(70, WireType.UINT16),),
+        fields=(BitField("alarm", "alarm on", 0, 0), BitField("mode", "operation", 8, 11, enum=mode)),
+        group="input",
+        section="4.3",
+    )
+
+
+def _model(name: str, *registers: Register) -> Model:
+    ramps = tuple(_ramp(index) for index in (1, 2))
+    array = Array(id="segments", name="Segment", first=1, count=2, stride=2, members=ramps[:1])
+    command = Command(
+        id="load_defaults",
+        name="Load Defaults",
+        steps=(Step(address=7000, words=(85, 92)), Step(wait=2000), Step(address=7005, words=(1,), function=6)),
+        danger="all settings are lost",
+        section="7.2",
+    )
+    return Model(
+        name=name,
+        class_name=f"Acme{name}",
+        members=(*registers, array),
+        registers=(*registers, *ramps),
+        groups=(
+            Group(id="input", name="Input", members=tuple(register.path for register in registers)),
+            Group(id="profile", name="Profile", members=tuple(ramp.path for ramp in ramps)),
+        ),
+        commands=(command,),
+    )
+
+
+@pytest.fixture
+def setpoint() -> Register:
+    return _setpoint()
+
+
+@pytest.fixture
+def device() -> RegisterMap:
+    """Two models; `status` exists on the second only."""
+    return RegisterMap(
+        id="acme/oven",
+        title="Acme Oven",
+        maker="Acme",
+        class_prefix="Acme",
+        source="elsewhere/oven.yaml",
+        content_hash="0123456789abcdef" * 4,
+        manual=Manual("Oven, Modbus"),
+        models=(_model("A1", _input_type(), _setpoint()), _model("A2", _input_type(), _setpoint(), _status())),
+        errata=(Erratum("1.2", "4083", "4082", "the table on page 3 agrees"),),
+        reserved=((Space.HOLDING, 77, 79),),
+        examples=(
+            ValueExample(
+                source="3.7", model="A1", register="setpoint", view="base", words=(121,), stored=Fraction("120.5")
+            ),
+            FrameExample(
+                source="2.3", model="A1", frame=b"\x9c\x06", crc=False, answer=False, unit=156, function=6, address=1
+            ),
+            TimingExample(
+                source="1.2",
+                baud=9600,
+                format="8N1",
+                function=3,
+                words=2,
+                gap=Fraction("4.17"),
+                earliest=Fraction("14.17"),
+                latest=Fraction("204.17"),
+            ),
+        ),
+    )
+
+
+@pytest.fixture
+def only(device: RegisterMap) -> Callable[[Register], RegisterMap]:
+    """Return a function that makes a map of one model with one register."""
+
+    def build(register: Register) -> RegisterMap:
+        model = replace(device.models[0], members=(register,), registers=(register,), commands=(), by_path={})
+        return replace(device, models=(model,))
+
+    return build
