@@ -1,1 +1,118 @@
-"""(being written)"""
+"""What generated drivers import: declarations, errors, and the two kinds of driver.
+
+Nothing here imports the compiler; pymodbus is loaded when a link is made.
+"""
+
+from regscribe.runtime.choices import Bit, Choice, Field, Flags, Word
+from regscribe.runtime.device import (
+    AsyncBareDevice,
+    AsyncDevice,
+    BareDevice,
+    Device,
+    async_serial_link,
+    serial_link,
+)
+from regscribe.runtime.errors import (
+    ExceptionAnswer,
+    LinkLost,
+    NoAnswer,
+    NotDecodable,
+    PartialWrite,
+    RegscribeError,
+    Saturated,
+    SensorFault,
+    ValueNotDecodable,
+    ValueRefused,
+    WrongAnswer,
+)
+from regscribe.runtime.kinds import (
+    boolean,
+    choice,
+    flags,
+    integer,
+    integer_or,
+    number,
+    number_or,
+    number_with,
+    raw,
+    text,
+    version,
+    word_of,
+)
+from regscribe.runtime.link import AsyncLink, Link, async_tcp, tcp
+from regscribe.runtime.parts import Array, AsyncPart, Command, Group, Part, Section
+from regscribe.runtime.register import ReadOnly, ReadWrite, Register, WriteOnly
+from regscribe.runtime.session import Protocol
+from regscribe.runtime.snapshot import Snapshot
+from regscribe.runtime.spec import Conversion, Interval, Is, Limits, OrderFrom, Ref, View, within, word
+from regscribe.runtime.wire import FLOAT32, FLOAT64, INT16, INT32, INT64, UINT16, UINT32, UINT64
+
+__all__ = [
+    "FLOAT32",
+    "FLOAT64",
+    "INT16",
+    "INT32",
+    "INT64",
+    "UINT16",
+    "UINT32",
+    "UINT64",
+    "Array",
+    "AsyncBareDevice",
+    "AsyncDevice",
+    "AsyncLink",
+    "AsyncPart",
+    "BareDevice",
+    "Bit",
+    "Choice",
+    "Command",
+    "Conversion",
+    "Device",
+    "ExceptionAnswer",
+    "Field",
+    "Flags",
+    "Group",
+    "Interval",
+    "Is",
+    "Limits",
+    "Link",
+    "LinkLost",
+    "NoAnswer",
+    "NotDecodable",
+    "OrderFrom",
+    "Part",
+    "PartialWrite",
+    "Protocol",
+    "ReadOnly",
+    "ReadWrite",
+    "Ref",
+    "Register",
+    "RegscribeError",
+    "Saturated",
+    "Section",
+    "SensorFault",
+    "Snapshot",
+    "ValueNotDecodable",
+    "ValueRefused",
+    "View",
+    "Word",
+    "WriteOnly",
+    "WrongAnswer",
+    "async_serial_link",
+    "async_tcp",
+    "boolean",
+    "choice",
+    "flags",
+    "integer",
+    "integer_or",
+    "number",
+    "number_or",
+    "number_with",
+    "raw",
+    "serial_link",
+    "tcp",
+    "text",
+    "version",
+    "within",
+    "word",
+    "word_of",
+]

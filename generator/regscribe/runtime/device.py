@@ -1,0 +1,240 @@
+"""Drivers: a device behind a link, synchronous and asyncio, running the same operations."""
+
+import asyncio
+import time
+from collections.abc import Mapping
+from typing import Any, ClassVar, Self, TypeVar, cast
+
+from regscribe.runtime import link as links
+from regscribe.runtime import operations
+from regscribe.runtime.bound import _AsyncBound, _Bound
+from regscribe.runtime.errors import RegscribeError
+from regscribe.runtime.link import MODBUS_TCP_PORT, AsyncLink, Link
+from regscribe.runtime.parts import AsyncPart, Command, Group, Part, Section
+from regscribe.runtime.register import Register
+from regscribe.runtime.request import Reply, Request
+from regscribe.runtime.session import Pause, Protocol, Session
+from regscribe.runtime.snapshot import Snapshot
+
+T = TypeVar("T")
+What = Group | Register[Any] | _Bound[Any] | _AsyncBound[Any]
+
+
+class _Common:
+    """What both kinds of driver have: the model's facts and the session."""
+
+    model: ClassVar[str] = ""
+    map_id: ClassVar[str] = ""
+    protocol: ClassVar[Protocol] = Protocol()
+    registers: ClassVar[Mapping[str, Register[Any]]]
+    session: Session
+
+    def _begin(self, unit: int, givens: Mapping[str, Any]) -> None:
+        self.session = Session(
+            unit=unit,
+            protocol=self.protocol,
+            registers=type(self).registers,
+            commands=self._declared_commands(),
+            givens=givens,
+        )
+
+    def _declared_commands(self) -> dict[str, Command]:
+        section = getattr(type(self), "commands", None)
+        return section.commands() if isinstance(section, Section) else {}
+
+    def _chosen(self, what: tuple[What, ...]) -> list[Register[Any]]:
+        found: list[Register[Any]] = []
+        for one in what:
+            if isinstance(one, Group):
+                found += one.registers(self.session.registers)
+            else:
+                found.append(one if isinstance(one, Register) else one.register)
+        return found
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} unit {self.session.unit}>"
+
+
+class BareDevice(_Common, Part):
+    """A synchronous driver of one unit behind a link; `givens` are the facts that the manual leaves to others."""
+
+    def __init__(self, link: Link, *, unit: int, **givens: Any) -> None:
+        Part.__init__(self, self)
+        self.link = link
+        self._begin(unit, givens)
+
+    def open(self) -> None:
+        """Open the link; LinkLost if that fails."""
+        self.link.open()
+
+    def close(self) -> None:
+        """Close the link."""
+        self.link.close()
+
+    def __enter__(self) -> Self:
+        self.open()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def run(self, task: operations.Task[T]) -> T:
+        """Carry out an operation: its requests one after the other, under the link's lock."""
+        with self.link.lock:
+            self.session.at_epoch(self.link.epoch)
+            operation = task(self.session)
+            reply: Reply | None = None
+            try:
+                while True:
+                    asked = operation.send(reply)
+                    reply = self._carry(asked)
+            except StopIteration as done:
+                return cast("T", done.value)
+            except RegscribeError:
+                operation.close()
+                raise
+
+    def _carry(self, asked: Request | Pause) -> Reply | None:
+        if isinstance(asked, Pause):
+            time.sleep(asked.seconds)
+            return None
+        return self.link.call(self.session.unit, asked)
+
+    def read(self, *what: What) -> Snapshot:
+        """Read groups and registers (all without arguments) in few requests; see `Snapshot`."""
+        chosen = self._chosen(what) if what else list(self.placed().values())
+        return self.run(operations.read_many(chosen))
+
+    def read_part(self, part: Part) -> Snapshot:
+        """Read the registers of a part, keyed by their ids in it."""
+        placed = part.placed()
+        values = self.run(operations.read_many(list(placed.values())))
+        return values.renamed({register.path: path for path, register in placed.items()})
+
+    def loopback(self, data: int = 0x55AA) -> int:
+        """Function 08: send one word, return the echo."""
+        return self.run(operations.loopback(data))
+
+    def exception_status(self) -> int:
+        """Function 07: the eight status bits."""
+        return self.run(operations.exception_status())
+
+
+class Device(BareDevice):
+    """A synchronous driver of a device without givens."""
+
+    @classmethod
+    def tcp(
+        cls, host: str, *, unit: int, port: int = MODBUS_TCP_PORT, framing: str = "tcp", timeout: float | None = None
+    ) -> Self:
+        """A driver over TCP; `framing` is tcp, rtu or ascii; `timeout` in seconds, by default the manual's longest."""
+        return cls(links.tcp(host, port=port, framing=framing, timeout=timeout or cls.protocol.timeout), unit=unit)
+
+    @classmethod
+    def rtu(cls, port: str, *, unit: int, timeout: float | None = None, **line: Any) -> Self:
+        """A driver over a serial line; `line`: baud, data_bits, parity (N, E, O), stop_bits, framing."""
+        return cls(serial_link(cls.protocol, port, timeout=timeout, **line), unit=unit)
+
+
+class AsyncBareDevice(_Common, AsyncPart):
+    """An asyncio driver; otherwise as `BareDevice`."""
+
+    def __init__(self, link: AsyncLink, *, unit: int, **givens: Any) -> None:
+        AsyncPart.__init__(self, self)
+        self.link = link
+        self._begin(unit, givens)
+
+    async def open(self) -> None:
+        """Open the link; LinkLost if that fails."""
+        await self.link.open()
+
+    async def close(self) -> None:
+        """Close the link."""
+        await self.link.close()
+
+    async def __aenter__(self) -> Self:
+        await self.open()
+        return self
+
+    async def __aexit__(self, *_: object) -> None:
+        await self.close()
+
+    async def run(self, task: operations.Task[T]) -> T:
+        """Carry out an operation: its requests one after the other, under the link's lock."""
+        async with self.link.lock:
+            self.session.at_epoch(self.link.epoch)
+            operation = task(self.session)
+            reply: Reply | None = None
+            try:
+                while True:
+                    asked = operation.send(reply)
+                    reply = await self._carry(asked)
+            except StopIteration as done:
+                return cast("T", done.value)
+            except RegscribeError:
+                operation.close()
+                raise
+
+    async def _carry(self, asked: Request | Pause) -> Reply | None:
+        if isinstance(asked, Pause):
+            await asyncio.sleep(asked.seconds)
+            return None
+        return await self.link.call(self.session.unit, asked)
+
+    async def read(self, *what: What) -> Snapshot:
+        """As `BareDevice.read`."""
+        chosen = self._chosen(what) if what else list(self.placed().values())
+        return await self.run(operations.read_many(chosen))
+
+    async def read_part(self, part: AsyncPart) -> Snapshot:
+        """As `BareDevice.read_part`."""
+        placed = part.placed()
+        values = await self.run(operations.read_many(list(placed.values())))
+        return values.renamed({register.path: path for path, register in placed.items()})
+
+    async def loopback(self, data: int = 0x55AA) -> int:
+        """Function 08: send one word, return the echo."""
+        return await self.run(operations.loopback(data))
+
+    async def exception_status(self) -> int:
+        """Function 07: the eight status bits."""
+        return await self.run(operations.exception_status())
+
+
+class AsyncDevice(AsyncBareDevice):
+    """An asyncio driver of a device without givens."""
+
+    @classmethod
+    def tcp(
+        cls, host: str, *, unit: int, port: int = MODBUS_TCP_PORT, framing: str = "tcp", timeout: float | None = None
+    ) -> Self:
+        """As `Device.tcp`."""
+        link = links.async_tcp(host, port=port, framing=framing, timeout=timeout or cls.protocol.timeout)
+        return cls(link, unit=unit)
+
+    @classmethod
+    def rtu(cls, port: str, *, unit: int, timeout: float | None = None, **line: Any) -> Self:
+        """As `Device.rtu`."""
+        return cls(async_serial_link(cls.protocol, port, timeout=timeout, **line), unit=unit)
+
+
+def _line(protocol: Protocol, timeout: float | None, line: dict[str, Any]) -> dict[str, Any]:
+    data_bits, parity, stop_bits = tuple(protocol.format)  # "8N1"
+    usual = {"baud": protocol.baud, "data_bits": int(data_bits), "parity": parity, "stop_bits": int(stop_bits)}
+    return {**usual, "timeout": timeout or protocol.timeout, **line}
+
+
+def serial_link(protocol: Protocol, port: str, *, timeout: float | None, **line: Any) -> Link:
+    """A serial link with the settings that the manual gives as default, unless `line` says otherwise."""
+    return links.serial(port, **_line(protocol, timeout, line))
+
+
+def async_serial_link(
+    protocol: Protocol,
+    port: str,
+    *,
+    timeout: float | None,
+    **line: Any,
+) -> AsyncLink:
+    """As `serial_link`, for asyncio."""
+    return links.async_serial(port, **_line(protocol, timeout, line))

@@ -1,0 +1,158 @@
+"""What a number is to a program: float, int, enum, flags, word, text, version or bool."""
+
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any, Generic, NoReturn, TypeVar
+
+from regscribe.runtime.choices import Choice, Flags, Word
+from regscribe.runtime.errors import NotDecodable, ValueRefused
+from regscribe.runtime.spec import Text
+from regscribe.runtime.wire import exact, show
+
+T = TypeVar("T")
+C = TypeVar("C", bound=Choice)
+F = TypeVar("F", bound=Flags)
+W = TypeVar("W", bound=Word)
+
+
+def _refuse(value: object) -> NoReturn:
+    message = f"{value!r} is of the wrong type"
+    raise TypeError(message)
+
+
+class Kind(Generic[T]):
+    """How values of a register look to a program.
+
+    `make` builds a value from a number of use; `number` takes one apart again (ValueRefused for what is no value).
+    `coded` kinds have no scale: their number is the code itself. `special` names values beside the range, `means` maps
+    their code to the number they stand for.
+    """
+
+    __slots__ = ("coded", "make", "means", "name", "number", "special")
+
+    def __init__(
+        self,
+        name: str,
+        make: Callable[[Any], T],
+        number: Callable[[str, Any], Fraction],
+        *,
+        coded: bool = False,
+        special: type[Choice] | None = None,
+        means: dict[int, Text] | None = None,
+    ) -> None:
+        self.name, self.make, self.number, self.coded = name, make, number, coded
+        self.special, self.means = special, means or {}
+
+
+def _any_number(register: str, value: Any) -> Fraction:
+    try:
+        return exact(value)
+    except ValueError as error:
+        raise ValueRefused(register, str(error)) from None
+
+
+def _whole_number(register: str, value: Any) -> Fraction:
+    number = _any_number(register, value)
+    if number.denominator != 1:
+        raise ValueRefused(register, f"{show(number)} is no whole number; the register holds whole numbers only")
+    return number
+
+
+number: Kind[float] = Kind("number", float, _any_number)
+integer: Kind[int] = Kind("integer", int, _whole_number)
+raw: Kind[int] = Kind("raw", int, _whole_number)
+
+
+def number_or(special: type[C], means: dict[int, Text] | None = None) -> "Kind[float | C]":
+    """A number with special values: a code in `means` stands for a number, the others are members of `special`."""
+    return Kind("number", float, _any_number, special=special, means=means)
+
+
+def integer_or(special: type[C]) -> "Kind[int | C]":
+    """A whole number with special values, the members of `special`."""
+    return Kind("integer", int, _whole_number, special=special)
+
+
+def number_with(means: dict[int, Text]) -> Kind[float]:
+    """A number some of whose codes stand for another number (0 for 0.2 s)."""
+    return Kind("number", float, _any_number, means=means)
+
+
+def choice(members: type[C]) -> Kind[C]:
+    """An enum: only members are written, unknown codes are read as pseudo-members."""
+
+    def code(register: str, value: Any) -> Fraction:
+        if isinstance(value, bool) or not isinstance(value, int) or (isinstance(value, Choice) and not value.known):
+            raise ValueRefused(register, f"{value!r} is no member of {members.__name__}")
+        if isinstance(value, Choice) and not isinstance(value, members):
+            raise ValueRefused(register, f"{value!r} belongs to {type(value).__name__}, not to {members.__name__}")
+        if not members(value).known:
+            known = ", ".join(f"{member.value} {member.label}" for member in members)
+            raise ValueRefused(register, f"code {value} is none of {known}")
+        return Fraction(int(value))
+
+    return Kind("enum", members, code, coded=True)
+
+
+def flags(members: type[F]) -> Kind[F]:
+    """A word of single bits: only named bits are written."""
+
+    def code(register: str, value: Any) -> Fraction:
+        if isinstance(value, bool) or not isinstance(value, int):
+            raise ValueRefused(register, f"{value!r} is no {members.__name__}")
+        unnamed = int(value) & ~int(members.named())
+        if unnamed:
+            raise ValueRefused(register, f"bits 0x{unnamed:X} have no meaning in {members.__name__}")
+        return Fraction(int(value))
+
+    return Kind("flags", members, code, coded=True)
+
+
+def word_of(members: type[W]) -> Kind[W]:
+    """A word of bit fields, written as one number."""
+
+    def code(register: str, value: Any) -> Fraction:
+        if isinstance(value, bool) or not isinstance(value, int):
+            raise ValueRefused(register, f"{value!r} is no {members.__name__}")
+        return Fraction(int(value))
+
+    return Kind("fields", members, code, coded=True)
+
+
+def _bit(register: str, value: Any) -> Fraction:
+    if value not in (0, 1):
+        raise ValueRefused(register, f"{value!r} is neither True nor False")
+    return Fraction(int(value))
+
+
+boolean: Kind[bool] = Kind("boolean", bool, _bit, coded=True)
+
+
+_VERSION = "a version"
+
+
+def version(digits: int, group: int) -> Kind[str]:
+    """Decimal digits packed in a number: 013100 with groups of 2 is "01.31.00"."""
+
+    def make(code: int) -> str:
+        packed = f"{code:0{digits}d}"
+        if code < 0 or len(packed) > digits:
+            raise NotDecodable(_VERSION, f"{code} has more than {digits} decimal digits")
+        return ".".join(packed[start : start + group] for start in range(0, digits, group))
+
+    def code(register: str, value: Any) -> Fraction:
+        packed = value.replace(".", "") if isinstance(value, str) else ""
+        if not (packed.isascii() and packed.isdigit() and len(packed) == digits and make(int(packed)) == value):
+            raise ValueRefused(register, f"{value!r} is no version of {digits} digits in groups of {group}")
+        return Fraction(int(packed))
+
+    return Kind("version", make, code, coded=True)
+
+
+def _no_number(register: str, value: Any) -> Fraction:
+    if not isinstance(value, str):
+        raise ValueRefused(register, f"{value!r} is no text")
+    _refuse(value)  # texts are encoded from their characters, never through a number
+
+
+text: Kind[str] = Kind("string", str, _no_number, coded=True)

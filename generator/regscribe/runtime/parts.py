@@ -1,0 +1,255 @@
+"""The parts of a driver: the device itself, its array elements, commands and groups, for both kinds of I/O."""
+
+from collections.abc import Awaitable, Iterator, Mapping
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar, overload
+
+from regscribe.runtime import operations
+from regscribe.runtime.register import Register
+from regscribe.runtime.snapshot import Snapshot
+
+if TYPE_CHECKING:
+    from regscribe.runtime.device import AsyncBareDevice, BareDevice
+
+T = TypeVar("T")
+P = TypeVar("P", bound="Part")
+A = TypeVar("A", bound="AsyncPart")
+
+
+class _Catalogue:
+    """A class attribute: every register of a part by path, array elements included, in the order of declaration."""
+
+    def __get__(self, instance: object, owner: type) -> Mapping[str, Register[Any]]:
+        cached: Mapping[str, Register[Any]] | None = vars(owner).get("_catalogue")
+        if cached is None:
+            cached = MappingProxyType(dict(_registers(owner)))
+            owner._catalogue = cached  # type: ignore[attr-defined] # noqa: SLF001 (its own cache)
+        return cached
+
+
+def _registers(owner: type) -> Iterator[tuple[str, Register[Any]]]:
+    for name, declared in _declared(owner).items():
+        if isinstance(declared, Register):
+            yield name, declared
+        elif isinstance(declared, Array):
+            for index in range(declared.first, declared.first + declared.count):
+                prefix = f"{name}[{index}]"
+                for path, register in _registers(declared.element):
+                    yield f"{prefix}.{path}", _moved(register, declared.steps(index), f"{prefix}.{path}")
+
+
+def _moved(register: Register[Any], steps: int, path: str) -> Register[Any]:
+    moved = register.shifted(steps, "")
+    moved.path = path
+    return moved
+
+
+def _declared(owner: type) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for base in reversed(owner.__mro__):
+        found.update(
+            {name: value for name, value in vars(base).items() if isinstance(value, (Register, Array, Command))}
+        )
+    return found
+
+
+def _placed(part: "Part | AsyncPart") -> dict[str, Register[Any]]:
+    steps, prefix = part._steps, part._prefix  # noqa: SLF001 (parts are one family)
+    return {
+        path: _moved(register, steps, f"{prefix}.{path}") if prefix else register
+        for path, register in type(part).registers.items()
+        if register.access != "w"
+    }
+
+
+class Part:
+    """A place of registers in a synchronous driver: the device, an array element, its commands."""
+
+    registers = _Catalogue()
+    _device: "BareDevice"
+    _steps = 0
+    _prefix = ""
+
+    def __init__(self, device: "BareDevice", steps: int = 0, prefix: str = "") -> None:
+        self._device, self._steps, self._prefix = device, steps, prefix
+
+    def bind(self, register: Register[T], sync: Any, _: object) -> Any:
+        """Make a register an attribute of this part."""
+        return sync(register.shifted(self._steps, self._prefix) if self._prefix else register, self)
+
+    def run(self, task: operations.Task[T]) -> T:
+        """Run an operation on the device."""
+        return self._device.run(task)
+
+    def read(self) -> Snapshot:
+        """Read all registers of this part in few requests; the snapshot is keyed by their ids."""
+        return self._device.read_part(self)
+
+    def placed(self) -> dict[str, Register[Any]]:
+        """The readable registers of this part as they stand in the device, by their ids here."""
+        return _placed(self)
+
+
+class AsyncPart:
+    """As `Part`, for asyncio."""
+
+    registers = _Catalogue()
+    _device: "AsyncBareDevice"
+    _steps = 0
+    _prefix = ""
+
+    def __init__(self, device: "AsyncBareDevice", steps: int = 0, prefix: str = "") -> None:
+        self._device, self._steps, self._prefix = device, steps, prefix
+
+    def bind(self, register: Register[T], _: object, awaitable: Any) -> Any:
+        """Make a register an attribute of this part."""
+        return awaitable(register.shifted(self._steps, self._prefix) if self._prefix else register, self)
+
+    def run(self, task: operations.Task[T]) -> Awaitable[T]:
+        """Run an operation on the device."""
+        return self._device.run(task)
+
+    def read(self) -> Awaitable[Snapshot]:
+        """As `Part.read`, awaitable."""
+        return self._device.read_part(self)
+
+    def placed(self) -> dict[str, Register[Any]]:
+        """As `Part.placed`."""
+        return _placed(self)
+
+
+class Elements(Generic[T]):
+    """The elements of an array, numbered as the manual does."""
+
+    def __init__(self, make: Any, first: int, count: int) -> None:
+        self._make, self.first, self.count = make, first, count
+
+    def __getitem__(self, index: int) -> T:
+        if not self.first <= index < self.first + self.count:
+            message = f"no element {index}: they run from {self.first} to {self.first + self.count - 1}"
+            raise IndexError(message)
+        element: T = self._make(index)
+        return element
+
+    def __iter__(self) -> Iterator[T]:
+        return (self[index] for index in range(self.first, self.first + self.count))
+
+    def __len__(self) -> int:
+        return self.count
+
+
+class Array(Generic[P, A]):
+    """A repeated structure: `count` elements, the manual's numbers from `first`, `stride` steps apart."""
+
+    def __init__(self, element: type[P], awaitable: type[A], *, first: int, count: int, stride: int) -> None:
+        self.element, self.awaitable = element, awaitable
+        self.first, self.count, self.stride = first, count, stride
+        self.id = ""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.id = name
+
+    def steps(self, index: int) -> int:
+        """How far element `index` stands behind the first."""
+        return (index - self.first) * self.stride
+
+    @overload
+    def __get__(self, instance: None, owner: type) -> Self: ...
+    @overload
+    def __get__(self, instance: Part, owner: type) -> Elements[P]: ...
+    @overload
+    def __get__(self, instance: AsyncPart, owner: type) -> Elements[A]: ...
+    def __get__(self, instance: Part | AsyncPart | None, owner: type) -> "Self | Elements[P] | Elements[A]":
+        if instance is None:
+            return self
+        make: Any = self.element if isinstance(instance, Part) else self.awaitable
+        inside = f"{instance._prefix}." if instance._prefix else ""  # noqa: SLF001 (parts are one family)
+
+        def element(index: int) -> Any:
+            steps = instance._steps + self.steps(index)  # noqa: SLF001 (as above)
+            return make(instance._device, steps, f"{inside}{self.id}[{index}]")  # noqa: SLF001 (as above)
+
+        return Elements(element, self.first, self.count)
+
+
+class _BoundCommand:
+    __slots__ = ("_part", "command")
+
+    def __init__(self, command: "Command", part: Part) -> None:
+        self.command, self._part = command, part
+
+    def __call__(self, *, confirm: bool = False) -> None:
+        """Send the command; `confirm` is needed for a dangerous one (ValueRefused otherwise)."""
+        self._part.run(operations.run(self.command, confirm=confirm))
+
+
+class _AsyncBoundCommand:
+    __slots__ = ("_part", "command")
+
+    def __init__(self, command: "Command", part: AsyncPart) -> None:
+        self.command, self._part = command, part
+
+    def __call__(self, *, confirm: bool = False) -> Awaitable[None]:
+        """Send the command; `confirm` is needed for a dangerous one (ValueRefused otherwise)."""
+        return self._part.run(operations.run(self.command, confirm=confirm))
+
+
+class Command:
+    """Requests that make the device act: steps (function, address, words); function 0 waits `address` milliseconds."""
+
+    def __init__(self, *steps: tuple[int, int, tuple[int, ...]], danger: str = "") -> None:
+        self.steps, self.danger, self.id = steps, danger, ""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.id = name
+
+    @overload
+    def __get__(self, instance: None, owner: type) -> Self: ...
+    @overload
+    def __get__(self, instance: Part, owner: type) -> _BoundCommand: ...
+    @overload
+    def __get__(self, instance: AsyncPart, owner: type) -> _AsyncBoundCommand: ...
+    def __get__(self, instance: Part | AsyncPart | None, owner: type) -> "Self | _BoundCommand | _AsyncBoundCommand":
+        if instance is None:
+            return self
+        return _BoundCommand(self, instance) if isinstance(instance, Part) else _AsyncBoundCommand(self, instance)
+
+
+class Section(Generic[P, A]):
+    """A named part of a device without registers of its own address: its commands."""
+
+    def __init__(self, part: type[P], awaitable: type[A]) -> None:
+        self.part, self.awaitable = part, awaitable
+
+    @overload
+    def __get__(self, instance: None, owner: type) -> Self: ...
+    @overload
+    def __get__(self, instance: Part, owner: type) -> P: ...
+    @overload
+    def __get__(self, instance: AsyncPart, owner: type) -> A: ...
+    def __get__(self, instance: Part | AsyncPart | None, owner: type) -> "Self | P | A":
+        if instance is None:
+            return self
+        if isinstance(instance, Part):
+            return self.part(instance._device)  # noqa: SLF001 (parts are one family)
+        return self.awaitable(instance._device)  # noqa: SLF001 (as above)
+
+    def commands(self) -> dict[str, Command]:
+        """The commands declared here, by id."""
+        return {name: found for name, found in _declared(self.part).items() if isinstance(found, Command)}
+
+
+class Group:
+    """A named, ordered set of registers: ids, or ids of arrays for all that is in them."""
+
+    def __init__(self, name: str, *members: str) -> None:
+        self.name, self.members = name, members
+
+    def registers(self, present: Mapping[str, Register[Any]]) -> list[Register[Any]]:
+        """The readable registers of this group among those that a model has."""
+        return [
+            register
+            for member in self.members
+            for path, register in present.items()
+            if (path == member or path.startswith(f"{member}[")) and register.access != "w"
+        ]

@@ -1,0 +1,176 @@
+"""The declaration of a register: one descriptor that serves synchronous and asynchronous drivers."""
+
+import copy
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Generic, Never, Self, TypeVar, cast, overload
+
+from regscribe.runtime import codec
+from regscribe.runtime.bound import AsyncReadable, AsyncReadWritable, AsyncWritable, Readable, ReadWritable, Writable
+from regscribe.runtime.errors import ValueRefused
+from regscribe.runtime.kinds import Kind
+from regscribe.runtime.spec import SAME, Cases, Conversion, Givens, Limits, Ref, State, View, When, registers_of
+
+if TYPE_CHECKING:
+    from regscribe.runtime.parts import AsyncPart, Part
+
+T = TypeVar("T")
+Sentinels = tuple[tuple[int | str, str, str], ...]
+
+
+class Register(Generic[T]):
+    """What a device's register is: where it stands, what its words mean and when it may be written.
+
+    `at` is the n of its views' address formulas. `default` is the manual's, in values of use. `unit` is an engineering
+    unit, or cases of them. `decode` and `encode` need no device: `state` holds the values of the registers in `needs`.
+    """
+
+    access = "r"
+
+    def __init__(  # noqa: PLR0913 (a register has this many properties; all but three are keywords)
+        self,
+        at: int,
+        views: tuple[View, ...],
+        kind: Kind[T],
+        *,
+        scale: Cases = SAME,
+        range: Cases = (),  # noqa: A002 (the manuals' own word)
+        default: float | str | None = None,
+        unit: str | Cases = "",
+        section: str = "",
+        sentinels: Sentinels = (),
+        aliases: tuple[int, ...] = (),
+        writable: tuple[When, str] | None = None,
+        persistence: str = "",
+        unlock: str = "",
+        apply: str = "",
+        danger: str = "",
+    ) -> None:
+        self.at, self.views, self.kind = at, views, kind
+        self.scale, self.range, self.sentinels = scale, range, sentinels
+        self.default, self.unit, self.section, self.aliases = default, unit, section, aliases
+        self.writable, self.persistence = writable, persistence
+        self.unlock, self.apply, self.danger = unlock, apply, danger
+        self.id = self.path = ""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.id = self.path = name
+
+    def __set__(self, instance: object, value: Never) -> None:
+        message = f"{self.path} is a register: use .write(...) to change it"
+        raise AttributeError(message)
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self.path} at {self.at}: {self.kind.name}>"
+
+    def shifted(self, steps: int, prefix: str) -> Self:
+        """The same register of another array element: `steps` further on, its path below `prefix`."""
+        other = copy.copy(self)
+        other.at, other.path = self.at + steps, f"{prefix}.{self.id}"
+        other.aliases = tuple(alias + steps for alias in self.aliases)
+        return other
+
+    @property
+    def view_names(self) -> tuple[str, ...]:
+        """The names of the views, the base view first."""
+        return tuple(view.name for view in self.views)
+
+    def view(self, name: str | None = None) -> View:
+        """The view of that name; without one, the view to prefer. ValueError for an unknown name."""
+        for view in self.views:
+            if view.name == name or (name is None and view.preferred):
+                return view
+        if name is None:
+            return self.views[0]
+        message = f"{self.path} has no view {name!r}; it has {', '.join(self.view_names)}"
+        raise ValueError(message)
+
+    @property
+    def scale_needs(self) -> tuple[str, ...]:
+        """Registers that decide or set the scale."""
+        found: list[str] = list(registers_of(self.scale))
+        found += [conversion.decimals for _, conversion in self.scale if cast("Conversion", conversion).decimals]
+        return tuple(dict.fromkeys(found))
+
+    def needs(self, view: View) -> tuple[str, ...]:
+        """Registers whose values the meaning of `view` depends on."""
+        return tuple(dict.fromkeys((*view.needs(), *self.scale_needs)))
+
+    @property
+    def limit_needs(self) -> tuple[str, ...]:
+        """Registers that decide or are limits of a write."""
+        found = list(registers_of(self.range))
+        for _, limits in cast("tuple[tuple[When, Limits], ...]", self.range):
+            found += [limits.decimals] if limits.decimals else []
+            found += [end.register for interval in limits.intervals for end in interval if isinstance(end, Ref)]
+        return tuple(dict.fromkeys(found))
+
+    def decode(
+        self, words: Sequence[int], *, view: str | None = None, state: State | None = None, givens: Givens | None = None
+    ) -> T:
+        """The value of use that `words` spell in `view`; raises ValueNotDecodable (SensorFault, Saturated, ...)."""
+        return cast("T", codec.decode(self, self.view(view), words, state or {}, givens or {}))
+
+    def encode(
+        self,
+        value: T,
+        *,
+        view: str | None = None,
+        state: State | None = None,
+        givens: Givens | None = None,
+        rounded: bool = False,
+    ) -> tuple[int, ...]:
+        """The words of `value` in `view`; raises ValueRefused for what may not or cannot be written."""
+        if self.access == "r":
+            raise ValueRefused(self.path, "the register is read-only")
+        return codec.encode(self, self.view(view), value, state or {}, givens or {}, rounded=rounded)
+
+
+class ReadOnly(Register[T]):
+    """A register that can only be read."""
+
+    @overload
+    def __get__(self, instance: None, owner: type) -> Self: ...
+    @overload
+    def __get__(self, instance: "Part", owner: type) -> Readable[T]: ...
+    @overload
+    def __get__(self, instance: "AsyncPart", owner: type) -> AsyncReadable[T]: ...
+    def __get__(self, instance: "Part | AsyncPart | None", owner: type) -> "Self | Readable[T] | AsyncReadable[T]":
+        if instance is None:
+            return self
+        return cast("Readable[T]", instance.bind(self, Readable, AsyncReadable))
+
+
+class ReadWrite(Register[T]):
+    """A register that can be read and written."""
+
+    access = "rw"
+
+    @overload
+    def __get__(self, instance: None, owner: type) -> Self: ...
+    @overload
+    def __get__(self, instance: "Part", owner: type) -> ReadWritable[T]: ...
+    @overload
+    def __get__(self, instance: "AsyncPart", owner: type) -> AsyncReadWritable[T]: ...
+    def __get__(
+        self, instance: "Part | AsyncPart | None", owner: type
+    ) -> "Self | ReadWritable[T] | AsyncReadWritable[T]":
+        if instance is None:
+            return self
+        return cast("ReadWritable[T]", instance.bind(self, ReadWritable, AsyncReadWritable))
+
+
+class WriteOnly(Register[T]):
+    """A register that can only be written."""
+
+    access = "w"
+
+    @overload
+    def __get__(self, instance: None, owner: type) -> Self: ...
+    @overload
+    def __get__(self, instance: "Part", owner: type) -> Writable[T]: ...
+    @overload
+    def __get__(self, instance: "AsyncPart", owner: type) -> AsyncWritable[T]: ...
+    def __get__(self, instance: "Part | AsyncPart | None", owner: type) -> "Self | Writable[T] | AsyncWritable[T]":
+        if instance is None:
+            return self
+        return cast("Writable[T]", instance.bind(self, Writable, AsyncWritable))

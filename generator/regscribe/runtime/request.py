@@ -1,0 +1,84 @@
+"""Requests and answers as plain data, and the test whether an answer fits its request.
+
+pymodbus matches unit and transaction only; a wrong function or length would pass as a good answer, so every answer is
+compared with its request here (Modbus Application Protocol V1.1b3, section 6).
+"""
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from regscribe.runtime.errors import ExceptionAnswer, PartialWrite, WrongAnswer
+
+READ_COILS, READ_DISCRETE_INPUTS, READ_HOLDING, READ_INPUT = 1, 2, 3, 4
+WRITE_COIL, WRITE_REGISTER, READ_STATUS, LOOPBACK, WRITE_COILS, WRITE_REGISTERS = 5, 6, 7, 8, 15, 16
+READ_FUNCTIONS = {
+    "coil": READ_COILS,
+    "discrete": READ_DISCRETE_INPUTS,
+    "holding": READ_HOLDING,
+    "input": READ_INPUT,
+    "status": READ_STATUS,
+}
+READS = frozenset(READ_FUNCTIONS.values())
+
+
+class Request(NamedTuple):
+    """One request: `quantity` addresses from `address`; `words` are what a write sends (bits as 0 and 1)."""
+
+    function: int
+    address: int
+    quantity: int = 1
+    words: tuple[int, ...] = ()
+
+
+class Reply(NamedTuple):
+    """One answer: `words` as read or echoed, or an `exception` code (0: none)."""
+
+    function: int
+    words: tuple[int, ...] = ()
+    address: int = 0
+    quantity: int = 0
+    exception: int = 0
+
+
+Meanings = Mapping[int, tuple[str, str]]
+"""Exception code -> (name, meaning), as the device's manual has them."""
+
+
+def verify(request: Request, reply: Reply, *, unit: int, meanings: Meanings) -> tuple[int, ...]:
+    """The words of a reply that fits; ExceptionAnswer, PartialWrite or WrongAnswer otherwise."""
+    if reply.exception:
+        name, meaning = meanings.get(reply.exception, ("", ""))
+        raise ExceptionAnswer(
+            unit=unit,
+            function=request.function,
+            address=request.address,
+            code=reply.exception,
+            name=name,
+            meaning=meaning,
+        )
+    asked = f"unit {unit}, function {request.function:02d}, address {request.address}"
+    if reply.function != request.function:
+        message = f"{asked}: the answer is to function {reply.function:02d}"
+        raise WrongAnswer(message)
+    if request.function in READS:
+        if len(reply.words) != request.quantity:
+            message = f"{asked}: {len(reply.words)} values came where {request.quantity} were asked for"
+            raise WrongAnswer(message)
+        return reply.words
+    _verify_echo(request, reply, unit=unit, asked=asked)
+    return reply.words
+
+
+def _verify_echo(request: Request, reply: Reply, *, unit: int, asked: str) -> None:
+    if reply.address != request.address:
+        message = f"{asked}: the answer names address {reply.address}"
+        raise WrongAnswer(message)
+    if request.function in (WRITE_REGISTERS, WRITE_COILS):
+        if reply.quantity < len(request.words):
+            raise PartialWrite(unit=unit, address=request.address, sent=len(request.words), written=reply.quantity)
+        if reply.quantity > len(request.words):
+            message = f"{asked}: {reply.quantity} values confirmed where {len(request.words)} were sent"
+            raise WrongAnswer(message)
+    elif reply.words != request.words:
+        message = f"{asked}: sent {list(request.words)}, the answer echoes {list(reply.words)}"
+        raise WrongAnswer(message)

@@ -1,0 +1,96 @@
+"""What a driver knows between requests: the device's protocol, the givens and the remembered registers. No I/O."""
+
+from collections.abc import Generator, Iterable, Mapping
+from types import MappingProxyType
+from typing import Any, NamedTuple, TypeVar
+
+from regscribe.runtime.plan import Limits
+from regscribe.runtime.request import Meanings, Reply, Request, verify
+
+T = TypeVar("T")
+
+Operation = Generator["Request | Pause", "Reply | None", T]
+"""Protocol logic without I/O: yields requests (or pauses), receives replies, returns a value."""
+
+
+class Pause(NamedTuple):
+    """Time that the device needs, in seconds."""
+
+    seconds: float
+
+
+class Protocol(NamedTuple):
+    """What the device accepts: function codes, limits, unit ids, its meanings of exception codes, response timeout.
+
+    `timeout` is the longest time in seconds that a good answer may take, from the manual's latencies.
+    """
+
+    functions: tuple[int, ...] = (3, 6, 16)
+    read_words: int = 125
+    write_words: int = 123
+    read_bits: int = 2000
+    read_holes: bool = False
+    unit_ids: tuple[int, int] = (1, 247)
+    exceptions: Meanings = MappingProxyType({})
+    timeout: float = 1.0
+    baud: int = 9600
+    format: str = "8N1"
+    modes: tuple[str, ...] = ("rtu",)
+
+    @property
+    def read_limits(self) -> Limits:
+        """What a read plan must keep to."""
+        return Limits(words=self.read_words, bits=self.read_bits, holes=self.read_holes)
+
+
+class Session:
+    """One device behind one link: `memory` holds the registers that the meaning of others depends on.
+
+    It is forgotten when one of them is written, when a command ran, and when the link was opened anew (`epoch`).
+    """
+
+    __slots__ = ("commands", "epoch", "givens", "memory", "protocol", "registers", "unit", "version")
+
+    def __init__(
+        self,
+        *,
+        unit: int,
+        protocol: Protocol,
+        registers: Mapping[str, Any],
+        commands: Mapping[str, Any],
+        givens: Mapping[str, Any],
+    ) -> None:
+        low, high = protocol.unit_ids
+        if not low <= unit <= high:
+            message = f"unit {unit} is outside {low} to {high}, the unit ids of this device"
+            raise ValueError(message)
+        self.unit, self.protocol, self.givens = unit, protocol, givens
+        self.registers, self.commands = registers, commands
+        self.memory: dict[str, Any] = {}
+        self.epoch = self.version = 0
+
+    def remember(self, path: str, value: object) -> None:
+        """Keep the value of a register that others depend on."""
+        self.memory[path] = value
+        self.version += 1
+
+    def forget(self, paths: Iterable[str] | None = None) -> None:
+        """Drop some registers from memory; all of them without `paths`."""
+        if paths is None:
+            self.memory.clear()
+        else:
+            for path in paths:
+                self.memory.pop(path, None)
+        self.version += 1
+
+    def at_epoch(self, epoch: int) -> None:
+        """Forget everything if the link was opened anew since the last operation."""
+        if epoch != self.epoch:
+            self.epoch = epoch
+            self.forget()
+
+    def exchange(self, request: Request) -> Operation[tuple[int, ...]]:
+        """Send one request and verify its answer."""
+        reply = yield request
+        assert reply is not None, "an executor answers a request with a reply"  # noqa: S101 (the executors' contract)
+        return verify(request, reply, unit=self.unit, meanings=self.protocol.exceptions)

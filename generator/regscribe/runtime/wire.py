@@ -1,0 +1,104 @@
+"""Wire types: words to numbers and back (two's complement, IEEE 754, word and byte order)."""
+
+import math
+import struct
+from collections.abc import Callable, Sequence
+from decimal import Decimal
+from fractions import Fraction
+
+BIG, LITTLE = "big", "little"
+FLOAT32_DIGITS = range(6, 10)
+"""Significant digits tried for a float32: 6 are always exact, 9 always suffice (IEEE 754 binary32)."""
+
+
+class WireType:
+    """How a number stands in words: its struct code, its length in words and, for whole numbers, its limits."""
+
+    __slots__ = ("code", "is_float", "maximum", "minimum", "name", "packer", "words")
+
+    def __init__(self, name: str, code: str) -> None:
+        self.name, self.code = name, code
+        self.packer = struct.Struct(">" + code)
+        self.words = self.packer.size // 2
+        self.is_float = code in "fd"
+        bits = 16 * self.words
+        self.minimum = -(1 << (bits - 1)) if code.islower() else 0
+        self.maximum = (1 << (bits - 1 if code.islower() else bits)) - 1
+
+    def __repr__(self) -> str:
+        return self.name.upper()
+
+    def unpack(self, words: Sequence[int]) -> float:
+        """The number in `words`, most significant word first: int, or float for IEEE types."""
+        number: int | float = self.packer.unpack(struct.pack(f">{self.words}H", *words))[0]
+        return number
+
+    def pack(self, number: float) -> tuple[int, ...]:
+        """The words of `number`, most significant first; struct.error or OverflowError if it does not fit."""
+        return struct.unpack(f">{self.words}H", self.packer.pack(number))
+
+
+UINT16, INT16 = WireType("uint16", "H"), WireType("int16", "h")
+UINT32, INT32 = WireType("uint32", "I"), WireType("int32", "i")
+UINT64, INT64 = WireType("uint64", "Q"), WireType("int64", "q")
+FLOAT32, FLOAT64 = WireType("float32", "f"), WireType("float64", "d")
+
+
+def shortest(number: float, wire_type: WireType) -> Decimal:
+    """The decimal with the fewest digits that reads back as the same IEEE number.
+
+    0x437A6666 is 250.39999389648438 as a float64 but 250.4 to everyone who wrote it as a float32.
+    """
+    if wire_type is FLOAT64:
+        return Decimal(repr(number))
+    packed = FLOAT32.packer.pack(number)
+    for digits in FLOAT32_DIGITS:
+        text = f"{number:.{digits}g}"
+        try:
+            if FLOAT32.packer.pack(float(text)) == packed:
+                return Decimal(text)
+        except OverflowError:  # rounded beyond the largest float32: take one digit more
+            continue
+    return Decimal(text)
+
+
+def exact(value: float | Decimal | Fraction) -> Fraction:
+    """`value` as an exact number; a float counts as its shortest decimal, so 25.1 is 251/10.
+
+    Raises ValueError for what is not a finite number.
+    """
+    if isinstance(value, bool) or not isinstance(value, (int, float, Decimal, Fraction)):
+        message = f"{value!r} is not a number"
+        raise ValueError(message)  # noqa: TRY004 (callers treat every refusal alike)
+    if isinstance(value, float):
+        if not math.isfinite(value):
+            message = f"{value!r} is not a finite number"
+            raise ValueError(message)
+        return Fraction(Decimal(float.__repr__(value)))
+    if isinstance(value, Decimal) and not value.is_finite():
+        message = f"{value!r} is not a finite number"
+        raise ValueError(message)
+    return Fraction(value)
+
+
+def show(number: Fraction) -> str:
+    """`number` for an error message: decimal text."""
+    return f"{number.numerator}" if number.denominator == 1 else f"{float(number):.12g}"
+
+
+def _half_up(number: Fraction) -> int:
+    return math.floor(number + Fraction(1, 2))
+
+
+def _half_away(number: Fraction) -> int:
+    return _half_up(number) if number >= 0 else -_half_up(-number)
+
+
+ROUNDINGS: dict[str, Callable[[Fraction], int]] = {
+    "none": _half_up,
+    "half_up": _half_up,
+    "half_away": _half_away,
+    "half_even": round,
+    "down": math.trunc,
+}
+"""How a device turns a fraction into a whole number; where a map does not say, .5 goes up (asked for explicitly)."""
