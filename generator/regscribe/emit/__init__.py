@@ -1,1 +1,30 @@
-"""(being written)"""
+"""From a map to texts: pure emitters `render(map) -> {path: text}`, and the one step that writes."""
+
+from importlib import import_module
+from typing import Protocol, cast
+
+from regscribe.model import RegisterMap
+
+EMITTERS = ("python", "markdown", "vectors")
+"""What `regscribe generate` writes: `regscribe.emit.<name>` for each name, imported when first needed."""
+
+
+class Emitter(Protocol):
+    """What a module (or package) of EMITTERS offers."""
+
+    def render(self, register_map: RegisterMap) -> dict[str, str]:
+        """Return text by path, relative to the output directory, with `/` between its parts."""
+        ...
+
+
+def render(register_map: RegisterMap) -> dict[str, str]:
+    """Return all files of a map by path, relative to the output directory. ValueError if two emitters share a path."""
+    files: dict[str, str] = {}
+    for name in EMITTERS:
+        emitter = cast("Emitter", import_module(f"{__name__}.{name}"))
+        rendered = emitter.render(register_map)
+        if shared := files.keys() & rendered.keys():
+            message = f"the emitter {name} renders {', '.join(sorted(shared))}, as another emitter does"
+            raise ValueError(message)
+        files |= rendered
+    return files

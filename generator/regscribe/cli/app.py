@@ -1,0 +1,116 @@
+"""The `regscribe` command: its table of commands, and what becomes of every exception.
+
+Exit codes: 0 clean, 1 findings (or a device, port or directory that does not play along), 2 usage, 130 Ctrl-C.
+"""
+
+import os
+import sys
+import traceback
+from collections.abc import Sequence
+from difflib import get_close_matches
+from importlib import import_module
+from pathlib import Path
+
+import click
+
+from regscribe import __version__
+
+COMMANDS = {
+    "check": "Report what is wrong in maps.",
+    "generate": "Compile maps to drivers, reference docs, test vectors and tests.",
+    "explain": "Explain a rule, with a bad and a good example.",
+    "new": "Start a map: a commented skeleton that passes `check`.",
+    "export": "Print every value of every model as CSV or JSON.",
+    "simulate": "Serve one model of a map as a Modbus device.",
+}
+"""Name and help of each command; `regscribe.cli.<name>` holds it and is imported when it is called for."""
+
+INTERRUPTED = 130
+"""128 + SIGINT, as a shell counts."""
+
+
+class LazyCommands(click.Group):
+    """A group that imports a command only to run it, so that `--version` and `--help` stay quick."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - click's signature
+        """Name the commands in the order of use."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002 - click's signature
+        """Import one command; None if there is none of that name."""
+        if cmd_name not in COMMANDS:
+            return None
+        command: click.Command = import_module(f"regscribe.cli.{cmd_name}").command
+        return command
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002 - click's
+        """List the commands from the table, without importing them."""
+        with formatter.section("Commands"):
+            formatter.write_dl(list(COMMANDS.items()))
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Find the command, or say which one was probably meant."""
+        if args and args[0] not in COMMANDS and not args[0].startswith("-"):
+            near = get_close_matches(args[0], COMMANDS, n=1)
+            hint = f"; did you mean `{near[0]}`?" if near else f"; there are {', '.join(COMMANDS)}"
+            message = f"no command `{args[0]}`{hint}"
+            raise click.UsageError(message, ctx)
+        return super().resolve_command(ctx, args)
+
+
+@click.group(
+    cls=LazyCommands,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+    epilog="Example: regscribe check maps/",
+)
+@click.version_option(__version__, message="%(prog)s %(version)s")
+@click.option("--debug", is_flag=True, envvar="REGSCRIBE_DEBUG", help="Show the traceback of an internal error.")
+def regscribe(*, debug: bool) -> None:
+    """Compile Modbus register maps: one YAML file becomes typed drivers, docs, test vectors and a simulator."""
+
+
+def main() -> None:
+    """Run the command line and exit with its code."""
+    sys.exit(run(sys.argv[1:]))
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run one command line; return its exit code. No exception but SystemExit leaves it."""
+    for stream in (sys.stdout, sys.stderr):
+        getattr(stream, "reconfigure", lambda **_: None)(errors="backslashreplace")  # a map may hold any character
+    try:
+        code = regscribe.main(list(arguments), prog_name="regscribe", standalone_mode=False)
+        sys.stdout.flush()
+    except click.ClickException as error:
+        error.show()
+        return error.exit_code
+    except (click.Abort, KeyboardInterrupt):
+        return INTERRUPTED
+    except BrokenPipeError:
+        return _closed_pipe()
+    except Exception as error:  # noqa: BLE001 - the last resort: a user never sees a bare traceback
+        return _internal_error(error, debug="--debug" in arguments or bool(os.environ.get("REGSCRIBE_DEBUG")))
+    return code if isinstance(code, int) else 0
+
+
+def _closed_pipe() -> int:
+    """Keep the interpreter from flushing again: the reader went away (`| head`), there is nobody to tell."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return 1
+
+
+def _internal_error(error: Exception, *, debug: bool) -> int:
+    if debug:
+        traceback.print_exception(error)
+        return 1
+    last = traceback.extract_tb(error.__traceback__)[-1]
+    where = f"{Path(last.filename).name}:{last.lineno}"
+    click.echo(
+        f"regscribe {__version__}: internal error: {type(error).__name__}: {error} ({where})\n"
+        "This is a bug in regscribe, not in your map. Please report it with the command line, the map and the\n"
+        "output of the same command with `regscribe --debug ...`.",
+        err=True,
+    )
+    return 1

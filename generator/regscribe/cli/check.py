@@ -1,0 +1,46 @@
+"""`regscribe check`: report what is wrong in maps."""
+
+import sys
+from collections.abc import Sequence
+
+import click
+
+from regscribe.checks import catalogue
+from regscribe.cli import text
+from regscribe.cli.locate import find_maps
+from regscribe.cli.machine import as_github, as_json
+from regscribe.cli.sarif import as_sarif
+from regscribe.cli.terminal import show
+from regscribe.model import Diagnostic
+from regscribe.pipeline import compile_map, has_errors
+
+
+@click.command(
+    name="check",
+    epilog="Example: regscribe check maps/ --format github\n\n"
+    "Exit code 0: no error (warnings do not count, unless --strict), 1: findings, 2: wrong usage.",
+)
+@click.argument("paths", nargs=-1, metavar="[PATH]...")
+@click.option("--format", "form", type=click.Choice(["text", "json", "github", "sarif"]), default="text")
+@click.option("--strict", is_flag=True, help="Let warnings count as findings, too.")
+def command(*, paths: tuple[str, ...], form: str, strict: bool) -> int:
+    """Report what is wrong in maps.
+
+    PATH is a map file, a folder that is searched for *.yaml, or the id of a map (fdc/series-100). Without PATH: maps/.
+    """
+    maps = find_maps(paths)
+    found = [diagnostic for path in maps for diagnostic in compile_map(path).diagnostics]
+    _print(found, form=form, maps=len(maps))
+    return int(has_errors(found) or (strict and bool(found)))
+
+
+def _print(found: Sequence[Diagnostic], *, form: str, maps: int) -> None:
+    match form:
+        case "json":
+            sys.stdout.write(as_json(found))
+        case "github":
+            sys.stdout.write(as_github(found))
+        case "sarif":
+            sys.stdout.write(as_sarif(found, {rule.id: rule for rule in catalogue.all_rules()}))
+        case _:
+            show([*text.findings(found), (f"{text.count(maps, 'map')} checked: {text.tally(found)}\n", "")])

@@ -1,0 +1,81 @@
+"""Which map files an argument names: a file, a folder of them, or an id looked up in maps/ and among those shipped."""
+
+import os
+from collections.abc import Iterable, Sequence
+from difflib import get_close_matches
+from pathlib import Path
+
+import click
+
+import regscribe
+
+LOCAL = Path("maps")
+"""Where maps are looked for when no argument names one."""
+
+
+def find_maps(arguments: Sequence[str]) -> list[Path]:
+    """Return the files that the arguments name, each once, in a stable order; without arguments all of maps/.
+
+    Raises click.UsageError for what is neither a file, a folder with maps, nor the id of a map.
+    """
+    if not arguments and not LOCAL.is_dir():
+        message = "there is no folder maps/ here: name a map file, a folder or a map id"
+        raise click.UsageError(message)
+    found = (path for argument in arguments or [str(LOCAL)] for path in _maps_of(argument))
+    return list({os.path.realpath(path): path for path in found}.values())
+
+
+def find_map(argument: str) -> Path:
+    """Return the one file that the argument names. Raises click.UsageError if that is none or a folder."""
+    if Path(argument).is_dir():
+        message = f"{argument} is a folder: name one map in it"
+        raise click.UsageError(message)
+    return _maps_of(argument)[0]
+
+
+def shipped() -> Path:
+    """Return the folder of the maps that come with regscribe: in the wheel, else those of the source checkout."""
+    package = Path(regscribe.__file__).parent
+    wheel = package / "data" / "maps"
+    return wheel if wheel.is_dir() else package.parents[1] / "maps"
+
+
+def _maps_of(argument: str) -> list[Path]:
+    path = Path(argument)
+    if "\0" in argument:
+        message = f"{argument!r} is no path: it holds a NUL character"
+        raise click.UsageError(message)
+    if path.is_dir():
+        return _maps_below(path)
+    if path.exists():
+        return [path]
+    for folder in (LOCAL, shipped()):
+        by_id = folder / f"{argument}.yaml"
+        if argument and not path.is_absolute() and ".." not in path.parts and by_id.is_file():
+            return [by_id]
+    message = f"there is no map `{argument}`: neither a file nor a map id{_meant(argument)}"
+    raise click.UsageError(message)
+
+
+def _maps_below(folder: Path) -> list[Path]:
+    """All *.yaml below `folder`, sorted; hidden folders and links to folders are left alone."""
+    maps: list[Path] = []
+    for root, folders, names in os.walk(folder):
+        folders[:] = [name for name in folders if not name.startswith(".")]
+        maps += [Path(root, name) for name in names if name.endswith(".yaml") and not name.startswith(".")]
+    if not maps:
+        message = f"there is no map (*.yaml) in the folder {folder}"
+        raise click.UsageError(message)
+    return sorted(maps)
+
+
+def _meant(argument: str) -> str:
+    near = get_close_matches(argument, sorted(_known()), n=1)
+    return f"; did you mean `{near[0]}`?" if near else ""
+
+
+def _known() -> Iterable[str]:
+    for folder in (LOCAL, shipped()):
+        for path in folder.glob("*/*.yaml"):
+            yield path.relative_to(folder).with_suffix("").as_posix()
+            yield str(path)

@@ -1,0 +1,130 @@
+"""What the last run wrote, so that an unchanged map need not be compiled again.
+
+A map counts as unchanged only if its own bytes, the whole generator and every file written from it are what they were;
+only maps without any finding are remembered, so that no warning goes unseen. The record lies in the user's cache
+directory, not in the output: the output stays reproducible, and losing the record costs one full build.
+"""
+
+import hashlib
+import json
+import os
+import sys
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
+from dataclasses import asdict, dataclass, field
+from importlib.util import find_spec
+from pathlib import Path
+
+import regscribe
+
+LIBRARIES = ("jinja2", "yaml", "jsonschema")
+"""Another version of these may read or render something differently."""
+
+
+@dataclass(frozen=True, slots=True)
+class Counts:
+    """How much a map holds; registers and enums count once, however many models have them."""
+
+    models: int = 0
+    registers: int = 0
+    enums: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One map of the last run: its id, the SHA-256 of its file, that of each file written from it, and its counts."""
+
+    id: str
+    source: str
+    files: dict[str, str]
+    counts: Counts
+
+
+@dataclass(frozen=True, slots=True)
+class Cache:
+    """The record of one output directory; entries stand under the real path of the map's file."""
+
+    out: Path
+    fingerprint: str
+    entries: dict[str, Entry] = field(default_factory=dict)
+
+    def unchanged(self, path: Path) -> Entry | None:
+        """Return the entry of the map at `path` if compiling it again would change nothing."""
+        entry = self.entries.get(key(path))
+        with suppress(OSError, ValueError):
+            if entry is not None and digest(path.read_bytes()) == entry.source and self._written(entry):
+                return entry
+        return None
+
+    def _written(self, entry: Entry) -> bool:
+        return all(digest((self.out / path).read_bytes()) == known for path, known in entry.files.items())
+
+    def save(self) -> None:
+        """Keep the record for the next run; a cache that cannot be written is no error."""
+        place = _place(self.out)
+        with suppress(OSError):
+            place.parent.mkdir(parents=True, exist_ok=True)
+            temporary = place.with_name(f"{place.name}.{os.getpid()}.tmp")
+            temporary.write_text(json.dumps(asdict(self) | {"out": str(self.out)}), encoding="utf-8")
+            temporary.replace(place)
+
+
+def load(out: Path) -> Cache:
+    """Return the record of the last run into `out`; an empty one if there is none or another generator wrote it."""
+    empty = Cache(out, fingerprint())
+    try:
+        plain = json.loads(_place(out).read_text(encoding="utf-8"))
+        entries = {path: _entry(entry) for path, entry in plain["entries"].items()}
+        return Cache(out, empty.fingerprint, entries) if plain["fingerprint"] == empty.fingerprint else empty
+    except (OSError, ValueError, TypeError, KeyError, AttributeError):  # absent, cut off or of another shape
+        return empty
+
+
+def _entry(plain: Mapping[str, object]) -> Entry:
+    fields: dict[str, object] = dict(plain)
+    counts = fields.pop("counts")
+    files = fields["files"]
+    if not isinstance(counts, dict) or not isinstance(files, dict):
+        raise TypeError
+    return Entry(str(fields["id"]), str(fields["source"]), files, Counts(**counts))
+
+
+def key(path: Path) -> str:
+    """Return what the entry of the map at `path` stands under."""
+    return os.path.realpath(path)
+
+
+def digest(content: bytes) -> str:
+    """Return the SHA-256 in hex."""
+    return hashlib.sha256(content).hexdigest()
+
+
+def fingerprint() -> str:
+    """Return a hash of all that decides what a map becomes: the package, the schema, Python and the libraries."""
+    total = hashlib.sha256(sys.version.encode())
+    for name, content in _ingredients():
+        total.update(f"{name}\0{len(content)}\0".encode())
+        total.update(content)
+    return total.hexdigest()
+
+
+def _ingredients() -> Iterator[tuple[str, bytes]]:
+    package = Path(regscribe.__file__).parent
+    for folder in (package, package.parents[1] / "schema"):  # the schema of a checkout; the wheel's is in the package
+        for path in sorted(_files(folder, keep=lambda name: not name.endswith((".pyc", ".yaml")))):
+            yield path.relative_to(folder).as_posix(), path.read_bytes()
+    for library in LIBRARIES:
+        spec = find_spec(library)  # does not import it
+        if spec is not None and spec.origin is not None:
+            stat = Path(spec.origin).stat()
+            yield library, f"{stat.st_size} {stat.st_mtime_ns}".encode()
+
+
+def _files(folder: Path, *, keep: Callable[[str], bool]) -> Iterable[Path]:
+    for root, _, names in os.walk(folder):
+        yield from (Path(root, name) for name in names if keep(name))
+
+
+def _place(out: Path) -> Path:
+    home = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")  # noqa: PTH111 - Path.expanduser raises without a home
+    return Path(home, "regscribe", f"{digest(os.path.realpath(out).encode(errors='surrogateescape'))[:32]}.json")
