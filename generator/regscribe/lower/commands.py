@@ -1,0 +1,83 @@
+"""Commands: each step becomes the words of one request."""
+
+from dataclasses import dataclass
+
+from regscribe.lower.encoding import words_of_value
+from regscribe.lower.names import identifier, unknown
+from regscribe.lower.node import Node, elements_of, items_of, text_of, whole_of, wholes_of
+from regscribe.lower.presence import present
+from regscribe.lower.scope import Scope
+from regscribe.model import Command, Protocol, Register, Space, Step, View
+
+WRITE_COIL, WRITE_REGISTER, WRITE_COILS, WRITE_REGISTERS = 5, 6, 15, 16
+
+
+@dataclass(frozen=True, slots=True)
+class Device:
+    """What the steps of a command need to know of the model they are for."""
+
+    scope: Scope
+    registers: dict[str, Register]
+    protocol: Protocol
+
+
+def commands_of(root: Node, device: Device) -> tuple[Command, ...]:
+    """The commands that a model has."""
+    models = device.scope.models
+    return tuple(
+        _command(name, node, device)
+        for name, node in items_of(root, "commands")
+        if device.scope.model in present(node, models, models)
+    )
+
+
+def _command(name: str, node: Node, device: Device) -> Command:
+    return Command(
+        id=identifier(node, label=name, given=None) if not name.isidentifier() else name,
+        name=text_of(node, "name", name),
+        steps=tuple(_step(step, device) for step in elements_of(node, "steps")),
+        description=text_of(node, "description"),
+        section=text_of(node, "source"),
+        danger=text_of(node, "danger"),
+        span=node.key_span,
+    )
+
+
+def _step(node: Node, device: Device) -> Step:
+    register = node.child("register")
+    if node.child("wait"):
+        return Step(wait=whole_of(node, "wait"))
+    if register is None:
+        words = unsigned(wholes_of(node, "words"))
+        return Step(whole_of(node, "at"), words, _function(node, len(words), None, device))
+    entry = device.scope.register(register)
+    if entry is None:
+        return Step(register=register.text())
+    target = device.registers[entry.path]
+    view = view_of(node.child("view"), target)
+    value = node.child("value")
+    words = words_of_value(value, target, view) if value else unsigned(wholes_of(node, "words"))
+    return Step(view.address, words, _function(node, len(words), view, device), register=entry.path)
+
+
+def _function(node: Node, count: int, view: View | None, device: Device) -> int:
+    if node.child("function"):
+        return whole_of(node, "function")
+    single, several = WRITE_REGISTER, WRITE_REGISTERS
+    if view and view.space is Space.COIL:
+        single, several = WRITE_COIL, WRITE_COILS
+    allowed = [code for code in device.protocol.functions if not view or not view.functions or code in view.functions]
+    return single if count == 1 and single in allowed else several
+
+
+def view_of(node: Node | None, register: Register) -> View:
+    """The view of a register that `node` names, the base view where it is None; RS0326 for an unknown one."""
+    found = [view for view in register.views if node is None or view.name == node.text()]
+    if not found and node is not None:
+        unknown(node, "RS0326", f"view of `{register.path}`", node.text(), [view.name for view in register.views])
+    return found[0] if found else register.base
+
+
+def unsigned(words: tuple[int, ...]) -> tuple[int, ...]:
+    """Words as they stand on the wire, 0 to 65535; the map may write them with a sign."""
+    return tuple(word & 0xFFFF for word in words)

@@ -1,0 +1,104 @@
+"""Conditions: names, mappings and lists of them become a flat conjunction of tests."""
+
+from dataclasses import replace
+from fractions import Fraction
+
+from regscribe.lower.ends import ends
+from regscribe.lower.names import unknown
+from regscribe.lower.node import Node
+from regscribe.lower.scope import Scope, path_of
+from regscribe.lower.subject import Subject, code_of_text, subject_of
+from regscribe.model import ALWAYS, CodeRange, Condition, Test
+
+_SETS = ("in", "not_in")
+
+
+def condition(node: Node | None, scope: Scope, within: tuple[str, ...] = ()) -> Condition:
+    """The condition at a `when`; None: always. `within` are the named conditions that are being resolved."""
+    if node is None:
+        return ALWAYS
+    if node.is_text:
+        return _named(node, scope, within)
+    if node.is_mapping:
+        return Condition(tuple(test for key, matcher in node.items() for test in _tests(key, matcher, scope)))
+    if not node.is_list:
+        node.report("RS0336", f"`{node.text()}` is no condition", remedy="write a name, a mapping, or a list of these")
+        return ALWAYS
+    parts = [condition(element, scope, within) for element in node.elements()]
+    return parts[0] if len(parts) == 1 else both(*parts)
+
+
+def both(*conditions: Condition) -> Condition:
+    """The condition that holds where all hold; each test once, a name where only one asks anything."""
+    asking = [part for part in conditions if not part.always]
+    if len(asking) == 1:
+        return asking[0]
+    return Condition(tuple(dict.fromkeys(test for part in asking for test in part.tests)))
+
+
+def excludes(one: Condition, other: Condition) -> bool:
+    """Whether the two plainly cannot hold together: a test and its contrary, or codes that have none in common."""
+    return any(_contrary(test, against) for test in one.tests for against in other.tests)
+
+
+def _contrary(test: Test, other: Test) -> bool:
+    if replace(test, negated=not test.negated) == other:
+        return True
+    if test.subject != other.subject or test.negated or other.negated or not (test.codes and other.codes):
+        return False
+    return not any(a.low <= b.high and b.low <= a.high for a in test.codes for b in other.codes)
+
+
+def _named(node: Node, scope: Scope, within: tuple[str, ...]) -> Condition:
+    name = node.text()
+    if name in within:
+        chain = " needs ".join(f"`{step}`" for step in (*within[within.index(name) :], name))
+        node.report("RS0308", f"the condition goes round in a circle: {chain}", remedy="spell one of them out")
+        return ALWAYS
+    found = scope.named(node, "conditions", rule="RS0307", what="condition")
+    return Condition(condition(found, scope, (*within, name)).tests, name=name) if found else ALWAYS
+
+
+def _tests(key: str, matcher: Node, scope: Scope) -> list[Test]:
+    if key == "given":
+        return [_given_test(element, scope) for element in matcher.elements()]
+    subject = subject_of(matcher, key, scope)
+    return [] if subject is None else [_test(matcher, subject, scope, negated=False)]
+
+
+def _given_test(node: Node, scope: Scope) -> Test:
+    contrary = node.child("not")
+    return Test(register="", given=_given(contrary or node, scope, "boolean"), negated=contrary is not None)
+
+
+def _given(node: Node, scope: Scope, kind: str) -> str:
+    found = scope.named(node, "givens", rule="RS0312", what="given")
+    told = found.child("type") if found else None
+    if told and told.text() != kind:
+        message = f"the given `{node.text()}` is of type {told.text()}, {kind} is needed here"
+        node.report("RS0312", message, remedy=f"refer to a given of type {kind}")
+    return node.text()
+
+
+def _test(matcher: Node, subject: Subject, scope: Scope, *, negated: bool) -> Test:
+    register, field = path_of(subject.entry, subject.name), subject.field
+    for key, node in matcher.items():
+        if key == "not":
+            return _test(node, subject, scope, negated=not negated)
+        if key in _SETS:
+            given = _given(node, scope, "codes")
+            return Test(register=register, field=field, given=given, negated=negated != (key == "not_in"))
+        unknown(matcher, "RS0331", "matcher", key, [*_SETS, "not"])
+    codes = tuple(_code(node, subject, scope) for node in matcher.elements() if not matcher.is_mapping)
+    return Test(register=register, field=field, codes=codes, negated=negated)
+
+
+def _code(node: Node, subject: Subject, scope: Scope) -> CodeRange:
+    if node.is_mapping or node.is_list:
+        remedy = "a list holds numbers, ranges and enum members; use one `not`, `in` or `not_in` beside no others"
+        node.report("RS0331", "this cannot stand in a list of codes", remedy=remedy)
+        return CodeRange(Fraction(0), Fraction(0))
+    if node.is_text and ".." in node.text():
+        return CodeRange(*ends(node))
+    code = code_of_text(node, subject, scope) if node.is_text else node.number()
+    return CodeRange(code, code)

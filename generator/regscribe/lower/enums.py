@@ -1,0 +1,118 @@
+"""Enums and bit fields, as one model has them."""
+
+from regscribe.lower.ends import whole_ends
+from regscribe.lower.names import identifier, snake
+from regscribe.lower.node import Node, text_of
+from regscribe.lower.presence import present
+from regscribe.lower.scope import Scope
+from regscribe.lower.tree import Entry
+from regscribe.model import BitField, Enum, Member
+
+
+def enum_of(node: Node, scope: Scope, *, inline_id: str) -> Enum | None:
+    """The enum that `node` names or spells; None with RS0304 where the name is unknown."""
+    if not node.is_text:
+        return _enum(node, scope, inline_id, span_node=node)
+    key = (node.text(), scope.model)
+    if key not in scope.enums:
+        table = scope.named(node, "enums", rule="RS0304", what="enum")
+        if table is None:
+            return None
+        scope.enums[key] = _enum(table, scope, node.text(), span_node=table)
+    return scope.enums[key]
+
+
+def _enum(table: Node, scope: Scope, name: str, *, span_node: Node) -> Enum:
+    members = []
+    invalid = []
+    for node in table.values():
+        here = scope.model in present(node, scope.models, scope.models)
+        if here and (not node.is_mapping or node.child("label")):
+            members.append(_member(node))
+        elif node.child("invalid") and (here or node.child("label")):
+            invalid.append((node.key_whole(), text_of(node, "invalid")))
+    return Enum(id=name, members=tuple(members), invalid=tuple(invalid), span=span_node.key_span)
+
+
+def _member(node: Node) -> Member:
+    label = _label(node)
+    name = identifier(node.child("label") or node, label=label, given=node.child("id"), capitals=True)
+    return Member(code=node.key_whole(), label=label, id=name, description=text_of(node, "description"))
+
+
+def _label(node: Node) -> str:
+    return text_of(node, "label") if node.is_mapping else node.text()
+
+
+def code_anywhere(node: Node, text: str) -> int | None:
+    """The code of the member `text` in the enum at `node`, whichever models have it; None if there is none."""
+    for member in node.values():
+        label = _label(member)
+        given = text_of(member, "id") if member.is_mapping else ""
+        if label and (given or snake(label)).lower() == text.lower():
+            return member.key_whole()
+    return None
+
+
+def enum_for(entry: Entry, scope: Scope, field: str = "") -> tuple[Node, Enum] | None:
+    """The enum of a register (or of one of its bit fields), with the place of its members; None if it has none."""
+    node = entry.settings.get("enum")
+    name = entry.qualified_id
+    if field:
+        fields = entry.settings.get("fields")
+        owner = fields.child(field) if fields else None
+        node = owner.child("enum") if owner else None
+        name = f"{name}_{field}"
+    enum = enum_of(node, scope, inline_id=name) if node else None
+    if node is None or enum is None:
+        return None
+    table = scope.named(node, "enums", rule="RS0304", what="enum") if node.is_text else node
+    return (table, enum) if table else None
+
+
+def fields_of(entry: Entry, scope: Scope) -> tuple[BitField, ...]:
+    """The flags or fields of a register, those that the model has."""
+    flags = entry.settings.get("flags")
+    fields = entry.settings.get("fields")
+    found = [_flag(node) for _, node in (flags.items() if flags else ()) if _here(node, scope)]
+    for name, node in fields.items() if fields else ():
+        if _here(node, scope):
+            found.append(_field(name, node, scope, entry))
+    return tuple(found)
+
+
+def _here(node: Node, scope: Scope) -> bool:
+    return scope.model in present(node, scope.models, scope.models)
+
+
+def _flag(node: Node) -> BitField:
+    label = _label(node)
+    bit = _bit(node, node.key_whole(), at_key=True)
+    name = identifier(node.child("label") or node, label=label, given=node.child("id"))
+    return BitField(id=name, label=label, low=bit, high=bit, description=text_of(node, "description"))
+
+
+def _field(name: str, node: Node, scope: Scope, entry: Entry) -> BitField:
+    bits = node.child("bits") or node.child("bit")
+    low, high = whole_ends(bits) if bits else (0, 0)
+    if bits is None:
+        node.report("RS0318", f"the field `{name}` has no bits", remedy="give `bit: 3` or `bits: 0..3`")
+    else:
+        _bit(bits, low)
+        _bit(bits, high)
+    enum = node.child("enum")
+    return BitField(
+        id=name,
+        label=text_of(node, "label", name.replace("_", " ")),
+        low=low,
+        high=high,
+        enum=enum_of(enum, scope, inline_id=f"{entry.qualified_id}_{name}") if enum else None,
+        description=text_of(node, "description"),
+    )
+
+
+def _bit(node: Node, bit: int, *, at_key: bool = False) -> int:
+    if 0 <= bit <= 63:  # noqa: PLR2004 - the widest wire type has bits 0 to 63
+        return bit
+    node.report("RS0318", f"there is no bit {bit}", remedy="bits count from 0, the least significant", at_key=at_key)
+    return 0

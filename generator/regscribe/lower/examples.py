@@ -1,0 +1,184 @@
+"""The manual's worked examples: values, frames and times."""
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from regscribe.lower.commands import unsigned, view_of
+from regscribe.lower.names import unknown
+from regscribe.lower.node import Node, elements_of, items_of, text_of, truth_of, whole_of, wholes_of
+from regscribe.lower.presence import named_models
+from regscribe.lower.scope import Scope
+from regscribe.lower.subject import code_of_text, subject_of
+from regscribe.lower.values import named_value
+from regscribe.model import Example, FrameExample, Kind, Outcome, Register, TimingExample, ValueExample
+
+
+@dataclass(frozen=True, slots=True)
+class Product:
+    """A model whose registers are known, for examples to refer to."""
+
+    scope: Scope
+    registers: dict[str, Register]
+    commands: tuple[str, ...]
+
+    def register(self, node: Node, name: str, *, at_key: bool = False) -> Register | None:
+        """The register that `node` names; RS0301 or RS0302 where there is none."""
+        entry = self.scope.register(node, name, at_key=at_key)
+        return self.registers[entry.path] if entry else None
+
+
+def examples_of(root: Node, products: list[Product]) -> tuple[Example, ...]:
+    """All examples of a map; nothing if the map has no model."""
+    nodes = elements_of(root, "examples") if products else []
+    return tuple(_example(node, products) for node in nodes)
+
+
+def _example(node: Node, products: list[Product]) -> Example:
+    if node.child("timing"):
+        return _timing(node)
+    product = _product(node, products)
+    return _frame(node, product) if node.child("frame") else _value(node, product)
+
+
+def _product(node: Node, products: list[Product]) -> Product:
+    """The model that the example names, or else the first that has all its registers."""
+    told = node.child("model")
+    every = products[0].scope.models
+    if told:
+        named = named_models([told], every)
+        return next((each for each in products if each.scope.model in named), products[0])
+    names = [text_of(node, "register"), *(key for key, _ in items_of(node, "writes"))]
+    wanted = [name for name in names if name]
+    first = [each for each in products if wanted and each.scope.find(wanted[0])]
+    return next((each for each in products if all(each.scope.find(name) for name in wanted)), (first or products)[0])
+
+
+def _state(node: Node, product: Product) -> tuple[tuple[str, Fraction], ...]:
+    state = []
+    for key, value in items_of(node, "with"):
+        subject = subject_of(value, key, product.scope)
+        if subject:
+            code = code_of_text(value, subject, product.scope) if value.is_text else value.number()
+            state.append((key, code))
+    return tuple(state)
+
+
+def _value(node: Node, product: Product) -> ValueExample:
+    name = node.child("register") or node
+    register = product.register(name, name.text()) if name is not node else None
+    fault, stored = node.child("fault"), node.child("stored")
+    view = view_of(node.child("view"), register).name if register else text_of(node, "view", "base")
+    value, flags = _reading(node.child("value"), register)
+    return ValueExample(
+        source=text_of(node, "source"),
+        model=product.scope.model,
+        register=register.path if register else text_of(node, "register"),
+        view=view,
+        words=unsigned(wholes_of(node, "words")),
+        state=_state(node, product),
+        stored=stored.number() if stored else None,
+        value=_fault(fault, register) if fault else value,
+        flags=flags,
+        outcome=_outcome(node),
+        lossy=truth_of(node, "lossy"),
+        span=name.span,
+    )
+
+
+def _outcome(node: Node) -> Outcome:
+    if node.child("fault"):
+        return Outcome.FAULT
+    return Outcome.SATURATED if truth_of(node, "saturated") else Outcome.VALUE
+
+
+def _reading(node: Node | None, register: Register | None) -> tuple[Fraction | str | None, tuple[str, ...] | None]:
+    if node is None or register is None:
+        return None, None
+    if node.is_list:
+        known = [each.id for each in register.fields if each.is_flag]
+        for element in node.elements():
+            if element.text() not in known:
+                unknown(element, "RS0327", f"flag of `{register.path}`", element.text(), known)
+        return None, tuple(element.text() for element in node.elements())
+    if node.is_text and register.kind in {Kind.STRING, Kind.VERSION}:
+        return node.text(), None
+    return named_value(node, register.kind, register.enum, register.specials, "RS0305"), None
+
+
+def _fault(node: Node, register: Register | None) -> str:
+    known = [sentinel.id for sentinel in register.sentinels] if register else []
+    if register and node.text() not in known:
+        unknown(node, "RS0329", f"sentinel of `{register.path}`", node.text(), known)
+    return node.text()
+
+
+def _frame(node: Node, product: Product) -> FrameExample:
+    frame = _bytes(node)
+    address, count, words = node.child("address"), node.child("count"), node.child("words")
+    return FrameExample(
+        source=text_of(node, "source"),
+        model=product.scope.model,
+        frame=frame,
+        crc=truth_of(node, "crc", otherwise=True),
+        answer=truth_of(node, "answer"),
+        unit=whole_of(node, "unit", next(iter(frame), 0)),
+        function=whole_of(node, "function", next(iter(frame[1:]), 0)),
+        address=address.whole() if address else None,
+        count=count.whole() if count else None,
+        words=unsigned(wholes_of(node, "words")) if words else None,
+        writes=tuple(_write(key, value, product) for key, value in items_of(node, "writes")),
+        view=text_of(node, "view"),
+        state=_state(node, product),
+        command=_command(node, product),
+        span=(node.child("frame") or node).span,
+    )
+
+
+def _bytes(node: Node) -> bytes:
+    frame = node.child("frame")
+    try:
+        return bytes.fromhex(frame.text()) if frame else b""
+    except ValueError:
+        (frame or node).report(
+            "RS0328", "the frame is no hex text", remedy="write two hex digits a byte, as 9C 06 0F A9"
+        )
+        return b""
+
+
+def _write(key: str, node: Node, product: Product) -> tuple[str, Fraction]:
+    register = product.register(node, key, at_key=True)
+    if register is None:
+        return key, Fraction(0)
+    value = named_value(node, register.kind, register.enum, register.specials, "RS0305")
+    if isinstance(value, Fraction):
+        return register.path, value
+    node.report("RS0336", f"`{key}` is a text, not a number", remedy="give the `words` of the frame instead")
+    return register.path, Fraction(0)
+
+
+def _command(node: Node, product: Product) -> str:
+    command = node.child("command")
+    if command and command.text() not in product.commands:
+        unknown(command, "RS0313", "command", command.text(), product.commands)
+    return command.text() if command else ""
+
+
+def _timing(node: Node) -> TimingExample:
+    line = node.child("timing") or node
+    gap, earliest, latest = (_milliseconds(node, key) for key in ("gap", "earliest", "latest"))
+    return TimingExample(
+        source=text_of(node, "source"),
+        baud=whole_of(line, "baud"),
+        format=text_of(line, "format"),
+        function=whole_of(line, "function"),
+        words=whole_of(line, "words"),
+        gap=gap,
+        earliest=earliest,
+        latest=latest,
+        span=line.key_span,
+    )
+
+
+def _milliseconds(node: Node, key: str) -> Fraction:
+    child = node.child(key)
+    return child.number() if child else Fraction(0)

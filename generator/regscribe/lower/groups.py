@@ -1,0 +1,74 @@
+"""Groups of registers: what one model has of each, and their order for writing."""
+
+from dataclasses import dataclass, replace
+
+from regscribe.lower.names import identifier, unknown
+from regscribe.lower.node import Node, elements_of, text_of, whole_of
+from regscribe.lower.presence import Models
+from regscribe.lower.tree import Entry, Item, Place, entries_of, items_in, span_of
+from regscribe.model import Group
+
+
+@dataclass(frozen=True, slots=True)
+class Bundle:
+    """One group in the map, with what one model has of it."""
+
+    node: Node
+    id: str
+    items: tuple[Item, ...]
+
+    @property
+    def entries(self) -> list[Entry]:
+        """Its registers, arrays expanded."""
+        return entries_of(self.items)
+
+
+def bundles_of(root: Node, model: str, models: Models) -> list[Bundle]:
+    """The groups of the map with the registers that `model` has, in the manual's order."""
+    return [_bundle(node, model, models) for node in elements_of(root, "groups")]
+
+
+def _bundle(node: Node, model: str, models: Models) -> Bundle:
+    name = identifier(node.child("name") or node, label=text_of(node, "name"), given=node.child("id"))
+    each = node.child("each")
+    place = Place(
+        model=model,
+        every=models,
+        among=models,
+        group=name,
+        section=text_of(node, "source"),
+        layers=(each,) if each else (),
+    )
+    return Bundle(node, name, items_in(elements_of(node, "registers"), place))
+
+
+def groups_of(bundles: list[Bundle], root: Node) -> tuple[Group, ...]:
+    """The groups that a model has something of; a group that is empty in the map itself is kept for the checks."""
+    order = _write_order(root, [bundle.id for bundle in bundles])
+    kept = [bundle for bundle in bundles if bundle.entries or not elements_of(bundle.node, "registers")]
+    return tuple(
+        replace(_group(bundle), order=order[bundle.id]) if bundle.id in order else _group(bundle) for bundle in kept
+    )
+
+
+def _group(bundle: Bundle) -> Group:
+    node = bundle.node
+    return Group(
+        id=bundle.id,
+        name=text_of(node, "name", bundle.id),
+        members=tuple(entry.path for entry in bundle.entries),
+        description=text_of(node, "description"),
+        section=text_of(node, "source"),
+        order=whole_of(node, "order") if node.child("order") else None,
+        span=span_of(node),
+    )
+
+
+def _write_order(root: Node, known: list[str]) -> dict[str, int]:
+    """The place of each group that the map's `write_order` lists, from 1; RS0315 for unknown groups."""
+    order: dict[str, int] = {}
+    for place, node in enumerate(elements_of(root, "write_order"), start=1):
+        if node.text() not in known:
+            unknown(node, "RS0315", "group", node.text(), known)
+        order.setdefault(node.text(), place)
+    return order

@@ -1,0 +1,65 @@
+"""What counts for one register on one model: defaults of the group, own keys, variants, laid over each other."""
+
+from regscribe.lower.names import unknown
+from regscribe.lower.node import Node, elements_of, texts_of
+from regscribe.lower.presence import Models
+
+NOT_SETTINGS = frozenset({"variants", "models", "except"})
+_NUMERIC = frozenset({"scale", "decimals", "multiply", "add", "range", "range_decimals", "unit"})
+_RIVALS = (
+    (frozenset({"views"}), frozenset({"type", "length"})),
+    (frozenset({"type"}), frozenset({"views"})),
+    (frozenset({"scale"}), frozenset({"decimals", "multiply", "add"})),
+    (frozenset({"decimals"}), frozenset({"scale", "multiply", "add"})),
+    (frozenset({"multiply", "add"}), frozenset({"scale", "decimals"})),
+    (frozenset({"enum", "flags", "fields", "version"}), _NUMERIC),
+)
+
+
+class Settings(dict[str, Node]):
+    """The keys that count for one register on one model; each value knows where in the map it stands."""
+
+
+def settings_of(layers: list[Node]) -> Settings:
+    """Lay the layers over each other, the last on top.
+
+    A key given as null removes what lies below; so does a key that says the same thing in another way (`decimals`
+    over `scale`), and an enum or bit fields take away the number that the group's defaults would make of the word.
+    """
+    settings = Settings()
+    for layer in layers:
+        own = {key: node for key, node in layer.items() if key not in NOT_SETTINGS}
+        for keys, rivals in _RIVALS:
+            if keys & {key for key, node in own.items() if node.value is not None}:
+                for rival in rivals - own.keys():
+                    settings.pop(rival, None)
+        _lay(own, settings)
+    return settings
+
+
+def _lay(own: dict[str, Node], settings: Settings) -> None:
+    for key, node in own.items():
+        if node.value is None:
+            settings.pop(key, None)
+        else:
+            settings[key] = node
+
+
+def variants_for(register: Node, model: str, has: Models, every: Models) -> list[Node]:
+    """The variants of a register that count on `model`; RS0314 and RS0323 for models that it cannot be on."""
+    chosen = []
+    for variant in elements_of(register, "variants"):
+        for node in elements_of(variant, "models"):
+            _check(node, has, every)
+        if model in texts_of(variant, "models"):
+            chosen.append(variant)
+    return chosen
+
+
+def _check(node: Node, has: Models, every: Models) -> None:
+    name = node.text()
+    if name not in every:
+        unknown(node, "RS0314", "model", name, every)
+    elif name not in has:
+        message = f"this variant is for {name}, but the register is not on {name}"
+        node.report("RS0323", message, remedy=f"the register is on: {', '.join(has) or 'no model'}")

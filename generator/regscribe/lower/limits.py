@@ -1,0 +1,103 @@
+"""Ranges: plain, unions, by case, with limits that are registers or open, and with decimals from a register."""
+
+from regscribe.lower.conditions import both, condition, excludes
+from regscribe.lower.ends import ends
+from regscribe.lower.node import Node, text_of
+from regscribe.lower.scales import Scaling, decimals_rule
+from regscribe.lower.scope import Scope, path_of
+from regscribe.lower.tree import Entry
+from regscribe.model import (
+    Case,
+    Cases,
+    Condition,
+    Conversion,
+    Interval,
+    Limit,
+    Number,
+    Open,
+    Range,
+    Reference,
+    always,
+    show,
+)
+
+_NOT_GIVEN = Open("not given")
+
+
+def range_of(entry: Entry, scaling: tuple[Scaling, ...], scope: Scope) -> Cases[Range]:
+    """The range of a register by case; where the map gives none, the ends of its scale."""
+    node = entry.settings.get("range")
+    if node is None:
+        return _of_scale(scaling)
+    cases = _cases(node, scope)
+    rule = entry.settings.get("range_decimals")
+    return _split(cases, rule, scope) if rule else cases
+
+
+def _of_scale(scaling: tuple[Scaling, ...]) -> Cases[Range]:
+    if not any(part.ends for part in scaling):
+        return ()
+    return tuple(Case(part.when, Range((_between(part),))) for part in scaling)
+
+
+def _between(part: Scaling) -> Interval:
+    if part.ends is None:
+        return Interval(_NOT_GIVEN, _NOT_GIVEN)
+    return Interval(Number(min(part.ends)), Number(max(part.ends)))
+
+
+def _cases(node: Node, scope: Scope) -> Cases[Range]:
+    if any(element.child("is") for element in node.elements()):
+        return tuple(_case(element, scope) for element in node.elements())
+    return always(_range(node, scope))
+
+
+def _case(node: Node, scope: Scope) -> Case[Range]:
+    told = node.child("is")
+    return Case(condition(node.child("when"), scope), _range(told or node, scope))
+
+
+def _range(node: Node, scope: Scope) -> Range:
+    return Range(tuple(_interval(element, scope) for element in node.elements()))
+
+
+def _interval(node: Node, scope: Scope) -> Interval:
+    if not node.is_mapping:
+        low, high = ends(node)
+        return Interval(Number(low), Number(high))
+    interval = Interval(_limit(node.child("from"), scope), _limit(node.child("to"), scope))
+    if isinstance(interval.low, Number) and isinstance(interval.high, Number):
+        _in_order(node, interval.low, interval.high)
+    return interval
+
+
+def _in_order(node: Node, low: Number, high: Number) -> None:
+    if low.value > high.value:
+        message = f"the range is reversed: from {show(low.value)} is more than to {show(high.value)}"
+        node.report("RS0317", message, remedy=f"write from: {show(high.value)}, to: {show(low.value)}")
+
+
+def _limit(node: Node | None, scope: Scope) -> Limit:
+    if node is None:
+        return _NOT_GIVEN
+    if node.is_mapping:
+        return Open(text_of(node, "open"))
+    if node.is_number:
+        return Number(node.number())
+    return Reference(path_of(scope.register(node), node.text()))
+
+
+def _split(cases: Cases[Range], rule: Node, scope: Scope) -> Cases[Range]:
+    rules = decimals_rule(rule, scope)
+    return tuple(part for case in cases for part in _parts(case, rules[0].when, rules[0].then))
+
+
+def _parts(case: Case[Range], rule: Condition, conversion: Conversion) -> Cases[Range]:
+    """The case under the rule's condition, with decimals, and then the case as it is where both can happen."""
+    numbers = any(isinstance(limit, Number) for each in case.then.intervals for limit in (each.low, each.high))
+    if not numbers or conversion.decimals is None or excludes(case.when, rule):
+        return (case,)
+    scaled = Range(case.then.intervals, conversion.decimals)
+    if set(rule.tests) <= set(case.when.tests):
+        return (Case(case.when, scaled),)
+    return Case(both(rule, case.when), scaled), case

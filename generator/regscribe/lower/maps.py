@@ -1,0 +1,97 @@
+"""A whole map: its models one by one, and what stands around them."""
+
+from regscribe.lower.about import errata_of, givens_of, manual_of, notations_of, reserved_of, waivers_of
+from regscribe.lower.arrays import members_of
+from regscribe.lower.commands import Device, commands_of
+from regscribe.lower.conditions import condition
+from regscribe.lower.examples import Product, examples_of
+from regscribe.lower.groups import Bundle, bundles_of, groups_of
+from regscribe.lower.names import letters_and_digits
+from regscribe.lower.node import Node, elements_of, items_of, text_of, texts_of
+from regscribe.lower.presence import Models, named_models
+from regscribe.lower.protocol import protocol_of
+from regscribe.lower.scope import Scope
+from regscribe.lower.units import own_symbols
+from regscribe.model import Identity, Model, Protocol, RegisterMap
+
+
+def map_of(root: Node) -> RegisterMap:
+    """Lower a whole map; its mistakes are in the context of `root`."""
+    protocol = protocol_of(root.child("protocol"))
+    scopes, bundles = _scopes(root)
+    products = [_product(root, scope, bundles[scope.model], protocol) for scope in scopes]
+    about = root.child("map") or root
+    return RegisterMap(
+        id=text_of(about, "id"),
+        title=text_of(about, "title"),
+        maker=text_of(about, "maker"),
+        class_prefix=text_of(about, "class_prefix"),
+        source=root.context.document.name,
+        content_hash=root.context.document.content_hash,
+        manual=manual_of(root.child("manual")),
+        models=tuple(model for model, _ in products),
+        protocol=protocol,
+        description=text_of(root, "description"),
+        notations=notations_of(root),
+        givens=givens_of(root, scopes[0].homes if scopes else {}),
+        reserved=reserved_of(root),
+        identity=_identities(root, scopes),
+        errata=errata_of(root),
+        examples=examples_of(root, [product for _, product in products]),
+        waivers=waivers_of(root),
+        notes=texts_of(root, "notes"),
+        unit_symbols=own_symbols(root),
+        span=(about.child("id") or about).span,
+    )
+
+
+def _scopes(root: Node) -> tuple[list[Scope], dict[str, list[Bundle]]]:
+    """The names of each model, all of them before any register gets a meaning: registers refer to each other."""
+    models = tuple(name for name, _ in items_of(root, "models"))
+    bundles = {model: bundles_of(root, model, models) for model in models}
+    homes: dict[str, Models] = {}
+    entries = {}
+    for model in models:
+        entries[model] = {entry.path: entry for bundle in bundles[model] for entry in bundle.entries}
+        for path in entries[model]:
+            homes[path] = (*homes.get(path, ()), model)
+    return [Scope(root, model, models, entries[model], homes) for model in models], bundles
+
+
+def _product(root: Node, scope: Scope, bundles: list[Bundle], protocol: Protocol) -> tuple[Model, Product]:
+    items = tuple(item for bundle in bundles for item in bundle.items)
+    members, registers = members_of(items, scope)
+    by_path = {register.path: register for register in registers}
+    commands = commands_of(root, Device(scope, by_path, protocol))
+    node = next(node for name, node in items_of(root, "models") if name == scope.model)
+    model = Model(
+        name=scope.model,
+        class_name=_class_name(root, node, scope.model),
+        description=text_of(node, "description"),
+        members=members,
+        registers=registers,
+        groups=groups_of(bundles, root),
+        commands=commands,
+        span=node.key_span,
+    )
+    return model, Product(scope, by_path, tuple(command.id for command in commands))
+
+
+def _class_name(root: Node, node: Node, model: str) -> str:
+    prefix = text_of(root.child("map") or root, "class_prefix")
+    name = text_of(node, "class") or f"{prefix}{letters_and_digits(model)}"
+    if not name.isidentifier():
+        message = f"`{name}` is no identifier for the class of {model}"
+        node.report("RS0319", message, remedy="give the model a `class`, or the map a `class_prefix`", at_key=True)
+    return name
+
+
+def _identities(root: Node, scopes: list[Scope]) -> tuple[Identity, ...]:
+    return tuple(identity for node in elements_of(root, "identify") for identity in _identity(node, scopes))
+
+
+def _identity(node: Node, scopes: list[Scope]) -> list[Identity]:
+    every = tuple(scope.model for scope in scopes)
+    models = named_models(elements_of(node, "models"), every)
+    conditions = [condition(node.child("when"), scope) for scope in scopes if scope.model in models]
+    return [Identity(conditions[0], models)] if conditions else []

@@ -1,0 +1,48 @@
+"""Identifiers from the manual's names, and help with names that nothing has."""
+
+import re
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+from regscribe.lower.node import Node
+
+_RUN = re.compile(r"[A-Za-z0-9]+")
+_LISTED = 12
+
+
+def snake(text: str) -> str:
+    """Lower snake case of a name: `Alarm 1 Action` gives `alarm_1_action`; empty where no letter or digit is."""
+    return "_".join(_RUN.findall(text)).lower()
+
+
+def letters_and_digits(text: str) -> str:
+    """The name without anything but letters and digits, for class names."""
+    return "".join(_RUN.findall(text))
+
+
+def identifier(node: Node, *, label: str, given: Node | None, capitals: bool = False) -> str:
+    """The identifier `given` in the map, or else the one derived from `label`; RS0319 where that is none."""
+    name = given.text() if given else snake(label)
+    if not name.isidentifier():
+        where = given or node
+        what = f"`{name}` is no identifier" if given else f"no identifier can be derived from `{label}`"
+        where.report("RS0319", what, remedy="give an `id` of letters, digits and _ that starts with a letter")
+        return "unnamed"
+    return name.upper() if capitals and not given else name
+
+
+def unknown(node: Node, rule: str, what: str, name: str, known: Iterable[str], *, at_key: bool = False) -> None:
+    """Report that there is no `what` of this name, with the nearest names and those that exist."""
+    if node.context.spoke(rule, node.key_span if at_key else node.span):
+        return
+    names = list(dict.fromkeys(known))
+    near = get_close_matches(name, names, n=1, cutoff=0.6)
+    guess = f"did you mean `{near[0]}`? " if near else ""
+    node.report(rule, f"there is no {what} `{name}`", remedy=f"{guess}{_listed(names)}", at_key=at_key)
+
+
+def _listed(names: list[str]) -> str:
+    if not names:
+        return "the map has none"
+    more = f" and {len(names) - _LISTED} more" if len(names) > _LISTED else ""
+    return f"there are: {', '.join(names[:_LISTED])}{more}"

@@ -1,0 +1,213 @@
+"""A value of the map together with its place, and the collector of what is wrong with the values."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from decimal import Decimal
+from enum import StrEnum
+from fractions import Fraction
+from typing import Any, TypeVar
+
+from regscribe.model import Diagnostic, Related, Span, exact
+from regscribe.source import Document
+
+Path = tuple[str | int, ...]
+Choice = TypeVar("Choice", bound=StrEnum)
+
+
+@dataclass(frozen=True, slots=True)
+class Context:
+    """The document in work and the diagnostics found in it so far.
+
+    Registers are lowered once for each model and element, so a finding counts once per rule and place.
+    """
+
+    document: Document
+    found: dict[tuple[str, Span], Diagnostic] = field(default_factory=dict)
+
+    def report(
+        self, rule: str, message: str, *, span: Span, remedy: str = "", related: tuple[Related, ...] = ()
+    ) -> None:
+        """Keep a diagnostic, unless the same rule spoke at the same place already."""
+        self.found.setdefault((rule, span), Diagnostic(rule, message, span, help=remedy, related=related))
+
+    def spoke(self, rule: str, span: Span) -> bool:
+        """Whether the rule spoke at this place already."""
+        return (rule, span) in self.found
+
+    @property
+    def diagnostics(self) -> list[Diagnostic]:
+        """What was found, in the order of the file."""
+        return sorted(self.found.values(), key=lambda diagnostic: (diagnostic.span, diagnostic.rule))
+
+
+@dataclass(frozen=True, slots=True)
+class Node:
+    """One value of the document: `value` as `regscribe.source` gives it, `path` from the top.
+
+    The readers (`text`, `number`, ...) are total: where the value is of another sort they report RS0336 and return a
+    placeholder, so that lowering goes on and finds the other mistakes.
+    """
+
+    context: Context
+    path: Path
+    value: Any
+
+    @property
+    def span(self) -> Span:
+        """Where the value stands."""
+        return self.context.document.span(self.path)
+
+    @property
+    def key_span(self) -> Span:
+        """Where the key of the value stands."""
+        return self.context.document.key_span(self.path)
+
+    @property
+    def key(self) -> str:
+        """The last step of the path, as text."""
+        return str(self.path[-1]) if self.path else ""
+
+    def report(self, rule: str, message: str, *, remedy: str = "", at_key: bool = False) -> None:
+        """Report a mistake at this value (or at its key)."""
+        self.context.report(rule, message, span=self.key_span if at_key else self.span, remedy=remedy)
+
+    def child(self, key: str) -> "Node | None":
+        """The value of a key; None where the key is absent or null."""
+        value = self.value.get(key) if isinstance(self.value, dict) else None
+        return None if value is None else Node(self.context, (*self.path, key), value)
+
+    def items(self) -> Iterator[tuple[str, "Node"]]:
+        """Keys and values of a mapping, without `x-` keys; nothing for any other value."""
+        if isinstance(self.value, dict):
+            for key, value in self.value.items():
+                if not key.startswith("x-"):
+                    yield key, Node(self.context, (*self.path, key), value)
+
+    def values(self) -> list["Node"]:
+        """The values of a mapping, without `x-` keys; nothing for any other value."""
+        return [node for _, node in self.items()]
+
+    def elements(self) -> list["Node"]:
+        """The values of a list; a single value counts as a list of one, null as an empty one."""
+        if isinstance(self.value, list):
+            return [Node(self.context, (*self.path, index), value) for index, value in enumerate(self.value)]
+        return [] if self.value is None else [self]
+
+    @property
+    def is_mapping(self) -> bool:
+        """Whether the value has keys."""
+        return isinstance(self.value, dict)
+
+    @property
+    def is_list(self) -> bool:
+        """Whether the value is a list."""
+        return isinstance(self.value, list)
+
+    @property
+    def is_text(self) -> bool:
+        """Whether the value is text."""
+        return isinstance(self.value, str)
+
+    @property
+    def is_number(self) -> bool:
+        """Whether the value is a number; true and false are none."""
+        return isinstance(self.value, int | Decimal) and not isinstance(self.value, bool)
+
+    def text(self) -> str:
+        """The value as text; numbers and truth values are spelled as in YAML."""
+        if isinstance(self.value, bool):
+            return "true" if self.value else "false"
+        if isinstance(self.value, str | int | Decimal):
+            return str(self.value)
+        return self._wrong("text", "")
+
+    def number(self) -> Fraction:
+        """The value as an exact number; true counts 1 and false 0."""
+        if isinstance(self.value, int | Decimal):
+            try:
+                return exact(Decimal(self.value))
+            except ValueError:
+                return self._wrong("a finite number", Fraction(0))
+        return self._wrong("a number", Fraction(0))
+
+    def whole(self) -> int:
+        """The value as a whole number."""
+        number = self.number()
+        return number.numerator if number.denominator == 1 else self._wrong("a whole number", 0)
+
+    def truth(self) -> bool:
+        """The value as true or false."""
+        return self.value if isinstance(self.value, bool) else self._wrong("true or false", other=False)
+
+    def choice(self, among: type[Choice], otherwise: Choice) -> Choice:
+        """The value as one of the choices of an enumeration."""
+        names = [choice.value for choice in among]
+        return among(self.value) if self.value in names else self._wrong(f"one of {', '.join(names)}", otherwise)
+
+    def key_whole(self) -> int:
+        """The key as a whole number."""
+        number = self.key_number()
+        if number.denominator == 1:
+            return number.numerator
+        self.report("RS0332", f"the key {self.key} is no whole number", remedy="write a whole number", at_key=True)
+        return 0
+
+    def key_number(self) -> Fraction:
+        """The key as an exact number."""
+        try:
+            return exact(self.key)
+        except ValueError:
+            self.report("RS0332", f"the key `{self.key}` is no number", remedy="write a number", at_key=True)
+            return Fraction(0)
+
+    _Other = TypeVar("_Other")
+
+    def _wrong(self, wanted: str, other: _Other) -> _Other:
+        kind = {dict: "a mapping", list: "a list", str: "a text", bool: "a truth value"}.get(
+            type(self.value), "a number"
+        )
+        shown = "" if isinstance(self.value, dict | list) else f" ({self.value})"
+        self.report("RS0336", f"`{self.key}` is {kind}{shown}, not {wanted}", remedy=f"write {wanted}")
+        return other
+
+
+def text_of(node: Node, key: str, otherwise: str = "") -> str:
+    """The text of a key, or `otherwise` where it is absent."""
+    child = node.child(key)
+    return child.text().strip() if child else otherwise
+
+
+def whole_of(node: Node, key: str, otherwise: int = 0) -> int:
+    """The whole number of a key, or `otherwise` where it is absent."""
+    child = node.child(key)
+    return child.whole() if child else otherwise
+
+
+def truth_of(node: Node, key: str, *, otherwise: bool = False) -> bool:
+    """The truth value of a key, or `otherwise` where it is absent."""
+    child = node.child(key)
+    return child.truth() if child else otherwise
+
+
+def wholes_of(node: Node, key: str, otherwise: tuple[int, ...] = ()) -> tuple[int, ...]:
+    """The list of whole numbers of a key, or `otherwise` where it is absent."""
+    child = node.child(key)
+    return tuple(element.whole() for element in child.elements()) if child else otherwise
+
+
+def texts_of(node: Node, key: str, otherwise: tuple[str, ...] = ()) -> tuple[str, ...]:
+    """The list of texts of a key, or `otherwise` where it is absent."""
+    child = node.child(key)
+    return tuple(element.text() for element in child.elements()) if child else otherwise
+
+
+def elements_of(node: Node | None, key: str) -> list[Node]:
+    """The elements of the list of a key; none where it is absent."""
+    child = node.child(key) if node else None
+    return child.elements() if child else []
+
+
+def items_of(node: Node | None, key: str) -> list[tuple[str, Node]]:
+    """The keys and values of the mapping of a key; none where it is absent."""
+    child = node.child(key) if node else None
+    return list(child.items()) if child else []

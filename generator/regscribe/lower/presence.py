@@ -1,0 +1,22 @@
+"""Which models have a thing: the keys `models` and `except`."""
+
+from regscribe.lower.names import unknown
+from regscribe.lower.node import Node, elements_of
+
+Models = tuple[str, ...]
+
+
+def present(node: Node, among: Models, every: Models) -> Models:
+    """The models of `among` that a register, array, command, member or field is on; RS0314 for names of no model."""
+    only = node.child("models")
+    listed = named_models(only.elements(), every) if only else among
+    left_out = named_models(elements_of(node, "except"), every)
+    return tuple(model for model in among if model in listed and model not in left_out)
+
+
+def named_models(nodes: list[Node], every: Models) -> Models:
+    """The models that a list names; RS0314 for names of no model."""
+    for node in nodes:
+        if node.text() not in every:
+            unknown(node, "RS0314", "model", node.text(), every)
+    return tuple(node.text() for node in nodes if node.text() in every)

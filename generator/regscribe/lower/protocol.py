@@ -1,0 +1,96 @@
+"""How the device behaves on the line, as the map's `protocol` tells it."""
+
+from dataclasses import replace
+from fractions import Fraction
+
+from regscribe.lower.ends import ends, whole_ends
+from regscribe.lower.node import Node, items_of, text_of, texts_of, truth_of, whole_of, wholes_of
+from regscribe.model import SILENCE, ExceptionCode, Faults, Latency, Later, Protocol, Serial
+
+_LATER = ("later_read", "later_write")
+_CODES = (
+    *("function", "address", "value", "read_only", "condition", "quantity"),
+    *("misaligned_address", "misaligned_count", "view_function"),
+)
+
+
+def protocol_of(node: Node | None) -> Protocol:
+    """The protocol of a map; what the map does not tell is as the Modbus specification has it."""
+    plain = Protocol()
+    if node is None:
+        return plain
+    limits = node.child("limits") or node
+    unit_ids = node.child("unit_ids")
+    return Protocol(
+        functions=wholes_of(node, "functions", plain.functions),
+        broadcast=wholes_of(node, "broadcast"),
+        unit_ids=whole_ends(unit_ids) if unit_ids else plain.unit_ids,
+        default_unit=whole_of(node, "default_unit") if node.child("default_unit") else None,
+        read_words=whole_of(limits, "read_words", plain.read_words),
+        write_words=whole_of(limits, "write_words", plain.write_words),
+        read_bits=whole_of(limits, "read_bits", plain.read_bits),
+        write_bits=whole_of(limits, "write_bits", plain.write_bits),
+        read_holes=truth_of(node, "read_holes"),
+        faults=_faults(node.child("faults")),
+        exceptions=tuple(_exception(each) for _, each in items_of(node, "exceptions")),
+        latencies=tuple(_latency(each) for _, each in items_of(node, "latency")),
+        serial=_serial(node.child("serial")),
+        section=text_of(node, "source"),
+    )
+
+
+def _faults(node: Node | None) -> Faults:
+    faults = Faults()
+    if node is None:
+        return faults
+    read, write = node.child("later_read"), node.child("later_write")
+    codes = {key: _code(each) for key, each in node.items() if key in _CODES}
+    return replace(
+        faults,
+        **codes,
+        later_read=read.choice(Later, faults.later_read) if read else faults.later_read,
+        later_write=write.choice(Later, faults.later_write) if write else faults.later_write,
+    )
+
+
+def _code(node: Node) -> int:
+    return SILENCE if node.value == "silence" else node.whole()
+
+
+def _exception(node: Node) -> ExceptionCode:
+    return ExceptionCode(node.key_whole(), text_of(node, "name"), text_of(node, "meaning"))
+
+
+def _latency(node: Node) -> Latency:
+    fixed, each = _times(node.child("fixed")), _times(node.child("per_word"))
+    return Latency(node.key_whole(), fixed[0], fixed[1], each[0], each[1])
+
+
+def _times(node: Node | None) -> tuple[Fraction, Fraction]:
+    return ends(node) if node else (Fraction(0), Fraction(0))
+
+
+def _serial(node: Node | None) -> Serial:
+    plain = Serial()
+    if node is None:
+        return plain
+    baud, form = _default(node.child("default"))
+    gap = node.child("gap_characters")
+    return Serial(
+        modes=texts_of(node, "modes", plain.modes),
+        baud_rates=wholes_of(node, "baud"),
+        formats=texts_of(node, "formats"),
+        default_baud=baud,
+        default_format=form,
+        gap_characters=gap.number() if gap else plain.gap_characters,
+        description=text_of(node, "description"),
+    )
+
+
+def _default(node: Node | None) -> tuple[int | None, str]:
+    words = node.text().split() if node else []
+    if node is None or (len(words) == 2 and words[0].isdecimal()):  # noqa: PLR2004 - the speed and the format
+        return (int(words[0]), words[1]) if words else (None, "")
+    message = f"`{node.text()}` is no setting of a serial line"
+    node.report("RS0335", message, remedy="write the speed and the character format, as 9600 8N1")
+    return None, ""

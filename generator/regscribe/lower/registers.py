@@ -1,0 +1,122 @@
+"""One register of one model, from the keys that count for it."""
+
+from regscribe.lower.conditions import condition
+from regscribe.lower.enums import enum_of, fields_of
+from regscribe.lower.limits import range_of
+from regscribe.lower.node import Node, text_of
+from regscribe.lower.scales import NOT_STATED, Scaling, scale_of
+from regscribe.lower.scope import Scope
+from regscribe.lower.tree import Entry
+from regscribe.lower.units import rescaled, unit_of
+from regscribe.lower.values import default_of, sentinels_of, specials_of, version_of
+from regscribe.lower.views import views_of
+from regscribe.model import IDENTITY, Access, Case, Inferred, Kind, Register, View, WireType, Writable
+
+_BY_KEY = {"enum": Kind.ENUM, "flags": Kind.FLAGS, "fields": Kind.FIELDS, "version": Kind.VERSION}
+
+
+def register_of(entry: Entry, everywhere: Scope) -> Register:
+    """Give the keys of a register their meaning on the model of the scope."""
+    scope = everywhere.at(entry)
+    settings = entry.settings
+    views = views_of(entry, scope)
+    scaling = scale_of(entry, views[0].type, scope)
+    kind = kind_of(entry, views, scaling)
+    enum = enum_of(settings["enum"], scope, inline_id=entry.qualified_id) if "enum" in settings else None
+    unit, unit_id = unit_of(settings.get("unit"), scope)
+    digits, group = version_of(settings.get("version"))
+    return Register(
+        id=entry.id,
+        path=entry.path,
+        name=_text(entry, "name"),
+        kind=kind,
+        access=_access(entry),
+        views=views,
+        symbol=_text(entry, "symbol"),
+        description=_text(entry, "description"),
+        section=_text(entry, "source") or entry.place.section,
+        group=entry.place.group,
+        aliases=_aliases(entry, views[0]),
+        scale=tuple(Case(part.when, part.conversion) for part in scaling),
+        unit=unit,
+        unit_id=unit_id,
+        range=range_of(entry, scaling, scope),
+        specials=specials_of(entry),
+        sentinels=sentinels_of(entry),
+        default=default_of(entry, kind, enum),
+        enum=enum,
+        fields=fields_of(entry, scope),
+        writable=_writable(settings.get("writable"), scope),
+        persistence=_text(entry, "persistence"),
+        endurance=settings["endurance"].whole() if "endurance" in settings else None,
+        rescales=rescaled(settings["rescales"], scope) if "rescales" in settings else "",
+        unlock=_command(settings.get("unlock"), scope),
+        apply=_command(settings.get("apply"), scope),
+        danger=_text(entry, "danger"),
+        inferred=_inferred(settings.get("inferred")),
+        version_digits=digits,
+        version_group=group,
+        array=entry.place.array,
+        index=entry.place.index,
+        span=entry.span,
+    )
+
+
+def kind_of(entry: Entry, views: tuple[View, ...], scaling: tuple[Scaling, ...]) -> Kind:
+    """What the value is to a program: told by the map, or else by the other keys."""
+    settings = entry.settings
+    if "kind" in settings:
+        return settings["kind"].choice(Kind, Kind.INTEGER)
+    for key, kind in _BY_KEY.items():
+        if key in settings:
+            return kind
+    if views[0].type is WireType.STRING:
+        return Kind.STRING
+    if views[0].type is WireType.BIT:
+        return Kind.BOOLEAN
+    if "decimals" in settings and settings["decimals"].value == NOT_STATED:
+        return Kind.RAW
+    return Kind.NUMBER if _has_fractions(entry, views, scaling) else Kind.INTEGER
+
+
+def _has_fractions(entry: Entry, views: tuple[View, ...], scaling: tuple[Scaling, ...]) -> bool:
+    return (
+        any(view.type.is_float for view in views)
+        or any(part.conversion != IDENTITY for part in scaling)
+        or any(special.means is not None and special.means.denominator != 1 for special in specials_of(entry))
+    )
+
+
+def _text(entry: Entry, key: str) -> str:
+    return entry.settings[key].text().strip() if key in entry.settings else ""
+
+
+def _access(entry: Entry) -> Access:
+    node = entry.settings.get("access")
+    if node is not None:
+        return node.choice(Access, Access.READ)
+    message = f"`{entry.id}` has no access"
+    entry.node.report("RS0322", message, remedy="give `access: r`, `rw` or `w` here or in the group's `each`")
+    return Access.READ
+
+
+def _aliases(entry: Entry, base: View) -> tuple[int, ...]:
+    node = entry.settings.get("aliases")
+    shift = entry.place.shift * base.stride
+    return tuple(element.whole() + shift for element in node.elements()) if node else ()
+
+
+def _writable(node: Node | None, scope: Scope) -> Writable | None:
+    return Writable(condition(node.child("when"), scope), text_of(node, "reason")) if node else None
+
+
+def _command(node: Node | None, scope: Scope) -> str:
+    if node is None:
+        return ""
+    scope.named(node, "commands", rule="RS0313", what="command")
+    return node.text()
+
+
+def _inferred(node: Node | None) -> tuple[Inferred, ...]:
+    elements = node.elements() if node else []
+    return tuple(Inferred(text_of(element, "what"), text_of(element, "why")) for element in elements)

@@ -1,0 +1,45 @@
+"""The rules of meaning: what `lower` finds wrong. Each has a bad and a good map in `examples/`."""
+
+from regscribe.model import Rule
+
+_NAMES = "A name must mean something, or the driver would look up what does not exist."
+
+RULES: tuple[Rule, ...] = (
+    Rule("RS0301", "reference to an unknown register", _NAMES),
+    Rule("RS0302", "reference to a register that only other models have", "A driver has the registers of one model."),
+    Rule("RS0303", "reference to an unknown bit field", _NAMES),
+    Rule("RS0304", "reference to an unknown enum", _NAMES),
+    Rule("RS0305", "unknown enum member or special value", "A code by name must be one that the register can have."),
+    Rule("RS0306", "reference to an unknown view set", _NAMES),
+    Rule("RS0307", "reference to an unknown condition", _NAMES),
+    Rule("RS0308", "conditions that need each other", "A condition that refers to itself never comes to an answer."),
+    Rule("RS0309", "reference to an unknown scale", _NAMES),
+    Rule("RS0310", "reference to an unknown decimals rule", _NAMES),
+    Rule("RS0311", "unknown unit", "A mistyped unit would be believed; a map declares the units that are not common."),
+    Rule("RS0312", "unknown given, or one of another type", _NAMES),
+    Rule("RS0313", "reference to an unknown command", _NAMES),
+    Rule("RS0314", "reference to an unknown model", "A mistyped model would silently lose or keep a register."),
+    Rule("RS0315", "reference to an unknown group", _NAMES),
+    Rule("RS0316", "malformed range", "A range is written a..b, so that nobody has to guess what is meant."),
+    Rule("RS0317", "reversed range", "A range whose lower end is above its upper end allows nothing."),
+    Rule("RS0318", "bad bit or bit range", "Bits count from 0, the least significant, to 63 at most."),
+    Rule("RS0319", "no identifier", "Names become identifiers of the driver; some need an `id` of their own."),
+    Rule("RS0320", "two scales", "A value is scaled once: by `scale`, by `decimals`, or by `multiply` and `add`."),
+    Rule("RS0321", "register without address", "Every register stands somewhere."),
+    Rule("RS0322", "register without access", "Whether a register can be written must be said, never assumed."),
+    Rule("RS0323", "variant for a model without the register", "A variant that never counts hides a mistake."),
+    Rule("RS0324", "register on no model", "What no model has is in no driver."),
+    Rule("RS0325", "default that names nothing", "A default is a number, or the name of a member or special value."),
+    Rule("RS0326", "unknown view of a register", _NAMES),
+    Rule("RS0327", "unknown flag in an example", _NAMES),
+    Rule("RS0328", "frame that is no hex text", "A frame is written byte by byte, two hex digits each."),
+    Rule("RS0329", "unknown sentinel in an example", _NAMES),
+    Rule("RS0330", "value of a step that is not constant", "A command has words that depend on nothing else."),
+    Rule("RS0331", "malformed matcher", "Codes in a list are alternatives; `not`, `in` and `not_in` stand alone."),
+    Rule("RS0332", "key that is no number", "Codes, bits and function codes are keys and must be numbers."),
+    Rule("RS0333", "ends of a scale on a type without ends", "From and to are at the lowest and highest raw code."),
+    Rule("RS0334", "malformed version pattern", "A version packs decimal digits in groups of equal length."),
+    Rule("RS0335", "malformed serial setting", "The setting of a serial line is its speed and character format."),
+    Rule("RS0336", "value of another sort", "A number, text, list or mapping is needed where another stands."),
+    Rule("RS0343", "array beyond the address space", "There are 65536 addresses, so no array has more elements."),
+)

@@ -1,0 +1,98 @@
+"""From the stored value to the value of use: constant and conditional scales, decimals rules."""
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from regscribe.lower.conditions import condition
+from regscribe.lower.ends import unordered
+from regscribe.lower.node import Node
+from regscribe.lower.scope import Scope, path_of
+from regscribe.lower.tree import Entry
+from regscribe.model import ALWAYS, IDENTITY, Case, Cases, Condition, Conversion, Decimals, WireType, always, show
+
+NOT_STATED = "not_stated"
+_MOST_DIGITS = 100
+_TWO_WAYS = "keep the one that the manual states"
+
+
+@dataclass(frozen=True, slots=True)
+class Scaling:
+    """A conversion under a condition; `ends` are its values at the type's lowest and highest raw code, if told so."""
+
+    when: Condition
+    conversion: Conversion
+    ends: tuple[Fraction, Fraction] | None = None
+
+
+def scale_of(entry: Entry, wire: WireType, scope: Scope) -> tuple[Scaling, ...]:
+    """The conversion of a register by case; RS0320 where the map gives two."""
+    settings = entry.settings
+    given = [key for key in ("scale", "decimals", "multiply", "add") if key in settings]
+    if len(given) > 1 and given != ["multiply", "add"]:
+        message = f"`{entry.id}` has both `{given[0]}` and `{given[1]}`"
+        settings[given[1]].report("RS0320", message, remedy=_TWO_WAYS, at_key=True)
+    if "scale" in settings:
+        return _scale(settings["scale"], wire, scope)
+    if "decimals" in settings:
+        return tuple(Scaling(case.when, case.then) for case in decimals_of(settings["decimals"], scope))
+    return (Scaling(ALWAYS, _linear(settings.get("multiply"), settings.get("add"))),)
+
+
+def _linear(multiply: Node | None, add: Node | None) -> Conversion:
+    return Conversion(multiply.number() if multiply else Fraction(1), add.number() if add else Fraction(0))
+
+
+def _scale(node: Node, wire: WireType, scope: Scope) -> tuple[Scaling, ...]:
+    if node.is_text and ".." in node.text():
+        return (_affine(node, ALWAYS, unordered(node), wire),)
+    found = scope.named(node, "scales", rule="RS0309", what="scale")
+    cases = found.elements() if found else []
+    return tuple(_case(case, wire, scope) for case in cases) or (Scaling(ALWAYS, IDENTITY),)
+
+
+def _case(node: Node, wire: WireType, scope: Scope) -> Scaling:
+    when = condition(node.child("when"), scope)
+    low, high, digits = node.child("from"), node.child("to"), node.child("decimals")
+    if low and high:
+        return _affine(node, when, (low.number(), high.number()), wire)
+    if digits:
+        return Scaling(when, Conversion(multiply=_power(digits)))
+    return Scaling(when, _linear(node.child("multiply"), node.child("add")))
+
+
+def _affine(node: Node, when: Condition, ends: tuple[Fraction, Fraction], wire: WireType) -> Scaling:
+    if not wire.is_integer:
+        message = f"the scale from {show(ends[0])} to {show(ends[1])} needs a whole number on the wire, not {wire}"
+        node.report("RS0333", message, remedy="use `multiply` and `add`")
+        return Scaling(when, IDENTITY)
+    multiply = (ends[1] - ends[0]) / (wire.maximum - wire.minimum)
+    return Scaling(when, Conversion(multiply=multiply, add=ends[0] - multiply * wire.minimum), ends)
+
+
+def _power(node: Node) -> Fraction:
+    digits = node.whole()
+    if 0 <= digits <= _MOST_DIGITS:
+        return Fraction(1, 10**digits)
+    node.report("RS0336", f"a number cannot have {digits} decimals", remedy="give the digits after the point, as 1")
+    return Fraction(1)
+
+
+def decimals_of(node: Node, scope: Scope) -> Cases[Conversion]:
+    """The conversion that `decimals` stands for: digits, `not_stated`, or a rule."""
+    if node.is_number:
+        return always(Conversion(multiply=_power(node)))
+    return always(IDENTITY) if node.text() == NOT_STATED else decimals_rule(node, scope)
+
+
+def decimals_rule(node: Node, scope: Scope) -> Cases[Conversion]:
+    """The cases of the decimals rule that `node` names: the rule's own, then identity if it has a condition."""
+    rule = scope.named(node, "decimals", rule="RS0310", what="decimals rule")
+    register = rule.child("register") if rule else None
+    if rule is None or register is None:
+        return always(IDENTITY)
+    at_most, step = rule.child("at_most"), rule.child("step")
+    path = path_of(scope.register(register), register.text())
+    decimals = Decimals(path, at_most.whole() if at_most else None)
+    conversion = Conversion(decimals=decimals, step=step.number() if step else None)
+    when = condition(rule.child("when"), scope)
+    return always(conversion) if when.always else (Case(when, conversion), Case(ALWAYS, IDENTITY))

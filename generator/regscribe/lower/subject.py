@@ -1,0 +1,65 @@
+"""What a condition or an example asks about: a register or one bit field of it, and its codes by name."""
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from regscribe.lower.enums import code_anywhere, enum_for, fields_of
+from regscribe.lower.names import snake, unknown
+from regscribe.lower.node import Node, text_of
+from regscribe.lower.scope import Scope
+from regscribe.lower.tree import Entry
+
+
+@dataclass(frozen=True, slots=True)
+class Subject:
+    """A register as the map names it, and a bit field of it ("" for the whole register)."""
+
+    name: str
+    entry: Entry
+    field: str = ""
+
+
+def subject_of(node: Node, key: str, scope: Scope) -> Subject | None:
+    """The subject that the key of `node` names; RS0301, RS0302 or RS0303 and None where there is none."""
+    entry = scope.find(key)
+    if entry is not None:
+        return Subject(key, entry)
+    register, dot, field = key.rpartition(".")
+    owner = scope.find(register) if dot else None
+    if owner is None:
+        scope.missing(node, register if dot and not field.endswith("]") and "]." not in key else key, at_key=True)
+        return None
+    known = [each.id for each in fields_of(owner, scope.at(owner))]
+    if field not in known:
+        unknown(node, "RS0303", f"bit field of `{register}`", field, known, at_key=True)
+    return Subject(register, owner, field)
+
+
+def code_of_text(node: Node, subject: Subject, scope: Scope) -> Fraction:
+    """The code of an enum member or a special value by its id; RS0305 where there is none."""
+    text = node.text()
+    known: list[str] = []
+    found = enum_for(subject.entry, scope.at(subject.entry), subject.field)
+    if found is not None:
+        table, enum = found
+        code = code_anywhere(table, text)
+        if code is not None:
+            return Fraction(code)
+        known = [member.id.lower() for member in enum.members]
+    for name, code_node in special_ids(subject.entry):
+        if name == text.lower() and not subject.field:
+            return code_node.key_number()
+        known.append(name)
+    where = f"`{subject.name}.{subject.field}`" if subject.field else f"`{subject.name}`"
+    unknown(node, "RS0305", f"member or special value of {where}", text, known)
+    return Fraction(0)
+
+
+def special_ids(entry: Entry) -> list[tuple[str, Node]]:
+    """The special values of a register: id in lower case, and the place of the value."""
+    specials = entry.settings.get("special")
+    return [(_id(node).lower(), node) for node in specials.values()] if specials else []
+
+
+def _id(node: Node) -> str:
+    return (text_of(node, "id") or snake(text_of(node, "label"))) if node.is_mapping else snake(node.text())

@@ -1,0 +1,148 @@
+"""The registers and arrays that one model has, with their paths and the keys that count, before any meaning."""
+
+from dataclasses import dataclass, replace
+
+from regscribe.lower.ends import whole_ends
+from regscribe.lower.layers import Settings, settings_of, variants_for
+from regscribe.lower.names import identifier
+from regscribe.lower.node import Node, elements_of, text_of, whole_of
+from regscribe.lower.presence import Models, present
+from regscribe.model import Span
+
+ADDRESSES = 65536
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where a list of registers stands on one model: inside which group, arrays and elements.
+
+    `among` are the models that the surroundings exist on, `layers` the `each` defaults from the outside in, `prefixes`
+    the paths of the surrounding elements from the inside out, `shift` the steps that the elements add to `at`.
+    """
+
+    model: str
+    every: Models
+    among: Models
+    group: str
+    section: str
+    layers: tuple[Node, ...] = ()
+    prefixes: tuple[str, ...] = ()
+    array: str = ""
+    index: tuple[int, ...] = ()
+    shift: int = 0
+    elements: int = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One register of one model (one element of an array): its names, and the keys that count for it."""
+
+    node: Node
+    id: str
+    path: str
+    settings: Settings
+    place: Place
+
+    @property
+    def span(self) -> Span:
+        """Where its `id`, or else its name, stands."""
+        return span_of(self.node)
+
+    @property
+    def qualified_id(self) -> str:
+        """The id with the arrays around it, which tells it from registers of the same id in other arrays."""
+        return "_".join((*self.place.array.split("."), self.id)) if self.place.array else self.id
+
+
+@dataclass(frozen=True, slots=True)
+class Branch:
+    """An array of one model: what each element holds."""
+
+    node: Node
+    id: str
+    first: int
+    stride: int
+    section: str
+    elements: tuple[tuple["Item", ...], ...]
+
+
+Item = Entry | Branch
+
+
+def span_of(node: Node) -> Span:
+    """Where the `id`, or else the name, or else the thing itself stands."""
+    return (node.child("id") or node.child("name") or node).span
+
+
+def items_in(nodes: list[Node], place: Place) -> tuple[Item, ...]:
+    """The registers and arrays of a list that the model of `place` has."""
+    items: list[Item] = []
+    for node in nodes:
+        has = present(node, place.among, place.every)
+        if not has and place.among:
+            _nowhere(node, place)
+        name = identifier(node.child("name") or node, label=text_of(node, "name"), given=node.child("id"))
+        if place.model in has and node.child("registers"):
+            items.append(_branch(node, name, replace(place, among=has)))
+        elif place.model in has:
+            items.append(_entry(node, name, has, place))
+    return tuple(items)
+
+
+def _nowhere(node: Node, place: Place) -> None:
+    at = node.child("except") or node.child("models") or node
+    message = f"`{text_of(node, 'name')}` is on no model"
+    at.report("RS0324", message, remedy=f"its surroundings are on: {', '.join(place.among)}")
+
+
+def _entry(node: Node, name: str, has: Models, place: Place) -> Entry:
+    variants = variants_for(node, place.model, has, place.every)
+    settings = settings_of([*place.layers, node, *variants])
+    return Entry(node=node, id=name, path=_inside(place, name), settings=settings, place=place)
+
+
+def _inside(place: Place, name: str) -> str:
+    return f"{place.prefixes[0]}{name}" if place.prefixes else name
+
+
+def _branch(node: Node, name: str, place: Place) -> Branch:
+    repeat = node.child("repeat")
+    first, last = whole_ends(repeat) if repeat else (1, 1)
+    if repeat and (last - first + 1) * place.elements > ADDRESSES:
+        message = f"{last - first + 1} elements are more than the {ADDRESSES} addresses hold"
+        repeat.report("RS0343", message, remedy="give the index of the first and the last element, as 1..8")
+        last = first
+    stride = whole_of(node, "stride", 1)
+    each = node.child("each")
+    inside = replace(
+        place,
+        layers=(*place.layers, each) if each else place.layers,
+        section=text_of(node, "source", place.section),
+        array=f"{place.array}.{name}" if place.array else name,
+        elements=(last - first + 1) * place.elements,
+    )
+    elements = tuple(_element(node, name, inside, step, first) for step in range(last - first + 1))
+    return Branch(node=node, id=name, first=first, stride=stride, section=inside.section, elements=elements)
+
+
+def _element(node: Node, name: str, place: Place, step: int, first: int) -> tuple[Item, ...]:
+    prefix = f"{_inside(place, name)}[{first + step}]."
+    inside = replace(
+        place,
+        prefixes=(prefix, *place.prefixes),
+        index=(*place.index, first + step),
+        shift=place.shift + whole_of(node, "stride", 1) * step,
+    )
+    return items_in(elements_of(node, "registers"), inside)
+
+
+def entries_of(items: tuple[Item, ...]) -> list[Entry]:
+    """The registers of all elements, in order."""
+    entries: list[Entry] = []
+    for item in items:
+        if isinstance(item, Entry):
+            entries.append(item)
+        else:
+            for element in item.elements:
+                entries.extend(entries_of(element))
+    return entries

@@ -1,0 +1,71 @@
+"""Single values: defaults, special values, sentinels and packed versions."""
+
+from fractions import Fraction
+
+from regscribe.lower.names import identifier, unknown
+from regscribe.lower.node import Node, text_of
+from regscribe.lower.tree import Entry
+from regscribe.model import Enum, Kind, Sentinel, Special
+
+
+def specials_of(entry: Entry) -> tuple[Special, ...]:
+    """The special values of a register."""
+    node = entry.settings.get("special")
+    return tuple(_special(each) for each in node.values()) if node else ()
+
+
+def _special(node: Node) -> Special:
+    label, name = _named(node)
+    means = node.child("means")
+    return Special(code=node.key_number(), label=label, id=name, means=means.number() if means else None)
+
+
+def sentinels_of(entry: Entry) -> tuple[Sentinel, ...]:
+    """The stored numbers of a register that are faults."""
+    node = entry.settings.get("sentinels")
+    return tuple(_sentinel(each) for each in node.values()) if node else ()
+
+
+def _sentinel(node: Node) -> Sentinel:
+    label, name = _named(node)
+    return Sentinel(stored=node.key_number(), label=label, id=name)
+
+
+def _named(node: Node) -> tuple[str, str]:
+    label = text_of(node, "label") if node.is_mapping else node.text()
+    return label, identifier(node.child("label") or node, label=label, given=node.child("id"))
+
+
+def version_of(node: Node | None) -> tuple[int, int]:
+    """Decimal digits and digits of a group of a version pattern such as nn.nn.nn; RS0334 for any other text."""
+    if node is None:
+        return 0, 0
+    groups = node.text().split(".")
+    if not all(group and group == "n" * len(groups[0]) for group in groups):
+        message = f"`{node.text()}` is no version pattern"
+        node.report("RS0334", message, remedy="write one n a digit, in groups of equal length, as nn.nn.nn")
+        return 0, 0
+    return len(groups) * len(groups[0]), len(groups[0])
+
+
+def default_of(entry: Entry, kind: Kind, enum: Enum | None) -> Fraction | str | None:
+    """The default as a value of use; RS0325 where it names no member or special value."""
+    node = entry.settings.get("default")
+    return named_value(node, kind, enum, specials_of(entry), "RS0325") if node else None
+
+
+def named_value(node: Node, kind: Kind, enum: Enum | None, specials: tuple[Special, ...], rule: str) -> Fraction | str:
+    """A value as a map spells it: a number, a text, or the id of an enum member or special value."""
+    if kind is Kind.STRING:
+        return node.text()
+    if not node.is_text:
+        return node.number()
+    text = node.text()
+    named = {member.id.lower(): Fraction(member.code) for member in (enum.members if enum else ())}
+    named |= {special.id.lower(): special.code for special in specials}
+    if text.lower() in named:
+        return named[text.lower()]
+    if kind is Kind.VERSION and text.replace(".", "").isdecimal():
+        return Fraction(int(text.replace(".", "")))
+    unknown(node, rule, "member or special value", text, named)
+    return Fraction(0)

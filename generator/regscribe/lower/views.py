@@ -1,0 +1,102 @@
+"""The views of a register: from a view set and its address formula, or the single one that its type gives."""
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from regscribe.lower.ends import whole_ends
+from regscribe.lower.node import Node, elements_of, text_of, truth_of, whole_of
+from regscribe.lower.scope import Scope, path_of
+from regscribe.lower.tree import Entry
+from regscribe.model import Order, OrderFromRegister, Rounding, Space, View, WireType
+
+_DEFAULT_TYPES = {Space.COIL: WireType.BIT, Space.DISCRETE: WireType.BIT, Space.STATUS: WireType.UINT8}
+
+
+@dataclass(frozen=True, slots=True)
+class Home:
+    """What all views of a register share: the space, and the `at` of the address formula."""
+
+    space: Space
+    at: int
+    length: int
+
+
+def views_of(entry: Entry, scope: Scope) -> tuple[View, ...]:
+    """The views of a register, the base view first; RS0306 for an unknown view set."""
+    settings = entry.settings
+    space = settings["space"].choice(Space, Space.HOLDING) if "space" in settings else Space.HOLDING
+    length = settings["length"].whole() if "length" in settings else 1
+    home = Home(space, _at(entry), length)
+    if "views" not in settings:
+        return (_single(entry, home, scope),)
+    view_set = scope.named(settings["views"], "views", rule="RS0306", what="view set")
+    views = [_view(name, node, home, scope) for name, node in view_set.items()] if view_set else []
+    ordered = sorted(views, key=lambda view: view.name != "base")
+    return tuple(ordered) or (_single(entry, home, scope),)
+
+
+def _at(entry: Entry) -> int:
+    at = entry.settings.get("at")
+    if at is None:
+        message = f"`{entry.id}` has no address"
+        entry.node.report(
+            "RS0321", message, remedy="give `at`: the address in the manual's table, or the n of its views"
+        )
+        return 0
+    return at.whole() + entry.place.shift
+
+
+def _single(entry: Entry, home: Home, scope: Scope) -> View:
+    settings = entry.settings
+    default = _DEFAULT_TYPES.get(home.space, WireType.UINT16)
+    wire = settings["type"].choice(WireType, default) if "type" in settings else default
+    functions = tuple(node.whole() for node in settings["functions"].elements()) if "functions" in settings else ()
+    return View(
+        name="base",
+        space=home.space,
+        address=home.at,
+        type=wire,
+        words=home.length if wire is WireType.STRING else wire.words,
+        word_order=_order(settings.get("word_order"), scope),
+        byte_order=_byte_order(settings.get("byte_order")),
+        functions=functions,
+    )
+
+
+def _view(name: str, node: Node, home: Home, scope: Scope) -> View:
+    told = node.child("type")
+    wire = told.choice(WireType, WireType.UINT16) if told else WireType.UINT16
+    factor, rounding, region = node.child("factor"), node.child("rounding"), node.child("region")
+    stride = whole_of(node, "stride", 1)
+    return View(
+        name=name,
+        space=home.space,
+        address=whole_of(node, "offset") + stride * home.at,
+        type=wire,
+        words=home.length if wire is WireType.STRING else wire.words,
+        factor=factor.number() if factor else Fraction(1),
+        rounding=rounding.choice(Rounding, Rounding.NONE) if rounding else Rounding.NONE,
+        saturates=truth_of(node, "saturates"),
+        word_order=_order(node.child("word_order"), scope),
+        byte_order=_byte_order(node.child("byte_order")),
+        functions=tuple(element.whole() for element in elements_of(node, "functions")),
+        align=whole_of(node, "align", 1),
+        region=whole_ends(region) if region else None,
+        preferred=truth_of(node, "preferred"),
+        stride=stride,
+    )
+
+
+def _order(node: Node | None, scope: Scope) -> Order | OrderFromRegister:
+    if node is None:
+        return Order.BIG
+    if not node.is_mapping:
+        return node.choice(Order, Order.BIG)
+    register, codes = node.child("register"), node.child("codes")
+    path = path_of(scope.register(register), register.text()) if register else text_of(node, "register")
+    pairs = [(each.key_whole(), each.choice(Order, Order.BIG)) for each in codes.values()] if codes else []
+    return OrderFromRegister(register=path, codes=tuple(pairs))
+
+
+def _byte_order(node: Node | None) -> Order:
+    return node.choice(Order, Order.BIG) if node else Order.BIG
