@@ -1,0 +1,52 @@
+# Everything a developer does; each target calls one tool. A fresh machine needs python3 (3.11 or newer), make and git.
+
+PYTHON ?= python3
+BIN := .venv/bin
+INSTALLED := .venv/.installed
+
+.DEFAULT_GOAL := generate
+.PHONY: generate test test-all check format bench mutate lock clean
+
+generate: $(INSTALLED) ## compile all maps; only what changed is written
+	@$(BIN)/regscribe generate
+
+test: $(INSTALLED) ## run the tests
+	$(BIN)/pytest -q -n 2 -m "not slow"
+
+test-all: $(INSTALLED) ## run the tests, the slow ones too
+	$(BIN)/pytest -q -n 2
+
+check: $(INSTALLED) ## lint, types of code and generated drivers, drift of generated files
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/mypy generator generated/regscribe_devices
+	$(BIN)/pyright
+	$(BIN)/regscribe generate --check
+
+format: $(INSTALLED) ## format the code
+	$(BIN)/ruff check --fix
+	$(BIN)/ruff format
+
+bench: $(INSTALLED) ## measure against the budgets and against other tools, side by side
+	$(BIN)/python tests/bench/run.py
+
+mutate: $(INSTALLED) ## break scales, codes, addresses, orders and limits: the tests must notice each
+	$(BIN)/python tests/mutate/run.py
+
+lock: $(INSTALLED) ## pin the newest versions that requirements.in allows
+	$(BIN)/pip install --quiet uv
+	$(BIN)/uv pip compile --quiet --universal --upgrade --no-header --no-annotate --no-emit-index-url \
+		--python-version 3.11 requirements.in --output-file requirements.lock
+
+clean: ## remove the environment and all caches
+	rm -rf .venv .cache .mypy_cache .ruff_cache .pytest_cache .hypothesis dist
+
+$(INSTALLED): requirements.lock pyproject.toml
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+		{ echo "regscribe needs Python 3.11 or newer; name one: make PYTHON=python3.12 ..." >&2; exit 1; }
+	@$(PYTHON) -c 'import venv, ensurepip' 2>/dev/null || \
+		{ echo "$(PYTHON) lacks venv or ensurepip; on Debian and Ubuntu: apt-get install python3-venv" >&2; exit 1; }
+	@test -x $(BIN)/python || $(PYTHON) -m venv .venv
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --requirement requirements.lock
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
+	@touch $@
