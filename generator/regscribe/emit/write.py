@@ -46,7 +46,8 @@ def write(
     """Bring `out` up to date with `files` (text by relative path).
 
     `kept` are paths known to be up to date; `owned` tells by its id whether a map's files are stale when they are
-    neither in `files` nor in `kept`. With `check` nothing is touched. Raises WriteError before anything is written.
+    neither in `files` nor in `kept`. With `check` nothing is touched. Raises WriteError, before anything is written
+    (unless it is a stale file that cannot be removed).
     """
     kept = tuple(kept)
     files = with_package_files(files, kept)
@@ -61,7 +62,8 @@ def write(
         diff = "".join(unified(path, old, new) for path, old, new in [*old_and_new, *gone])
     else:
         _replace({targets[path]: text for path, text in changed.items()})
-        _remove(stale, out)
+        for path in stale:
+            _remove(path, out)
     unchanged = tuple(path for path in targets if path not in changed)
     return Report(tuple(sorted(changed)), tuple(stale), unchanged, diff)
 
@@ -140,17 +142,23 @@ def _replace(texts: Mapping[Path, str]) -> None:
             temporary.unlink(missing_ok=True)
 
 
-def _remove(stale: Iterable[str], out: Path) -> None:
-    """Remove stale files and the folders that they leave empty (but for a package's own `__init__.py`)."""
-    for path in stale:
+def _remove(path: str, out: Path) -> None:
+    """Remove a stale file and the folders that it leaves empty (but for a package's own `__init__.py`)."""
+    try:
         (out / path).unlink()
-        for parent in list((out / path).relative_to(out).parents)[:-1]:
-            folder = out / parent
-            only = [entry.name for entry in folder.iterdir() if entry.name != "__pycache__"]
-            if only == ["__init__.py"] and (folder / "__init__.py").read_bytes() == PACKAGE_FILE.encode():
-                (folder / "__init__.py").unlink()
+        for parent in list(PurePosixPath(path).parents)[:-1]:
+            _remove_package_file(out / parent)
             with suppress(OSError):  # not empty: someone else's files are in it
-                folder.rmdir()
+                (out / parent).rmdir()
+    except OSError as error:
+        raise _refusal(out / path, error) from None
+
+
+def _remove_package_file(folder: Path) -> None:
+    only = [entry.name for entry in folder.iterdir() if entry.name != "__pycache__"]
+    package_file = folder / "__init__.py"
+    if only == [package_file.name] and package_file.read_bytes() == PACKAGE_FILE.encode():
+        package_file.unlink()
 
 
 def _refusal(target: Path, error: OSError) -> WriteError:
