@@ -4,6 +4,7 @@ from regscribe.lower.ends import whole_ends
 from regscribe.lower.names import unknown
 from regscribe.lower.node import Node, elements_of, items_of, text_of, whole_of
 from regscribe.lower.presence import Models
+from regscribe.lower.rules import UNKNOWN_REGISTER
 from regscribe.model import Erratum, Given, GivenKind, Manual, Notation, Space, Waiver
 
 
@@ -36,7 +37,7 @@ def givens_of(root: Node, homes: dict[str, Models]) -> tuple[Given, ...]:
 def _given(name: str, node: Node, homes: dict[str, Models]) -> Given:
     told, register = node.child("type"), node.child("register")
     if register and register.text() not in homes:
-        unknown(register, "RS0301", "register", register.text(), homes)
+        unknown(register, UNKNOWN_REGISTER, "register", register.text(), homes)
     return Given(
         id=name,
         kind=told.choice(GivenKind, GivenKind.CODES) if told else GivenKind.CODES,

@@ -6,6 +6,7 @@ from regscribe.lower.encoding import words_of_value
 from regscribe.lower.names import identifier, unknown
 from regscribe.lower.node import Node, elements_of, items_of, text_of, whole_of, wholes_of
 from regscribe.lower.presence import present
+from regscribe.lower.rules import UNKNOWN_VIEW
 from regscribe.lower.scope import Scope
 from regscribe.model import Command, Protocol, Register, Space, Step, View
 
@@ -71,10 +72,10 @@ def _function(node: Node, count: int, view: View | None, device: Device) -> int:
 
 
 def view_of(node: Node | None, register: Register) -> View:
-    """The view of a register that `node` names, the base view where it is None; RS0326 for an unknown one."""
+    """The view of a register that `node` names, the base view where it is None; RS0323 for an unknown one."""
     found = [view for view in register.views if node is None or view.name == node.text()]
     if not found and node is not None:
-        unknown(node, "RS0326", f"view of `{register.path}`", node.text(), [view.name for view in register.views])
+        unknown(node, UNKNOWN_VIEW, f"view of `{register.path}`", node.text(), [view.name for view in register.views])
     return found[0] if found else register.base
 
 

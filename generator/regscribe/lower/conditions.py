@@ -6,6 +6,7 @@ from fractions import Fraction
 from regscribe.lower.ends import ends
 from regscribe.lower.names import unknown
 from regscribe.lower.node import Node
+from regscribe.lower.rules import BAD_MATCHER, CIRCLE, UNKNOWN_CONDITION, UNKNOWN_GIVEN, WRONG_SORT
 from regscribe.lower.scope import Scope, path_of
 from regscribe.lower.subject import Subject, code_of_text, subject_of
 from regscribe.model import ALWAYS, CodeRange, Condition, Test
@@ -22,7 +23,9 @@ def condition(node: Node | None, scope: Scope, within: tuple[str, ...] = ()) -> 
     if node.is_mapping:
         return Condition(tuple(test for key, matcher in node.items() for test in _tests(key, matcher, scope)))
     if not node.is_list:
-        node.report("RS0336", f"`{node.text()}` is no condition", remedy="write a name, a mapping, or a list of these")
+        node.report(
+            WRONG_SORT, f"`{node.text()}` is no condition", remedy="write a name, a mapping, or a list of these"
+        )
         return ALWAYS
     parts = [condition(element, scope, within) for element in node.elements()]
     return parts[0] if len(parts) == 1 else both(*parts)
@@ -53,9 +56,9 @@ def _named(node: Node, scope: Scope, within: tuple[str, ...]) -> Condition:
     name = node.text()
     if name in within:
         chain = " needs ".join(f"`{step}`" for step in (*within[within.index(name) :], name))
-        node.report("RS0308", f"the condition goes round in a circle: {chain}", remedy="spell one of them out")
+        node.report(CIRCLE, f"the condition goes round in a circle: {chain}", remedy="spell one of them out")
         return ALWAYS
-    found = scope.named(node, "conditions", rule="RS0307", what="condition")
+    found = scope.named(node, "conditions", rule=UNKNOWN_CONDITION, what="condition")
     return Condition(condition(found, scope, (*within, name)).tests, name=name) if found else ALWAYS
 
 
@@ -72,11 +75,11 @@ def _given_test(node: Node, scope: Scope) -> Test:
 
 
 def _given(node: Node, scope: Scope, kind: str) -> str:
-    found = scope.named(node, "givens", rule="RS0312", what="given")
+    found = scope.named(node, "givens", rule=UNKNOWN_GIVEN, what="given")
     told = found.child("type") if found else None
     if told and told.text() != kind:
         message = f"the given `{node.text()}` is of type {told.text()}, {kind} is needed here"
-        node.report("RS0312", message, remedy=f"refer to a given of type {kind}")
+        node.report(UNKNOWN_GIVEN, message, remedy=f"refer to a given of type {kind}")
     return node.text()
 
 
@@ -88,7 +91,7 @@ def _test(matcher: Node, subject: Subject, scope: Scope, *, negated: bool) -> Te
         if key in _SETS:
             given = _given(node, scope, "codes")
             return Test(register=register, field=field, given=given, negated=negated != (key == "not_in"))
-        unknown(matcher, "RS0331", "matcher", key, [*_SETS, "not"])
+        unknown(matcher, BAD_MATCHER, "matcher", key, [*_SETS, "not"])
     codes = tuple(_code(node, subject, scope) for node in matcher.elements() if not matcher.is_mapping)
     return Test(register=register, field=field, codes=codes, negated=negated)
 
@@ -96,7 +99,7 @@ def _test(matcher: Node, subject: Subject, scope: Scope, *, negated: bool) -> Te
 def _code(node: Node, subject: Subject, scope: Scope) -> CodeRange:
     if node.is_mapping or node.is_list:
         remedy = "a list holds numbers, ranges and enum members; use one `not`, `in` or `not_in` beside no others"
-        node.report("RS0331", "this cannot stand in a list of codes", remedy=remedy)
+        node.report(BAD_MATCHER, "this cannot stand in a list of codes", remedy=remedy)
         return CodeRange(Fraction(0), Fraction(0))
     if node.is_text and ".." in node.text():
         return CodeRange(*ends(node))

@@ -4,6 +4,7 @@ import struct
 from fractions import Fraction
 
 from regscribe.lower.node import Node
+from regscribe.lower.rules import NOT_CONSTANT, UNKNOWN_MEMBER
 from regscribe.lower.values import named_value
 from regscribe.model import Order, Register, Rounding, View, WireType, show
 
@@ -13,18 +14,18 @@ _INSTEAD = "give the `words` that the manual prints"
 
 
 def words_of_value(node: Node, register: Register, view: View) -> tuple[int, ...]:
-    """The words that transmit the value in a view; RS0330 where they are not constant or cannot carry it."""
-    value = named_value(node, register.kind, register.enum, register.specials, "RS0305")
+    """The words that transmit the value in a view; RS0326 where they are not constant or cannot carry it."""
+    value = named_value(node, register.kind, register.enum, register.specials, UNKNOWN_MEMBER)
     reason = _hindrance(register, view)
     if reason or isinstance(value, str):
-        node.report("RS0330", reason or "a text has no constant words", remedy=_INSTEAD)
+        node.report(NOT_CONSTANT, reason or "a text has no constant words", remedy=_INSTEAD)
         return ()
     conversion = register.scale[0].then
     stored = (value - conversion.add) / conversion.multiply
     bits = _bits(stored * view.factor, view)
     if bits is None:
         message = f"{show(value)} cannot be sent as {view.type} of `{register.path}`"
-        node.report("RS0330", message, remedy=f"choose another value or view, or {_INSTEAD}")
+        node.report(NOT_CONSTANT, message, remedy=f"choose another value or view, or {_INSTEAD}")
         return ()
     words = tuple(bits >> _WORD * place & 0xFFFF for place in reversed(range(view.words)))
     return words if view.word_order is Order.BIG else words[::-1]

@@ -4,37 +4,38 @@ import re
 from fractions import Fraction
 
 from regscribe.lower.node import Node
+from regscribe.lower.rules import REVERSED, WRONG_SORT
 from regscribe.model import exact, show
 
 _ENDS = re.compile(r"\s*([+-]?[0-9]+(?:\.[0-9]+)?)\s*\.\.\s*([+-]?[0-9]+(?:\.[0-9]+)?)\s*")
 
 
 def ends(node: Node) -> tuple[Fraction, Fraction]:
-    """The two ends that `a..b` spells; a plain number stands for both. RS0316 and RS0317 where it does not."""
+    """The two ends that `a..b` spells; a plain number stands for both. RS0330 and RS0315 where it does not."""
     low, high = unordered(node)
     if low > high:
         message = f"the range {node.text()} is reversed: {show(low)} is more than {show(high)}"
-        node.report("RS0317", message, remedy=f"write {show(high)}..{show(low)}")
+        node.report(REVERSED, message, remedy=f"write {show(high)}..{show(low)}")
         return high, low
     return low, high
 
 
 def unordered(node: Node) -> tuple[Fraction, Fraction]:
-    """The two ends that `a..b` spells, in whatever order; RS0316 for any other text."""
+    """The two ends that `a..b` spells, in whatever order; RS0330 for any other text."""
     if node.is_number:
         return node.number(), node.number()
     match = _ENDS.fullmatch(node.value) if node.is_text else None
     if match is None:
         shown = f"`{node.value}`" if node.is_text else "this"
-        node.report("RS0316", f"{shown} is no range", remedy="write two numbers as a..b, for example -10..250.5")
+        node.report(WRONG_SORT, f"{shown} is no range", remedy="write two numbers as a..b, for example -10..250.5")
         return Fraction(0), Fraction(0)
     return exact(match[1]), exact(match[2])
 
 
 def whole_ends(node: Node) -> tuple[int, int]:
-    """The two whole ends that `a..b` spells; RS0316 where one has a fraction."""
+    """The two whole ends that `a..b` spells; RS0330 where one has a fraction."""
     low, high = ends(node)
     if low.denominator != 1 or high.denominator != 1:
-        node.report("RS0316", f"`{node.text()}` is no range of whole numbers", remedy="write whole numbers, as 1..8")
+        node.report(WRONG_SORT, f"`{node.text()}` is no range of whole numbers", remedy="write whole numbers, as 1..8")
         return 0, 0
     return low.numerator, high.numerator

@@ -4,6 +4,7 @@ from regscribe.lower.ends import whole_ends
 from regscribe.lower.names import identifier, snake
 from regscribe.lower.node import Node, text_of
 from regscribe.lower.presence import present
+from regscribe.lower.rules import BAD_BITS, UNKNOWN_ENUM
 from regscribe.lower.scope import Scope
 from regscribe.lower.tree import Entry
 from regscribe.model import BitField, Enum, Member
@@ -12,17 +13,18 @@ from regscribe.model import BitField, Enum, Member
 def enum_of(node: Node, scope: Scope, *, inline_id: str) -> Enum | None:
     """The enum that `node` names or spells; None with RS0304 where the name is unknown."""
     if not node.is_text:
-        return _enum(node, scope, inline_id, span_node=node)
-    key = (node.text(), scope.model)
-    if key not in scope.enums:
-        table = scope.named(node, "enums", rule="RS0304", what="enum")
+        return enum_at(node, scope, inline_id)
+    name = node.text()
+    if name not in scope.enums:
+        table = scope.named(node, "enums", rule=UNKNOWN_ENUM, what="enum")
         if table is None:
             return None
-        scope.enums[key] = _enum(table, scope, node.text(), span_node=table)
-    return scope.enums[key]
+        scope.enums[name] = enum_at(table, scope, name)
+    return scope.enums[name]
 
 
-def _enum(table: Node, scope: Scope, name: str, *, span_node: Node) -> Enum:
+def enum_at(table: Node, scope: Scope, name: str) -> Enum:
+    """The enum whose members stand at `table`, as the model of the scope has it."""
     members = []
     invalid = []
     for node in table.values():
@@ -31,7 +33,7 @@ def _enum(table: Node, scope: Scope, name: str, *, span_node: Node) -> Enum:
             members.append(_member(node))
         elif node.child("invalid") and (here or node.child("label")):
             invalid.append((node.key_whole(), text_of(node, "invalid")))
-    return Enum(id=name, members=tuple(members), invalid=tuple(invalid), span=span_node.key_span)
+    return Enum(id=name, members=tuple(members), invalid=tuple(invalid), span=table.key_span)
 
 
 def _member(node: Node) -> Member:
@@ -66,7 +68,7 @@ def enum_for(entry: Entry, scope: Scope, field: str = "") -> tuple[Node, Enum] |
     enum = enum_of(node, scope, inline_id=name) if node else None
     if node is None or enum is None:
         return None
-    table = scope.named(node, "enums", rule="RS0304", what="enum") if node.is_text else node
+    table = scope.named(node, "enums", rule=UNKNOWN_ENUM, what="enum") if node.is_text else node
     return (table, enum) if table else None
 
 
@@ -88,7 +90,7 @@ def _here(node: Node, scope: Scope) -> bool:
 def _flag(node: Node) -> BitField:
     label = _label(node)
     bit = _bit(node, node.key_whole(), at_key=True)
-    name = identifier(node.child("label") or node, label=label, given=node.child("id"))
+    name = identifier(node.child("label") or node, label=label, given=node.child("id")).lower()
     return BitField(id=name, label=label, low=bit, high=bit, description=text_of(node, "description"))
 
 
@@ -96,7 +98,7 @@ def _field(name: str, node: Node, scope: Scope, entry: Entry) -> BitField:
     bits = node.child("bits") or node.child("bit")
     low, high = whole_ends(bits) if bits else (0, 0)
     if bits is None:
-        node.report("RS0318", f"the field `{name}` has no bits", remedy="give `bit: 3` or `bits: 0..3`")
+        node.report(BAD_BITS, f"the field `{name}` has no bits", remedy="give `bit: 3` or `bits: 0..3`")
     else:
         _bit(bits, low)
         _bit(bits, high)
@@ -114,5 +116,5 @@ def _field(name: str, node: Node, scope: Scope, entry: Entry) -> BitField:
 def _bit(node: Node, bit: int, *, at_key: bool = False) -> int:
     if 0 <= bit <= 63:  # noqa: PLR2004 - the widest wire type has bits 0 to 63
         return bit
-    node.report("RS0318", f"there is no bit {bit}", remedy="bits count from 0, the least significant", at_key=at_key)
+    node.report(BAD_BITS, f"there is no bit {bit}", remedy="bits count from 0, the least significant", at_key=at_key)
     return 0

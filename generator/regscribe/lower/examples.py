@@ -7,8 +7,9 @@ from regscribe.lower.commands import unsigned, view_of
 from regscribe.lower.names import unknown
 from regscribe.lower.node import Node, elements_of, items_of, text_of, truth_of, whole_of, wholes_of
 from regscribe.lower.presence import named_models
+from regscribe.lower.rules import UNKNOWN_COMMAND, UNKNOWN_FLAG, UNKNOWN_MEMBER, UNKNOWN_SENTINEL, WRONG_SORT
 from regscribe.lower.scope import Scope
-from regscribe.lower.subject import code_of_text, subject_of
+from regscribe.lower.subject import Subject, code_of_text, subject_of
 from regscribe.lower.values import named_value
 from regscribe.model import Example, FrameExample, Kind, Outcome, Register, TimingExample, ValueExample
 
@@ -54,13 +55,21 @@ def _product(node: Node, products: list[Product]) -> Product:
 
 
 def _state(node: Node, product: Product) -> tuple[tuple[str, Fraction], ...]:
-    state = []
-    for key, value in items_of(node, "with"):
-        subject = subject_of(value, key, product.scope)
-        if subject:
-            code = code_of_text(value, subject, product.scope) if value.is_text else value.number()
-            state.append((key, code))
-    return tuple(state)
+    pairs = [_fact(key, value, product.scope) for key, value in items_of(node, "with")]
+    return tuple(pair for pair in pairs if pair)
+
+
+def _fact(key: str, value: Node, scope: Scope) -> tuple[str, Fraction] | None:
+    """What a key of `with` is about: a register, a bit field, or a given (whose codes are those of its register)."""
+    givens = scope.map.child("givens")
+    given = givens.child(key) if givens and scope.find(key) is None else None
+    if given and not value.is_text:
+        return key, value.number()
+    entry = scope.find(text_of(given, "register")) if given else None
+    subject = Subject(key, entry) if entry else subject_of(value, key, scope)
+    if subject is None:
+        return None
+    return key, code_of_text(value, subject, scope) if value.is_text else value.number()
 
 
 def _value(node: Node, product: Product) -> ValueExample:
@@ -98,18 +107,18 @@ def _reading(node: Node | None, register: Register | None) -> tuple[Fraction | s
         known = [each.id for each in register.fields if each.is_flag]
         for element in node.elements():
             if element.text() not in known:
-                unknown(element, "RS0327", f"flag of `{register.path}`", element.text(), known)
+                unknown(element, UNKNOWN_FLAG, f"flag of `{register.path}`", element.text(), known)
         return None, tuple(element.text() for element in node.elements())
     if node.is_text and register.kind in {Kind.STRING, Kind.VERSION}:
         return node.text(), None
-    return named_value(node, register.kind, register.enum, register.specials, "RS0305"), None
+    return named_value(node, register.kind, register.enum, register.specials, UNKNOWN_MEMBER), None
 
 
 def _fault(node: Node, register: Register | None) -> str:
-    known = [sentinel.id for sentinel in register.sentinels] if register else []
-    if register and node.text() not in known:
-        unknown(node, "RS0329", f"sentinel of `{register.path}`", node.text(), known)
-    return node.text()
+    known = {sentinel.id.lower(): sentinel.id for sentinel in register.sentinels} if register else {}
+    if register and node.text().lower() not in known:
+        unknown(node, UNKNOWN_SENTINEL, f"sentinel of `{register.path}`", node.text(), known)
+    return known.get(node.text().lower(), "")
 
 
 def _frame(node: Node, product: Product) -> FrameExample:
@@ -140,7 +149,7 @@ def _bytes(node: Node) -> bytes:
         return bytes.fromhex(frame.text()) if frame else b""
     except ValueError:
         (frame or node).report(
-            "RS0328", "the frame is no hex text", remedy="write two hex digits a byte, as 9C 06 0F A9"
+            WRONG_SORT, "the frame is no hex text", remedy="write two hex digits a byte, as 9C 06 0F A9"
         )
         return b""
 
@@ -149,17 +158,17 @@ def _write(key: str, node: Node, product: Product) -> tuple[str, Fraction]:
     register = product.register(node, key, at_key=True)
     if register is None:
         return key, Fraction(0)
-    value = named_value(node, register.kind, register.enum, register.specials, "RS0305")
+    value = named_value(node, register.kind, register.enum, register.specials, UNKNOWN_MEMBER)
     if isinstance(value, Fraction):
         return register.path, value
-    node.report("RS0336", f"`{key}` is a text, not a number", remedy="give the `words` of the frame instead")
+    node.report(WRONG_SORT, f"`{key}` is a text, not a number", remedy="give the `words` of the frame instead")
     return register.path, Fraction(0)
 
 
 def _command(node: Node, product: Product) -> str:
     command = node.child("command")
     if command and command.text() not in product.commands:
-        unknown(command, "RS0313", "command", command.text(), product.commands)
+        unknown(command, UNKNOWN_COMMAND, "command", command.text(), product.commands)
     return command.text() if command else ""
 
 

@@ -1,8 +1,8 @@
 """Groups of registers: what one model has of each, and their order for writing."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-from regscribe.lower.names import identifier, unknown
+from regscribe.lower.names import identifier
 from regscribe.lower.node import Node, elements_of, text_of, whole_of
 from regscribe.lower.presence import Models
 from regscribe.lower.tree import Entry, Item, Place, entries_of, items_in, span_of
@@ -42,13 +42,9 @@ def _bundle(node: Node, model: str, models: Models) -> Bundle:
     return Bundle(node, name, items_in(elements_of(node, "registers"), place))
 
 
-def groups_of(bundles: list[Bundle], root: Node) -> tuple[Group, ...]:
+def groups_of(bundles: list[Bundle]) -> tuple[Group, ...]:
     """The groups that a model has something of; a group that is empty in the map itself is kept for the checks."""
-    order = _write_order(root, [bundle.id for bundle in bundles])
-    kept = [bundle for bundle in bundles if bundle.entries or not elements_of(bundle.node, "registers")]
-    return tuple(
-        replace(_group(bundle), order=order[bundle.id]) if bundle.id in order else _group(bundle) for bundle in kept
-    )
+    return tuple(_group(bundle) for bundle in bundles if bundle.entries or not elements_of(bundle.node, "registers"))
 
 
 def _group(bundle: Bundle) -> Group:
@@ -62,13 +58,3 @@ def _group(bundle: Bundle) -> Group:
         order=whole_of(node, "order") if node.child("order") else None,
         span=span_of(node),
     )
-
-
-def _write_order(root: Node, known: list[str]) -> dict[str, int]:
-    """The place of each group that the map's `write_order` lists, from 1; RS0315 for unknown groups."""
-    order: dict[str, int] = {}
-    for place, node in enumerate(elements_of(root, "write_order"), start=1):
-        if node.text() not in known:
-            unknown(node, "RS0315", "group", node.text(), known)
-        order.setdefault(node.text(), place)
-    return order

@@ -3,6 +3,7 @@
 from regscribe.lower.names import unknown
 from regscribe.lower.node import Node, elements_of, texts_of
 from regscribe.lower.presence import Models
+from regscribe.lower.rules import IDLE_VARIANT, UNKNOWN_MODEL
 
 NOT_SETTINGS = frozenset({"variants", "models", "except"})
 _NUMERIC = frozenset({"scale", "decimals", "multiply", "add", "range", "range_decimals", "unit"})
@@ -45,10 +46,10 @@ def _lay(own: dict[str, Node], settings: Settings) -> None:
             settings[key] = node
 
 
-def variants_for(register: Node, model: str, has: Models, every: Models) -> list[Node]:
-    """The variants of a register that count on `model`; RS0314 and RS0323 for models that it cannot be on."""
-    chosen = []
-    for variant in elements_of(register, "variants"):
+def with_variants(layer: Node, model: str, has: Models, every: Models) -> list[Node]:
+    """A layer and the variants of it that count on `model`; RS0314 and RS0320 for models that none can be for."""
+    chosen = [layer]
+    for variant in elements_of(layer, "variants"):
         for node in elements_of(variant, "models"):
             _check(node, has, every)
         if model in texts_of(variant, "models"):
@@ -59,7 +60,7 @@ def variants_for(register: Node, model: str, has: Models, every: Models) -> list
 def _check(node: Node, has: Models, every: Models) -> None:
     name = node.text()
     if name not in every:
-        unknown(node, "RS0314", "model", name, every)
+        unknown(node, UNKNOWN_MODEL, "model", name, every)
     elif name not in has:
         message = f"this variant is for {name}, but the register is not on {name}"
-        node.report("RS0323", message, remedy=f"the register is on: {', '.join(has) or 'no model'}")
+        node.report(IDLE_VARIANT, message, remedy=f"the register is on: {', '.join(has) or 'no model'}")

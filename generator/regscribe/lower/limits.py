@@ -3,6 +3,7 @@
 from regscribe.lower.conditions import both, condition, excludes
 from regscribe.lower.ends import ends
 from regscribe.lower.node import Node, text_of
+from regscribe.lower.rules import REVERSED
 from regscribe.lower.scales import Scaling, decimals_rule
 from regscribe.lower.scope import Scope, path_of
 from regscribe.lower.tree import Entry
@@ -74,7 +75,7 @@ def _interval(node: Node, scope: Scope) -> Interval:
 def _in_order(node: Node, low: Number, high: Number) -> None:
     if low.value > high.value:
         message = f"the range is reversed: from {show(low.value)} is more than to {show(high.value)}"
-        node.report("RS0317", message, remedy=f"write from: {show(high.value)}, to: {show(low.value)}")
+        node.report(REVERSED, message, remedy=f"write from: {show(high.value)}, to: {show(low.value)}")
 
 
 def _limit(node: Node | None, scope: Scope) -> Limit:

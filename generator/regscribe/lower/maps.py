@@ -1,5 +1,7 @@
 """A whole map: its models one by one, and what stands around them."""
 
+from dataclasses import replace
+
 from regscribe.lower.about import errata_of, givens_of, manual_of, notations_of, reserved_of, waivers_of
 from regscribe.lower.arrays import members_of
 from regscribe.lower.commands import Device, commands_of
@@ -12,6 +14,7 @@ from regscribe.lower.presence import Models, named_models
 from regscribe.lower.protocol import protocol_of
 from regscribe.lower.scope import Scope
 from regscribe.lower.units import own_symbols
+from regscribe.lower.unused import look_at_tables
 from regscribe.model import Identity, Model, Protocol, RegisterMap
 
 
@@ -20,6 +23,8 @@ def map_of(root: Node) -> RegisterMap:
     protocol = protocol_of(root.child("protocol"))
     scopes, bundles = _scopes(root)
     products = [_product(root, scope, bundles[scope.model], protocol) for scope in scopes]
+    for scope in scopes:
+        look_at_tables(root, replace(scope, lenient=True))
     about = root.child("map") or root
     return RegisterMap(
         id=text_of(about, "id"),
@@ -70,7 +75,7 @@ def _product(root: Node, scope: Scope, bundles: list[Bundle], protocol: Protocol
         description=text_of(node, "description"),
         members=members,
         registers=registers,
-        groups=groups_of(bundles, root),
+        groups=groups_of(bundles),
         commands=commands,
         span=node.key_span,
     )
@@ -79,11 +84,7 @@ def _product(root: Node, scope: Scope, bundles: list[Bundle], protocol: Protocol
 
 def _class_name(root: Node, node: Node, model: str) -> str:
     prefix = text_of(root.child("map") or root, "class_prefix")
-    name = text_of(node, "class") or f"{prefix}{letters_and_digits(model)}"
-    if not name.isidentifier():
-        message = f"`{name}` is no identifier for the class of {model}"
-        node.report("RS0319", message, remedy="give the model a `class`, or the map a `class_prefix`", at_key=True)
-    return name
+    return text_of(node, "class") or f"{prefix}{letters_and_digits(model)}"
 
 
 def _identities(root: Node, scopes: list[Scope]) -> tuple[Identity, ...]:

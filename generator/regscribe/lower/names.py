@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from difflib import get_close_matches
 
 from regscribe.lower.node import Node
+from regscribe.lower.rules import NO_IDENTIFIER
 
 _RUN = re.compile(r"[A-Za-z0-9]+")
 _LISTED = 12
@@ -21,14 +22,14 @@ def letters_and_digits(text: str) -> str:
 
 
 def identifier(node: Node, *, label: str, given: Node | None, capitals: bool = False) -> str:
-    """The identifier `given` in the map, or else the one derived from `label`; RS0319 where that is none."""
+    """The identifier `given` in the map, or else the one derived from `label`; RS0317 where that is none."""
     name = given.text() if given else snake(label)
     if not name.isidentifier():
         where = given or node
         what = f"`{name}` is no identifier" if given else f"no identifier can be derived from `{label}`"
-        where.report("RS0319", what, remedy="give an `id` of letters, digits and _ that starts with a letter")
+        where.report(NO_IDENTIFIER, what, remedy="give an `id` of letters, digits and _ that starts with a letter")
         return "unnamed"
-    return name.upper() if capitals and not given else name
+    return name.upper() if capitals else name
 
 
 def unknown(node: Node, rule: str, what: str, name: str, known: Iterable[str], *, at_key: bool = False) -> None:

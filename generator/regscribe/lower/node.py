@@ -7,6 +7,7 @@ from enum import StrEnum
 from fractions import Fraction
 from typing import Any, TypeVar
 
+from regscribe.lower.rules import WRONG_SORT
 from regscribe.model import Diagnostic, Related, Span, exact
 from regscribe.source import Document
 
@@ -44,7 +45,7 @@ class Context:
 class Node:
     """One value of the document: `value` as `regscribe.source` gives it, `path` from the top.
 
-    The readers (`text`, `number`, ...) are total: where the value is of another sort they report RS0336 and return a
+    The readers (`text`, `number`, ...) are total: where the value is of another sort they report RS0330 and return a
     placeholder, so that lowering goes on and finds the other mistakes.
     """
 
@@ -67,9 +68,12 @@ class Node:
         """The last step of the path, as text."""
         return str(self.path[-1]) if self.path else ""
 
-    def report(self, rule: str, message: str, *, remedy: str = "", at_key: bool = False) -> None:
+    def report(
+        self, rule: str, message: str, *, remedy: str = "", at_key: bool = False, related: tuple[Related, ...] = ()
+    ) -> None:
         """Report a mistake at this value (or at its key)."""
-        self.context.report(rule, message, span=self.key_span if at_key else self.span, remedy=remedy)
+        span = self.key_span if at_key else self.span
+        self.context.report(rule, message, span=span, remedy=remedy, related=related)
 
     def child(self, key: str) -> "Node | None":
         """The value of a key; None where the key is absent or null."""
@@ -149,7 +153,7 @@ class Node:
         number = self.key_number()
         if number.denominator == 1:
             return number.numerator
-        self.report("RS0332", f"the key {self.key} is no whole number", remedy="write a whole number", at_key=True)
+        self.report(WRONG_SORT, f"the key {self.key} is no whole number", remedy="write a whole number", at_key=True)
         return 0
 
     def key_number(self) -> Fraction:
@@ -157,7 +161,7 @@ class Node:
         try:
             return exact(self.key)
         except ValueError:
-            self.report("RS0332", f"the key `{self.key}` is no number", remedy="write a number", at_key=True)
+            self.report(WRONG_SORT, f"the key `{self.key}` is no number", remedy="write a number", at_key=True)
             return Fraction(0)
 
     _Other = TypeVar("_Other")
@@ -167,7 +171,7 @@ class Node:
             type(self.value), "a number"
         )
         shown = "" if isinstance(self.value, dict | list) else f" ({self.value})"
-        self.report("RS0336", f"`{self.key}` is {kind}{shown}, not {wanted}", remedy=f"write {wanted}")
+        self.report(WRONG_SORT, f"`{self.key}` is {kind}{shown}, not {wanted}", remedy=f"write {wanted}")
         return other
 
 

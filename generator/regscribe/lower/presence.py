@@ -2,6 +2,7 @@
 
 from regscribe.lower.names import unknown
 from regscribe.lower.node import Node, elements_of
+from regscribe.lower.rules import UNKNOWN_MODEL
 
 Models = tuple[str, ...]
 
@@ -18,5 +19,5 @@ def named_models(nodes: list[Node], every: Models) -> Models:
     """The models that a list names; RS0314 for names of no model."""
     for node in nodes:
         if node.text() not in every:
-            unknown(node, "RS0314", "model", node.text(), every)
+            unknown(node, UNKNOWN_MODEL, "model", node.text(), every)
     return tuple(node.text() for node in nodes if node.text() in every)

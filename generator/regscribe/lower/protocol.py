@@ -5,6 +5,7 @@ from fractions import Fraction
 
 from regscribe.lower.ends import ends, whole_ends
 from regscribe.lower.node import Node, items_of, text_of, texts_of, truth_of, whole_of, wholes_of
+from regscribe.lower.rules import WRONG_SORT
 from regscribe.model import SILENCE, ExceptionCode, Faults, Latency, Later, Protocol, Serial
 
 _LATER = ("later_read", "later_write")
@@ -92,5 +93,5 @@ def _default(node: Node | None) -> tuple[int | None, str]:
     if node is None or (len(words) == 2 and words[0].isdecimal()):  # noqa: PLR2004 - the speed and the format
         return (int(words[0]), words[1]) if words else (None, "")
     message = f"`{node.text()}` is no setting of a serial line"
-    node.report("RS0335", message, remedy="write the speed and the character format, as 9600 8N1")
+    node.report(WRONG_SORT, message, remedy="write the speed and the character format, as 9600 8N1")
     return None, ""

@@ -4,6 +4,7 @@ from regscribe.lower.conditions import condition
 from regscribe.lower.enums import enum_of, fields_of
 from regscribe.lower.limits import range_of
 from regscribe.lower.node import Node, text_of
+from regscribe.lower.rules import NO_ACCESS, UNKNOWN_COMMAND
 from regscribe.lower.scales import NOT_STATED, Scaling, scale_of
 from regscribe.lower.scope import Scope
 from regscribe.lower.tree import Entry
@@ -96,7 +97,7 @@ def _access(entry: Entry) -> Access:
     if node is not None:
         return node.choice(Access, Access.READ)
     message = f"`{entry.id}` has no access"
-    entry.node.report("RS0322", message, remedy="give `access: r`, `rw` or `w` here or in the group's `each`")
+    entry.node.report(NO_ACCESS, message, remedy="give `access: r`, `rw` or `w` here or in the group's `each`")
     return Access.READ
 
 
@@ -113,7 +114,7 @@ def _writable(node: Node | None, scope: Scope) -> Writable | None:
 def _command(node: Node | None, scope: Scope) -> str:
     if node is None:
         return ""
-    scope.named(node, "commands", rule="RS0313", what="command")
+    scope.named(node, "commands", rule=UNKNOWN_COMMAND, what="command")
     return node.text()
 
 

@@ -2,44 +2,74 @@
 
 from regscribe.model import Rule
 
+UNKNOWN_REGISTER = "RS0301"
+OTHER_MODELS = "RS0302"
+UNKNOWN_FIELD = "RS0303"
+UNKNOWN_ENUM = "RS0304"
+UNKNOWN_MEMBER = "RS0305"
+UNKNOWN_VIEWS = "RS0306"
+UNKNOWN_CONDITION = "RS0307"
+CIRCLE = "RS0308"
+UNKNOWN_SCALE = "RS0309"
+UNKNOWN_DECIMALS = "RS0310"
+UNKNOWN_UNIT = "RS0311"
+UNKNOWN_GIVEN = "RS0312"
+UNKNOWN_COMMAND = "RS0313"
+UNKNOWN_MODEL = "RS0314"
+REVERSED = "RS0315"
+BAD_BITS = "RS0316"
+NO_IDENTIFIER = "RS0317"
+TWO_SCALES = "RS0318"
+NO_ACCESS = "RS0319"
+IDLE_VARIANT = "RS0320"
+ON_NO_MODEL = "RS0321"
+BAD_DEFAULT = "RS0322"
+UNKNOWN_VIEW = "RS0323"
+UNKNOWN_FLAG = "RS0324"
+UNKNOWN_SENTINEL = "RS0325"
+NOT_CONSTANT = "RS0326"
+BAD_MATCHER = "RS0327"
+NO_ENDS = "RS0328"
+BAD_VERSION = "RS0329"
+WRONG_SORT = "RS0330"
+TOO_MANY_ELEMENTS = "RS0331"
+TYPE_BESIDE_VIEWS = "RS0332"
+
 _NAMES = "A name must mean something, or the driver would look up what does not exist."
 
 RULES: tuple[Rule, ...] = (
-    Rule("RS0301", "reference to an unknown register", _NAMES),
-    Rule("RS0302", "reference to a register that only other models have", "A driver has the registers of one model."),
-    Rule("RS0303", "reference to an unknown bit field", _NAMES),
-    Rule("RS0304", "reference to an unknown enum", _NAMES),
-    Rule("RS0305", "unknown enum member or special value", "A code by name must be one that the register can have."),
-    Rule("RS0306", "reference to an unknown view set", _NAMES),
-    Rule("RS0307", "reference to an unknown condition", _NAMES),
-    Rule("RS0308", "conditions that need each other", "A condition that refers to itself never comes to an answer."),
-    Rule("RS0309", "reference to an unknown scale", _NAMES),
-    Rule("RS0310", "reference to an unknown decimals rule", _NAMES),
-    Rule("RS0311", "unknown unit", "A mistyped unit would be believed; a map declares the units that are not common."),
-    Rule("RS0312", "unknown given, or one of another type", _NAMES),
-    Rule("RS0313", "reference to an unknown command", _NAMES),
-    Rule("RS0314", "reference to an unknown model", "A mistyped model would silently lose or keep a register."),
-    Rule("RS0315", "reference to an unknown group", _NAMES),
-    Rule("RS0316", "malformed range", "A range is written a..b, so that nobody has to guess what is meant."),
-    Rule("RS0317", "reversed range", "A range whose lower end is above its upper end allows nothing."),
-    Rule("RS0318", "bad bit or bit range", "Bits count from 0, the least significant, to 63 at most."),
-    Rule("RS0319", "no identifier", "Names become identifiers of the driver; some need an `id` of their own."),
-    Rule("RS0320", "two scales", "A value is scaled once: by `scale`, by `decimals`, or by `multiply` and `add`."),
-    Rule("RS0321", "register without address", "Every register stands somewhere."),
-    Rule("RS0322", "register without access", "Whether a register can be written must be said, never assumed."),
-    Rule("RS0323", "variant for a model without the register", "A variant that never counts hides a mistake."),
-    Rule("RS0324", "register on no model", "What no model has is in no driver."),
-    Rule("RS0325", "default that names nothing", "A default is a number, or the name of a member or special value."),
-    Rule("RS0326", "unknown view of a register", _NAMES),
-    Rule("RS0327", "unknown flag in an example", _NAMES),
-    Rule("RS0328", "frame that is no hex text", "A frame is written byte by byte, two hex digits each."),
-    Rule("RS0329", "unknown sentinel in an example", _NAMES),
-    Rule("RS0330", "value of a step that is not constant", "A command has words that depend on nothing else."),
-    Rule("RS0331", "malformed matcher", "Codes in a list are alternatives; `not`, `in` and `not_in` stand alone."),
-    Rule("RS0332", "key that is no number", "Codes, bits and function codes are keys and must be numbers."),
-    Rule("RS0333", "ends of a scale on a type without ends", "From and to are at the lowest and highest raw code."),
-    Rule("RS0334", "malformed version pattern", "A version packs decimal digits in groups of equal length."),
-    Rule("RS0335", "malformed serial setting", "The setting of a serial line is its speed and character format."),
-    Rule("RS0336", "value of another sort", "A number, text, list or mapping is needed where another stands."),
-    Rule("RS0343", "array beyond the address space", "There are 65536 addresses, so no array has more elements."),
+    Rule(UNKNOWN_REGISTER, "Unknown register", _NAMES),
+    Rule(OTHER_MODELS, "Register of other models only", "The driver of a model reaches the registers of that model."),
+    Rule(UNKNOWN_FIELD, "Unknown bit field", _NAMES),
+    Rule(UNKNOWN_ENUM, "Unknown enum", _NAMES),
+    Rule(UNKNOWN_MEMBER, "Unknown enum member or special value", "A code by name must be one that the map gives."),
+    Rule(UNKNOWN_VIEWS, "Unknown view set", _NAMES),
+    Rule(UNKNOWN_CONDITION, "Unknown condition", _NAMES),
+    Rule(CIRCLE, "Conditions that need each other", "A condition that refers to itself never comes to an answer."),
+    Rule(UNKNOWN_SCALE, "Unknown scale", _NAMES),
+    Rule(UNKNOWN_DECIMALS, "Unknown decimals rule", _NAMES),
+    Rule(UNKNOWN_UNIT, "Unknown unit", "A mistyped unit would be believed, so a map declares units that are uncommon."),
+    Rule(UNKNOWN_GIVEN, "Unknown given, or one of another type", _NAMES),
+    Rule(UNKNOWN_COMMAND, "Unknown command", _NAMES),
+    Rule(UNKNOWN_MODEL, "Unknown model", "A mistyped model would silently lose or keep a register."),
+    Rule(REVERSED, "Reversed range", "A range whose lower end is above its upper end allows nothing."),
+    Rule(BAD_BITS, "No such bit", "Bits count from 0, the least significant, to 63 in the widest type."),
+    Rule(
+        NO_IDENTIFIER, "No identifier", "Names become identifiers of the driver; some names need an `id` beside them."
+    ),
+    Rule(TWO_SCALES, "Two scales", "A value is scaled once: by `scale`, by `decimals`, or by `multiply` and `add`."),
+    Rule(NO_ACCESS, "Register without access", "Whether a register can be written must be said, never assumed."),
+    Rule(IDLE_VARIANT, "Variant for a model without the register", "A variant that never counts hides a mistake."),
+    Rule(ON_NO_MODEL, "Register on no model", "What no model has is in no driver."),
+    Rule(BAD_DEFAULT, "Default that names nothing", "A default is a number, or the name of a member or special value."),
+    Rule(UNKNOWN_VIEW, "Unknown view of a register", _NAMES),
+    Rule(UNKNOWN_FLAG, "Unknown flag in an example", _NAMES),
+    Rule(UNKNOWN_SENTINEL, "Unknown sentinel in an example", _NAMES),
+    Rule(NOT_CONSTANT, "Value of a step that is not constant", "The words of a command depend on nothing else."),
+    Rule(BAD_MATCHER, "Malformed matcher", "Codes in a list are alternatives; `not`, `in` and `not_in` stand alone."),
+    Rule(NO_ENDS, "Scale from end to end of a type without ends", "The ends are at the lowest and highest raw code."),
+    Rule(BAD_VERSION, "Malformed version pattern", "A version packs decimal digits in groups of equal length."),
+    Rule(WRONG_SORT, "Value of another sort", "A number cannot be made of a text, nor the other way round."),
+    Rule(TOO_MANY_ELEMENTS, "Array beyond the address space", "There are 65536 addresses, and no more elements."),
+    Rule(TYPE_BESIDE_VIEWS, "Type beside views", "Each view has a type of its own; another one would not count."),
 )

@@ -6,6 +6,7 @@ from fractions import Fraction
 from regscribe.lower.conditions import condition
 from regscribe.lower.ends import unordered
 from regscribe.lower.node import Node
+from regscribe.lower.rules import NO_ENDS, TWO_SCALES, UNKNOWN_DECIMALS, UNKNOWN_SCALE, WRONG_SORT
 from regscribe.lower.scope import Scope, path_of
 from regscribe.lower.tree import Entry
 from regscribe.model import ALWAYS, IDENTITY, Case, Cases, Condition, Conversion, Decimals, WireType, always, show
@@ -25,12 +26,12 @@ class Scaling:
 
 
 def scale_of(entry: Entry, wire: WireType, scope: Scope) -> tuple[Scaling, ...]:
-    """The conversion of a register by case; RS0320 where the map gives two."""
+    """The conversion of a register by case; RS0318 where the map gives two."""
     settings = entry.settings
     given = [key for key in ("scale", "decimals", "multiply", "add") if key in settings]
     if len(given) > 1 and given != ["multiply", "add"]:
         message = f"`{entry.id}` has both `{given[0]}` and `{given[1]}`"
-        settings[given[1]].report("RS0320", message, remedy=_TWO_WAYS, at_key=True)
+        settings[given[1]].report(TWO_SCALES, message, remedy=_TWO_WAYS, at_key=True)
     if "scale" in settings:
         return _scale(settings["scale"], wire, scope)
     if "decimals" in settings:
@@ -45,9 +46,13 @@ def _linear(multiply: Node | None, add: Node | None) -> Conversion:
 def _scale(node: Node, wire: WireType, scope: Scope) -> tuple[Scaling, ...]:
     if node.is_text and ".." in node.text():
         return (_affine(node, ALWAYS, unordered(node), wire),)
-    found = scope.named(node, "scales", rule="RS0309", what="scale")
-    cases = found.elements() if found else []
-    return tuple(_case(case, wire, scope) for case in cases) or (Scaling(ALWAYS, IDENTITY),)
+    found = scope.named(node, "scales", rule=UNKNOWN_SCALE, what="scale")
+    return (scale_at(found, wire, scope) if found else ()) or (Scaling(ALWAYS, IDENTITY),)
+
+
+def scale_at(node: Node, wire: WireType, scope: Scope) -> tuple[Scaling, ...]:
+    """The cases of the scale that stands at `node`, for raw codes of the type `wire`."""
+    return tuple(_case(case, wire, scope) for case in node.elements())
 
 
 def _case(node: Node, wire: WireType, scope: Scope) -> Scaling:
@@ -63,7 +68,7 @@ def _case(node: Node, wire: WireType, scope: Scope) -> Scaling:
 def _affine(node: Node, when: Condition, ends: tuple[Fraction, Fraction], wire: WireType) -> Scaling:
     if not wire.is_integer:
         message = f"the scale from {show(ends[0])} to {show(ends[1])} needs a whole number on the wire, not {wire}"
-        node.report("RS0333", message, remedy="use `multiply` and `add`")
+        node.report(NO_ENDS, message, remedy="use `multiply` and `add`")
         return Scaling(when, IDENTITY)
     multiply = (ends[1] - ends[0]) / (wire.maximum - wire.minimum)
     return Scaling(when, Conversion(multiply=multiply, add=ends[0] - multiply * wire.minimum), ends)
@@ -73,7 +78,7 @@ def _power(node: Node) -> Fraction:
     digits = node.whole()
     if 0 <= digits <= _MOST_DIGITS:
         return Fraction(1, 10**digits)
-    node.report("RS0336", f"a number cannot have {digits} decimals", remedy="give the digits after the point, as 1")
+    node.report(WRONG_SORT, f"a number cannot have {digits} decimals", remedy="give the digits after the point, as 1")
     return Fraction(1)
 
 
@@ -86,9 +91,14 @@ def decimals_of(node: Node, scope: Scope) -> Cases[Conversion]:
 
 def decimals_rule(node: Node, scope: Scope) -> Cases[Conversion]:
     """The cases of the decimals rule that `node` names: the rule's own, then identity if it has a condition."""
-    rule = scope.named(node, "decimals", rule="RS0310", what="decimals rule")
-    register = rule.child("register") if rule else None
-    if rule is None or register is None:
+    rule = scope.named(node, "decimals", rule=UNKNOWN_DECIMALS, what="decimals rule")
+    return rule_at(rule, scope) if rule else always(IDENTITY)
+
+
+def rule_at(rule: Node, scope: Scope) -> Cases[Conversion]:
+    """The cases of the decimals rule that stands at `rule`."""
+    register = rule.child("register")
+    if register is None:
         return always(IDENTITY)
     at_most, step = rule.child("at_most"), rule.child("step")
     path = path_of(scope.register(register), register.text())

@@ -5,16 +5,18 @@ from dataclasses import dataclass, field, replace
 from regscribe.lower.names import unknown
 from regscribe.lower.node import Node
 from regscribe.lower.presence import Models
+from regscribe.lower.rules import OTHER_MODELS, UNKNOWN_REGISTER
 from regscribe.lower.tree import Entry
-from regscribe.model import Enum
+from regscribe.model import Enum, Related
 
 
 @dataclass(frozen=True, slots=True)
 class Scope:
     """One model's registers by path, and the tables of the map.
 
-    `homes` are the models that have a register of a path; `prefixes` the elements around the register that refers,
-    from the inside out: a name means a sibling in the same element before a register elsewhere.
+    `homes` are the models that have a register of a path. `viewer` is the register that refers: a name means a sibling
+    in the same element of an array before a register elsewhere. `lenient`: what is looked up belongs to no register
+    yet, so a name is good if any model and any element has it.
     """
 
     map: Node
@@ -22,12 +24,18 @@ class Scope:
     models: Models
     entries: dict[str, Entry]
     homes: dict[str, Models]
-    prefixes: tuple[str, ...] = ()
-    enums: dict[tuple[str, str], Enum] = field(default_factory=dict)
+    viewer: Entry | None = None
+    lenient: bool = False
+    enums: dict[str, Enum] = field(default_factory=dict)
+
+    @property
+    def prefixes(self) -> tuple[str, ...]:
+        """The elements around the register that refers, from the inside out."""
+        return self.viewer.place.prefixes if self.viewer else ()
 
     def at(self, entry: Entry) -> "Scope":
         """The same scope, seen from a register."""
-        return replace(self, prefixes=entry.place.prefixes) if entry.place.prefixes != self.prefixes else self
+        return replace(self, viewer=entry)
 
     def find(self, name: str) -> Entry | None:
         """The register of this name on this model, None if there is none."""
@@ -56,12 +64,20 @@ class Scope:
     def missing(self, node: Node, name: str, *, at_key: bool = False) -> None:
         """Report that this model has no register of this name."""
         homes = next((self.homes[f"{at}{name}"] for at in (*self.prefixes, "") if f"{at}{name}" in self.homes), ())
+        if self.lenient and (homes or any(path.endswith(f".{name}") for path in self.homes)):
+            return
         if homes:
-            message = f"`{name}` is not on {self.model}, where it is needed, only on {', '.join(homes)}"
-            remedy = "keep the referring register to those models with `models`, or give it a variant"
-            node.report("RS0302", message, remedy=remedy, at_key=at_key)
+            self._elsewhere(node, name, homes, at_key=at_key)
         else:
-            unknown(node, "RS0301", "register", name, self.homes, at_key=at_key)
+            unknown(node, UNKNOWN_REGISTER, "register", name, self.homes, at_key=at_key)
+
+    def _elsewhere(self, node: Node, name: str, homes: Models, *, at_key: bool) -> None:
+        viewer = self.viewer
+        needed = f"where `{viewer.path}` needs it" if viewer else "where it is needed"
+        message = f"`{name}` is not on {self.model}, {needed}, only on {', '.join(homes)}"
+        remedy = f"keep what refers to it to those models with `models`, or give it a variant for {self.model}"
+        related = (Related(f"needed by `{viewer.path}`", viewer.span),) if viewer else ()
+        node.report(OTHER_MODELS, message, remedy=remedy, at_key=at_key, related=related)
 
 
 def path_of(entry: Entry | None, name: str) -> str:

@@ -6,6 +6,7 @@ from fractions import Fraction
 from regscribe.lower.enums import code_anywhere, enum_for, fields_of
 from regscribe.lower.names import snake, unknown
 from regscribe.lower.node import Node, text_of
+from regscribe.lower.rules import UNKNOWN_FIELD, UNKNOWN_MEMBER
 from regscribe.lower.scope import Scope
 from regscribe.lower.tree import Entry
 
@@ -31,7 +32,7 @@ def subject_of(node: Node, key: str, scope: Scope) -> Subject | None:
         return None
     known = [each.id for each in fields_of(owner, scope.at(owner))]
     if field not in known:
-        unknown(node, "RS0303", f"bit field of `{register}`", field, known, at_key=True)
+        unknown(node, UNKNOWN_FIELD, f"bit field of `{register}`", field, known, at_key=True)
     return Subject(register, owner, field)
 
 
@@ -51,7 +52,7 @@ def code_of_text(node: Node, subject: Subject, scope: Scope) -> Fraction:
             return code_node.key_number()
         known.append(name)
     where = f"`{subject.name}.{subject.field}`" if subject.field else f"`{subject.name}`"
-    unknown(node, "RS0305", f"member or special value of {where}", text, known)
+    unknown(node, UNKNOWN_MEMBER, f"member or special value of {where}", text, known)
     return Fraction(0)
 
 

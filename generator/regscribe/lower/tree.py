@@ -3,10 +3,11 @@
 from dataclasses import dataclass, replace
 
 from regscribe.lower.ends import whole_ends
-from regscribe.lower.layers import Settings, settings_of, variants_for
+from regscribe.lower.layers import Settings, settings_of, with_variants
 from regscribe.lower.names import identifier
 from regscribe.lower.node import Node, elements_of, text_of, whole_of
 from regscribe.lower.presence import Models, present
+from regscribe.lower.rules import ON_NO_MODEL, TOO_MANY_ELEMENTS
 from regscribe.model import Span
 
 ADDRESSES = 65536
@@ -92,12 +93,12 @@ def items_in(nodes: list[Node], place: Place) -> tuple[Item, ...]:
 def _nowhere(node: Node, place: Place) -> None:
     at = node.child("except") or node.child("models") or node
     message = f"`{text_of(node, 'name')}` is on no model"
-    at.report("RS0324", message, remedy=f"its surroundings are on: {', '.join(place.among)}")
+    at.report(ON_NO_MODEL, message, remedy=f"its surroundings are on: {', '.join(place.among)}")
 
 
 def _entry(node: Node, name: str, has: Models, place: Place) -> Entry:
-    variants = variants_for(node, place.model, has, place.every)
-    settings = settings_of([*place.layers, node, *variants])
+    layers = [part for each in place.layers for part in with_variants(each, place.model, place.every, place.every)]
+    settings = settings_of([*layers, *with_variants(node, place.model, has, place.every)])
     return Entry(node=node, id=name, path=_inside(place, name), settings=settings, place=place)
 
 
@@ -110,7 +111,7 @@ def _branch(node: Node, name: str, place: Place) -> Branch:
     first, last = whole_ends(repeat) if repeat else (1, 1)
     if repeat and (last - first + 1) * place.elements > ADDRESSES:
         message = f"{last - first + 1} elements are more than the {ADDRESSES} addresses hold"
-        repeat.report("RS0343", message, remedy="give the index of the first and the last element, as 1..8")
+        repeat.report(TOO_MANY_ELEMENTS, message, remedy="give the index of the first and the last element, as 1..8")
         last = first
     stride = whole_of(node, "stride", 1)
     each = node.child("each")

@@ -3,6 +3,7 @@
 from regscribe.lower.conditions import condition
 from regscribe.lower.names import unknown
 from regscribe.lower.node import Node, items_of
+from regscribe.lower.rules import UNKNOWN_UNIT
 from regscribe.lower.scope import Scope
 from regscribe.model import Case, Cases, always
 
@@ -25,8 +26,13 @@ def unit_of(node: Node | None, scope: Scope) -> tuple[Cases[str], str]:
     name = node.text()
     for key, cases in items_of(scope.map, "units"):
         if key == name and cases.is_list:
-            return tuple(_case(case, scope) for case in cases.elements()), name
+            return cases_at(cases, scope), name
     return always(_symbol(node, scope)), ""
+
+
+def cases_at(node: Node, scope: Scope) -> Cases[str]:
+    """The cases of the unit that stands at `node`."""
+    return tuple(_case(case, scope) for case in node.elements())
 
 
 def _case(node: Node, scope: Scope) -> Case[str]:
@@ -38,7 +44,7 @@ def _symbol(node: Node, scope: Scope, *, cases: bool = True) -> str:
     own = own_symbols(scope.map)
     if node.text() and node.text() not in {*KNOWN, *own}:
         by_case = [name for name, each in items_of(scope.map, "units") if each.is_list] if cases else []
-        unknown(node, "RS0311", "unit", node.text(), [*by_case, *own, *KNOWN])
+        unknown(node, UNKNOWN_UNIT, "unit", node.text(), [*by_case, *own, *KNOWN])
     return node.text()
 
 
@@ -46,5 +52,5 @@ def rescaled(node: Node, scope: Scope) -> str:
     """The unit with cases whose registers the device converts; RS0311 where the map has none of that name."""
     by_case = [name for name, each in items_of(scope.map, "units") if each.is_list]
     if node.text() not in by_case:
-        unknown(node, "RS0311", "unit with cases", node.text(), by_case)
+        unknown(node, UNKNOWN_UNIT, "unit with cases", node.text(), by_case)
     return node.text()

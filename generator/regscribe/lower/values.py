@@ -4,6 +4,7 @@ from fractions import Fraction
 
 from regscribe.lower.names import identifier, unknown
 from regscribe.lower.node import Node, text_of
+from regscribe.lower.rules import BAD_DEFAULT, BAD_VERSION
 from regscribe.lower.tree import Entry
 from regscribe.model import Enum, Kind, Sentinel, Special
 
@@ -33,25 +34,25 @@ def _sentinel(node: Node) -> Sentinel:
 
 def _named(node: Node) -> tuple[str, str]:
     label = text_of(node, "label") if node.is_mapping else node.text()
-    return label, identifier(node.child("label") or node, label=label, given=node.child("id"))
+    return label, identifier(node.child("label") or node, label=label, given=node.child("id"), capitals=True)
 
 
 def version_of(node: Node | None) -> tuple[int, int]:
-    """Decimal digits and digits of a group of a version pattern such as nn.nn.nn; RS0334 for any other text."""
+    """Decimal digits and digits of a group of a version pattern such as nn.nn.nn; RS0329 for any other text."""
     if node is None:
         return 0, 0
     groups = node.text().split(".")
     if not all(group and group == "n" * len(groups[0]) for group in groups):
         message = f"`{node.text()}` is no version pattern"
-        node.report("RS0334", message, remedy="write one n a digit, in groups of equal length, as nn.nn.nn")
+        node.report(BAD_VERSION, message, remedy="write one n a digit, in groups of equal length, as nn.nn.nn")
         return 0, 0
     return len(groups) * len(groups[0]), len(groups[0])
 
 
 def default_of(entry: Entry, kind: Kind, enum: Enum | None) -> Fraction | str | None:
-    """The default as a value of use; RS0325 where it names no member or special value."""
+    """The default as a value of use; RS0322 where it names no member or special value."""
     node = entry.settings.get("default")
-    return named_value(node, kind, enum, specials_of(entry), "RS0325") if node else None
+    return named_value(node, kind, enum, specials_of(entry), BAD_DEFAULT) if node else None
 
 
 def named_value(node: Node, kind: Kind, enum: Enum | None, specials: tuple[Special, ...], rule: str) -> Fraction | str:

@@ -5,6 +5,7 @@ from fractions import Fraction
 
 from regscribe.lower.ends import whole_ends
 from regscribe.lower.node import Node, elements_of, text_of, truth_of, whole_of
+from regscribe.lower.rules import TYPE_BESIDE_VIEWS, UNKNOWN_VIEWS, WRONG_SORT
 from regscribe.lower.scope import Scope, path_of
 from regscribe.lower.tree import Entry
 from regscribe.model import Order, OrderFromRegister, Rounding, Space, View, WireType
@@ -29,10 +30,13 @@ def views_of(entry: Entry, scope: Scope) -> tuple[View, ...]:
     home = Home(space, _at(entry), length)
     if "views" not in settings:
         return (_single(entry, home, scope),)
-    view_set = scope.named(settings["views"], "views", rule="RS0306", what="view set")
-    views = [_view(name, node, home, scope) for name, node in view_set.items()] if view_set else []
-    ordered = sorted(views, key=lambda view: view.name != "base")
-    return tuple(ordered) or (_single(entry, home, scope),)
+    if "type" in settings:
+        message = f"`{entry.id}` has a `type` beside the view set `{settings['views'].value}`"
+        settings["type"].report(
+            TYPE_BESIDE_VIEWS, message, remedy="drop one: the views have types of their own", at_key=True
+        )
+    view_set = scope.named(settings["views"], "views", rule=UNKNOWN_VIEWS, what="view set")
+    return (set_at(view_set, home, scope) if view_set else ()) or (_single(entry, home, scope),)
 
 
 def _at(entry: Entry) -> int:
@@ -40,10 +44,16 @@ def _at(entry: Entry) -> int:
     if at is None:
         message = f"`{entry.id}` has no address"
         entry.node.report(
-            "RS0321", message, remedy="give `at`: the address in the manual's table, or the n of its views"
+            WRONG_SORT, message, remedy="give `at`: the address in the manual's table, or the n of its views"
         )
         return 0
     return at.whole() + entry.place.shift
+
+
+def set_at(node: Node, home: Home, scope: Scope) -> tuple[View, ...]:
+    """The views of the set that stands at `node`, the base view first."""
+    views = [_view(name, each, home, scope) for name, each in node.items()]
+    return tuple(sorted(views, key=lambda view: view.name != "base"))
 
 
 def _single(entry: Entry, home: Home, scope: Scope) -> View:

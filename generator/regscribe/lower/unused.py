@@ -1,0 +1,27 @@
+"""What no register refers to is looked at all the same, or its mistakes would wait for its first use."""
+
+from regscribe.lower.conditions import condition
+from regscribe.lower.enums import enum_at
+from regscribe.lower.node import Node, items_of
+from regscribe.lower.scales import rule_at, scale_at
+from regscribe.lower.scope import Scope
+from regscribe.lower.units import cases_at
+from regscribe.lower.views import Home, set_at
+from regscribe.model import Space, WireType
+
+
+def look_at_tables(root: Node, scope: Scope) -> None:
+    """Lower every named thing of the map for one model and forget it; the mistakes stay in the context."""
+    for name, node in items_of(root, "conditions"):
+        condition(node, scope, (name,))
+    for name, node in items_of(root, "enums"):
+        enum_at(node, scope, name)
+    for _, node in items_of(root, "views"):
+        set_at(node, Home(Space.HOLDING, at=0, length=1), scope)
+    for _, node in items_of(root, "decimals"):
+        rule_at(node, scope)
+    for _, node in items_of(root, "scales"):
+        scale_at(node, WireType.INT16, scope)
+    for _, node in items_of(root, "units"):
+        if node.is_list:
+            cases_at(node, scope)
