@@ -1,1 +1,10 @@
-"""(being written)"""
+"""Plain values to shape errors: whether this is a map at all, key by key.
+
+`validate` checks a document against the JSON Schema of the map language (`schema_json`), which editors use too.
+"""
+
+from regscribe.schema.loading import schema_json
+from regscribe.schema.rules import RULES
+from regscribe.schema.validation import validate
+
+__all__ = ["RULES", "schema_json", "validate"]

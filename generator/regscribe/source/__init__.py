@@ -10,8 +10,9 @@ from regscribe.model import Diagnostic
 from regscribe.source.document import Document, Path, Plain
 from regscribe.source.reading import display_name, parse, read
 from regscribe.source.rules import RULES
+from regscribe.source.scalars import shorten
 
-__all__ = ["RULES", "Document", "Path", "Plain", "display_name", "load", "parse"]
+__all__ = ["RULES", "Document", "Path", "Plain", "display_name", "load", "parse", "shorten"]
 
 
 def load(path: FilePath, *, name: str | None = None) -> tuple[Document | None, list[Diagnostic]]:

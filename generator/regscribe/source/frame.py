@@ -45,10 +45,10 @@ class Frame:
         """Return the finished collection; in block style it ends where its last child ends."""
         members = self.children if isinstance(self.children, dict) else None
         elements = self.children if isinstance(self.children, list) else None
-        last = next(reversed(members.values() if members is not None else elements or ()), None)
+        ends = list(members.values())[-1:] if members else (elements or [])[-1:]
         place = place_of(end)
         if not self.flow:
-            place = last.place if last else self.place
+            place = ends[0].place if ends else self.place
         whole = Place(self.place.line, self.place.column, place.end_line, place.end_column)
         return Node(self.data, whole, self.keys, members, elements, self.size, self.height)
 

@@ -1,0 +1,79 @@
+"""The JSON Schema of the map language: where it lies, and the validator that is built from it once."""
+
+import json
+from collections.abc import Iterator, Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from jsonschema import Draft202012Validator, ValidationError
+from jsonschema.protocols import Validator
+from jsonschema.validators import extend
+
+import regscribe
+
+FILE = "map.schema.json"
+
+
+def schema_path() -> Path:
+    """Return where the schema lies: in the wheel, else in the source checkout."""
+    package = Path(regscribe.__file__).parent
+    wheel = package / "data" / "schema" / FILE
+    return wheel if wheel.is_file() else package.parents[1] / "schema" / FILE
+
+
+@cache
+def schema_json() -> dict[str, Any]:
+    """Return the JSON Schema (2020-12) of the map language; the caller must not change it."""
+    schema: dict[str, Any] = json.loads(schema_path().read_text(encoding="utf-8"))
+    return schema
+
+
+@cache
+def validator() -> Validator:
+    """Return the validator of the map language, built at the first call."""
+    schema = schema_json()
+    checks = extend(Draft202012Validator, {"uniqueItems": _unique_items})
+    return checks(_inline(schema, schema["$defs"], {}))
+
+
+def _inline(node: Any, definitions: Mapping[str, Any], done: dict[int, Any]) -> Any:  # noqa: ANN401  JSON is any
+    """Put definitions in place of references: no look-up at run time, and a key's own title stands at its errors.
+
+    The result is a graph with cycles, which validation walks only as deep as the document is.
+    """
+    if isinstance(node, list):
+        return [_inline(element, definitions, done) for element in node]
+    if not isinstance(node, dict):
+        return node
+    if id(node) not in done:
+        done[id(node)] = copy = {}
+        merged = _resolve(node, definitions)
+        for key, value in merged.items():
+            exact = key == "pattern" and isinstance(value, str)
+            copy[_exact(key)] = _exact(value) if exact else _inline(value, definitions, done)
+    return done[id(node)]
+
+
+def _resolve(node: Mapping[str, Any], definitions: Mapping[str, Any]) -> dict[str, Any]:
+    """Lay a schema's own keywords over those of the definition that it refers to, if it does."""
+    own = {key: value for key, value in node.items() if key not in {"$ref", "$defs"}}
+    if "$ref" not in node:
+        return own
+    target: Any = {"$defs": definitions}
+    for step in node["$ref"].removeprefix("#/").split("/"):
+        target = target[step]
+    return _resolve(target, definitions) | own
+
+
+def _exact(pattern: str) -> str:
+    r"""Let a pattern's `$` mean the end, as in ECMA 262; in Python it also stands before a last line feed."""
+    return f"{pattern[:-1]}\\Z" if pattern.startswith("^") and pattern.endswith("$") else pattern
+
+
+def _unique_items(_: Validator, unique: Any, instance: Any, __: Any) -> Iterator[ValidationError]:  # noqa: ANN401  JSON
+    """Find an element given twice, in linear time (jsonschema compares each with each where types differ)."""
+    if unique and isinstance(instance, list):
+        scalars = [(type(element), element) for element in instance if not isinstance(element, list | dict)]
+        if len(set(scalars)) < len(scalars):
+            yield ValidationError("an element is given twice")

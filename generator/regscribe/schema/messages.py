@@ -1,0 +1,227 @@
+"""What is wrong with the shape, said for people who write maps; never with the value as a whole in it."""
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from decimal import Decimal
+from difflib import get_close_matches
+from typing import Any
+
+from jsonschema import ValidationError
+
+from regscribe.schema.rules import (
+    EXCLUSIVE_KEYS,
+    MISSING_KEY,
+    UNKNOWN_KEY,
+    VALUE_NOT_ALLOWED,
+    WRONG_COUNT,
+    WRONG_FORM,
+    WRONG_TYPE,
+)
+from regscribe.source import shorten
+
+_TYPES = {
+    "string": "a text",
+    "integer": "a whole number",
+    "number": "a number",
+    "boolean": "true or false",
+    "array": "a list",
+    "object": "a mapping",
+    "null": "null",
+}
+_YES_OR_NO = {"yes", "no", "on", "off", "y", "n", "true", "false"}
+_COMPARISONS = {
+    "minimum": "at least",
+    "maximum": "at most",
+    "exclusiveMinimum": "more than",
+    "exclusiveMaximum": "less than",
+}
+_COUNTS = {
+    "minLength": ("at least", "character"),
+    "maxLength": ("at most", "character"),
+    "minItems": ("at least", "element"),
+    "maxItems": ("at most", "element"),
+    "minProperties": ("at least", "key"),
+    "maxProperties": ("at most", "key"),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Complaint:
+    """One mistake: `path` leads to the value, or (`at_key`) to its key; `same` marks complaints that say the same."""
+
+    rule: str
+    path: tuple[str | int, ...]
+    message: str
+    advice: str
+    at_key: bool = False
+    same: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Violation:
+    """An error of jsonschema, typed: `kind` is the keyword of `schema` that `instance` breaks, `bound` its value."""
+
+    kind: str
+    path: tuple[str | int, ...]
+    schema: Mapping[str, Any]
+    bound: Any
+    instance: Any
+
+
+def violation(error: ValidationError) -> Violation:
+    """Take over what is needed of an error; its own message shows the instance, so it is not."""
+    schema = error.schema if isinstance(error.schema, dict) else {}
+    return Violation(str(error.validator), tuple(error.absolute_path), schema, error.validator_value, error.instance)
+
+
+def complaints(error: Violation) -> Iterator[Complaint]:
+    """Say what one violation means: one complaint for each key concerned."""
+    path, kind = error.path, error.kind
+    if kind == "additionalProperties":
+        yield from _unknown_keys(error, path)
+    elif kind in {"required", "dependentRequired"}:
+        yield from _missing_keys(error, path)
+    elif kind == "not":
+        said = f"`{path[-1]}` {error.schema.get('description', 'cannot stand here')}"
+        yield Complaint(EXCLUSIVE_KEYS, path, said, "delete one of the two", at_key=True)
+    elif kind == "type":
+        yield _wrong_type(error, path)
+    elif kind == "pattern":
+        said = f"{describe(error.instance)} is not in the form of {title(error.schema)}: {_form(error.schema)}"
+        yield Complaint(WRONG_FORM, path, said, example(error.schema))
+    elif kind in _COUNTS or kind == "uniqueItems":
+        yield _wrong_count(error, path, kind)
+    else:
+        yield _not_allowed(error, path, kind)
+
+
+def _unknown_keys(error: Violation, path: tuple[str | int, ...]) -> Iterator[Complaint]:
+    schema = error.schema
+    known = list(schema.get("properties", ()))
+    patterns = list(schema.get("patternProperties", ()))
+    for key in _unmatched(error.instance, known, patterns):
+        shown = describe(key)
+        if "x-key" in schema and not known:
+            form = schema["x-key"]
+            said = f"{shown} is no {form['title']}: {form['description']}"
+            yield Complaint(WRONG_FORM, (*path, key), said, example(form), at_key=True)
+        else:
+            yield Complaint(
+                UNKNOWN_KEY, (*path, key), f"unknown key {shown} in {title(schema)}", _meant(key, known), at_key=True
+            )
+
+
+def _unmatched(instance: Mapping[str, Any], known: Sequence[str], patterns: Sequence[str]) -> Iterator[str]:
+    for key in instance:
+        if key not in known and not any(re.search(pattern, key) for pattern in patterns):
+            yield key
+
+
+def _meant(key: str, known: Sequence[str]) -> str:
+    near = get_close_matches(key.lower(), known, n=1)
+    return f"did you mean `{near[0]}`?" if near else f"the keys here are: {', '.join(known)}"
+
+
+def _missing_keys(error: Violation, path: tuple[str | int, ...]) -> Iterator[Complaint]:
+    value = error.bound
+    needed = (
+        value
+        if isinstance(value, list)
+        else [key for given, keys in value.items() if given in error.instance for key in keys]
+    )
+    for key in needed:
+        if key not in error.instance:
+            said = error.schema.get("x-missing", f"`{key}`")
+            where = f" in {title(error.schema)}" if "title" in error.schema else ""
+            details = error.schema.get("properties", {}).get(key, {})
+            advice = " ".join(
+                part for part in (f"add {said}.", details.get("description", ""), example(details)) if part
+            )
+            yield Complaint(MISSING_KEY, path, f"{said} is missing{where}", advice, at_key=True, same=key)
+
+
+def _wrong_type(error: Violation, path: tuple[str | int, ...]) -> Complaint:
+    types = [error.bound] if isinstance(error.bound, str) else list(error.bound)
+    allowed = [_TYPES[name] for name in types]
+    wanted = " or ".join([", ".join(allowed[:-1]), allowed[-1]] if allowed[1:] else allowed)
+    said = f"{title(error.schema)} must be {wanted}; this is {describe(error.instance)}"
+    return Complaint(WRONG_TYPE, path, said, _retype(error.instance, types) or example(error.schema))
+
+
+def _retype(instance: object, types: Sequence[str]) -> str:
+    """Say how to write the value that was probably meant."""
+    if instance is None:
+        return "write a value after the `:`, or delete the key"
+    if "boolean" in types and isinstance(instance, str) and instance.lower() in _YES_OR_NO:
+        return "write true or false, without quotes"
+    if "string" in types and isinstance(instance, bool | int | Decimal):
+        return "put it in quotes if a text is meant"
+    if "array" in types and "object" not in types and isinstance(instance, str | int):
+        return "put it in brackets: [..]"
+    return ""
+
+
+def _wrong_count(error: Violation, path: tuple[str | int, ...], kind: str) -> Complaint:
+    if kind == "uniqueItems":
+        return Complaint(
+            WRONG_COUNT, path, f"an element of {title(error.schema)} is given twice", "delete one of the two"
+        )
+    bound, unit = _COUNTS[kind]
+    limit, size = error.bound, len(error.instance)
+    said = f"{title(error.schema)} must have {bound} {limit} {unit}{'' if limit == 1 else 's'}; this has {size}"
+    return Complaint(WRONG_COUNT, path, said, example(error.schema))
+
+
+def _not_allowed(error: Violation, path: tuple[str | int, ...], kind: str) -> Complaint:
+    value = error.bound
+    if kind in _COMPARISONS:
+        said = f"{title(error.schema)} must be {_COMPARISONS[kind]} {value}; this is {describe(error.instance)}"
+        return Complaint(VALUE_NOT_ALLOWED, path, said, example(error.schema))
+    choices = [str(choice) for choice in (value if kind == "enum" else [value])]
+    near = get_close_matches(str(error.instance)[:100].lower(), choices, n=1) if isinstance(error.instance, str) else []
+    allowed = ", ".join(f"`{choice}`" for choice in choices)
+    said = f"{describe(error.instance)} is not allowed for {title(error.schema)}; allowed: {allowed}"
+    advice = f"did you mean `{near[0]}`?" if near else "write one of the allowed words"
+    return Complaint(VALUE_NOT_ALLOWED, path, said, advice if kind == "enum" else f"write {allowed}")
+
+
+def title(schema: Mapping[str, Any]) -> str:
+    """Name what the schema describes."""
+    return str(schema.get("title", "this"))
+
+
+def example(schema: Mapping[str, Any]) -> str:
+    """Show an example in the notation of the map; empty if the schema has none."""
+    examples = schema.get("examples", ())
+    return f"for example `{inline(examples[0])}`" if examples else ""
+
+
+def _form(schema: Mapping[str, Any]) -> str:
+    return str(schema.get("x-form", schema.get("description", ""))).rstrip(".")
+
+
+def inline(value: object) -> str:
+    """Write a value of the schema on one line of YAML."""
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{key}: {inline(element)}" for key, element in value.items()) + "}"
+    if isinstance(value, list):
+        return f"[{', '.join(inline(element) for element in value)}]"
+    if isinstance(value, bool):
+        return str(value).lower()
+    return str(value)
+
+
+def describe(value: object) -> str:
+    """Name a value of a map in a message: short, printable, its parts left out."""
+    if value is None:
+        return "empty (null)"
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, list):
+        return f"a list of {len(value)}"
+    if isinstance(value, dict):
+        return f"a mapping of {len(value)}"
+    if isinstance(value, str):
+        return f"`{shorten(value)}`" if value else "an empty text"
+    return shorten(str(value))
