@@ -1,0 +1,104 @@
+"""One register as one declaration of a generated class."""
+
+from dataclasses import dataclass
+
+from regscribe.emit.python.layout import Expression, call, group, lay, mapping
+from regscribe.emit.python.literals import docstring, exact, literal, plain
+from regscribe.emit.python.named import NamedClasses, enum_content, special_content, specials, word_content
+from regscribe.emit.python.specs import Specs
+from regscribe.emit.text import ACCESS, cases_words, listed, one_line, range_words
+from regscribe.model import Access, Case, Kind, Register, show
+
+SHOWN_CASES = 2
+"""Ranges of more cases are left to the reference: a docstring is for a glance."""
+DESCRIPTORS = {Access.READ: "ReadOnly", Access.READ_WRITE: "ReadWrite", Access.WRITE: "WriteOnly"}
+
+
+@dataclass(frozen=True, slots=True)
+class Declarations:
+    """Writes declarations of registers with the shared constants and classes of a module."""
+
+    specs: Specs
+    named: NamedClasses
+
+    def lines(self, register: Register) -> list[str]:
+        """The declaration and its docstring, indented for a class body."""
+        return [*lay(self._call(register), head=f"{register.id} = ", depth=1), *docstring(_about(register), 1)]
+
+    def _call(self, register: Register) -> Expression:
+        specs = self.specs
+        return call(
+            DESCRIPTORS[register.access],
+            str(register.base.address),
+            specs.views(register),
+            self._kind(register),
+            scale=specs.scale(register),
+            range=specs.range(register),
+            default=_default(register),
+            unit=specs.unit(register.unit),
+            section=literal(register.section) if register.section else None,
+            sentinels=_sentinels(register),
+            aliases=group([str(alias) for alias in register.aliases]) if register.aliases else None,
+            writable=group([specs.when(register.writable.when), literal(one_line(register.writable.reason))])
+            if register.writable
+            else None,
+            persistence=literal(register.persistence) if register.persistence else None,
+            unlock=literal(register.unlock) if register.unlock else None,
+            apply=literal(register.apply) if register.apply else None,
+            danger=literal(one_line(register.danger)) if register.danger else None,
+        )
+
+    def _kind(self, register: Register) -> Expression:
+        match register.kind:
+            case Kind.ENUM if register.enum:
+                return f"choice({self.named.name(register.enum.id, enum_content(register.enum))})"
+            case Kind.FLAGS:
+                return f"flags({self.named.name(register.id, word_content(register))})"
+            case Kind.FIELDS:
+                return f"word_of({self.named.name(register.id, word_content(register))})"
+            case Kind.STRING:
+                return "text"
+            case Kind.VERSION:
+                return f"version({register.version_digits}, {register.version_group})"
+        return self._numeric(register) if register.specials else str(register.kind)
+
+    def _numeric(self, register: Register) -> Expression:
+        means = [(str(int(one.code)), exact(one.means)) for one in register.specials if one.means is not None]
+        if not specials(register):
+            return call("number_with", mapping(means))
+        special = self.named.name(f"{register.id}_special", special_content(register))
+        if means:
+            return call("number_or", special, mapping(means))
+        return f"{'number_or' if register.kind is Kind.NUMBER else 'integer_or'}({special})"
+
+
+def _default(register: Register) -> str | None:
+    if register.default is None:
+        return None
+    return literal(register.default) if isinstance(register.default, str) else plain(register.default)
+
+
+def _sentinels(register: Register) -> Expression | None:
+    rows = [group([exact(one.stored), literal(one.id), literal(one.label)]) for one in register.sentinels]
+    return group(rows) if rows else None
+
+
+def _about(register: Register) -> str:
+    symbol = f" ({one_line(register.symbol)})" if register.symbol else ""
+    facts = [
+        range_text(register) if len(register.range) <= SHOWN_CASES else "range by condition",
+        f"special: {listed([f'{show(one.code)} = {one_line(one.label)}' for one in register.specials])}"
+        if register.specials
+        else "",
+        f"unit {cases_words(register.unit)}" if cases_words(register.unit) else "",
+        ACCESS[register.access],
+        register.section,
+    ]
+    return f"{one_line(register.name)}{symbol}: {'; '.join(one_line(fact) for fact in facts if fact)}."
+
+
+def range_text(register: Register) -> str:
+    """The range in words, with the conditions of its cases."""
+    return (
+        cases_words(tuple(Case(case.when, range_words(case.then)) for case in register.range)) if register.range else ""
+    )

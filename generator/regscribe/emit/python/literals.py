@@ -1,0 +1,44 @@
+"""Text of a map as Python: literals, docstrings and names. A map is untrusted; nothing of it is pasted as it is."""
+
+import re
+import textwrap
+from fractions import Fraction
+
+from regscribe.emit.python.layout import INDENT, WIDTH
+from regscribe.model import show
+
+
+def literal(text: str) -> str:
+    """A string literal in the quotes that `ruff format` prefers."""
+    quoted = repr(str(text))
+    if quoted[0] == "'" and '"' not in text:
+        return f'"{quoted[1:-1]}"' if "'" not in text else '"' + quoted[1:-1].replace("\\'", "'") + '"'
+    if "'" in text and '"' in text and text.count('"') <= text.count("'"):
+        return '"' + quoted[1:-1].replace("\\'", "'").replace('"', '\\"') + '"'
+    return quoted
+
+
+def exact(number: Fraction) -> str:
+    """A number without loss: an int, or its text for the runtime to read."""
+    return str(number.numerator) if number.denominator == 1 else literal(show(number))
+
+
+def plain(number: Fraction) -> str:
+    """A number as people write it: an int or a float literal."""
+    return str(number.numerator) if number.denominator == 1 else repr(float(number))
+
+
+def camel(identifier: str) -> str:
+    """`input_type` as `InputType`; characters that no identifier may have are dropped."""
+    return "".join(part[:1].upper() + part[1:] for part in re.split(r"[^A-Za-z0-9]+", identifier))
+
+
+def docstring(text: str, depth: int) -> list[str]:
+    """The lines of a docstring of one paragraph, escaped and wrapped."""
+    printable = "".join(character if character.isprintable() else " " for character in text)
+    safe = " ".join(printable.split()).replace("\\", "/").replace('"', "'")
+    indent = INDENT * depth
+    if len(indent) + len(safe) + 6 <= WIDTH:
+        return [f'{indent}"""{safe}"""']
+    first, *rest = textwrap.wrap(safe, WIDTH - len(indent) - 3, break_long_words=False, break_on_hyphens=False)
+    return [f'{indent}"""{first}', *(f"{indent}{line}" for line in rest), f'{indent}"""']

@@ -1,0 +1,127 @@
+"""Classes for values with names: enums, flags, words of bit fields and special values; equal ones are shared."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from regscribe.emit.python.families import suffix
+from regscribe.emit.python.layout import INDENT, WIDTH, Call, call, group, lay
+from regscribe.emit.python.literals import camel, docstring, literal
+from regscribe.emit.text import one_line
+from regscribe.model import BitField, Enum, Kind, Register, RegisterMap
+
+Content = tuple[object, ...]
+
+
+@dataclass(slots=True)
+class NamedClasses:
+    """Class names by content.
+
+    Of a name that models define differently, the definition that most models share keeps the plain name; the others
+    get their models' names behind it.
+    """
+
+    register_map: RegisterMap
+    wanted: dict[str, dict[Content, list[str]]] = field(default_factory=dict)
+    bodies: dict[Content, list[str]] = field(default_factory=dict)
+
+    def collect(self, register: Register, model: str) -> None:
+        """Note the classes that a register of a model needs."""
+        if register.enum:
+            self._want(register.enum.id, enum_content(register.enum), model, _enum_body(register.enum, register))
+        for part in register.fields:
+            if part.enum:
+                self._want(part.enum.id, enum_content(part.enum), model, _enum_body(part.enum, register))
+        if register.kind is Kind.FLAGS:
+            self._want(register.id, word_content(register), model, _flags_body(register))
+        if specials(register):
+            self._want(f"{register.id}_special", special_content(register), model, _special_body(register))
+
+    def collect_words(self, register: Register, model: str) -> None:
+        """Note the class of a word of bit fields; its enums must have been collected for all models before."""
+        if register.kind is Kind.FIELDS:
+            self._want(register.id, word_content(register), model, self._word_body(register))
+
+    def _want(self, name: str, content: Content, model: str, body: list[str]) -> None:
+        models = self.wanted.setdefault(camel(name), {}).setdefault(content, [])
+        if model not in models:
+            models.append(model)
+        self.bodies.setdefault(content, body)
+
+    def name(self, wanted: str, content: Content) -> str:
+        """The class name for `wanted` with this content."""
+        variants = self.wanted[camel(wanted)]
+        usual = max(variants.values(), key=len)
+        return camel(wanted) + ("" if variants[content] is usual else suffix(variants[content]))
+
+    def lines(self) -> list[str]:
+        """All class definitions, enums before the words that use them."""
+        found: list[str] = []
+        for name, variants in self.wanted.items():
+            for content in variants:
+                opening, *body = self.bodies[content]
+                found += ["", "", f"class {self.name(name, content)}({opening}):", *body]
+        return found
+
+    def _word_body(self, register: Register) -> list[str]:
+        lines = ["Word", *docstring(f"{one_line(register.name)} ({one_line(register.section)}).", 1), ""]
+        for part in register.fields:
+            lines += lay(self._part(part), head=f"{part.id} = ", depth=1)
+        return lines
+
+    def _part(self, part: BitField) -> Call:
+        if part.is_flag:
+            return call("Bit", str(part.low), literal(part.label))
+        kind = self.name(part.enum.id, enum_content(part.enum)) if part.enum else "int"
+        return call("Field", str(part.low), str(part.high), kind, literal(part.label))
+
+
+def enum_content(enum: Enum) -> Content:
+    """What makes two enums the same class."""
+    return ("enum", enum.id, tuple((member.code, member.id, member.label) for member in enum.members))
+
+
+def word_content(register: Register) -> Content:
+    """What makes two words the same class."""
+    parts = [
+        (part.id, part.label, part.low, part.high, part.enum and enum_content(part.enum)) for part in register.fields
+    ]
+    return ("word", register.id, tuple(parts))
+
+
+def specials(register: Register) -> list[tuple[int, str, str]]:
+    """Special values that stand for no number: (code, id, label)."""
+    return [(int(one.code), one.id, one.label) for one in register.specials if one.means is None]
+
+
+def special_content(register: Register) -> Content:
+    """What makes two sets of special values the same class."""
+    return ("special", register.id, tuple(specials(register)))
+
+
+def _members(members: Sequence[tuple[int, str, str, str]]) -> list[str]:
+    lines: list[str] = []
+    for code, name, label, description in members:
+        items = [str(code), literal(label), *([literal(description)] if description else [])]
+        written = f"{INDENT}{name.upper()} = {', '.join(items)}"
+        lines += [written] if len(written) <= WIDTH else lay(group(items), head=f"{name.upper()} = ", depth=1)
+    return lines
+
+
+def _enum_body(enum: Enum, register: Register) -> list[str]:
+    about = one_line(enum.description) or f"{one_line(register.name)} ({one_line(register.section)})."
+    members = [(member.code, member.id, member.label, one_line(member.description)) for member in enum.members]
+    return ["Choice", *docstring(about, 1), "", *_members(members)]
+
+
+def _special_body(register: Register) -> list[str]:
+    about = f"Special values of {one_line(register.name)} ({one_line(register.section)})."
+    members = [(code, name, label, "") for code, name, label in specials(register)]
+    return ["Choice", *docstring(about, 1), "", *_members(members)]
+
+
+def _flags_body(register: Register) -> list[str]:
+    lines = ["Flags", *docstring(f"{one_line(register.name)} ({one_line(register.section)}).", 1), ""]
+    for part in register.fields:
+        lines.append(f"{INDENT}{part.id.upper()} = 1 << {part.low}")
+        lines += docstring(". ".join(filter(None, [one_line(part.label), one_line(part.description)])), 1)
+    return lines

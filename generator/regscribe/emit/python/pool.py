@@ -1,0 +1,42 @@
+"""Constants that several declarations share: each is emitted once, before its first use, under a readable name."""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from regscribe.emit.python.layout import WIDTH, Call, Expression, flat, lay
+
+SHORT = 40
+"""An expression of at most this many characters stays where it is used."""
+
+
+@dataclass(slots=True)
+class Pool:
+    """Named constants by their text; `lines` are their definitions in the order of first use."""
+
+    names: dict[str, str] = field(default_factory=dict)
+    lines: list[str] = field(default_factory=list)
+
+    def share(self, name: str, expression: Call, comment: str = "") -> str:
+        """The name of a constant of this content, defined now if it is new."""
+        text = flat(expression)
+        if text not in self.names:
+            self.names[text] = self._free(name)
+            self.lines += [f"# {comment}"] if comment and len(comment) + 2 <= WIDTH else []
+            self.lines += lay(expression, head=f"{self.names[text]} = ")
+        return self.names[text]
+
+    def maybe(self, name: str, expression: Call, comment: str = "") -> Expression:
+        """The expression itself if it is short, else its constant."""
+        return expression if len(flat(expression)) <= SHORT else self.share(name, expression, comment)
+
+    def _free(self, name: str) -> str:
+        name = "_" + re.sub(r"\W+", "_", name, flags=re.ASCII).strip("_").upper()
+        taken = set(self.names.values())
+        numbered = (f"{name}_{count}" for count in range(2, len(taken) + 3))
+        return name if name not in taken else next(free for free in numbered if free not in taken)
+
+
+def joined(words: Sequence[str]) -> str:
+    """Words as one constant's name."""
+    return "_".join(word for word in words if word)
