@@ -1,0 +1,47 @@
+"""Commands as a device sees them: words that arrive at addresses, step by step."""
+
+from collections.abc import Iterator, Sequence
+
+from regscribe.model import Command, Step
+
+
+class Commands:
+    """Follows the commands of a model and remembers which were run; a wait between steps is not enforced."""
+
+    __slots__ = ("_commands", "_progress", "run")
+
+    def __init__(self, commands: Sequence[Command]) -> None:
+        self._commands = {command.id: tuple(step for step in command.steps if step.words) for command in commands}
+        self._progress = dict.fromkeys(self._commands, 0)
+        self.run: list[str] = []
+
+    def is_step(self, function: int, address: int, words: Sequence[int]) -> bool:
+        """Whether a request is, by its function too, a step of a command: for addresses that are no registers."""
+        return any(step.function == function and _matches(step, address, words) for step in self._steps())
+
+    def sets_register(self, address: int, words: Sequence[int]) -> bool:
+        """Whether these words, written to a register, are a step of a command: the device must take them."""
+        return any(_matches(step, address, words) for step in self._steps())
+
+    def saw(self, address: int, words: Sequence[int]) -> tuple[str, ...]:
+        """Note accepted words; returns the ids of the commands that they complete, now also in `run`."""
+        completed = tuple(self._advance(address, words))
+        self.run.extend(completed)
+        return completed
+
+    def _steps(self) -> Iterator[Step]:
+        return (step for steps in self._commands.values() for step in steps)
+
+    def _advance(self, address: int, words: Sequence[int]) -> Iterator[str]:
+        for name, steps in self._commands.items():
+            at = self._progress[name]
+            if steps and _matches(steps[at], address, words):
+                self._progress[name] = (at + 1) % len(steps)
+                if at + 1 == len(steps):
+                    yield name
+            elif steps and _matches(steps[0], address, words):
+                self._progress[name] = 1
+
+
+def _matches(step: Step, address: int, words: Sequence[int]) -> bool:
+    return step.address == address and tuple(word & 0xFFFF for word in step.words) == tuple(words)

@@ -1,0 +1,195 @@
+"""A device that answers as its map says: requests in, answers (or silence) out, without any line in between."""
+
+import struct
+from collections.abc import Callable, Mapping, Sequence
+from threading import RLock
+
+from regscribe.model import Model, Protocol, RegisterMap, Space
+from regscribe.simulate.answers import EXCEPTION_BIT, Refusal, exception_answer, pack_bits, unpack_bits
+from regscribe.simulate.commands import Commands
+from regscribe.simulate.errors import SimulatorError
+from regscribe.simulate.givens import GivenValue
+from regscribe.simulate.layout import Layout
+from regscribe.simulate.reading import Reader
+from regscribe.simulate.state import State, Value
+from regscribe.simulate.values import Plain
+from regscribe.simulate.writing import Writer
+
+READS = {1: Space.COIL, 2: Space.DISCRETE, 3: Space.HOLDING, 4: Space.INPUT}
+BIT_WORDS = {0xFF00: 1, 0x0000: 0}
+
+
+class SimulatedDevice:
+    """One device of one model: typed state, the map's limits and faults, and commands that were run.
+
+    `handle` is pure but for the state: no I/O, no clock. All methods may be called from any thread. Registers whose
+    write needs an `unlock` refuse it (as an unmet condition) until that command was run; effects of commands beyond
+    the registers that they write, and the delay until an `apply` command, are not simulated. `seed` decides the
+    garbage that some devices send for addresses that they do not have.
+    """
+
+    def __init__(
+        self,
+        register_map: RegisterMap,
+        model: str,
+        *,
+        unit: int | None = None,
+        givens: Mapping[str, GivenValue] | None = None,
+        seed: int = 0,
+    ) -> None:
+        self.register_map = register_map
+        self.model = _model(register_map, model)
+        self.unit = _unit(register_map.protocol, unit)
+        self.state = State(register_map, self.model, givens or {})
+        self._protocol = register_map.protocol
+        self._commands = Commands(self.model.commands)
+        layout = Layout(self.model, register_map.reserved)
+        self._reader = Reader(self._protocol, layout, self.state, seed, self.unit)
+        self._writer = Writer(self._protocol, layout, self.state, self._commands)
+        self._lock = RLock()
+        self._functions: dict[int, Callable[[bytes], bytes]] = {
+            **dict.fromkeys(READS, self._read),
+            5: self._write_bit,
+            6: self._write_word,
+            7: self._status,
+            8: self._loopback,
+            15: self._write_bits,
+            16: self._write_words,
+            22: self._mask_word,
+            23: self._write_and_read,
+        }
+
+    @property
+    def commands_run(self) -> tuple[str, ...]:
+        """The ids of the commands that were run, in order."""
+        return tuple(self._commands.run)
+
+    def peek(self, path: str) -> Value:
+        """Return the present value of a register or of `register.field`, in the unit of use (see `State.peek`)."""
+        with self._lock:
+            return self.state.peek(path)
+
+    def poke(self, path: str, value: Plain) -> None:
+        """Set a register or `register.field` to a value of use, read-only ones too (see `State.poke`)."""
+        with self._lock:
+            self.state.poke(path, value)
+
+    def peek_words(self, path: str, view: str = "") -> tuple[int, ...]:
+        """Return the words that a view of a register (default: the base view) transmits now."""
+        with self._lock:
+            return self.state.peek_words(path, view)
+
+    def handle(self, pdu: bytes, *, broadcast: bool = False) -> bytes | None:
+        """Act on a request (function code and data) and return the answer; None where the device keeps silent.
+
+        A broadcast is acted on if the protocol says that its function may be broadcast, and never answered.
+        """
+        if not pdu or pdu[0] & EXCEPTION_BIT or (broadcast and pdu[0] not in self._protocol.broadcast):
+            return None
+        with self._lock:
+            try:
+                answer = self._act(pdu)
+            except Refusal as refusal:
+                answer = exception_answer(pdu[0], refusal.code)
+        return None if broadcast else answer
+
+    def _act(self, pdu: bytes) -> bytes | None:
+        act = self._functions.get(pdu[0]) if pdu[0] in self._protocol.functions else None
+        if act is None:
+            raise Refusal(self._protocol.faults.function)
+        return act(pdu)
+
+    def _fields(self, form: str, pdu: bytes) -> tuple[int, ...]:
+        """Unpack the numbers of a request; one that is too short or too long has the wrong quantity."""
+        if len(pdu) != 1 + struct.calcsize(form):
+            raise Refusal(self._protocol.faults.quantity)
+        return struct.unpack(form, pdu[1:])
+
+    def _block(self, pdu: bytes, start: int) -> tuple[int, int, bytes]:
+        """Unpack address, count and data of a write of several, whose byte count must fit its length."""
+        head, data = pdu[start : start + 5], pdu[start + 5 :]
+        if len(head) != struct.calcsize(">HHB") or head[4] != len(data):
+            raise Refusal(self._protocol.faults.quantity)
+        address, count = struct.unpack(">HH", head[:4])
+        return address, count, data
+
+    def _words(self, count: int, data: bytes) -> tuple[int, ...]:
+        if len(data) != 2 * count:
+            raise Refusal(self._protocol.faults.quantity)
+        return struct.unpack(f">{count}H", data)
+
+    def _read(self, pdu: bytes) -> bytes:
+        address, count = self._fields(">HH", pdu)
+        space = READS[pdu[0]]
+        return _read_answer(pdu[0], space, self._reader.read(space, pdu[0], address, count))
+
+    def _write_bit(self, pdu: bytes) -> bytes:
+        address, word = self._fields(">HH", pdu)
+        if word not in BIT_WORDS:
+            raise Refusal(self._protocol.faults.value)
+        self._writer.write(Space.COIL, pdu[0], address, (BIT_WORDS[word],))
+        return pdu
+
+    def _write_word(self, pdu: bytes) -> bytes:
+        address, word = self._fields(">HH", pdu)
+        self._writer.write(Space.HOLDING, pdu[0], address, (word,))
+        return pdu
+
+    def _write_bits(self, pdu: bytes) -> bytes:
+        address, count, data = self._block(pdu, 1)
+        if len(data) != (count + 7) // 8:
+            raise Refusal(self._protocol.faults.quantity)
+        done = self._writer.write(Space.COIL, pdu[0], address, unpack_bits(data, count))
+        return struct.pack(">BHH", pdu[0], address, done)
+
+    def _write_words(self, pdu: bytes) -> bytes:
+        address, count, data = self._block(pdu, 1)
+        done = self._writer.write(Space.HOLDING, pdu[0], address, self._words(count, data))
+        return struct.pack(">BHH", pdu[0], address, done)
+
+    def _mask_word(self, pdu: bytes) -> bytes:
+        address, keep, put = self._fields(">HHH", pdu)
+        (word,) = self._reader.read(Space.HOLDING, pdu[0], address, 1)
+        self._writer.write(Space.HOLDING, pdu[0], address, ((word & keep) | (put & ~keep & 0xFFFF),))
+        return pdu
+
+    def _write_and_read(self, pdu: bytes) -> bytes:
+        read_address, read_count = self._fields(">HH", pdu[:5])
+        address, count, data = self._block(pdu, 5)
+        self._writer.write(Space.HOLDING, pdu[0], address, self._words(count, data))
+        return _read_answer(pdu[0], Space.HOLDING, self._reader.read(Space.HOLDING, pdu[0], read_address, read_count))
+
+    def _status(self, pdu: bytes) -> bytes:
+        self._fields(">", pdu)
+        (status,) = self.state.words(Space.STATUS, 0, 1)
+        if status is None:
+            raise Refusal(self._protocol.faults.function)
+        return bytes((pdu[0], status))
+
+    def _loopback(self, pdu: bytes) -> bytes:
+        if pdu[1:3] != b"\0\0":
+            raise Refusal(self._protocol.faults.function)
+        return pdu
+
+
+def _read_answer(function: int, space: Space, words: Sequence[int]) -> bytes:
+    data = pack_bits(words) if space.is_bits else struct.pack(f">{len(words)}H", *words)
+    return bytes((function, len(data))) + data
+
+
+def _model(register_map: RegisterMap, name: str) -> Model:
+    if not register_map.has(name):
+        known = ", ".join(model.name for model in register_map.models)
+        message = f"map {register_map.id} has no model {name!r}: it has {known}"
+        raise SimulatorError(message)
+    return register_map.model(name)
+
+
+def _unit(protocol: Protocol, unit: int | None) -> int:
+    low, high = protocol.unit_ids
+    if unit is None:
+        return protocol.default_unit or max(1, low)
+    if not max(1, low) <= unit <= high:
+        message = f"unit {unit} is outside {max(1, low)}..{high}, the unit ids of this device (0 is the broadcast)"
+        raise SimulatorError(message)
+    return unit

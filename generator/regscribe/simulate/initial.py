@@ -1,0 +1,47 @@
+"""What a register holds when the device is new."""
+
+from fractions import Fraction
+
+from regscribe.model import Kind, Model, Register, RegisterMap, Test
+from regscribe.simulate.limits import Present, accepts, limit_value
+from regscribe.simulate.values import with_field
+
+
+def initial_value(register_map: RegisterMap, model: Model, register: Register, state: Present) -> Fraction | str:
+    """Return the value of use that `register` begins with.
+
+    In this order: what tells the model (so that an identification finds it), the map's default, 0 if the register
+    accepts it, its first enum member, its first low limit that is known, 0.
+    """
+    if register.kind is Kind.STRING:
+        return register.default if isinstance(register.default, str) else ""
+    tests = _identifying_tests(register_map, model, register)
+    if tests:
+        return _identifying(register, tests)
+    if register.default is not None:
+        return register.default
+    if accepts(register, Fraction(0), state):
+        return Fraction(0)
+    if register.enum is not None and register.enum.members:
+        return Fraction(register.enum.members[0].code)
+    limits = state.choose(register.range)
+    lows = (limit_value(each.low, limits, state) for each in limits.intervals) if limits else ()
+    return next((low for low in lows if low is not None), Fraction(0))
+
+
+def _identifying_tests(register_map: RegisterMap, model: Model, register: Register) -> tuple[Test, ...]:
+    identity = next((each for each in register_map.identity if model.name in each.models), None)
+    tests = identity.when.tests if identity else ()
+    return tuple(test for test in tests if test.register == register.path and test.codes and not test.negated)
+
+
+def _identifying(register: Register, tests: tuple[Test, ...]) -> Fraction:
+    value = register.default if isinstance(register.default, Fraction) else Fraction(0)
+    for test in tests:
+        code = test.codes[0].low
+        field = next((each for each in register.fields if each.id == test.field), None)
+        if field is not None:
+            value = with_field(value, field, code)
+        elif register.default is None or not any(each.holds(value) for each in test.codes):
+            value = code
+    return value

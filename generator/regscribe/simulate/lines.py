@@ -1,0 +1,66 @@
+"""Serial lines: a serial device with its speed and format, or a pseudo terminal made here."""
+
+import os
+import tty
+from dataclasses import dataclass
+
+import serial  # type: ignore[import-untyped]  # pyserial ships no types
+
+from regscribe.simulate.errors import SimulatorError
+
+_FORMAT_LENGTH = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """Speed in baud, and data bits, parity and stop bits as one text: 8N1, 8E1, 7E2."""
+
+    baud: int = 9600
+    format: str = "8N1"
+
+
+class OpenLine:
+    """An open serial line: `fd` to read and write raw bytes (not blocking), `path` for the other side to open."""
+
+    __slots__ = ("_held", "_port", "fd", "path")
+
+    def __init__(self, path: str, fd: int, *, port: serial.Serial | None = None, held: int | None = None) -> None:
+        self.path = path
+        self.fd = fd
+        self._port = port
+        self._held = held
+
+    def close(self) -> None:
+        """Close all that was opened."""
+        if self._port is not None:
+            self._port.close()
+            return
+        os.close(self.fd)
+        if self._held is not None:
+            os.close(self._held)
+
+
+def open_serial(path: str, line: Line) -> OpenLine:
+    """Open a serial device; SimulatorError if it is absent, busy, not ours, or cannot be set to `line`."""
+    try:
+        port = serial.Serial(path, timeout=0, write_timeout=0, exclusive=True, **_settings(line))
+    except (OSError, ValueError) as problem:
+        message = f"cannot open serial device {path!r} with {line.baud} baud {line.format}: {problem}"
+        raise SimulatorError(message) from problem
+    return OpenLine(path, port.fileno(), port=port)
+
+
+def open_pseudo_terminal() -> OpenLine:
+    """Make a pseudo terminal; `path` is the end that a client opens. Closed clients may come back: it stays open."""
+    ours, theirs = os.openpty()
+    tty.setraw(theirs)
+    os.set_blocking(ours, False)
+    return OpenLine(os.ttyname(theirs), ours, held=theirs)
+
+
+def _settings(line: Line) -> dict[str, object]:
+    text = line.format.upper()
+    if len(text) != _FORMAT_LENGTH or text[0] not in "5678" or text[1] not in "NEOMS" or text[2] not in "12":
+        message = f"character format is data bits, parity and stop bits such as 8N1, 8E1 or 7O2, not {line.format!r}"
+        raise SimulatorError(message)
+    return {"baudrate": line.baud, "bytesize": int(text[0]), "parity": text[1], "stopbits": int(text[2])}

@@ -1,0 +1,171 @@
+"""The simulator's front door: choose a transport, serve devices, from asyncio or in a thread of a test."""
+
+import asyncio
+import threading
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from regscribe.model import RegisterMap
+from regscribe.simulate.connection import Delivery, Manners, Patience, Recorder
+from regscribe.simulate.device import SimulatedDevice
+from regscribe.simulate.errors import SimulatorError
+from regscribe.simulate.framing import Framing, Request
+from regscribe.simulate.givens import GivenValue
+from regscribe.simulate.lines import Line, OpenLine, open_pseudo_terminal, open_serial
+from regscribe.simulate.servers import LineServer, Server, TcpServer
+from regscribe.simulate.station import Foreign, Station
+
+LOOPBACK = "127.0.0.1"
+MOST_CONNECTIONS = 64
+SERIAL_GAP = 0.1
+"""Seconds of silence that end a frame on a serial line: longer than 3.5 characters, for adapters deliver in chunks."""
+
+
+class Transport(StrEnum):
+    """How clients reach the devices: MBAP, RTU or ASCII on TCP, RTU on a serial device or on a pty made here."""
+
+    TCP = "tcp"
+    RTU_OVER_TCP = "rtu-tcp"
+    ASCII_OVER_TCP = "ascii-tcp"
+    SERIAL = "serial"
+    PTY = "pty"
+
+
+_FRAMINGS = {
+    Transport.TCP: Framing.MBAP,
+    Transport.RTU_OVER_TCP: Framing.RTU,
+    Transport.ASCII_OVER_TCP: Framing.ASCII,
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Service:
+    """Where and how to serve.
+
+    `host` and `port` (0: any free one) are for TCP, `path` and `line` for a serial device. `foreign` is what a unit
+    that is not there gets (None: over MBAP a gateway's exception, elsewhere silence). `delivery` stands between device
+    and line, `recorder` is told of each request to a device here. `connections`: how many clients at once.
+    `patience` None: 1 s for half a frame and 10 minutes for an idle client on TCP, 0.1 s and for ever on a line.
+    """
+
+    transport: Transport = Transport.TCP
+    host: str = LOOPBACK
+    port: int = 0
+    path: str = ""
+    line: Line = field(default_factory=Line)
+    foreign: Foreign | None = None
+    connections: int = MOST_CONNECTIONS
+    patience: Patience | None = None
+    delivery: Delivery | None = None
+    recorder: Recorder | None = None
+
+
+async def start(devices: Sequence[SimulatedDevice], service: Service) -> Server:
+    """Serve `devices` until the returned server is stopped.
+
+    Raises SimulatorError where the port is taken, the serial device cannot be opened, or two devices share a unit.
+    """
+    transport = Transport(service.transport)
+    usual = Foreign.GATEWAY if transport is Transport.TCP else Foreign.SILENCE
+    station = Station(devices, foreign=service.foreign or usual)
+    if transport in _FRAMINGS:
+        manners = _manners(service, Patience())
+        tcp = TcpServer(station, _FRAMINGS[transport], manners, most=service.connections)
+        await tcp.listen(service.host, service.port)
+        return tcp
+    line = LineServer(_open(transport, service), station, _manners(service, Patience(idle=None, gap=SERIAL_GAP)))
+    await line.listen()
+    return line
+
+
+async def serve(
+    devices: Sequence[SimulatedDevice],
+    service: Service,
+    *,
+    ready: Callable[[Server], None] | None = None,
+) -> None:
+    """Serve `devices` until cancelled; `ready` is called once with the started server (its bound port, its path).
+
+    Raises SimulatorError as `start` does, and when a serial device is lost.
+    """
+    server = await start(devices, service)
+    try:
+        if ready is not None:
+            ready(server)
+        await server.wait()
+    finally:
+        await server.stop()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Running:
+    """A simulated device being served in this process: `path` is a pty's, `host` and `port` are of TCP.
+
+    `requests` holds every request to the device (function code and data), broadcasts too, in the order they came;
+    clear it as you like.
+    """
+
+    device: SimulatedDevice
+    host: str
+    port: int
+    path: str
+    requests: list[bytes]
+
+
+@contextmanager
+def simulate(
+    register_map: RegisterMap,
+    model: str,
+    *,
+    unit: int | None = None,
+    transport: str = Transport.TCP,
+    givens: Mapping[str, GivenValue] | None = None,
+    seed: int = 0,
+    foreign: Foreign | None = None,
+    delivery: Delivery | None = None,
+) -> Iterator[Running]:
+    """Serve one device from a thread of its own while the block runs; for sync and async clients in tests.
+
+    `transport` is tcp, rtu-tcp, ascii-tcp or pty. Raises SimulatorError as `SimulatedDevice` and `start` do.
+    """
+    device = SimulatedDevice(register_map, model, unit=unit, givens=givens, seed=seed)
+    requests: list[bytes] = []
+
+    def record(request: Request) -> None:
+        requests.append(request.pdu)
+
+    service = Service(transport=Transport(transport), foreign=foreign, delivery=delivery, recorder=record)
+    with _in_thread(device, service) as server:
+        yield Running(device=device, host=server.host, port=server.port, path=server.path, requests=requests)
+
+
+@contextmanager
+def _in_thread(device: SimulatedDevice, service: Service) -> Iterator[Server]:
+    loop = asyncio.new_event_loop()
+    thread = threading.Thread(target=loop.run_forever, name=f"simulated {device.model.name}", daemon=True)
+    thread.start()
+    try:
+        server = asyncio.run_coroutine_threadsafe(start((device,), service), loop).result()
+        try:
+            yield server
+        finally:
+            asyncio.run_coroutine_threadsafe(server.stop(), loop).result()
+    finally:
+        loop.call_soon_threadsafe(loop.stop)
+        thread.join()
+        loop.close()
+
+
+def _manners(service: Service, usual: Patience) -> Manners:
+    return Manners(patience=service.patience or usual, delivery=service.delivery, recorder=service.recorder)
+
+
+def _open(transport: Transport, service: Service) -> OpenLine:
+    if transport is Transport.PTY:
+        return open_pseudo_terminal()
+    if not service.path:
+        message = "no serial device is named: give its path, such as /dev/ttyUSB0"
+        raise SimulatorError(message)
+    return open_serial(service.path, service.line)

@@ -1,0 +1,39 @@
+"""Bit fields, names and versions: small, stateless steps between a stored number and what a person says."""
+
+from decimal import Decimal
+from fractions import Fraction
+
+from regscribe.model import BitField, Register, exact
+from regscribe.simulate.errors import SimulatorError
+
+Plain = str | float | Fraction | Decimal
+"""What a test may hand in for a value: a number, or a text that spells or names one."""
+
+
+def field_value(word: Fraction, field: BitField) -> Fraction:
+    """Return the number that the bits of `field` spell in `word`."""
+    return Fraction(int(word) >> field.low & (1 << field.width) - 1)
+
+
+def with_field(word: Fraction, field: BitField, value: Fraction) -> Fraction:
+    """`word` with the bits of `field` set to `value`, which is cut to the field's width."""
+    mask = (1 << field.width) - 1
+    return Fraction(int(word) & ~(mask << field.low) | (int(value) & mask) << field.low)
+
+
+def number_of(register: Register, field: BitField | None, value: Plain) -> Fraction:
+    """Return the number that `value` is or names: an enum member or a special value by its id, else decimals.
+
+    Raises SimulatorError if it is neither.
+    """
+    if isinstance(value, str):
+        enum = field.enum if field else register.enum
+        names = {each.id.lower(): Fraction(each.code) for each in enum.members} if enum else {}
+        names |= {} if field else {each.id.lower(): each.code for each in register.specials}
+        if value.lower() in names:
+            return names[value.lower()]
+    try:
+        return exact(value)
+    except ValueError:
+        message = f"{value!r} is no value of {register.path!r}: give a number or the id of a value"
+        raise SimulatorError(message) from None

@@ -1,0 +1,111 @@
+"""How a device takes a write: value by value, whole values only, and what it does at the first one it refuses."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from regscribe.model import Later, Protocol, Register, Space
+from regscribe.simulate import codec
+from regscribe.simulate.answers import Refusal
+from regscribe.simulate.commands import Commands
+from regscribe.simulate.layout import Layout, Place
+from regscribe.simulate.limits import accepts
+from regscribe.simulate.reading import check_request
+from regscribe.simulate.state import State, Stored
+
+WRITE_ONE = 6
+
+
+@dataclass(frozen=True, slots=True)
+class _Written:
+    place: Place
+    words: tuple[int, ...]
+    before: Stored
+
+
+@dataclass(frozen=True, slots=True)
+class Writer:
+    """Writes words (or bits) of one device through any view; half of a value is refused as misaligned."""
+
+    protocol: Protocol
+    layout: Layout
+    state: State
+    commands: Commands
+
+    def write(self, space: Space, function: int, address: int, words: Sequence[int]) -> int:
+        """Write from `address` on; returns how many words (bits) were written. Raises Refusal.
+
+        Where the protocol says that a later bad word stops the write, fewer than all may be written; otherwise a
+        refused request leaves the state as it was. A command counts as run once its words are written.
+        """
+        most = self.protocol.write_bits if space.is_bits else self.protocol.write_words
+        check_request(self.protocol, self.layout, space, function, address, len(words), most=most)
+        is_register = self.layout.place(space, address) is not None
+        if space is Space.HOLDING and not is_register and self.commands.is_step(function, address, words):
+            self.commands.saw(address, words)
+            return len(words)
+        return self._write_values(space, function, address, words)
+
+    def _write_values(self, space: Space, function: int, address: int, words: Sequence[int]) -> int:
+        written: list[_Written] = []
+        done = 0
+        try:
+            while done < len(words):
+                place = self._place(space, function, address + done, len(words) - done)
+                written.append(self._write_value(place, tuple(words[done : done + place.words])))
+                done += place.words
+        except Refusal:
+            if not done or self.protocol.faults.later_write is not Later.STOP:
+                self._undo(written)
+                raise
+        for each in written:
+            self.commands.saw(each.place.start, each.words)
+        return done
+
+    def _undo(self, written: Sequence[_Written]) -> None:
+        for each in reversed(written):
+            self.state.store(each.place.register.path, each.before)
+
+    def _write_value(self, place: Place, words: tuple[int, ...]) -> _Written:
+        path = place.register.path
+        self._check_access(place.register)
+        before = self.state.stored(path)
+        self.state.store(path, self._accepted(place, words))
+        return _Written(place, words, before)
+
+    def _place(self, space: Space, function: int, address: int, left: int) -> Place:
+        faults = self.protocol.faults
+        place = self.layout.place(space, address)
+        if place is None:
+            if (space, address) in self.layout.reserved:
+                raise Refusal(faults.read_only)
+            is_command = space is Space.HOLDING and address in self.layout.command_addresses
+            raise Refusal(faults.value if is_command else faults.address)
+        if address != place.start:
+            raise Refusal(faults.misaligned_address)
+        if place.words > left:
+            raise Refusal(faults.view_function if function == WRITE_ONE else faults.misaligned_count)
+        return place
+
+    def _check_access(self, register: Register) -> None:
+        if not register.access.writable:
+            raise Refusal(self.protocol.faults.read_only)
+        if register.writable is not None and not self.state.holds(register.writable.when):
+            raise Refusal(self.protocol.faults.condition)
+        if register.unlock and register.unlock not in self.commands.run:
+            raise Refusal(self.protocol.faults.condition)
+
+    def _accepted(self, place: Place, words: tuple[int, ...]) -> Stored:
+        register, view = place.register, place.view
+        stored = codec.decode(view, words, self.state.order(view))
+        if isinstance(stored, str):
+            return stored
+        if stored is None:
+            raise Refusal(self.protocol.faults.value)
+        held = self.state.quantise(register, stored)
+        if not self.commands.sets_register(place.start, words) and not self._fits(register, held):
+            raise Refusal(self.protocol.faults.value)
+        return held
+
+    def _fits(self, register: Register, stored: Fraction) -> bool:
+        return accepts(register, self.state.to_value(register, stored), self.state)
