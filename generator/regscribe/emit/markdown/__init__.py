@@ -1,0 +1,40 @@
+"""Reference docs in Markdown: a map in, `{path: text}` out; no clock, no environment, no order of sets."""
+
+from collections.abc import Iterable
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+
+from regscribe.emit.markdown.build import index, page
+from regscribe.emit.markdown.escape import Md, escape
+from regscribe.model import RegisterMap
+
+__all__ = ["render", "render_index"]
+
+
+def render(register_map: RegisterMap) -> dict[str, str]:
+    """Return the reference of a map: CommonMark with tables, at `docs/<maker>/<family>.md`."""
+    text = _environment().get_template("page.md.j2").render(page=page(register_map))
+    return {f"docs/{register_map.id}.md": text}
+
+
+def render_index(maps: Iterable[RegisterMap]) -> dict[str, str]:
+    """Return the list of all references, ordered by id, at `docs/README.md`."""
+    text = _environment().get_template("index.md.j2").render(index=index(maps))
+    return {"docs/README.md": text}
+
+
+def _environment() -> Environment:
+    """Return an environment that escapes every value for Markdown unless it is a `Md`."""
+    return Environment(
+        loader=PackageLoader("regscribe.emit.markdown", "templates"),
+        autoescape=False,  # noqa: S701 (the output is Markdown: `finalize` escapes for it, HTML included)
+        finalize=_ready,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        undefined=StrictUndefined,
+    )
+
+
+def _ready(value: object) -> object:
+    return escape(value) if isinstance(value, str) and not isinstance(value, Md) else value

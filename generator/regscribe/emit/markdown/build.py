@@ -1,0 +1,88 @@
+"""The page of a map and the list of all pages, ready for the templates."""
+
+from collections.abc import Iterable
+
+from regscribe.emit.header import header
+from regscribe.emit.markdown.context import Context, context
+from regscribe.emit.markdown.entries import commands, sections
+from regscribe.emit.markdown.escape import Md, code, escape, join, link, md, prose
+from regscribe.emit.markdown.examples import examples
+from regscribe.emit.markdown.line import exceptions, faults, latency, line
+from regscribe.emit.markdown.overview import overview
+from regscribe.emit.markdown.page import Index, Page, Table, table
+from regscribe.emit.markdown.quickstart import quick_start
+from regscribe.emit.markdown.transmission import conditions, givens, identity, plain, reserved, views
+from regscribe.emit.text import one_line
+from regscribe.model import Manual, RegisterMap
+
+
+def page(register_map: RegisterMap) -> Page:
+    """Return everything that the reference of a map shows."""
+    found = context(register_map)
+    groups = sections(found)
+    return Page(
+        header=Md(header(register_map, prefix="<!-- ", suffix=" -->")),
+        title=one_line(register_map.title),
+        paragraphs=(prose(register_map.description),) if register_map.description else (),
+        manual=_manual(register_map.manual),
+        models=_models(register_map),
+        identity=identity(found),
+        contents=tuple(link(group.name, group.anchor) for group in groups),
+        quick_start=quick_start(found),
+        line=line(found),
+        latency=latency(found),
+        givens=givens(found),
+        transmission=plain(found),
+        views=views(found),
+        conditions=conditions(found),
+        overview=overview(found),
+        reserved=reserved(found),
+        groups=groups,
+        commands=commands(found),
+        faults=faults(found),
+        exceptions=exceptions(found),
+        examples=examples(found),
+        errata=_errata(found),
+        notes=tuple(prose(note) for note in register_map.notes),
+    )
+
+
+def _manual(manual: Manual) -> Md:
+    facts = (manual.number, manual.date, manual.publisher)
+    return join(", ", (md(Md("*"), one_line(manual.title), Md("*")), *(escape(one_line(fact)) for fact in facts)))
+
+
+def _models(register_map: RegisterMap) -> Table:
+    headers = ("Model", "Class", "Values", "Commands", "Remark")
+    rows = (
+        (
+            one_line(model.name),
+            code(model.class_name),
+            str(len(model.registers)),
+            str(len(model.commands)),
+            prose(model.description),
+        )
+        for model in register_map.models
+    )
+    return table(headers, rows)
+
+
+def _errata(found: Context) -> Table:
+    rows = ((one_line(item.where), prose(item.printed), prose(item.read), prose(item.why)) for item in found.map.errata)
+    return table(("Where", "The manual says", "Read as", "Why"), rows)
+
+
+def index(maps: Iterable[RegisterMap]) -> Index:
+    """Return the list of the references of several maps."""
+    headers = ("Device family", "Maker", "Models", "Registers", "Manual")
+    rows = (
+        (
+            md(Md("["), one_line(item.title), Md(f"]({item.id}.md)")),
+            one_line(item.maker),
+            ", ".join(one_line(model.name) for model in item.models),
+            str(max((len(model.registers) for model in item.models), default=0)),
+            _manual(item.manual),
+        )
+        for item in sorted(maps, key=lambda item: item.id)
+    )
+    return Index(maps=table(headers, rows))

@@ -1,0 +1,136 @@
+"""What the parts of a page share: anchors, named conditions, notations of addresses, words with links."""
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+
+from regscribe.emit.markdown.escape import Md, code, escape, lines, link, md, slug
+from regscribe.emit.markdown.merge import Shared, Stated, T
+from regscribe.emit.markdown.outline import Node, leaves, outline, pattern
+from regscribe.emit.text import Wording, condition_words, one_line
+from regscribe.model import Condition, Model, Register, RegisterMap, Space
+
+SPACES = {
+    Space.HOLDING: "Holding registers",
+    Space.INPUT: "Input registers",
+    Space.COIL: "Coils",
+    Space.DISCRETE: "Discrete inputs",
+    Space.STATUS: "Exception status",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Context:
+    """A map, its registers merged over the models, and the anchors of everything that can be linked to.
+
+    `conditions` are the named ones with a model that has them; `elements` the registers of arrays by model and pattern.
+    """
+
+    map: RegisterMap
+    nodes: tuple[Node, ...]
+    anchors: dict[str, str]
+    conditions: dict[str, tuple[Model, Condition]]
+    elements: dict[tuple[str, str], list[Register]]
+
+    def anchor(self, kind: str, key: str) -> str:
+        """Return the anchor of a register, group, command or condition; empty if the page has none."""
+        return self.anchors.get(f"{kind} {key}", "")
+
+    def register(self, path: str) -> Md:
+        """Return a register's path as code, with a link to its details."""
+        return link(code(path), self.anchor("register", pattern(path)))
+
+    def command(self, name: str) -> Md:
+        """Return a command's id as code, with a link to its details."""
+        return link(code(name), self.anchor("command", name))
+
+    def wording(self, model: Model) -> Wording:
+        """Return how phrases about one model are written."""
+        return Wording(text=escape, register=self.register, condition=lambda item: self.condition(item, model))
+
+    def condition(self, condition: Condition, model: Model) -> Md:
+        """Return a condition's name with a link to its meaning, or its words."""
+        if condition.name and condition.name in self.conditions:
+            return link(condition.name.replace("_", " "), self.anchor("condition", condition.name))
+        return escape(condition_words(condition, model))
+
+    def covers(self, models: Iterable[str]) -> Md:
+        """Return the models in words; nothing if they are all models of the map."""
+        names = tuple(models)
+        return Md() if len(names) == len(self.map.models) else escape(", ".join(map(one_line, names)))
+
+    def notations(self, space: Space, address: int) -> Md:
+        """Return the other notations of an address: `absolute 40001`."""
+        found = [item for item in self.map.notations if item.space is space]
+        return md(", ".join(f"{one_line(item.name)} {address + item.offset}" for item in found))
+
+    def address(self, space: Space, address: int) -> Md:
+        """Return an address with its other notations in brackets."""
+        notations = self.notations(space, address)
+        return md(str(address), " (", notations, ")") if notations else md(str(address))
+
+
+def context(register_map: RegisterMap) -> Context:
+    """Merge the models and name the anchors."""
+    nodes = outline(register_map.models)
+    conditions = {item.name: (model, item) for model, item in reversed(list(_conditions(register_map))) if item.name}
+    conditions = dict(reversed(conditions.items()))
+    keys = [f"register {leaf.register.key}" for leaf in leaves(nodes)]
+    keys += [f"group {group.id}" for model in register_map.models for group in model.groups]
+    keys += [f"command {command.id}" for model in register_map.models for command in model.commands]
+    keys += [f"condition {name}" for name in conditions]
+    return Context(register_map, nodes, _anchors(keys), conditions, _elements(register_map))
+
+
+def _elements(register_map: RegisterMap) -> dict[tuple[str, str], list[Register]]:
+    """Return the registers of arrays by model and path without indices."""
+    found: dict[tuple[str, str], list[Register]] = {}
+    for model in register_map.models:
+        for register in model.registers:
+            if register.index:
+                found.setdefault((model.name, pattern(register.path)), []).append(register)
+    return found
+
+
+def _anchors(keys: Iterable[str]) -> dict[str, str]:
+    anchors: dict[str, str] = {}
+    taken: set[str] = set()
+    for key in dict.fromkeys(keys):
+        name = stem = slug(key)
+        count = 2
+        while name in taken:
+            name, count = f"{stem}-{count}", count + 1
+        anchors[key] = name
+        taken.add(name)
+    return anchors
+
+
+def _conditions(register_map: RegisterMap) -> Iterator[tuple[Model, Condition]]:
+    for model in register_map.models:
+        for register in model.registers:
+            yield from ((model, condition) for condition in conditions_of(register))
+    for identity in register_map.identity:
+        yield register_map.models[0], identity.when
+
+
+def conditions_of(register: Register) -> Iterator[Condition]:
+    """Yield every condition that a register's facts depend on."""
+    for cases in (register.scale, register.unit, register.range):
+        yield from (case.when for case in cases)
+    if register.writable:
+        yield register.writable.when
+
+
+def stated(facts: Iterable[Stated[Md]]) -> Md:
+    """Return a fact on one line for each set of models that share it; models of which nothing is said are left out."""
+    return lines(
+        *(
+            md(Md("**"), ", ".join(item.models), Md(":** "), item.value) if item.models else item.value
+            for item in facts
+            if item.value
+        )
+    )
+
+
+def by_model(shared: Shared[T], fact: Callable[[Model, T], Md]) -> Md:
+    """Return a fact of something shared, once or by model."""
+    return stated(shared.states(fact))

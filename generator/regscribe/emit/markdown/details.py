@@ -1,0 +1,160 @@
+"""The tables below a register's facts: views, scale and range by condition, values, bits, addresses of elements."""
+
+from collections.abc import Callable
+
+from regscribe.emit.markdown.context import Context
+from regscribe.emit.markdown.escape import Md, code, escape, md, prose
+from regscribe.emit.markdown.facts import transmission, view_type
+from regscribe.emit.markdown.merge import Shared, Stated
+from regscribe.emit.markdown.outline import Leaf, formula
+from regscribe.emit.markdown.page import Titled, table
+from regscribe.emit.text import bits_words, conversion_words, one_line, range_words, when_words
+from regscribe.model import Enum, Model, Register
+
+Rows = tuple[tuple[Md, ...], ...]
+ENUM_HEADERS = ("Code", "Meaning", "In Python", "Remark", "Models")
+
+
+def views(context: Context, leaf: Leaf) -> tuple[Titled, ...]:
+    """Return the table of views of a register that has several, once or by model."""
+    facts = leaf.register.states(lambda _, register: _view_rows(context, leaf, register))
+    return _titled("Views", ("View", "Wire address", "Other notation", "Type", "Transmitted"), facts)
+
+
+def _view_rows(context: Context, leaf: Leaf, register: Register) -> Rows:
+    if len(register.views) == 1:
+        return ()
+    return tuple(
+        (
+            md(code(view.name), " (preferred)" if view is register.preferred else ""),
+            code(formula(view, leaf.arrays)) if leaf.arrays else escape(str(view.address)),
+            Md() if leaf.arrays else context.notations(view.space, view.address),
+            escape(view_type(view)),
+            transmission(context, view),
+        )
+        for view in register.views
+    )
+
+
+def by_condition(context: Context, leaf: Leaf) -> tuple[Titled, ...]:
+    """Return scale and range by condition: in one table where they depend on the same."""
+    shared = leaf.register
+    both = shared.states(lambda model, register: _both_rows(context, model, register))
+    scales = shared.states(lambda model, register: _scale_rows(context, model, register))
+    ranges = shared.states(lambda model, register: _range_rows(context, model, register))
+    return (
+        *_titled("Scale and range", ("When", "Value from the stored number x", "Range"), both),
+        *_titled("Scale", ("When", "Value from the stored number x"), scales),
+        *_titled("Range", ("When", "Range"), ranges),
+    )
+
+
+def _together(register: Register) -> bool:
+    scale, limits = ([case.when for case in cases] for cases in (register.scale, register.range))
+    return scale == limits and len(scale) > 1
+
+
+def _both_rows(context: Context, model: Model, register: Register) -> Rows:
+    if not _together(register):
+        return ()
+    pairs = zip(_scale(context, model, register), _limits(context, model, register), strict=True)
+    return tuple((when, words, limits) for (when, words), (_, limits) in pairs)
+
+
+def _scale_rows(context: Context, model: Model, register: Register) -> Rows:
+    alone = len(register.scale) == 1 or _together(register)
+    return () if alone else _scale(context, model, register)
+
+
+def _range_rows(context: Context, model: Model, register: Register) -> Rows:
+    plain = len(register.range) == 1 and register.range[0].when.always
+    return () if plain or _together(register) else _limits(context, model, register)
+
+
+def _scale(context: Context, model: Model, register: Register) -> Rows:
+    wording = context.wording(model)
+    return tuple((Md(when_words(case.when, wording)), code(conversion_words(case.then))) for case in register.scale)
+
+
+def _limits(context: Context, model: Model, register: Register) -> Rows:
+    wording = context.wording(model)
+    return tuple((Md(when_words(case.when, wording)), Md(range_words(case.then, wording))) for case in register.range)
+
+
+def values(leaf: Leaf) -> tuple[Titled, ...]:
+    """Return the members of a register's enum and the codes that the manual calls invalid."""
+    rows = _by_model(leaf.register, lambda register: _enum_rows(register.enum))
+    found = table(ENUM_HEADERS, sorted(rows, key=lambda row: int(row[0])))
+    return (Titled("Values", found),) if found.rows else ()
+
+
+def _enum_rows(enum: Enum | None) -> Rows:
+    if enum is None:
+        return ()
+    rows = [(member.code, member.label, member.id, prose(member.description)) for member in enum.members]
+    rows += [(number, "invalid", "", prose(why)) for number, why in enum.invalid]
+    ordered = sorted(rows, key=lambda row: row[0])
+    return tuple(
+        (escape(str(number)), escape(one_line(label)), code(name) if name else Md(), remark)
+        for number, label, name, remark in ordered
+    )
+
+
+def bits(leaf: Leaf) -> tuple[Titled, ...]:
+    """Return the bits and fields of a register's word."""
+    headers = ("Bits", "Meaning", "In Python", "Values", "Remark", "Models")
+    found = table(headers, _by_model(leaf.register, _bit_rows))
+    return (Titled("Bits (0 is the least significant)", found),) if found.rows else ()
+
+
+def _bit_rows(register: Register) -> Rows:
+    return tuple(
+        (
+            escape(bits_words(field)),
+            escape(one_line(field.label)),
+            code(field.id),
+            escape(_codes(field.enum)),
+            prose(field.description),
+        )
+        for field in register.fields
+    )
+
+
+def _codes(enum: Enum | None) -> str:
+    return ", ".join(f"{member.code} = {one_line(member.label)}" for member in enum.members) if enum else ""
+
+
+def _by_model(shared: Shared[Register], rows: Callable[[Register], Rows]) -> list[tuple[Md, ...]]:
+    """Return the rows of all models, each once, with the models that have it where not all have."""
+    found: dict[tuple[Md, ...], list[str]] = {}
+    for model, register in shared.versions:
+        for row in rows(register):
+            found.setdefault(row, []).append(model.name)
+    every = len(shared.versions)
+    return [(*row, escape(", ".join(names)) if len(names) < every else Md()) for row, names in found.items()]
+
+
+def _titled(title: str, headers: tuple[str, ...], facts: tuple[Stated[Rows], ...]) -> tuple[Titled, ...]:
+    return tuple(
+        Titled(f"{title} ({', '.join(fact.models)})" if fact.models else title, table(headers, fact.value))
+        for fact in facts
+        if fact.value
+    )
+
+
+def elements(context: Context, leaf: Leaf) -> tuple[Titled, ...]:
+    """Return every address of a register in an array, folded."""
+    if not leaf.arrays:
+        return ()
+    facts = leaf.register.states(lambda model, _: _element_rows(context, model, leaf))
+    headers = ("Element", *(view.name for view in leaf.register.first.views))
+    return tuple(
+        Titled(item.title, item.table, folded=True) for item in _titled("Address of every element", headers, facts)
+    )
+
+
+def _element_rows(context: Context, model: Model, leaf: Leaf) -> Rows:
+    return tuple(
+        (code(item.path), *(escape(str(view.address)) for view in item.views))
+        for item in context.elements[model.name, leaf.register.key]
+    )

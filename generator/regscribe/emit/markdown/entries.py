@@ -1,0 +1,173 @@
+"""Registers, arrays and commands with their details, in groups."""
+
+from collections.abc import Iterable, Sequence
+
+from regscribe.emit.markdown.context import Context, by_model
+from regscribe.emit.markdown.details import bits, by_condition, elements, values, views
+from regscribe.emit.markdown.escape import Md, code, escape, join, link, md, prose
+from regscribe.emit.markdown.facts import facts, indices
+from regscribe.emit.markdown.merge import Shared, merge
+from regscribe.emit.markdown.outline import Branch, Leaf, Node, lettered
+from regscribe.emit.markdown.page import Entry, Section, Table, Titled, table
+from regscribe.emit.text import ACCESS, one_line
+from regscribe.model import Array, Command, Group, Register, Step
+
+HEADING = "####"
+DOT = " · "
+LONG = 4
+"""Values that a table may have and still be repeated at each register that uses them."""
+
+
+def sections(context: Context) -> tuple[Section, ...]:
+    """Return the groups of all models in the manual's order, each with its registers."""
+    nodes: dict[str, list[Node]] = {}
+    for node in context.nodes:
+        nodes.setdefault(node.group, []).append(node)
+    groups = merge(context.map.models, lambda model: model.groups, lambda group: group.id)
+    seen: dict[Table, Leaf] = {}
+    found = [_section(context, group, nodes.pop(group.key, []), seen) for group in groups]
+    rest = [node for members in nodes.values() for node in members]
+    return (*found, _rest(context, rest, seen)) if rest else tuple(found)
+
+
+def _section(context: Context, group: Shared[Group], nodes: Sequence[Node], seen: dict[Table, Leaf]) -> Section:
+    order = f"number {group.first.order} in the order of writing" if group.first.order is not None else ""
+    parts = (code(group.key), _source(group.first.section), md(order), context.covers(group.models))
+    return Section(
+        anchor=context.anchor("group", group.key),
+        name=one_line(group.first.name),
+        summary=join(DOT, parts),
+        paragraphs=_paragraphs(by_model(group, lambda _, item: prose(item.description))),
+        entries=_entries(context, nodes, seen, HEADING),
+    )
+
+
+def _rest(context: Context, nodes: Sequence[Node], seen: dict[Table, Leaf]) -> Section:
+    entries = _entries(context, nodes, seen, HEADING)
+    return Section(anchor="other-registers", name="Other registers", summary=Md(), paragraphs=(), entries=entries)
+
+
+def _entries(context: Context, nodes: Iterable[Node], seen: dict[Table, Leaf], marks: str) -> tuple[Entry, ...]:
+    found: list[Entry] = []
+    for node in nodes:
+        if isinstance(node, Leaf):
+            found.append(_register(context, node, seen, marks))
+        else:
+            found.append(_array(context, node, marks))
+            found += _entries(context, node.children, seen, marks + "#" if len(marks) < len("######") else marks)
+    return tuple(found)
+
+
+def _register(context: Context, leaf: Leaf, seen: dict[Table, Leaf], marks: str) -> Entry:
+    shared = leaf.register
+    first = shared.first
+    known, reference = _values(context, leaf, seen)
+    return Entry(
+        marks=Md(marks),
+        anchor=context.anchor("register", shared.key),
+        name=one_line(first.name),
+        summary=_summary(context, leaf),
+        paragraphs=_paragraphs(by_model(shared, lambda _, item: prose(item.description)), reference),
+        danger=_paragraphs(by_model(shared, lambda _, item: prose(item.danger))),
+        facts=facts(context, leaf),
+        tables=(*views(context, leaf), *by_condition(context, leaf), *known, *bits(leaf), *elements(context, leaf)),
+        remarks=_remarks(shared),
+    )
+
+
+def _summary(context: Context, leaf: Leaf) -> Md:
+    shared = leaf.register
+    where = md("wire address ", str(shared.first.base.address)) if not leaf.arrays else Md()
+    access = md(ACCESS[shared.first.access])
+    models = context.covers(shared.models)
+    return join(DOT, (code(lettered(shared.first.path)), where, access, md("only ", models) if models else Md()))
+
+
+def _values(context: Context, leaf: Leaf, seen: dict[Table, Leaf]) -> tuple[tuple[Titled, ...], Md]:
+    """Return the table of values, or where a long one was shown before."""
+    found = values(leaf)
+    if not found or len(found[0].table.rows) <= LONG:
+        return found, Md()
+    earlier = seen.setdefault(found[0].table, leaf)
+    if earlier is leaf:
+        return found, Md()
+    first = earlier.register
+    return (), md(
+        "Values: the same as of ", link(one_line(first.first.name), context.anchor("register", first.key)), "."
+    )
+
+
+def _remarks(shared: Shared[Register]) -> tuple[Md, ...]:
+    """Return what was concluded and not read in the manual."""
+    conclusions = [item for _, register in shared.versions for item in register.inferred]
+    return tuple(md("Inferred: ", item.what, " (", item.why, ")") for item in dict.fromkeys(conclusions))
+
+
+def _array(context: Context, branch: Branch, marks: str) -> Entry:
+    array = branch.array.first
+    last = array.first + array.count - 1
+    step = f"an element is {array.stride} addresses after the one before" if array.stride > 1 else ""
+    models = context.covers(branch.array.models)
+    parts = (
+        _path(array),
+        escape(f"{array.count} elements"),
+        indices((*branch.arrays, array)),
+        md(step),
+        _source(array.section),
+    )
+    return Entry(
+        marks=Md(marks),
+        anchor="",
+        name=f"{one_line(array.name)} {array.first} to {last}",
+        summary=join(DOT, (*parts, md("only ", models) if models else Md())),
+        paragraphs=_paragraphs(by_model(branch.array, lambda _, item: prose(item.description))),
+    )
+
+
+def _path(array: Array) -> Md:
+    return code(f"{array.id}[{array.first}]")
+
+
+def _source(section: str) -> Md:
+    return md("section ", one_line(section)) if section else Md()
+
+
+def _paragraphs(*parts: Md) -> tuple[Md, ...]:
+    return tuple(part for part in parts if part)
+
+
+def commands(context: Context) -> tuple[Entry, ...]:
+    """Return the commands of all models with their steps and what they may destroy."""
+    found = merge(context.map.models, lambda model: model.commands, lambda command: command.id)
+    return tuple(_command(context, shared) for shared in found)
+
+
+def _command(context: Context, shared: Shared[Command]) -> Entry:
+    models = context.covers(shared.models)
+    parts = (code(f"commands.{shared.key}()"), _source(shared.first.section), md("only ", models) if models else Md())
+    return Entry(
+        marks=Md("###"),
+        anchor=context.anchor("command", shared.key),
+        name=one_line(shared.first.name),
+        summary=join(DOT, parts),
+        paragraphs=_paragraphs(by_model(shared, lambda _, item: prose(item.description))),
+        danger=_paragraphs(by_model(shared, lambda _, item: prose(item.danger))),
+        tables=tuple(
+            Titled(f"Steps ({', '.join(item.models)})" if item.models else "Steps", _steps(context, item.value))
+            for item in shared.states(lambda _, command: command.steps)
+        ),
+    )
+
+
+def _steps(context: Context, steps: Sequence[Step]) -> Table:
+    headers = ("Step", "Request", "Function", "Wire address", "Register", "Words", "Words (hex)")
+    return table(headers, (_step(context, number, step) for number, step in enumerate(steps, start=1)))
+
+
+def _step(context: Context, number: int, step: Step) -> tuple[str, ...]:
+    if step.wait:
+        return (str(number), f"wait {step.wait} ms", "", "", "", "", "")
+    register = context.register(step.register) if step.register else Md()
+    words = " ".join(map(str, step.words))
+    hexadecimal = " ".join(f"{word & 0xFFFF:04X}" for word in step.words)
+    return (str(number), "write", f"{step.function:02d}", str(step.address), register, words, hexadecimal)

@@ -1,0 +1,108 @@
+"""The worked examples of the manual, as the compiler checks them at every build."""
+
+from collections.abc import Iterable
+from fractions import Fraction
+
+from regscribe.emit.markdown.context import Context
+from regscribe.emit.markdown.escape import Md, code, escape, join, md
+from regscribe.emit.markdown.page import Titled, table
+from regscribe.emit.text import labels_of, listed, one_line
+from regscribe.model import FrameExample, Model, Outcome, RegisterMap, TimingExample, ValueExample, show
+
+
+def examples(context: Context) -> tuple[Titled, ...]:
+    """Return a table for each kind of example that the map has."""
+    found = context.map.examples
+    tables = (
+        Titled("Values", table(VALUES, [_value(context, item) for item in found if isinstance(item, ValueExample)])),
+        Titled("Messages", table(FRAMES, [_frame(context, item) for item in found if isinstance(item, FrameExample)])),
+        Titled("Times", table(TIMES, [_timing(item) for item in found if isinstance(item, TimingExample)])),
+    )
+    return tuple(item for item in tables if item.table.rows)
+
+
+VALUES = ("Section", "Model", "Register", "View", "While", "Stored", "Words", "Words (hex)", "Reads as", "Remark")
+FRAMES = ("Section", "Model", "Message", "From", "Meaning", "While")
+TIMES = ("Section", "Line", "Request", "Silence before it (ms)", "Earliest answer (ms)", "Latest answer (ms)")
+
+
+def _value(context: Context, item: ValueExample) -> tuple[str, ...]:
+    return (
+        one_line(item.source),
+        one_line(item.model),
+        context.register(item.register),
+        code(item.view),
+        _state(context, item.model, item.state),
+        show(item.stored) if item.stored is not None else "",
+        " ".join(map(str, item.words)),
+        _hex(item.words),
+        _reading(item),
+        "the words carry only part of it" if item.lossy else "",
+    )
+
+
+def _reading(item: ValueExample) -> str:
+    if item.outcome is Outcome.SATURATED:
+        return "saturated: no value"
+    if item.flags is not None:
+        return ", ".join(item.flags) or "no bit set"
+    value = "" if item.value is None else show(item.value) if isinstance(item.value, Fraction) else one_line(item.value)
+    return f"fault {value}" if item.outcome is Outcome.FAULT else value
+
+
+def _hex(words: Iterable[int]) -> str:
+    return " ".join(f"{word & 0xFFFF:04X}" for word in words)
+
+
+def _state(context: Context, model: str, state: Iterable[tuple[str, Fraction]]) -> Md:
+    parts = (md(context.register(path), f" = {_labelled(context.map, model, path, value)}") for path, value in state)
+    return join("<br>", tuple(parts))
+
+
+def _labelled(register_map: RegisterMap, model: str, path: str, value: Fraction) -> str:
+    """Return a value with the label that the model's enum gives it."""
+    owner = _model(register_map, model)
+    try:
+        enum = owner.register(path).enum
+    except KeyError:
+        return show(value)
+    label = labels_of(enum).get(int(value))
+    return f"{show(value)} ({one_line(label)})" if label else show(value)
+
+
+def _model(register_map: RegisterMap, name: str) -> Model:
+    return register_map.model(name) if register_map.has(name) else register_map.models[0]
+
+
+def _frame(context: Context, item: FrameExample) -> tuple[str, ...]:
+    return (
+        one_line(item.source),
+        one_line(item.model),
+        code(item.frame.hex(" ").upper() + ("" if item.crc else " + CRC")),
+        "device" if item.answer else "master",
+        _meaning(context, item),
+        _state(context, item.model, item.state),
+    )
+
+
+def _meaning(context: Context, item: FrameExample) -> Md:
+    facts = [f"unit {item.unit}", f"function {item.function:02d}"]
+    facts += [f"address {item.address}"] if item.address is not None else []
+    facts += [f"{item.count} words"] if item.count is not None else []
+    words = f"words {listed([str(word) for word in item.words], last='and')}" if item.words is not None else ""
+    writes = join("<br>", tuple(_write(context, item, path, value) for path, value in item.writes))
+    command = context.command(item.command) if item.command else Md()
+    return join("<br>", (escape(", ".join(facts)), escape(words) if not writes else Md(), writes, command))
+
+
+def _write(context: Context, item: FrameExample, path: str, value: Fraction) -> Md:
+    return md(context.register(path), f" = {_labelled(context.map, item.model, path, value)}")
+
+
+def _timing(item: TimingExample) -> tuple[str, ...]:
+    return (
+        one_line(item.source),
+        f"{item.baud} baud, {one_line(item.format)}",
+        f"function {item.function:02d}, {item.words} words",
+        *(show(time) for time in (item.gap, item.earliest, item.latest)),
+    )

@@ -1,0 +1,193 @@
+"""The facts of one register that fit on a line each, as a table of two columns."""
+
+from collections.abc import Callable, Sequence
+from functools import partial
+
+from regscribe.emit.markdown.context import Context, by_model
+from regscribe.emit.markdown.escape import Md, code, escape, join, lines, md, prose
+from regscribe.emit.markdown.outline import LETTERS, Leaf, formula
+from regscribe.emit.markdown.page import Table, table
+from regscribe.emit.text import (
+    ACCESS,
+    ROUNDING,
+    cases_words,
+    conversion_words,
+    default_words,
+    map_cases,
+    one_line,
+    order_words,
+    range_words,
+    sentinel_words,
+    special_words,
+)
+from regscribe.model import IDENTITY, Array, Kind, Model, Order, Register, View, show
+
+KINDS = {
+    Kind.NUMBER: "number",
+    Kind.INTEGER: "whole number",
+    Kind.RAW: "raw whole number; the manual does not state its scale",
+    Kind.ENUM: "one of the values below",
+    Kind.FLAGS: "bits, see below",
+    Kind.FIELDS: "bit fields, see below",
+    Kind.STRING: "text",
+    Kind.VERSION: "version, packed decimal digits",
+    Kind.BOOLEAN: "yes (1) or no (0)",
+}
+PERSISTENCE = {"ram": "RAM", "eeprom": "EEPROM", "both": "RAM and EEPROM"}
+
+Fact = Callable[[Context, Model, Register], Md]
+
+
+def facts(context: Context, leaf: Leaf) -> Table:
+    """Return the facts of a register that are known, each once or by model."""
+    rows = [("Wire address", by_model(leaf.register, lambda _, register: address(context, leaf, register)))]
+    rows += [(label, by_model(leaf.register, partial(fact, context))) for label, fact in FACTS.items()]
+    return table(("Property", "Value"), [row for row in rows if row[1]])
+
+
+def address(context: Context, leaf: Leaf, register: Register) -> Md:
+    """Return where the only view stands (several have a table of their own), with aliases."""
+    space = register.base.space
+    if len(register.views) > 1:
+        first = Md()
+    elif leaf.arrays:
+        first = md(code(formula(register.base, leaf.arrays)), ", ", indices(leaf.arrays))
+    else:
+        first = context.address(space, register.base.address)
+    aliases = ", ".join(context.address(space, alias) for alias in register.aliases)
+    return lines(first, md("also at ", Md(aliases)) if aliases else Md())
+
+
+def indices(arrays: Sequence[Array]) -> Md:
+    """Return the letters of the indices with their ranges: `i = 1 to 8`."""
+    parts = (
+        f"{letter} = {array.first} to {array.first + array.count - 1}"
+        for letter, array in zip(LETTERS, arrays, strict=False)
+    )
+    return escape(", ".join(parts))
+
+
+def transmission(context: Context, view: View) -> Md:
+    """Return what a view does to the stored value: factor, rounding, saturation, order, functions, alignment."""
+    order = view.word_order
+    plain_order = order is Order.BIG or (isinstance(order, Order) and view.words == 1)
+    parts = (
+        f"stored value x {show(view.factor)}" if view.factor != 1 else "",
+        ROUNDING[view.rounding],
+        f"stops at {view.type.minimum} and {view.type.maximum}" if view.saturates else "",
+        "" if plain_order else Md(order_words(order, context.wording(context.map.models[0]))),
+        "least significant byte first" if view.byte_order is Order.LITTLE else "",
+        f"functions {', '.join(map(str, view.functions))} only" if view.functions else "",
+        f"address and count multiples of {view.align}" if view.align > 1 else "",
+    )
+    return join("; ", tuple(md(part) for part in parts))
+
+
+def view_type(view: View) -> str:
+    """Return the type of a view, with its words where they are several."""
+    return f"{view.type.value}, {view.words} words" if view.words > 1 else view.type.value
+
+
+def _transmitted(context: Context, _model: Model, register: Register) -> Md:
+    return (
+        Md()
+        if len(register.views) > 1
+        else join("; ", (md(view_type(register.base)), transmission(context, register.base)))
+    )
+
+
+def _access(context: Context, model: Model, register: Register) -> Md:
+    words = md(ACCESS[register.access])
+    if register.writable is None:
+        return words
+    when = context.condition(register.writable.when, model)
+    reason = md(" (", prose(register.writable.reason), ")") if register.writable.reason else Md()
+    return md(words, "; writable when ", when, reason)
+
+
+def _kind(_context: Context, _model: Model, register: Register) -> Md:
+    if register.kind is Kind.STRING:
+        return md(f"text of {2 * register.base.words} characters")
+    return md(KINDS[register.kind])
+
+
+def _range(context: Context, model: Model, register: Register) -> Md:
+    if len(register.range) != 1 or not register.range[0].when.always:
+        return Md()
+    return Md(range_words(register.range[0].then, context.wording(model)))
+
+
+def _scale(_context: Context, _model: Model, register: Register) -> Md:
+    if len(register.scale) != 1 or register.scale[0].then == IDENTITY:
+        return Md()
+    return md(code(conversion_words(register.scale[0].then)), ", x being the stored number")
+
+
+def _step(_context: Context, _model: Model, register: Register) -> Md:
+    steps = {case.then.step for case in register.scale} - {None}
+    return escape(", ".join(show(step) for step in sorted(step for step in steps if step is not None)))
+
+
+def _specials(context: Context, model: Model, register: Register) -> Md:
+    wording = context.wording(model)
+    return lines(*(Md(special_words(special, wording)) for special in register.specials))
+
+
+def _sentinels(context: Context, model: Model, register: Register) -> Md:
+    wording = context.wording(model)
+    return lines(*(Md(sentinel_words(sentinel, wording)) for sentinel in register.sentinels))
+
+
+def _default(context: Context, model: Model, register: Register) -> Md:
+    return Md(default_words(register, context.wording(model)))
+
+
+def _unit(context: Context, model: Model, register: Register) -> Md:
+    return Md(cases_words(map_cases(register.unit, escape), context.wording(model)))
+
+
+def _persistence(_context: Context, _model: Model, register: Register) -> Md:
+    where = PERSISTENCE.get(register.persistence, one_line(register.persistence))
+    writes = f"good for {register.endurance:,} writes" if register.endurance is not None else ""
+    return join("; ", (md(where), md(writes)))
+
+
+def _rescales(_context: Context, _model: Model, register: Register) -> Md:
+    return md("the device converts every value in ", code(register.rescales)) if register.rescales else Md()
+
+
+def _unlock(context: Context, _model: Model, register: Register) -> Md:
+    return md("run ", context.command(register.unlock), " first") if register.unlock else Md()
+
+
+def _apply(context: Context, _model: Model, register: Register) -> Md:
+    return md("takes effect with ", context.command(register.apply)) if register.apply else Md()
+
+
+def _section(_context: Context, _model: Model, register: Register) -> Md:
+    return escape(one_line(register.section))
+
+
+def _symbol(_context: Context, _model: Model, register: Register) -> Md:
+    return escape(one_line(register.symbol))
+
+
+FACTS: dict[str, Fact] = {
+    "Symbol": _symbol,
+    "Transmitted as": _transmitted,
+    "Access": _access,
+    "Value": _kind,
+    "Range": _range,
+    "Special values": _specials,
+    "Faults instead of a value": _sentinels,
+    "Default": _default,
+    "Unit": _unit,
+    "Scale": _scale,
+    "Smallest stored step": _step,
+    "Kept in": _persistence,
+    "Changing it": _rescales,
+    "Before a write": _unlock,
+    "After a write": _apply,
+    "Section": _section,
+}
+"""The properties in the order of the table; one that is empty for every model is left out."""

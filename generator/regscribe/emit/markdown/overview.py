@@ -1,0 +1,97 @@
+"""The overview: one line for each register, ordered by address, in a table for each address space."""
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from functools import partial
+
+from regscribe.emit.markdown.context import SPACES, Context, by_model
+from regscribe.emit.markdown.escape import Md, code, escape, link, md
+from regscribe.emit.markdown.outline import Leaf, last_address, leaves, lettered
+from regscribe.emit.markdown.page import Table, Titled, table
+from regscribe.emit.text import codes_words, default_words, one_line, range_words, special_words
+from regscribe.model import Access, CodeRange, Kind, Model, Register, Space, View
+
+ACCESS = {Access.READ: "R", Access.READ_WRITE: "R/W", Access.WRITE: "W"}
+MANY = 3
+"""Codes (after joining neighbours) that the overview still lists."""
+
+
+def overview(context: Context) -> tuple[Titled, ...]:
+    """Return a table for each space that has registers."""
+    found: dict[Space, list[Leaf]] = {}
+    for leaf in leaves(context.nodes):
+        found.setdefault(leaf.register.first.base.space, []).append(leaf)
+    return tuple(Titled(SPACES[space], _table(context, space, found[space])) for space in Space if space in found)
+
+
+def _table(context: Context, space: Space, found: Sequence[Leaf]) -> Table:
+    ordered = sorted(found, key=lambda leaf: leaf.register.first.base.address)
+    notations = [item for item in context.map.notations if item.space is space]
+    names = dict.fromkeys(view.name for leaf in found for view in leaf.register.first.views[1:])
+    headers = ("Address", *(one_line(item.name) for item in notations), *names, "Also at", *HEADERS)
+    return table(headers, (_row(context, leaf, [item.offset for item in notations], list(names)) for leaf in ordered))
+
+
+HEADERS = ("Name", "Id", "Access", "Range", "Default", "Unit", "Models")
+
+
+def _row(context: Context, leaf: Leaf, offsets: Sequence[int], names: Sequence[str]) -> tuple[Md, ...]:
+    shared = leaf.register
+
+    def cell(fact: Callable[[Model, Register], Md]) -> Md:
+        return by_model(shared, fact)
+
+    return (
+        cell(lambda _, register: _span(leaf, register.base)),
+        *(cell(partial(_notation, leaf, offset)) for offset in offsets),
+        *(cell(partial(_view, leaf, name)) for name in names),
+        cell(lambda _, register: escape(", ".join(map(str, register.aliases)))),
+        link(_name(leaf), context.anchor("register", shared.key)),
+        code(lettered(shared.first.path)),
+        cell(lambda _, register: escape(ACCESS[register.access])),
+        cell(lambda model, register: _range(context, model, register)),
+        cell(lambda model, register: Md(default_words(register, context.wording(model)))),
+        cell(lambda _, register: _unit(register)),
+        context.covers(shared.models),
+    )
+
+
+def _span(leaf: Leaf, view: View, offset: int = 0) -> Md:
+    first, last = view.address + offset, last_address(view, leaf.arrays) + offset
+    return escape(str(first) if first == last else f"{first} to {last}")
+
+
+def _notation(leaf: Leaf, offset: int, _model: Model, register: Register) -> Md:
+    return _span(leaf, register.base, offset)
+
+
+def _view(leaf: Leaf, name: str, _model: Model, register: Register) -> Md:
+    return next((_span(leaf, view) for view in register.views[1:] if view.name == name), Md())
+
+
+def _name(leaf: Leaf) -> Md:
+    owners = [f"{one_line(array.name)} {array.first} to {array.first + array.count - 1}: " for array in leaf.arrays]
+    return md(*owners, one_line(leaf.register.first.name))
+
+
+def _unit(register: Register) -> Md:
+    return escape(" / ".join(dict.fromkeys(case.then for case in register.unit if case.then)))
+
+
+def _range(context: Context, model: Model, register: Register) -> Md:
+    if register.kind in {Kind.FLAGS, Kind.FIELDS}:
+        return md("bits")
+    if register.enum is not None:
+        return _codes(register)
+    if len(register.range) > 1:
+        return md("by condition")
+    wording = context.wording(model)
+    limits = [range_words(case.then, wording) for case in register.range]
+    return Md("; ".join([*limits, *(special_words(special, wording) for special in register.specials)]))
+
+
+def _codes(register: Register) -> Md:
+    members = register.enum.members if register.enum else ()
+    codes = [CodeRange(Fraction(member.code), Fraction(member.code)) for member in members]
+    words = codes_words(codes, last="and")
+    return md(words) if words.count(",") < MANY else md(f"{len(codes)} codes")

@@ -1,0 +1,117 @@
+"""What the templates see: frozen values with nothing left to decide; a `str` is escaped on output, a `Md` is not."""
+
+import html
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from regscribe.emit.markdown.escape import CONTROL, Md
+from regscribe.emit.text import one_line
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Headers and rows of equal length; no rows: nothing to show."""
+
+    headers: tuple[str, ...] = ()
+    rows: tuple[tuple[str, ...], ...] = ()
+
+    @property
+    def rules(self) -> tuple[Md, ...]:
+        """Return the cells of the line below the headers."""
+        return (Md("---"),) * len(self.headers)
+
+
+def table(headers: Sequence[str], rows: Iterable[Sequence[str]]) -> Table:
+    """Make a table without the columns that are empty in every row."""
+    kept_rows = [tuple(row) for row in rows]
+    kept = [index for index in range(len(headers)) if any(row[index] for row in kept_rows)]
+    return Table(
+        tuple(headers[index] for index in kept),
+        tuple(tuple(row[index] for index in kept) for row in kept_rows),
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Titled:
+    """A table under a line of its own; `folded` hides it until it is opened."""
+
+    title: str
+    table: Table
+    folded: bool = False
+
+    @property
+    def summary(self) -> Md:
+        """Return the title for use inside an HTML element, where Markdown's escapes do not count."""
+        return Md(html.escape(CONTROL.sub("", one_line(self.title))))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Entry:
+    """One register, array or command with its details; `marks` opens its heading (`####`)."""
+
+    marks: Md
+    anchor: str
+    name: str
+    summary: Md
+    paragraphs: tuple[Md, ...] = ()
+    danger: tuple[Md, ...] = ()
+    facts: Table = Table()
+    tables: tuple[Titled, ...] = ()
+    remarks: tuple[Md, ...] = ()
+    steps: tuple[Md, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Section:
+    """A group of registers, in the manual's order."""
+
+    anchor: str
+    name: str
+    summary: Md
+    paragraphs: tuple[Md, ...]
+    entries: tuple[Entry, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class QuickStart:
+    """The lines of the examples in Python; `notes` say what to put in."""
+
+    sync_lines: tuple[Md, ...]
+    async_lines: tuple[Md, ...]
+    notes: tuple[Md, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Page:
+    """A reference of one map."""
+
+    header: Md
+    title: str
+    paragraphs: tuple[Md, ...]
+    manual: Md
+    models: Table
+    identity: Table
+    contents: tuple[Md, ...]
+    quick_start: QuickStart
+    line: Table
+    latency: Table
+    givens: Table
+    transmission: tuple[Md, ...]
+    views: tuple[Titled, ...]
+    conditions: Table
+    overview: tuple[Titled, ...]
+    reserved: Table
+    groups: tuple[Section, ...]
+    commands: tuple[Entry, ...]
+    faults: Table
+    exceptions: Table
+    examples: tuple[Titled, ...]
+    errata: Table
+    notes: tuple[Md, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Index:
+    """The list of all references."""
+
+    maps: Table

@@ -1,0 +1,98 @@
+"""A first program for this device: which registers it shows is chosen by their properties, never by their names."""
+
+from regscribe.emit.markdown.context import Context
+from regscribe.emit.markdown.escape import Md, code, md, prose
+from regscribe.emit.markdown.page import QuickStart
+from regscribe.emit.text import one_line
+from regscribe.model import Group, Kind, Model, Register, show
+
+ADDRESS = "192.0.2.10"
+"""An address that is reserved for documentation (RFC 5737)."""
+
+
+def quick_start(context: Context) -> QuickStart:
+    """Return a synchronous and an asynchronous example of the map's first model."""
+    model = context.map.models[0]
+    maker, _, family = context.map.id.partition("/")
+    module = ".".join(("regscribe_devices", *(part.replace("-", "_") for part in (maker, family))))
+    names = (model.class_name, f"Async{model.class_name}")
+    arguments = "".join(f", {given.id}=..." for given in context.map.givens)
+    opened = [f'{name}.tcp("{ADDRESS}", unit={_unit(context)}{arguments})' for name in names]
+    return QuickStart(
+        sync_lines=_code(
+            f"from {module} import {names[0]}",
+            "",
+            f"with {opened[0]} as controller:",
+            *_body(model, asynchronous=False),
+        ),
+        async_lines=_code(
+            f"from {module} import {names[1]}",
+            "",
+            "",
+            "async def main() -> None:",
+            f"    async with {opened[1]} as controller:",
+            *(f"    {line}" for line in _body(model, asynchronous=True)),
+        ),
+        notes=tuple(md(code(given.id), ": ", prose(given.description)) for given in context.map.givens),
+    )
+
+
+def _unit(context: Context) -> int:
+    protocol = context.map.protocol
+    return protocol.default_unit if protocol.default_unit is not None else protocol.unit_ids[0]
+
+
+def _code(*lines: str) -> tuple[Md, ...]:
+    return tuple(Md(one_line(line) if line == line.lstrip() else line.rstrip().replace("`", "'")) for line in lines)
+
+
+def _body(model: Model, *, asynchronous: bool) -> list[str]:
+    wait = "await " if asynchronous else ""
+    lines: list[str] = []
+    shown = shown_register(model)
+    if shown:
+        lines.append(f"    print({wait}controller.{shown.path}.read())")
+    group = shown_group(model, shown)
+    if group:
+        lines.append(f"    print({wait}controller.read(controller.groups.{group.id}))")
+    written = written_register(model)
+    if written:
+        lines.append(f"    {wait}controller.{written.path}.write({_literal(written)})")
+    return lines or ["    pass"]
+
+
+def shown_register(model: Model) -> Register | None:
+    """Return what a user wants to see first: a measured number, best with faults, aliases or a unit by condition."""
+    readable = [register for register in model.registers if register.access.readable]
+    measured = [register for register in readable if not register.access.writable and register.kind is Kind.NUMBER]
+    return max(measured or readable, key=_interest, default=None)
+
+
+def _interest(register: Register) -> int:
+    return bool(register.sentinels) + bool(register.aliases) + bool(register.unit_id)
+
+
+def shown_group(model: Model, shown: Register | None) -> Group | None:
+    """Return the group of the register that is shown, else the first one."""
+    groups = [group for group in model.groups if shown and group.id == shown.group] or model.groups
+    return groups[0] if groups else None
+
+
+def written_register(model: Model) -> Register | None:
+    """Return a number that may be written without harm or preparation, and has a default to write."""
+    return next((register for register in model.registers if _harmless(register)), None)
+
+
+def _harmless(register: Register) -> bool:
+    prepared = register.writable or register.unlock or register.apply or register.rescales or register.danger
+    plain = register.kind in {Kind.NUMBER, Kind.INTEGER} and register.access.writable and not register.specials
+    return plain and not prepared and isinstance(_default(register), str)
+
+
+def _default(register: Register) -> str | None:
+    default = register.default
+    return None if default is None or isinstance(default, str) or "/" in show(default) else show(default)
+
+
+def _literal(register: Register) -> str:
+    return _default(register) or ""

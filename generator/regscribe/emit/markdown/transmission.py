@@ -1,0 +1,124 @@
+"""How values are transmitted: views with their address formulas, named conditions, givens, identification."""
+
+from dataclasses import replace
+from fractions import Fraction
+
+from regscribe.emit.markdown.context import SPACES, Context
+from regscribe.emit.markdown.escape import Md, code, escape, md, prose
+from regscribe.emit.markdown.facts import transmission, view_type
+from regscribe.emit.markdown.outline import leaves
+from regscribe.emit.markdown.page import Table, Titled, table
+from regscribe.emit.text import condition_words, listed, one_line, when_words
+from regscribe.model import GivenKind, Kind, Register, View, show
+
+Shape = tuple[tuple[str, View], ...]
+"""Address formula in n (the base view's address) and the rest of each view, its address left out."""
+
+
+def plain(context: Context) -> tuple[Md, ...]:
+    """Return how the registers with one view are transmitted, and what cannot be scaled."""
+    counts: dict[str, int] = {}
+    raw = 0
+    for leaf in leaves(context.nodes):
+        register = leaf.register.first
+        raw += register.kind is Kind.RAW
+        if len(register.views) == 1:
+            counts[view_type(register.base)] = counts.get(view_type(register.base), 0) + 1
+    found = [md(f"Transmitted in one way, at one address: {_counted(counts)}.")] if counts else []
+    if raw:
+        found.append(md(f"Of {raw} registers the manual does not state the scale; they are read and written raw."))
+    return tuple(found)
+
+
+def _counted(counts: dict[str, int]) -> str:
+    return listed([f"{count} as {name}" for name, count in counts.items()], last="and")
+
+
+def views(context: Context) -> tuple[Titled, ...]:
+    """Return each set of views that registers share, with the address of each view from the base address n."""
+    found: dict[Shape, int] = {}
+    for leaf in leaves(context.nodes):
+        register = leaf.register.first
+        if len(register.views) > 1:
+            shape = _shape(register)
+            found[shape] = found.get(shape, 0) + 1
+    return tuple(Titled(_title(shape, count), _table(context, shape)) for shape, count in found.items())
+
+
+def _title(shape: Shape, count: int) -> str:
+    return f"Transmitted in {len(shape)} ways: {count} registers (n is the address in the first)"
+
+
+def _shape(register: Register) -> Shape:
+    return tuple(
+        (_formula(view, register.base), replace(view, address=0, preferred=view is register.preferred))
+        for view in register.views
+    )
+
+
+def _formula(view: View, base: View) -> str:
+    """Return a view's address from the base address n: `n + 1000`, `8000 + 2*n`."""
+    step = Fraction(view.stride, base.stride)
+    offset = view.address - step * base.address
+    slope = "n" if step == 1 else f"{show(step)}*n"
+    return slope if not offset else f"{show(offset)} + {slope}" if offset > 0 else f"{slope} - {show(-offset)}"
+
+
+def _table(context: Context, shape: Shape) -> Table:
+    headers = ("View", "Wire address", "Addresses", "Type", "Transmitted")
+    rows = (
+        (
+            md(code(view.name), " (preferred)" if view.preferred else ""),
+            code(formula),
+            escape(f"{view.region[0]} to {view.region[1]}") if view.region else Md(),
+            escape(view_type(view)),
+            transmission(context, view),
+        )
+        for formula, view in shape
+    )
+    return table(headers, rows)
+
+
+def conditions(context: Context) -> Table:
+    """Return the named conditions with their meaning; each name is an anchor."""
+    rows = (
+        (
+            md(Md(f'<a id="{context.anchor("condition", name)}"></a>'), name.replace("_", " ")),
+            condition_words(item, model),
+        )
+        for name, (model, item) in context.conditions.items()
+    )
+    return table(("Condition", "Holds if"), rows)
+
+
+def givens(context: Context) -> Table:
+    """Return what the user of a driver must supply, and why."""
+    rows = (
+        (
+            code(item.id),
+            "set of codes" if item.kind is GivenKind.CODES else "True or False",
+            context.register(item.register) if item.register else Md(),
+            prose(item.description),
+            prose(item.reason),
+        )
+        for item in context.map.givens
+    )
+    return table(("Argument", "Type", "Codes of", "What it is", "Why it is asked"), rows)
+
+
+def identity(context: Context) -> Table:
+    """Return which models answer how."""
+    first = context.map.models[0]
+    rows = (
+        (when_words(item.when, context.wording(first)), listed([one_line(name) for name in item.models]))
+        for item in context.map.identity
+    )
+    return table(("If", "The device is"), ((Md(when), names) for when, names in rows))
+
+
+def reserved(context: Context) -> Table:
+    """Return the addresses that the manual reserves."""
+    rows = (
+        (SPACES[space], str(low) if low == high else f"{low} to {high}") for space, low, high in context.map.reserved
+    )
+    return table(("Space", "Wire addresses"), rows)
