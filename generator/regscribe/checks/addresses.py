@@ -1,0 +1,140 @@
+"""Addresses: overlaps, ends of the address space, aliases, reserved addresses, notations, functions of a space."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from operator import attrgetter
+
+from regscribe.checks.registry import MAP, Finding, Scope, map_rule, model_rule, register_rule
+from regscribe.model import Register, Related, Rule, Space
+
+LAST_ADDRESS = 0xFFFF
+READ_FUNCTIONS: dict[Space, tuple[int, ...]] = {
+    Space.HOLDING: (3,),
+    Space.INPUT: (4,),
+    Space.COIL: (1,),
+    Space.DISCRETE: (2,),
+    Space.STATUS: (7,),
+}
+WRITE_FUNCTIONS: dict[Space, tuple[int, ...]] = {Space.HOLDING: (6, 16), Space.COIL: (5, 15)}
+"""Modbus application protocol V1.1b3, section 6."""
+
+
+@dataclass(frozen=True, slots=True)
+class Stretch:
+    """Addresses that a register takes in one space, and by which of its views or aliases."""
+
+    space: Space
+    first: int
+    last: int
+    register: Register
+    by: str
+
+    def __str__(self) -> str:
+        where = str(self.first) if self.first == self.last else f"{self.first}..{self.last}"
+        return f"{self.space} {where}{f' ({self.by})' if self.by else ''}"
+
+
+def stretches(register: Register) -> Iterator[Stretch]:
+    """All stretches of a register: its views, then its aliases."""
+    for view in register.views:
+        by = f"view {view.name}" if len(register.views) > 1 else ""
+        yield Stretch(view.space, view.address, view.last, register, by)
+    for alias in register.aliases:
+        yield Stretch(register.base.space, alias, alias + register.base.words - 1, register, "alias")
+
+
+@model_rule(
+    Rule(
+        "RS0401",
+        "Addresses overlap",
+        "Two registers (or two views of one) at the same address cannot both be right: one of the rows was misread.",
+    )
+)
+def overlap(scope: Scope) -> Iterator[Finding]:
+    """Compare each stretch with the one before it that reaches furthest."""
+    every = (stretch for register in scope.model.registers for stretch in stretches(register))
+    furthest: Stretch | None = None
+    for stretch in sorted(every, key=attrgetter("space", "first", "last")):
+        if furthest and furthest.space == stretch.space and stretch.first <= furthest.last:
+            yield _overlap(*sorted((furthest, stretch), key=lambda one: one.register.span))
+        if not furthest or furthest.space != stretch.space or stretch.last > furthest.last:
+            furthest = stretch
+
+
+def _overlap(earlier: Stretch, later: Stretch) -> Finding:
+    return Finding.at(
+        later.register,
+        f"takes {later}, which overlaps {earlier} of `{earlier.register.path}`",
+        "correct `at`, the type or the array's stride of one of them",
+        Related(f"`{earlier.register.path}` takes {earlier}", earlier.register.span),
+    )
+
+
+@register_rule(
+    Rule("RS0402", "Address outside the address space", "A Modbus address is 16 bits; function 07 has one address, 0.")
+)
+def outside_space(register: Register, _: Scope) -> Iterator[Finding]:
+    """Look at the first and the last address of each view and alias."""
+    for stretch in stretches(register):
+        limit = 0 if stretch.space is Space.STATUS else LAST_ADDRESS
+        if stretch.first < 0 or stretch.last > limit:
+            yield Finding.at(register, f"takes {stretch}, outside 0..{limit}", "correct `at` or the view's offset")
+
+
+@register_rule(
+    Rule("RS0403", "Alias equals an address that the register has", "An alias says nothing if it is no other address.")
+)
+def alias_of_itself(register: Register, _: Scope) -> Iterator[Finding]:
+    """Compare aliases with the base address and with one another."""
+    for place, alias in enumerate(register.aliases):
+        if alias == register.base.address or alias in register.aliases[:place]:
+            yield Finding.at(register, f"lists alias {alias}, which it has already", "remove this alias")
+
+
+@register_rule(
+    Rule("RS0404", "Register at a reserved address", "The manual cannot both reserve an address and describe it.")
+)
+def reserved(register: Register, scope: Scope) -> Iterator[Finding]:
+    """Compare each stretch with the reserved ones."""
+    for space, first, last in scope.register_map.reserved:
+        for stretch in stretches(register):
+            if stretch.space == space and stretch.first <= last and stretch.last >= first:
+                help_text = "correct `at`, or shorten the entry under `reserved`"
+                yield Finding.at(register, f"takes {stretch}, but {first}..{last} are reserved", help_text)
+
+
+@map_rule(
+    Rule("RS0405", "Notation declared twice", "Two offsets under one name leave a printed address with two meanings.")
+)
+def notation_twice(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+    """Find a notation whose name and space were seen before."""
+    seen: set[tuple[str, Space]] = set()
+    for notation in scopes[0].register_map.notations:
+        if (notation.name, notation.space) in seen:
+            message = (
+                f"notation `{notation.name}` of space {notation.space} is declared twice (offset {notation.offset})"
+            )
+            yield Finding(MAP, scopes[0].register_map.span, message, "remove one, or give it another name")
+        seen.add((notation.name, notation.space))
+
+
+@register_rule(
+    Rule(
+        "RS0406",
+        "The device has no function for this access",
+        "A register that can be read or written needs a function code of its space that the device supports.",
+    )
+)
+def no_function(register: Register, scope: Scope) -> Iterator[Finding]:
+    """Look for a read and a write function of the base view's space."""
+    has = scope.register_map.protocol.functions
+    wanted: list[tuple[str, tuple[int, ...]]] = []
+    if register.access.readable:
+        wanted.append(("read", READ_FUNCTIONS[register.base.space]))
+    if register.access.writable:
+        wanted.append(("written", WRITE_FUNCTIONS.get(register.base.space, ())))
+    for verb, functions in wanted:
+        if not set(functions) & set(has):
+            need = " or ".join(f"{code:02d}" for code in functions) or "that does not exist"
+            message = f"is to be {verb} in space {register.base.space}, which needs function {need}"
+            yield Finding.at(register, message, f"correct `access` or `space`, or `protocol.functions` ({list(has)})")

@@ -1,0 +1,101 @@
+"""Enums: codes, labels and ids."""
+
+import keyword
+from collections import Counter
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+
+from regscribe.checks.identifiers import ENUM_NAMES, normalised
+from regscribe.checks.registry import Finding, Scope, model_rule, register_rule
+from regscribe.model import Enum, Kind, Register, Rule, WireType, show
+
+
+def enums_of(scope: Scope) -> Iterator[tuple[Register, str, Enum]]:
+    """Every enum of a model once: the first register that has it, the field if it is one's, the enum."""
+    seen: set[int] = set()
+    for register in scope.model.registers:
+        owned = [("", register.enum), *((bits.id, bits.enum) for bits in register.fields)]
+        for field, enum in owned:
+            if enum and id(enum) not in seen:
+                seen.add(id(enum))
+                yield register, field, enum
+
+
+def _finding(register: Register, field: str, enum: Enum, message: str, help_text: str) -> Finding:
+    where = f"`{register.path}.{field}`" if field else f"`{register.path}`"
+    span = enum.span if enum.span.file else register.span
+    return Finding(register.path, span, f"the enum of {where} {message}", help_text)
+
+
+@register_rule(
+    Rule("RS0440", "Enum code outside the type", "A code that the word cannot spell can never be read or written.")
+)
+def code_outside_type(register: Register, _: Scope) -> Iterator[Finding]:
+    """Compare the codes with the type of the base view."""
+    if register.enum is None or not register.base.type.is_integer or register.base.type is WireType.STRING:
+        return
+    low, high = register.base.type.minimum, register.base.type.maximum
+    outside = [member.code for member in register.enum.members if not low <= member.code <= high]
+    if outside:
+        codes = ", ".join(map(str, outside))
+        message = f"has enum codes {codes}, outside {register.base.type} ({low} to {high})"
+        yield Finding.at(register, message, "correct the codes or the type")
+
+
+@model_rule(Rule("RS0441", "Label used twice in an enum", "Two codes of one meaning: one of them was misread."))
+def label_twice(scope: Scope) -> Iterator[Finding]:
+    """Compare labels, letters and digits and signs, without case and blanks."""
+    for register, field, enum in enums_of(scope):
+        for label in _twice([" ".join(member.label.casefold().split()) for member in enum.members]):
+            codes = [m.code for m in enum.members if " ".join(m.label.casefold().split()) == label]
+            message = f'has the label "{label}" for codes {", ".join(map(str, codes))}'
+            yield _finding(register, field, enum, message, "correct a label, or say what tells them apart")
+
+
+@model_rule(Rule("RS0442", "Enum members of one id", "Labels that differ in signs only become one Python name."))
+def member_id_twice(scope: Scope) -> Iterator[Finding]:
+    """Compare the members' ids without case and `_`."""
+    for register, field, enum in enums_of(scope):
+        for name in _twice([normalised(member.id) for member in enum.members]):
+            codes = [member.code for member in enum.members if normalised(member.id) == name]
+            labels = [" ".join(member.label.casefold().split()) for member in enum.members if member.code in codes]
+            if len(set(labels)) == len(labels):
+                message = f"gives codes {', '.join(map(str, codes))} one id, {name.upper()}"
+                yield _finding(register, field, enum, message, "give one of them an `id`: {label: ..., id: ...}")
+
+
+def _twice(names: list[str]) -> list[str]:
+    return [name for name, count in Counter(names).items() if count > 1]
+
+
+@register_rule(
+    Rule("RS0443", "Default is no member of the enum", "The device leaves the factory with a code that has a meaning.")
+)
+def default_no_member(register: Register, _: Scope) -> Iterator[Finding]:
+    """Look for the default among the codes."""
+    if register.kind is not Kind.ENUM or register.enum is None or not isinstance(register.default, Fraction):
+        return
+    if register.default not in {member.code for member in register.enum.members}:
+        codes = ", ".join(str(member.code) for member in register.enum.members)
+        message = f"has default {show(register.default)}, which its enum does not list ({codes})"
+        yield Finding.at(register, message, "correct the default, or add the member")
+
+
+@model_rule(Rule("RS0444", "Enum without members", "A model on which no code is valid cannot have the register."))
+def no_members(scope: Scope) -> Iterator[Finding]:
+    """Find enums that lost all members on this model."""
+    for register, field, enum in enums_of(scope):
+        if not enum.members:
+            help_text = "give it members for this model, or the register an `except`"
+            yield _finding(register, field, enum, "has no members", help_text)
+
+
+@model_rule(Rule("RS0445", "Member id is no Python name", "A member becomes an attribute of an IntEnum class."))
+def member_no_name(scope: Scope) -> Iterator[Finding]:
+    """Refuse what is no identifier, a keyword, or a name that `enum` uses itself."""
+    checks: tuple[Callable[[str], bool], ...] = (keyword.iskeyword, lambda name: name.upper() in ENUM_NAMES)
+    for register, field, enum in enums_of(scope):
+        for member in enum.members:
+            if not member.id.isidentifier() or member.id.startswith("_") or any(check(member.id) for check in checks):
+                message = f"has member id {member.id} for code {member.code}, which Python cannot use"
+                yield _finding(register, field, enum, message, "give the member another `id`")

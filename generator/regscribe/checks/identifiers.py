@@ -1,0 +1,159 @@
+"""Identifiers: what becomes an attribute or a class of a driver must be a free, valid Python name."""
+
+import keyword
+import re
+from collections.abc import Iterator
+
+from regscribe.checks.registry import Finding, Scope, model_rule, register_rule, warning
+from regscribe.model import Array, Enum, Register, Related, Rule, Span
+
+RUNTIME_NAMES = frozenset(
+    """
+    apply ascii change clear close command commands connect exception_status forget forget_all frame given givens group
+    groups identify link loopback map model models mro name open order plan read read_many read_unit register registers
+    rtu self serial session snapshot state tcp transport unit unit_id value view views write write_many
+    """.split()  # noqa: SIM905 (a column of quoted words is harder to keep in order)
+)
+"""Names that a driver's class or a bound register has already; a register of that id would hide them."""
+
+ENUM_NAMES = frozenset({"MRO", "NAME", "VALUE"})
+"""Names that `enum` refuses or uses itself, in capitals as members are written."""
+
+
+def normalised(text: str) -> str:
+    """Letters and digits only, in lower case: what is equal so is equal to a reader."""
+    return re.sub(r"[\W_]+", "", text).lower()
+
+
+def camel(name: str) -> str:
+    """The class name that an id becomes: `output_type` is OutputType."""
+    return "".join(part[:1].upper() + part[1:] for part in name.split("_"))
+
+
+def _named(scope: Scope) -> Iterator[tuple[str, str, Span]]:
+    """Every id that becomes an attribute: what it is, the id, where it stands; array members once."""
+
+    def walk(members: tuple[Register | Array, ...]) -> Iterator[tuple[str, str, Span]]:
+        for member in members:
+            if isinstance(member, Array):
+                yield "array", member.id, member.span
+                yield from walk(member.members)
+            else:
+                yield "register", member.id, member.span
+                yield from (("bit field", bits.id, member.span) for bits in member.fields)
+
+    yield from walk(scope.model.members)
+    yield from (("group", group.id, group.span) for group in scope.model.groups)
+    yield from (("command", command.id, command.span) for command in scope.model.commands)
+
+
+@model_rule(
+    Rule(
+        "RS0410", "Id is no Python name", "An id becomes an attribute of the driver, so it must be a Python identifier."
+    )
+)
+def not_a_name(scope: Scope) -> Iterator[Finding]:
+    """Refuse keywords, and what is no identifier in lower case."""
+    for what, name, span in _named(scope):
+        if keyword.iskeyword(name) or keyword.issoftkeyword(name):
+            yield Finding(name, span, f"{what} `{name}` has the name of a Python keyword", "give it another `id`")
+        elif not re.fullmatch(r"[a-z][a-z0-9_]*", name):
+            message = f"{what} `{name}` is no lower-case Python identifier"
+            yield Finding(name, span, message, "give it an `id` of letters, digits and `_` that starts with a letter")
+
+
+@model_rule(
+    Rule("RS0411", "Id hides a name of the driver", "A register called `write` would replace the method `write`.")
+)
+def hides_runtime(scope: Scope) -> Iterator[Finding]:
+    """Refuse ids of registers and arrays that a driver's class uses itself."""
+    for what, name, span in _named(scope):
+        if what in {"register", "array"} and name in RUNTIME_NAMES:
+            message = f"{what} `{name}` would hide the driver's own `{name}`"
+            yield Finding(name, span, message, f"give it another `id`, for example `{name}_register`")
+
+
+@model_rule(Rule("RS0412", "Id used twice", "Two things of one id cannot both be reached from the driver."))
+def id_twice(scope: Scope) -> Iterator[Finding]:
+    """Compare ids without `_`, among the registers and arrays of one owner, the groups and the commands."""
+
+    def walk(members: tuple[Register | Array, ...], owner: str) -> Iterator[tuple[str, str, Span]]:
+        for member in members:
+            yield f"{owner}register", member.id, member.span
+            if isinstance(member, Array):
+                yield from walk(member.members, f"{member.id} ")
+
+    groups = (("group", group.id, group.span) for group in scope.model.groups)
+    commands = (("command", command.id, command.span) for command in scope.model.commands)
+    yield from _repeated(walk(scope.model.members, ""))
+    yield from _repeated(groups)
+    yield from _repeated(commands)
+
+
+def _repeated(named: Iterator[tuple[str, str, Span]]) -> Iterator[Finding]:
+    seen: dict[tuple[str, str], tuple[str, Span]] = {}
+    for what, name, span in named:
+        key = (what, normalised(name))
+        if key in seen:
+            first, where = seen[key]
+            related = (Related(f"`{first}` stands here", where),)
+            yield Finding(name, span, f"{what} `{name}` has the id of `{first}`", "give one another `id`", related)
+        seen.setdefault(key, (name, span))
+
+
+@model_rule(
+    warning("RS0413", "Name used twice", "Readers tell registers apart by their names; equal names mislead them.")
+)
+def name_twice(scope: Scope) -> Iterator[Finding]:
+    """Compare names, letters and digits only, inside each group and each array."""
+    seen: dict[tuple[str, str, str], Register] = {}
+    for register in scope.model.registers:
+        if any(index > 1 for index in register.index) and register.array:
+            continue
+        key = (register.group, register.array, normalised(register.name))
+        first = seen.setdefault(key, register)
+        if first is not register and first.span != register.span:
+            related = Related(f"`{first.path}` has this name", first.span)
+            yield Finding.at(register, f'is called "{register.name}" like `{first.path}`', "tell them apart", related)
+
+
+@model_rule(
+    Rule("RS0414", "Class name used twice", "Models and enums become classes of one module; each needs its own name.")
+)
+def class_twice(scope: Scope) -> Iterator[Finding]:
+    """Compare the classes of all models (sync and async) and of the enums of this one."""
+    taken: dict[str, tuple[str, Span]] = {}
+    for model in scope.register_map.models[: scope.register_map.models.index(scope.model)]:
+        for name in (model.class_name, f"Async{model.class_name}"):
+            taken.setdefault(name, (f"model {model.name}", model.span))
+    mine = [(name, f"model {scope.model.name}", scope.model.name, scope.model.span) for name in _classes(scope)]
+    mine += [(camel(enum.id), f"enum {enum.id}", enum.id, enum.span) for enum in _enums(scope) if enum.id]
+    for name, what, subject, span in mine:
+        other, where = taken.setdefault(name, (what, span))
+        if other != what:
+            related = (Related(f"{other} becomes {name}", where),)
+            message = f"{what} becomes class {name}, which {other} is already"
+            yield Finding(subject, span, message, "give one another id (a model: `class`)", related)
+
+
+def _enums(scope: Scope) -> Iterator[Enum]:
+    """Every enum object once; hashing them by value would cost more than all the rest."""
+    seen: set[int] = set()
+    for register in scope.model.registers:
+        for enum in (register.enum, *(bits.enum for bits in register.fields)):
+            if enum and id(enum) not in seen:
+                seen.add(id(enum))
+                yield enum
+
+
+def _classes(scope: Scope) -> tuple[str, str]:
+    return scope.model.class_name, f"Async{scope.model.class_name}"
+
+
+@register_rule(
+    warning("RS0415", "Description repeats the name", "A description that says no more than the name wastes a line.")
+)
+def description_is_name(register: Register, _: Scope) -> Iterator[Finding]:
+    """Compare both, letters and digits only."""
+    if register.description and normalised(register.description) == normalised(register.name):
+        yield Finding.at(register, "is described by its own name", "say what it does, or remove `description`")

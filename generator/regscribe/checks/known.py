@@ -1,0 +1,46 @@
+"""What is taken as known while a map is judged: the defaults of a model, or what a worked example says."""
+
+from collections.abc import Iterable
+from fractions import Fraction
+
+from regscribe.model import GivenKind, Model, RegisterMap
+from regscribe.model.reference import Surroundings
+
+
+def with_fields(model: Model, values: dict[str, Fraction]) -> dict[str, Fraction]:
+    """The values by path, and those of the bit fields in them by `path.field`, unless these are said apart."""
+    fields = {
+        f"{register.path}.{bits.id}": Fraction((int(values[register.path]) >> bits.low) % (1 << bits.width))
+        for register in model.registers
+        if register.fields and register.path in values
+        for bits in register.fields
+    }
+    return fields | values
+
+
+def default_values(model: Model) -> dict[str, Fraction]:
+    """The defaults of all registers of a model that are numbers, by path."""
+    return {register.path: register.default for register in model.registers if isinstance(register.default, Fraction)}
+
+
+def all_defaults(model: Model) -> Surroundings:
+    """The state in which every register stands at its default; what has none, and every given, is not known."""
+    return Surroundings(with_fields(model, default_values(model)))
+
+
+def in_example(register_map: RegisterMap, model: Model, said: Iterable[tuple[str, Fraction]]) -> Surroundings:
+    """The state of a worked example: what it says, else the defaults.
+
+    An example may name a given: then it holds that one code (a boolean given: true unless 0). A given that is not
+    named holds no code and is not true.
+    """
+    values = default_values(model) | dict(said)
+    codes = {
+        given.id: frozenset({values.pop(given.id)} if given.id in values else ())
+        for given in register_map.givens
+        if given.kind is GivenKind.CODES
+    }
+    facts = {
+        given.id: bool(values.pop(given.id, 0)) for given in register_map.givens if given.kind is GivenKind.BOOLEAN
+    }
+    return Surroundings(with_fields(model, values), codes, facts)

@@ -1,0 +1,123 @@
+"""The protocol: functions, limits, unit ids, faults, latencies and the serial line."""
+
+from collections.abc import Iterator
+from dataclasses import fields
+
+from regscribe.checks.registry import MAP, Finding, Scope, map_rule, warning
+from regscribe.model import SILENCE, Protocol, RegisterMap, Rule
+
+READS = frozenset({1, 2, 3, 4, 7, 11, 12, 17, 20, 24})
+"""Functions whose point is the answer, so that they cannot be broadcast."""
+
+LAST_FUNCTION, LAST_UNIT = 127, 255
+MOST = {"read_words": 125, "write_words": 123, "read_bits": 2000, "write_bits": 1968}
+"""What fits a Modbus frame of 256 bytes (application protocol V1.1b3, 6.1 to 6.16)."""
+
+
+def _the_map(scopes: tuple[Scope, ...]) -> tuple[RegisterMap, Protocol]:
+    return scopes[0].register_map, scopes[0].register_map.protocol
+
+
+@map_rule(
+    warning("RS0486", "Fault without a meaning", "An exception reaches the user with the device's own meaning of it.")
+)
+def fault_without_meaning(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+    """Compare the codes of the faults with the exceptions, if the map lists any."""
+    register_map, protocol = _the_map(scopes)
+    known = {exception.code for exception in protocol.exceptions} | {SILENCE}
+    for fault in fields(protocol.faults) if protocol.exceptions else ():
+        code = getattr(protocol.faults, fault.name)
+        if isinstance(code, int) and code not in known:
+            message = f"fault `{fault.name}` is answered by exception {code:02d}, which `protocol.exceptions` lacks"
+            yield Finding(MAP, register_map.span, message, "list the code with its name, or correct the fault")
+
+
+@map_rule(Rule("RS0487", "Exception code that cannot be sent", "An exception code is one byte, and 0 says nothing."))
+def exception_code(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+    """Look at all codes of exceptions."""
+    register_map, protocol = _the_map(scopes)
+    for exception in protocol.exceptions:
+        if not 0 < exception.code <= 0xFF:  # noqa: PLR2004 (one byte)
+            message = f"exception code {exception.code} ({exception.name}) is outside 1..255"
+            yield Finding(MAP, register_map.span, message, "correct the code")
+
+
+@map_rule(
+    Rule("RS0488", "Unit ids that cannot be", "A unit id is 1 to 255 (0 broadcasts); the default is one of them.")
+)
+def unit_ids(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+    """Look at both ends and at the default."""
+    register_map, protocol = _the_map(scopes)
+    low, high = protocol.unit_ids
+    if not 0 < low <= high <= LAST_UNIT:
+        message = f"unit ids {low}..{high} are not within 1..{LAST_UNIT}"
+        yield Finding(MAP, register_map.span, message, "correct `protocol.unit_ids`")
+    elif protocol.default_unit is not None and not low <= protocol.default_unit <= high:
+        message = f"the default unit id {protocol.default_unit} is outside {low}..{high}"
+        yield Finding(MAP, register_map.span, message, "correct `protocol.default_unit` or `unit_ids`")
+
+
+@map_rule(
+    Rule("RS0489", "Latency that cannot be", "A latency belongs to a function that the device has, and is a time.")
+)
+def latency(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+    """Look at the function and the ends of every latency."""
+    register_map, protocol = _the_map(scopes)
+    for one in protocol.latencies:
+        pairs = ((one.minimum, one.maximum), (one.minimum_per_word, one.maximum_per_word))
+        if one.function not in protocol.functions:
+            message = f"latency of function {one.function:02d}, which `protocol.functions` lacks"
+            yield Finding(MAP, register_map.span, message, "correct one of them")
+        elif any(low < 0 or low > high for low, high in pairs):
+            message = f"latency of function {one.function:02d} is no time: an end is negative or the ends are swapped"
+            yield Finding(MAP, register_map.span, message, "write the shorter time first")
+
+
+@map_rule(Rule("RS0490", "Function that cannot be broadcast", "Nobody answers a broadcast, so it can only be a write."))
+def broadcast(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+    """Compare the broadcast functions with the supported ones and with those that need an answer."""
+    register_map, protocol = _the_map(scopes)
+    for code in protocol.broadcast:
+        if code in READS or code not in protocol.functions:
+            why = "it reads" if code in READS else "`protocol.functions` lacks it"
+            message = f"function {code:02d} is listed under `broadcast`, but {why}"
+            yield Finding(MAP, register_map.span, message, "correct `protocol.broadcast`")
+
+
+@map_rule(
+    Rule("RS0491", "Default of the serial line is not offered", "The default is one of the speeds and formats listed.")
+)
+def serial_default(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+    """Compare the default speed and format with the lists."""
+    register_map, protocol = _the_map(scopes)
+    line = protocol.serial
+    pairs = (
+        ("baud", line.default_baud, line.baud_rates),
+        ("format", line.default_format or None, line.formats),
+    )
+    for what, default, offered in pairs:
+        if default is not None and offered and default not in offered:
+            message = f"the default {what} {default} is not among {', '.join(map(str, offered))}"
+            yield Finding(MAP, register_map.span, message, f"correct `serial.default`, or list the {what}")
+
+
+@map_rule(Rule("RS0492", "Limit that no request can have", "A Modbus frame carries 125 words to read, 123 to write."))
+def limits(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+    """Compare each limit with 1 and with what a frame carries."""
+    register_map, protocol = _the_map(scopes)
+    for name, most in MOST.items():
+        value = getattr(protocol, name)
+        if not 0 < value <= most:
+            message = f"`protocol.limits.{name}` is {value}, outside 1..{most}"
+            yield Finding(MAP, register_map.span, message, "correct the limit")
+
+
+@map_rule(Rule("RS0493", "Function code that cannot be", "Function codes are 1 to 127, each listed once."))
+def functions(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+    """Look at all supported functions."""
+    register_map, protocol = _the_map(scopes)
+    for place, code in enumerate(protocol.functions):
+        if not 0 < code <= LAST_FUNCTION:
+            yield Finding(MAP, register_map.span, f"function {code} is outside 1..{LAST_FUNCTION}", "correct it")
+        elif code in protocol.functions[:place]:
+            yield Finding(MAP, register_map.span, f"function {code:02d} is listed twice", "remove one")

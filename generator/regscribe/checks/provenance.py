@@ -1,0 +1,64 @@
+"""Where facts come from: sections, manual, errata; how models are told apart."""
+
+from collections import Counter
+from collections.abc import Iterator
+
+from regscribe.checks.registry import MAP, Finding, Scope, map_rule, register_rule, warning
+from regscribe.model import Condition, Register, Rule
+
+
+@map_rule(Rule("RS0494", "Models not told apart", "`identify` says for every model, once, how it answers."))
+def identification(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+    """Count models and conditions of the identification, if the map has one."""
+    register_map = scopes[0].register_map
+    conditions: set[Condition] = set()
+    for identity in register_map.identity:
+        twice = [name for name, count in Counter(identity.models).items() if count > 1]
+        if twice:
+            yield Finding(MAP, register_map.span, f"`identify` lists {', '.join(twice)} twice at once", "remove one")
+        if identity.when in conditions:
+            message = f"`identify` has two entries of one condition (the second for {', '.join(identity.models)})"
+            yield Finding(MAP, register_map.span, message, "list the models in one entry")
+        conditions.add(identity.when)
+    listed = {name for identity in register_map.identity for name in identity.models}
+    missing = [model.name for model in register_map.models if listed and model.name not in listed]
+    if missing:
+        yield Finding(MAP, register_map.span, f"`identify` does not say how to tell {', '.join(missing)}", "add them")
+
+
+@register_rule(
+    warning("RS0495", "Register without section", "A reader must be able to look every value up in the manual.")
+)
+def no_section(register: Register, _: Scope) -> Iterator[Finding]:
+    """Look at the section, inherited from the group or its own."""
+    if not register.section:
+        yield Finding.at(register, "does not say where the manual describes it", "add `source` here or at its group")
+
+
+@map_rule(
+    warning(
+        "RS0496", "Manual not identified", "Makers reissue manuals: number or date tells which one was transcribed."
+    )
+)
+def manual_not_identified(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+    """Look for the number or the date."""
+    register_map = scopes[0].register_map
+    if not (register_map.manual.number.strip() or register_map.manual.date.strip()):
+        message = f'the manual "{register_map.manual.title}" has neither number nor date'
+        yield Finding(MAP, register_map.span, message, "add `manual.number` or `manual.date`")
+
+
+@map_rule(Rule("RS0498", "Erratum or given that does not say enough", "A blank reason cannot be judged by a reviewer."))
+def blank_reasons(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+    """Look for blank texts."""
+    register_map = scopes[0].register_map
+    for erratum in register_map.errata:
+        texts = {"where": erratum.where, "printed": erratum.printed, "read": erratum.read, "why": erratum.why}
+        blank = [key for key, text in texts.items() if not text.strip()]
+        if blank:
+            message = f'the erratum at "{erratum.where}" leaves {", ".join(blank)} blank'
+            yield Finding(MAP, register_map.span, message, "say it in your own words")
+    for given in register_map.givens:
+        if not (given.description.strip() and given.reason.strip()):
+            message = f"given `{given.id}` has a blank description or reason"
+            yield Finding(given.id, given.span, message, "say what it is and why the manual does not hold it")

@@ -1,0 +1,54 @@
+"""Scales and resolution."""
+
+from collections.abc import Iterator
+from fractions import Fraction
+
+from regscribe.checks.carrying import Fit, best_fit, end_values, listed, numbers
+from regscribe.checks.registry import Finding, Scope, register_rule
+from regscribe.model import Kind, Register, Rule, show
+
+
+@register_rule(Rule("RS0430", "Scale of zero", "A factor of 0 makes every value the same and can never be undone."))
+def scale_of_zero(register: Register, _: Scope) -> Iterator[Finding]:
+    """Look at the factor of every case and every view."""
+    if any(case.then.multiply == 0 for case in register.scale):
+        yield Finding.at(register, "has a scale that multiplies by 0", "correct `multiply`, or `from` and `to`")
+    for view in register.views:
+        if view.factor == 0:
+            yield Finding.at(register, f"has view {view.name} with factor 0", "correct the view's `factor`")
+
+
+@register_rule(Rule("RS0431", "Step that is not positive", "Values cannot move by nothing, nor backwards."))
+def step_not_positive(register: Register, _: Scope) -> Iterator[Finding]:
+    """Look at the step and the cap of decimals of every case."""
+    for case in register.scale:
+        step, decimals = case.then.step, case.then.decimals
+        if step is not None and step <= 0:
+            yield Finding.at(register, f"has a step of {show(step)}", "give a step above 0, or none")
+        if decimals and decimals.at_most is not None and decimals.at_most < 0:
+            yield Finding.at(register, f"has at most {decimals.at_most} decimals", "correct `at_most`")
+
+
+@register_rule(
+    Rule(
+        "RS0432",
+        "Number finer than the resolution",
+        "A default or limit between two steps can never be read or written: a decimal is missing, or one too many.",
+    )
+)
+def too_fine(register: Register, _: Scope) -> Iterator[Finding]:
+    """Try the default and the numeric limits in every view under every scale."""
+    if register.kind not in {Kind.NUMBER, Kind.INTEGER, Kind.RAW}:
+        return
+    fine: list[Fraction] = []
+    if isinstance(register.default, Fraction) and not _is_meant(register, register.default):
+        fine += [register.default] if best_fit(register, (register.default,)) is Fit.TOO_FINE else []
+    for case in register.range:
+        fine += [n for n in numbers(case.then) if best_fit(register, end_values(case.then, n)) is Fit.TOO_FINE]
+    if fine:
+        message = f"has default or limits that its words cannot spell exactly: {listed(list(dict.fromkeys(fine)))}"
+        yield Finding.at(register, message, "correct the number, the scale or the decimals")
+
+
+def _is_meant(register: Register, value: Fraction) -> bool:
+    return any(special.means == value for special in register.specials)

@@ -1,0 +1,195 @@
+"""Types and defaults: every number that a map states must be one that the register can hold."""
+
+from collections.abc import Iterator
+from fractions import Fraction
+
+from regscribe.checks.carrying import Fit, best_fit, end_values, ends_of, listed, numbers, widest
+from regscribe.checks.registry import Finding, Scope, register_rule, warning
+from regscribe.model import IDENTITY, Kind, Number, Range, Register, Rule, WireType, show
+from regscribe.model.reference import RefusedError, UnknownValueError, choose, limits
+
+WORDS_OF_BITS = {Kind.FLAGS, Kind.FIELDS}
+UNSCALED = {Kind.ENUM, Kind.FLAGS, Kind.FIELDS, Kind.STRING, Kind.VERSION, Kind.BOOLEAN}
+HELP_TYPE = "correct the number, the type or the scale"
+
+
+def _is_numeric(register: Register) -> bool:
+    return register.kind in {Kind.NUMBER, Kind.INTEGER, Kind.RAW}
+
+
+@register_rule(
+    Rule("RS0420", "Default outside the type", "A default that the words cannot carry was misread, or the type was.")
+)
+def default_outside_type(register: Register, _: Scope) -> Iterator[Finding]:
+    """Try the default in every view under every scale."""
+    if not isinstance(register.default, Fraction) or register.kind is Kind.STRING:
+        return
+    top = 1 << register.bits
+    if register.kind in WORDS_OF_BITS:
+        fits = 0 <= register.default < top
+    else:
+        fits = best_fit(register, (register.default,)) is not Fit.TOO_LARGE
+    if not fits:
+        yield Finding.at(register, f"has default {show(register.default)}, outside {ends_of(register)}", HELP_TYPE)
+
+
+@register_rule(
+    Rule("RS0421", "Special value outside the type", "A special value that no word can spell can never be met.")
+)
+def special_outside_type(register: Register, _: Scope) -> Iterator[Finding]:
+    """Try each special value as the ranges count it."""
+    of_range = [case.then for case in register.range] or [Range(())]
+    for special in register.specials:
+        values = tuple(value for one in of_range for value in end_values(one, special.code))
+        if best_fit(register, values) is Fit.TOO_LARGE:
+            message = f'has special value {show(special.code)} ("{special.label}"), outside {ends_of(register)}'
+            yield Finding.at(register, message, HELP_TYPE)
+
+
+@register_rule(
+    Rule("RS0422", "Sentinel outside the type", "A fault number that no view can spell hides the fault for ever.")
+)
+def sentinel_outside_type(register: Register, _: Scope) -> Iterator[Finding]:
+    """Try each sentinel, a stored number, in every view."""
+    for sentinel in register.sentinels:
+        wires = [(view.type, sentinel.stored * view.factor) for view in register.views]
+        if not any(kind.is_float or kind.minimum <= wire <= kind.maximum for kind, wire in wires):
+            message = f'has sentinel {show(sentinel.stored)} ("{sentinel.label}"), outside {ends_of(register)}'
+            yield Finding.at(register, message, "correct the sentinel or the type")
+
+
+@register_rule(
+    Rule(
+        "RS0423",
+        "Default outside the range",
+        "Manuals do print such defaults; then the map needs a special value, another range, or a waiver that says why.",
+    )
+)
+def default_outside_range(register: Register, scope: Scope) -> Iterator[Finding]:
+    """Judge the default with all other registers at theirs; what cannot be known so is not judged."""
+    value = register.default
+    if not isinstance(value, Fraction) or not register.range or not _is_numeric(register):
+        return
+    if any(value in (special.code, special.means) for special in register.specials):
+        return
+    try:
+        now = choose(register.range, scope.defaults)
+        ends = limits(now, scope.defaults) if now else ()
+    except (UnknownValueError, RefusedError):
+        return
+    if ends and not any((low is None or low <= value) and (high is None or value <= high) for low, high in ends):
+        text = " or ".join(f"{_end(low)}..{_end(high)}" for low, high in ends)
+        message = f"has default {show(value)}, outside {text} with all other registers at their defaults"
+        yield Finding.at(register, message, "correct one of them, or add the default under `special`")
+
+
+def _end(number: Fraction | None) -> str:
+    return "open" if number is None else show(number)
+
+
+@register_rule(
+    Rule("RS0424", "Limit outside the type", "A range that is wider than the words was misread, or the type was.")
+)
+def limit_outside_type(register: Register, _: Scope) -> Iterator[Finding]:
+    """Try each numeric limit; ranges that fit nowhere are RS0425's."""
+    for case in register.range:
+        outside = [n for n in numbers(case.then) if best_fit(register, end_values(case.then, n)) is Fit.TOO_LARGE]
+        if outside and _reachable(register, case.then):
+            message = f"has limits {listed(outside)}, outside {ends_of(register)} as scaled"
+            yield Finding.at(register, message, HELP_TYPE)
+
+
+@register_rule(
+    Rule("RS0425", "Range that cannot be encoded", "No value of the range has words: nothing could ever be written.")
+)
+def range_outside_type(register: Register, _: Scope) -> Iterator[Finding]:
+    """Compare each range as a whole with what type and scale reach."""
+    for case in register.range:
+        if case.then.intervals and not _reachable(register, case.then):
+            found = listed(list(numbers(case.then)))
+            message = f"has a range ({found}) that lies wholly outside {ends_of(register)} as scaled"
+            yield Finding.at(register, message, HELP_TYPE)
+
+
+def _reachable(register: Register, one: Range) -> bool:
+    """Whether any value of the range lies where type and scale reach; limits that are no numbers are no limits."""
+    reach = widest(register)
+    if reach is None:
+        return True
+    for interval in one.intervals:
+        lows = end_values(one, interval.low.value) if isinstance(interval.low, Number) else (reach[0],)
+        highs = end_values(one, interval.high.value) if isinstance(interval.high, Number) else (reach[1],)
+        if min(lows) <= reach[1] and max(highs) >= reach[0]:
+            return True
+    return False
+
+
+@register_rule(
+    Rule("RS0426", "Kind does not fit the type", "An enum in a float or a number in a text cannot be decoded.")
+)
+def kind_and_type(register: Register, _: Scope) -> Iterator[Finding]:
+    """Compare the kind with the types of all views, and an enum or fields with the kind."""
+    for view in register.views:
+        wrong = (
+            (register.kind is Kind.STRING) != (view.type is WireType.STRING)
+            or (register.kind in UNSCALED - {Kind.STRING} and view.type.is_float)
+            or (register.kind in WORDS_OF_BITS and view.type is WireType.BIT)
+        )
+        if wrong:
+            message = f"is of kind {register.kind}, but view {view.name} has type {view.type}"
+            yield Finding.at(register, message, "correct `kind` or `type`")
+            return
+    if (register.enum is not None) != (register.kind is Kind.ENUM):
+        yield Finding.at(register, f"is of kind {register.kind} {_has(register)}", "correct `kind` or the enum")
+    elif bool(register.fields) != (register.kind in WORDS_OF_BITS):
+        yield Finding.at(
+            register, f"is of kind {register.kind} but its bits say otherwise", "correct `kind` or the bits"
+        )
+
+
+def _has(register: Register) -> str:
+    return "but has an enum" if register.enum else "but has no enum"
+
+
+@register_rule(
+    Rule(
+        "RS0427",
+        "Scale on a value that is no number",
+        "Codes, bits and texts are not multiplied; one of them is wrong.",
+    )
+)
+def scaled_codes(register: Register, _: Scope) -> Iterator[Finding]:
+    """Allow nothing but the identity, and factor 1, for codes, bits, texts and versions."""
+    if register.kind not in UNSCALED:
+        return
+    if any(case.then != IDENTITY for case in register.scale) or any(view.factor != 1 for view in register.views):
+        yield Finding.at(register, f"is of kind {register.kind} but has a scale", "remove the scale, or correct `kind`")
+
+
+@register_rule(
+    Rule("RS0428", "Default of the wrong sort", "A text for a number (or a text that is too long) cannot be written.")
+)
+def default_of_wrong_sort(register: Register, _: Scope) -> Iterator[Finding]:
+    """Compare the default with the kind; a text with the words it has."""
+    value = register.default
+    if value is None:
+        return
+    textual = register.kind in {Kind.STRING, Kind.VERSION}
+    if textual != isinstance(value, str):
+        shown = repr(value) if isinstance(value, str) else show(value)
+        message = f"is of kind {register.kind} but has default {shown}"
+        yield Finding.at(register, message, "correct the default or `kind`")
+    elif isinstance(value, str) and register.kind is Kind.STRING and len(value) > 2 * register.base.words:
+        message = f"has a default of {len(value)} characters and room for {2 * register.base.words}"
+        yield Finding.at(register, message, "correct the default or `length`")
+
+
+@register_rule(
+    warning("RS0429", "Version longer than its type", "The type cannot hold the largest version of so many digits.")
+)
+def version_too_long(register: Register, _: Scope) -> Iterator[Finding]:
+    """Compare the largest number of the digits with the type."""
+    largest = 10**register.version_digits - 1
+    if register.kind is Kind.VERSION and register.base.type.is_integer and largest > register.base.type.maximum:
+        message = f"packs {register.version_digits} digits (up to {largest}) into {ends_of(register)}"
+        yield Finding.at(register, message, "correct `version` or `type`, or waive this with what the manual says")

@@ -1,0 +1,100 @@
+"""Views: regions, alignment, request limits and functions."""
+
+from collections.abc import Iterator
+from itertools import combinations
+
+from regscribe.checks.registry import Finding, Scope, map_rule, register_rule
+from regscribe.model import Register, Rule, View
+
+Shape = tuple[object, ...]
+
+
+def view_sets(scopes: tuple[Scope, ...]) -> Iterator[Register]:
+    """One register for each view set of the map: registers whose views differ in their addresses only count once."""
+    seen: set[Shape] = set()
+    for scope in scopes:
+        for register in scope.model.registers:
+            shape: Shape = tuple((v.name, v.space, v.type, v.region, v.preferred, v.words) for v in register.views)
+            if shape not in seen:
+                seen.add(shape)
+                yield register
+
+
+def _is_aligned(view: View) -> bool:
+    return view.align <= 1 or not (view.address % view.align or view.words % view.align)
+
+
+@register_rule(Rule("RS0455", "View outside its region", "The manual gives each kind of view its own addresses."))
+def outside_region(register: Register, _: Scope) -> Iterator[Finding]:
+    """Compare the first and the last address of each view with its region."""
+    for view in register.views:
+        if view.region and not view.region[0] <= view.address <= view.last <= view.region[1]:
+            first, last = view.region
+            message = f"has view {view.name} at {view.address}..{view.last}, outside its region {first}..{last}"
+            yield Finding.at(register, message, "correct `at`, or the view's offset, stride or region")
+
+
+@register_rule(
+    Rule("RS0456", "Misaligned view", "The device refuses an address or a number of words that splits a value.")
+)
+def misaligned(register: Register, _: Scope) -> Iterator[Finding]:
+    """Divide the address and the words of each view by its alignment."""
+    for view in register.views:
+        if not _is_aligned(view):
+            message = f"has view {view.name} at {view.address} with {view.words} words, not multiples of {view.align}"
+            yield Finding.at(register, message, "correct `at`, the view's offset and stride, or `align`")
+
+
+@map_rule(Rule("RS0457", "View regions overlap", "An address in two regions would have two meanings."))
+def regions_overlap(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+    """Compare the regions of each view set in pairs, once."""
+    for register in view_sets(scopes):
+        with_region = [view for view in register.views if view.region]
+        for one, other in combinations(with_region, 2):
+            if one.space == other.space and one.region and other.region:
+                (low, high), (first, last) = one.region, other.region
+                if low <= last and first <= high:
+                    message = f"has views whose regions overlap: {one.name} {low}..{high}, {other.name} {first}..{last}"
+                    yield Finding.at(register, message, "correct `region` of one view")
+
+
+@register_rule(
+    Rule("RS0458", "Value longer than a request", "A value that does not fit one request can never be read whole.")
+)
+def longer_than_request(register: Register, scope: Scope) -> Iterator[Finding]:
+    """Compare the words of each view with the limits of the protocol."""
+    protocol = scope.register_map.protocol
+    for view in register.views:
+        if view.space.is_bits:
+            continue
+        if register.access.readable and view.words > protocol.read_words:
+            message = f"has view {view.name} of {view.words} words; a read request takes {protocol.read_words} at most"
+            yield Finding.at(register, message, "correct the type, `length` or `protocol.limits.read_words`")
+        elif register.access.writable and view.words > protocol.write_words:
+            message = (
+                f"has view {view.name} of {view.words} words; a write request takes {protocol.write_words} at most"
+            )
+            yield Finding.at(register, message, "correct the type, `length` or `protocol.limits.write_words`")
+
+
+@register_rule(
+    Rule("RS0459", "View by a function that the device lacks", "Only a function that the device supports can reach it.")
+)
+def unsupported_function(register: Register, scope: Scope) -> Iterator[Finding]:
+    """Compare the functions of each view with the protocol's."""
+    has = scope.register_map.protocol.functions
+    for view in register.views:
+        lacking = [code for code in view.functions if code not in has]
+        if lacking:
+            codes = ", ".join(f"{code:02d}" for code in lacking)
+            message = f"has view {view.name} by function {codes}, which `protocol.functions` {list(has)} lacks"
+            yield Finding.at(register, message, "correct one of the two lists")
+
+
+@map_rule(Rule("RS0460", "More than one preferred view", "A driver uses one view unless told otherwise."))
+def preferred_twice(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+    """Count the preferred views of each view set, once."""
+    for register in view_sets(scopes):
+        names = [view.name for view in register.views if view.preferred]
+        if len(names) > 1:
+            yield Finding.at(register, f"has preferred views {', '.join(names)}", "prefer one of them")
