@@ -75,7 +75,7 @@ def view_of(node: Node | None, register: Register) -> View:
     """The view of a register that `node` names, the base view where it is None; RS0323 for an unknown one."""
     found = [view for view in register.views if node is None or view.name == node.text()]
     if not found and node is not None:
-        unknown(node, UNKNOWN_VIEW, f"view of `{register.path}`", node.text(), [view.name for view in register.views])
+        unknown(node, UNKNOWN_VIEW, "view", node.text(), [view.name for view in register.views], of=register.path)
     return found[0] if found else register.base
 
 

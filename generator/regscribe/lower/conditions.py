@@ -6,7 +6,7 @@ from fractions import Fraction
 from regscribe.lower.ends import ends
 from regscribe.lower.names import unknown
 from regscribe.lower.node import Node
-from regscribe.lower.rules import BAD_MATCHER, CIRCLE, UNKNOWN_CONDITION, UNKNOWN_GIVEN, WRONG_SORT
+from regscribe.lower.rules import BAD_MATCHER, UNKNOWN_CONDITION, UNKNOWN_GIVEN, WRONG_SORT
 from regscribe.lower.scope import Scope, path_of
 from regscribe.lower.subject import Subject, code_of_text, subject_of
 from regscribe.model import ALWAYS, CodeRange, Condition, Test
@@ -14,12 +14,12 @@ from regscribe.model import ALWAYS, CodeRange, Condition, Test
 _SETS = ("in", "not_in")
 
 
-def condition(node: Node | None, scope: Scope, within: tuple[str, ...] = ()) -> Condition:
-    """The condition at a `when`; None: always. `within` are the named conditions that are being resolved."""
+def condition(node: Node | None, scope: Scope) -> Condition:
+    """The condition at a `when`: a name, tests by subject, or a list of these; None: always."""
     if node is None:
         return ALWAYS
     if node.is_text:
-        return _named(node, scope, within)
+        return _named(node, scope)
     if node.is_mapping:
         return Condition(tuple(test for key, matcher in node.items() for test in _tests(key, matcher, scope)))
     if not node.is_list:
@@ -27,7 +27,7 @@ def condition(node: Node | None, scope: Scope, within: tuple[str, ...] = ()) -> 
             WRONG_SORT, f"`{node.text()}` is no condition", remedy="write a name, a mapping, or a list of these"
         )
         return ALWAYS
-    parts = [condition(element, scope, within) for element in node.elements()]
+    parts = [Condition() if part.is_list else condition(part, scope) for part in node.elements()]
     return parts[0] if len(parts) == 1 else both(*parts)
 
 
@@ -52,14 +52,9 @@ def _contrary(test: Test, other: Test) -> bool:
     return not any(a.low <= b.high and b.low <= a.high for a in test.codes for b in other.codes)
 
 
-def _named(node: Node, scope: Scope, within: tuple[str, ...]) -> Condition:
-    name = node.text()
-    if name in within:
-        chain = " needs ".join(f"`{step}`" for step in (*within[within.index(name) :], name))
-        node.report(CIRCLE, f"the condition goes round in a circle: {chain}", remedy="spell one of them out")
-        return ALWAYS
+def _named(node: Node, scope: Scope) -> Condition:
     found = scope.named(node, "conditions", rule=UNKNOWN_CONDITION, what="condition")
-    return Condition(condition(found, scope, (*within, name)).tests, name=name) if found else ALWAYS
+    return Condition(condition(found, scope).tests if found and found.is_mapping else (), name=node.text())
 
 
 def _tests(key: str, matcher: Node, scope: Scope) -> list[Test]:

@@ -3,11 +3,11 @@
 import re
 from fractions import Fraction
 
-from regscribe.lower.node import Node
+from regscribe.lower.node import Node, brief
 from regscribe.lower.rules import REVERSED, WRONG_SORT
 from regscribe.model import exact, show
 
-_ENDS = re.compile(r"\s*([+-]?[0-9]+(?:\.[0-9]+)?)\s*\.\.\s*([+-]?[0-9]+(?:\.[0-9]+)?)\s*")
+_ENDS = re.compile(r"\s*([+-]?[0-9]{1,30}(?:\.[0-9]{1,30})?)\s*\.\.\s*([+-]?[0-9]{1,30}(?:\.[0-9]{1,30})?)\s*")
 
 
 def ends(node: Node) -> tuple[Fraction, Fraction]:
@@ -26,7 +26,7 @@ def unordered(node: Node) -> tuple[Fraction, Fraction]:
         return node.number(), node.number()
     match = _ENDS.fullmatch(node.value) if node.is_text else None
     if match is None:
-        shown = f"`{node.value}`" if node.is_text else "this"
+        shown = f"`{brief(node.text())}`" if node.is_text else "this"
         node.report(WRONG_SORT, f"{shown} is no range", remedy="write two numbers as a..b, for example -10..250.5")
         return Fraction(0), Fraction(0)
     return exact(match[1]), exact(match[2])

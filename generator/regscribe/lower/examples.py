@@ -107,7 +107,7 @@ def _reading(node: Node | None, register: Register | None) -> tuple[Fraction | s
         known = [each.id for each in register.fields if each.is_flag]
         for element in node.elements():
             if element.text() not in known:
-                unknown(element, UNKNOWN_FLAG, f"flag of `{register.path}`", element.text(), known)
+                unknown(element, UNKNOWN_FLAG, "flag", element.text(), known, of=register.path)
         return None, tuple(element.text() for element in node.elements())
     if node.is_text and register.kind in {Kind.STRING, Kind.VERSION}:
         return node.text(), None
@@ -117,7 +117,7 @@ def _reading(node: Node | None, register: Register | None) -> tuple[Fraction | s
 def _fault(node: Node, register: Register | None) -> str:
     known = {sentinel.id.lower(): sentinel.id for sentinel in register.sentinels} if register else {}
     if register and node.text().lower() not in known:
-        unknown(node, UNKNOWN_SENTINEL, f"sentinel of `{register.path}`", node.text(), known)
+        unknown(node, UNKNOWN_SENTINEL, "sentinel", node.text(), known, of=register.path)
     return known.get(node.text().lower(), "")
 
 

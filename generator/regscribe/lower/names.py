@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable
 from difflib import get_close_matches
 
-from regscribe.lower.node import Node
+from regscribe.lower.node import Node, brief
 from regscribe.lower.rules import NO_IDENTIFIER
 
 _RUN = re.compile(r"[A-Za-z0-9]+")
@@ -26,24 +26,27 @@ def identifier(node: Node, *, label: str, given: Node | None, capitals: bool = F
     name = given.text() if given else snake(label)
     if not name.isidentifier():
         where = given or node
-        what = f"`{name}` is no identifier" if given else f"no identifier can be derived from `{label}`"
+        what = f"`{name}` is no identifier" if given else f"no identifier can be derived from `{brief(label)}`"
         where.report(NO_IDENTIFIER, what, remedy="give an `id` of letters, digits and _ that starts with a letter")
         return "unnamed"
     return name.upper() if capitals else name
 
 
-def unknown(node: Node, rule: str, what: str, name: str, known: Iterable[str], *, at_key: bool = False) -> None:
-    """Report that there is no `what` of this name, with the nearest names and those that exist."""
+def unknown(
+    node: Node, rule: str, what: str, name: str, known: Iterable[str], *, of: str = "", at_key: bool = False
+) -> None:
+    """Report that there is no `what` of this name (in the thing `of`), with the nearest one and those that exist."""
     if node.context.spoke(rule, node.key_span if at_key else node.span):
         return
     names = list(dict.fromkeys(known))
-    near = get_close_matches(name, names, n=1, cutoff=0.6)
+    near = get_close_matches(brief(name), names, n=1, cutoff=0.6)
+    place = f" in `{of}`" if of else ""
     guess = f"did you mean `{near[0]}`? " if near else ""
-    node.report(rule, f"there is no {what} `{name}`", remedy=f"{guess}{_listed(names)}", at_key=at_key)
+    node.report(rule, f"there is no {what} `{brief(name)}`{place}", remedy=f"{guess}{_listed(names)}", at_key=at_key)
 
 
 def _listed(names: list[str]) -> str:
     if not names:
-        return "the map has none"
+        return "there are none"
     more = f" and {len(names) - _LISTED} more" if len(names) > _LISTED else ""
-    return f"there are: {', '.join(names[:_LISTED])}{more}"
+    return f"there are: {', '.join(brief(name) for name in names[:_LISTED])}{more}"

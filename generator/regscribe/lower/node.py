@@ -14,6 +14,15 @@ from regscribe.source import Document
 Path = tuple[str | int, ...]
 Choice = TypeVar("Choice", bound=StrEnum)
 
+_LONGEST_NUMBER = 100
+_LONGEST_SHOWN = 60
+
+
+def brief(text: str) -> str:
+    """The text as it may stand in a message: on one line, printable, cut where it is long."""
+    line = "".join(letter if letter.isprintable() else " " for letter in text[: _LONGEST_SHOWN + 1])
+    return line if len(line) <= _LONGEST_SHOWN else f"{line[:_LONGEST_SHOWN]}…"
+
 
 @dataclass(frozen=True, slots=True)
 class Context:
@@ -158,11 +167,13 @@ class Node:
 
     def key_number(self) -> Fraction:
         """The key as an exact number."""
-        try:
-            return exact(self.key)
-        except ValueError:
-            self.report(WRONG_SORT, f"the key `{self.key}` is no number", remedy="write a number", at_key=True)
-            return Fraction(0)
+        if len(self.key) <= _LONGEST_NUMBER:
+            try:
+                return exact(self.key)
+            except ValueError:
+                pass
+        self.report(WRONG_SORT, f"the key `{brief(self.key)}` is no number", remedy="write a number", at_key=True)
+        return Fraction(0)
 
     _Other = TypeVar("_Other")
 
@@ -170,7 +181,7 @@ class Node:
         kind = {dict: "a mapping", list: "a list", str: "a text", bool: "a truth value"}.get(
             type(self.value), "a number"
         )
-        shown = "" if isinstance(self.value, dict | list) else f" ({self.value})"
+        shown = "" if isinstance(self.value, dict | list) else f" ({brief(str(self.value))})"
         self.report(WRONG_SORT, f"`{self.key}` is {kind}{shown}, not {wanted}", remedy=f"write {wanted}")
         return other
 

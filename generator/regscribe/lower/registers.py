@@ -97,7 +97,9 @@ def _access(entry: Entry) -> Access:
     if node is not None:
         return node.choice(Access, Access.READ)
     message = f"`{entry.id}` has no access"
-    entry.node.report(NO_ACCESS, message, remedy="give `access: r`, `rw` or `w` here or in the group's `each`")
+    (entry.node.child("name") or entry.node).report(
+        NO_ACCESS, message, remedy="give `access: r`, `rw` or `w` here or in the group's `each`"
+    )
     return Access.READ
 
 

@@ -9,7 +9,7 @@ UNKNOWN_ENUM = "RS0304"
 UNKNOWN_MEMBER = "RS0305"
 UNKNOWN_VIEWS = "RS0306"
 UNKNOWN_CONDITION = "RS0307"
-CIRCLE = "RS0308"
+TYPE_BESIDE_VIEWS = "RS0308"
 UNKNOWN_SCALE = "RS0309"
 UNKNOWN_DECIMALS = "RS0310"
 UNKNOWN_UNIT = "RS0311"
@@ -33,7 +33,6 @@ NO_ENDS = "RS0328"
 BAD_VERSION = "RS0329"
 WRONG_SORT = "RS0330"
 TOO_MANY_ELEMENTS = "RS0331"
-TYPE_BESIDE_VIEWS = "RS0332"
 
 _NAMES = "A name must mean something, or the driver would look up what does not exist."
 
@@ -45,7 +44,7 @@ RULES: tuple[Rule, ...] = (
     Rule(UNKNOWN_MEMBER, "Unknown enum member or special value", "A code by name must be one that the map gives."),
     Rule(UNKNOWN_VIEWS, "Unknown view set", _NAMES),
     Rule(UNKNOWN_CONDITION, "Unknown condition", _NAMES),
-    Rule(CIRCLE, "Conditions that need each other", "A condition that refers to itself never comes to an answer."),
+    Rule(TYPE_BESIDE_VIEWS, "Type beside views", "Each view has a type of its own; another one would not count."),
     Rule(UNKNOWN_SCALE, "Unknown scale", _NAMES),
     Rule(UNKNOWN_DECIMALS, "Unknown decimals rule", _NAMES),
     Rule(UNKNOWN_UNIT, "Unknown unit", "A mistyped unit would be believed, so a map declares units that are uncommon."),
@@ -71,5 +70,4 @@ RULES: tuple[Rule, ...] = (
     Rule(BAD_VERSION, "Malformed version pattern", "A version packs decimal digits in groups of equal length."),
     Rule(WRONG_SORT, "Value of another sort", "A number cannot be made of a text, nor the other way round."),
     Rule(TOO_MANY_ELEMENTS, "Array beyond the address space", "There are 65536 addresses, and no more elements."),
-    Rule(TYPE_BESIDE_VIEWS, "Type beside views", "Each view has a type of its own; another one would not count."),
 )

@@ -13,6 +13,8 @@ from regscribe.model import ALWAYS, IDENTITY, Case, Cases, Condition, Conversion
 
 NOT_STATED = "not_stated"
 _MOST_DIGITS = 100
+_LINEAR = frozenset({"multiply", "add"})
+_WAYS = _LINEAR | {"scale", "decimals"}
 _TWO_WAYS = "keep the one that the manual states"
 
 
@@ -28,8 +30,8 @@ class Scaling:
 def scale_of(entry: Entry, wire: WireType, scope: Scope) -> tuple[Scaling, ...]:
     """The conversion of a register by case; RS0318 where the map gives two."""
     settings = entry.settings
-    given = [key for key in ("scale", "decimals", "multiply", "add") if key in settings]
-    if len(given) > 1 and given != ["multiply", "add"]:
+    given = [key for key in settings if key in _WAYS]
+    if len(given) > 1 and not set(given) <= _LINEAR:
         message = f"`{entry.id}` has both `{given[0]}` and `{given[1]}`"
         settings[given[1]].report(TWO_SCALES, message, remedy=_TWO_WAYS, at_key=True)
     if "scale" in settings:

@@ -32,7 +32,7 @@ def subject_of(node: Node, key: str, scope: Scope) -> Subject | None:
         return None
     known = [each.id for each in fields_of(owner, scope.at(owner))]
     if field not in known:
-        unknown(node, UNKNOWN_FIELD, f"bit field of `{register}`", field, known, at_key=True)
+        unknown(node, UNKNOWN_FIELD, "bit field", field, known, of=register, at_key=True)
     return Subject(register, owner, field)
 
 
@@ -51,8 +51,8 @@ def code_of_text(node: Node, subject: Subject, scope: Scope) -> Fraction:
         if name == text.lower() and not subject.field:
             return code_node.key_number()
         known.append(name)
-    where = f"`{subject.name}.{subject.field}`" if subject.field else f"`{subject.name}`"
-    unknown(node, UNKNOWN_MEMBER, f"member or special value of {where}", text, known)
+    where = f"{subject.name}.{subject.field}" if subject.field else subject.name
+    unknown(node, UNKNOWN_MEMBER, "member or special value", text, known, of=where)
     return Fraction(0)
 
 

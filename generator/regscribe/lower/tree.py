@@ -109,8 +109,11 @@ def _inside(place: Place, name: str) -> str:
 def _branch(node: Node, name: str, place: Place) -> Branch:
     repeat = node.child("repeat")
     first, last = whole_ends(repeat) if repeat else (1, 1)
-    if repeat and (last - first + 1) * place.elements > ADDRESSES:
-        message = f"{last - first + 1} elements are more than the {ADDRESSES} addresses hold"
+    count = (last - first + 1) * place.elements * len(elements_of(node, "registers"))
+    if repeat and count > ADDRESSES:
+        message = (
+            f"{count} registers in {place.elements} x {last - first + 1} elements have no room in {ADDRESSES} addresses"
+        )
         repeat.report(TOO_MANY_ELEMENTS, message, remedy="give the index of the first and the last element, as 1..8")
         last = first
     stride = whole_of(node, "stride", 1)

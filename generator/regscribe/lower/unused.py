@@ -12,8 +12,8 @@ from regscribe.model import Space, WireType
 
 def look_at_tables(root: Node, scope: Scope) -> None:
     """Lower every named thing of the map for one model and forget it; the mistakes stay in the context."""
-    for name, node in items_of(root, "conditions"):
-        condition(node, scope, (name,))
+    for _, node in items_of(root, "conditions"):
+        condition(node, scope)
     for name, node in items_of(root, "enums"):
         enum_at(node, scope, name)
     for _, node in items_of(root, "views"):

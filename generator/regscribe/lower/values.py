@@ -1,5 +1,6 @@
 """Single values: defaults, special values, sentinels and packed versions."""
 
+import re
 from fractions import Fraction
 
 from regscribe.lower.names import identifier, unknown
@@ -7,6 +8,8 @@ from regscribe.lower.node import Node, text_of
 from regscribe.lower.rules import BAD_DEFAULT, BAD_VERSION
 from regscribe.lower.tree import Entry
 from regscribe.model import Enum, Kind, Sentinel, Special
+
+_VERSION = re.compile(r"[0-9]{1,12}(\.[0-9]{1,12}){0,12}")
 
 
 def specials_of(entry: Entry) -> tuple[Special, ...]:
@@ -66,7 +69,7 @@ def named_value(node: Node, kind: Kind, enum: Enum | None, specials: tuple[Speci
     named |= {special.id.lower(): special.code for special in specials}
     if text.lower() in named:
         return named[text.lower()]
-    if kind is Kind.VERSION and text.replace(".", "").isdecimal():
+    if kind is Kind.VERSION and _VERSION.fullmatch(text):
         return Fraction(int(text.replace(".", "")))
     unknown(node, rule, "member or special value", text, named)
     return Fraction(0)
