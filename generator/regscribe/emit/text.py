@@ -118,18 +118,22 @@ def _labels(test: Test, model: Model | None) -> dict[int, str]:
     return labels_of(enum)
 
 
-def words_of_test(test: Test, model: Model | None = None) -> str:
+def words_of_test(test: Test, model: Model | None = None, wording: Wording | None = None) -> str:
     """One test: `input_type is 0 to 12`, `inpt is one of linear_inputs`; labels come from the model's enums."""
+    wording = wording or PLAIN
+    given = wording.text(test.given)
     if not test.register:
-        return f"not {test.given}" if test.negated else test.given
+        return f"not {given}" if test.negated else given
+    subject = wording.register(test.register) + (wording.text(f".{test.field}") if test.field else "")
     if test.given:
-        return f"{test.subject} is {'none' if test.negated else 'one'} of {test.given}"
-    return f"{test.subject} is {'not ' if test.negated else ''}{codes_words(test.codes, _labels(test, model))}"
+        return f"{subject} is {'none' if test.negated else 'one'} of {given}"
+    codes = wording.text(codes_words(test.codes, _labels(test, model)))
+    return f"{subject} is {'not ' if test.negated else ''}{codes}"
 
 
-def condition_words(condition: Condition, model: Model | None = None) -> str:
+def condition_words(condition: Condition, model: Model | None = None, wording: Wording | None = None) -> str:
     """All tests of a condition joined by `and`; `always` without tests."""
-    return " and ".join(words_of_test(test, model) for test in condition.tests) or "always"
+    return " and ".join(words_of_test(test, model, wording) for test in condition.tests) or "always"
 
 
 def cases_words(cases: Cases[str], wording: Wording = PLAIN) -> str:
@@ -221,13 +225,13 @@ def sentinel_words(sentinel: Sentinel, wording: Wording = PLAIN) -> str:
 
 
 def default_words(register: Register, wording: Wording = PLAIN) -> str:
-    """Word the default: text, a number, or a code with its label; empty where the manual gives none."""
+    """Word the default: text, a number, or a code with its label (`3 = off`); empty where the manual gives none."""
     if register.default is None:
         return ""
     if isinstance(register.default, str):
         return wording.text(one_line(register.default))
     label = _default_label(register, register.default)
-    return f"{show(register.default)} ({wording.text(one_line(label))})" if label else show(register.default)
+    return f"{show(register.default)} = {wording.text(one_line(label))}" if label else show(register.default)
 
 
 def _default_label(register: Register, default: Fraction) -> str:

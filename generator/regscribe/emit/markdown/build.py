@@ -11,7 +11,7 @@ from regscribe.emit.markdown.line import exceptions, faults, latency, line
 from regscribe.emit.markdown.overview import overview
 from regscribe.emit.markdown.page import Index, Page, Table, table
 from regscribe.emit.markdown.quickstart import quick_start
-from regscribe.emit.markdown.transmission import conditions, givens, identity, plain, reserved, views
+from regscribe.emit.markdown.transmission import conditions, givens, identity, plain, reserved, units, views
 from regscribe.emit.text import one_line
 from regscribe.model import Manual, RegisterMap
 
@@ -35,6 +35,7 @@ def page(register_map: RegisterMap) -> Page:
         transmission=plain(found),
         views=views(found),
         conditions=conditions(found),
+        units=units(found),
         overview=overview(found),
         reserved=reserved(found),
         groups=groups,
@@ -49,7 +50,8 @@ def page(register_map: RegisterMap) -> Page:
 
 def _manual(manual: Manual) -> Md:
     facts = (manual.number, manual.date, manual.publisher)
-    return join(", ", (md(Md("*"), one_line(manual.title), Md("*")), *(escape(one_line(fact)) for fact in facts)))
+    title = md(Md("*"), one_line(manual.title), Md("*"))
+    return join(", ", (title, *(escape(one_line(fact).removesuffix(".")) for fact in facts)))
 
 
 def _models(register_map: RegisterMap) -> Table:

@@ -7,7 +7,7 @@ from regscribe.emit.markdown.escape import Md, code, escape, lines, link, md, sl
 from regscribe.emit.markdown.merge import Shared, Stated, T
 from regscribe.emit.markdown.outline import Node, leaves, outline, pattern
 from regscribe.emit.text import Wording, condition_words, one_line
-from regscribe.model import Condition, Model, Register, RegisterMap, Space
+from regscribe.model import Condition, Model, Register, RegisterMap, Space, Units
 
 SPACES = {
     Space.HOLDING: "Holding registers",
@@ -22,7 +22,8 @@ SPACES = {
 class Context:
     """A map, its registers merged over the models, and the anchors of everything that can be linked to.
 
-    `conditions` are the named ones with a model that has them; `elements` the registers of arrays by model and pattern.
+    `conditions` are the named ones with a model that has them; `elements` the registers of arrays by model and pattern;
+    `units` those that depend on a condition, with a model that uses them.
     """
 
     map: RegisterMap
@@ -30,6 +31,7 @@ class Context:
     anchors: dict[str, str]
     conditions: dict[str, tuple[Model, Condition]]
     elements: dict[tuple[str, str], list[Register]]
+    units: dict[str, tuple[Model, Units]]
 
     def anchor(self, kind: str, key: str) -> str:
         """Return the anchor of a register, group, command or condition; empty if the page has none."""
@@ -51,7 +53,7 @@ class Context:
         """Return a condition's name with a link to its meaning, or its words."""
         if condition.name and condition.name in self.conditions:
             return link(condition.name.replace("_", " "), self.anchor("condition", condition.name))
-        return escape(condition_words(condition, model))
+        return Md(condition_words(condition, model, self.wording(model)))
 
     def covers(self, models: Iterable[str]) -> Md:
         """Return the models in words; nothing if they are all models of the map."""
@@ -78,7 +80,18 @@ def context(register_map: RegisterMap) -> Context:
     keys += [f"group {group.id}" for model in register_map.models for group in model.groups]
     keys += [f"command {command.id}" for model in register_map.models for command in model.commands]
     keys += [f"condition {name}" for name in conditions]
-    return Context(register_map, nodes, _anchors(keys), conditions, _elements(register_map))
+    units = _units(register_map)
+    keys += [f"unit {name}" for name in units]
+    return Context(register_map, nodes, _anchors(keys), conditions, _elements(register_map), units)
+
+
+def _units(register_map: RegisterMap) -> dict[str, tuple[Model, Units]]:
+    found: dict[str, tuple[Model, Units]] = {}
+    for model in register_map.models:
+        for register in model.registers:
+            if register.unit_id and len(register.unit) > 1:
+                found.setdefault(register.unit_id, (model, register.unit))
+    return found
 
 
 def _elements(register_map: RegisterMap) -> dict[tuple[str, str], list[Register]]:

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from regscribe.emit.markdown.context import Context
 from regscribe.emit.markdown.escape import Md, code, escape, md, prose
-from regscribe.emit.markdown.facts import transmission, view_type
+from regscribe.emit.markdown.facts import view_type
 from regscribe.emit.markdown.merge import Shared, Stated
 from regscribe.emit.markdown.outline import Leaf, formula
 from regscribe.emit.markdown.page import Titled, table
@@ -18,7 +18,7 @@ ENUM_HEADERS = ("Code", "Meaning", "In Python", "Remark", "Models")
 def views(context: Context, leaf: Leaf) -> tuple[Titled, ...]:
     """Return the table of views of a register that has several, once or by model."""
     facts = leaf.register.states(lambda _, register: _view_rows(context, leaf, register))
-    return _titled("Views", ("View", "Wire address", "Other notation", "Type", "Transmitted"), facts)
+    return _titled("Views", ("View", "Wire address", "Other notation", "Type"), facts)
 
 
 def _view_rows(context: Context, leaf: Leaf, register: Register) -> Rows:
@@ -30,7 +30,6 @@ def _view_rows(context: Context, leaf: Leaf, register: Register) -> Rows:
             code(formula(view, leaf.arrays)) if leaf.arrays else escape(str(view.address)),
             Md() if leaf.arrays else context.notations(view.space, view.address),
             escape(view_type(view)),
-            transmission(context, view),
         )
         for view in register.views
     )
@@ -103,7 +102,8 @@ def _enum_rows(enum: Enum | None) -> Rows:
 def bits(leaf: Leaf) -> tuple[Titled, ...]:
     """Return the bits and fields of a register's word."""
     headers = ("Bits", "Meaning", "In Python", "Values", "Remark", "Models")
-    found = table(headers, _by_model(leaf.register, _bit_rows))
+    rows = _by_model(leaf.register, _bit_rows)
+    found = table(headers, sorted(rows, key=lambda row: int(row[0].partition("..")[0])))
     return (Titled("Bits (0 is the least significant)", found),) if found.rows else ()
 
 

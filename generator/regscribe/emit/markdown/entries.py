@@ -7,10 +7,10 @@ from regscribe.emit.markdown.details import bits, by_condition, elements, values
 from regscribe.emit.markdown.escape import Md, code, escape, join, link, md, prose
 from regscribe.emit.markdown.facts import facts, indices
 from regscribe.emit.markdown.merge import Shared, merge
-from regscribe.emit.markdown.outline import Branch, Leaf, Node, lettered
+from regscribe.emit.markdown.outline import LETTERS, Branch, Leaf, Node, lettered
 from regscribe.emit.markdown.page import Entry, Section, Table, Titled, table
-from regscribe.emit.text import ACCESS, one_line
-from regscribe.model import Array, Command, Group, Register, Step
+from regscribe.emit.text import one_line
+from regscribe.model import Command, Group, Register, Step
 
 HEADING = "####"
 DOT = " · "
@@ -77,10 +77,20 @@ def _register(context: Context, leaf: Leaf, seen: dict[Table, Leaf], marks: str)
 
 def _summary(context: Context, leaf: Leaf) -> Md:
     shared = leaf.register
-    where = md("wire address ", str(shared.first.base.address)) if not leaf.arrays else Md()
-    access = md(ACCESS[shared.first.access])
-    models = context.covers(shared.models)
-    return join(DOT, (code(lettered(shared.first.path)), where, access, md("only ", models) if models else Md()))
+    symbols = dict.fromkeys(one_line(register.symbol) for _, register in shared.versions)
+    sources = dict.fromkeys(one_line(register.section) for _, register in shared.versions)
+    parts = (
+        code(lettered(shared.first.path)),
+        escape(", ".join(filter(None, symbols))),
+        _source(", ".join(filter(None, sources))),
+        _only(context, shared.models),
+    )
+    return join(DOT, parts)
+
+
+def _only(context: Context, models: Sequence[str]) -> Md:
+    names = context.covers(models)
+    return md("only ", names) if names else Md()
 
 
 def _values(context: Context, leaf: Leaf, seen: dict[Table, Leaf]) -> tuple[tuple[Titled, ...], Md]:
@@ -105,27 +115,22 @@ def _remarks(shared: Shared[Register]) -> tuple[Md, ...]:
 
 def _array(context: Context, branch: Branch, marks: str) -> Entry:
     array = branch.array.first
-    last = array.first + array.count - 1
-    step = f"an element is {array.stride} addresses after the one before" if array.stride > 1 else ""
-    models = context.covers(branch.array.models)
+    arrays = (*branch.arrays, array)
     parts = (
-        _path(array),
+        code(".".join(f"{item.id}[{letter}]" for item, letter in zip(arrays, LETTERS, strict=False))),
         escape(f"{array.count} elements"),
-        indices((*branch.arrays, array)),
-        md(step),
+        indices(arrays),
+        escape(f"each {array.stride} addresses after the one before" if array.stride > 1 else ""),
         _source(array.section),
+        _only(context, branch.array.models),
     )
     return Entry(
         marks=Md(marks),
         anchor="",
-        name=f"{one_line(array.name)} {array.first} to {last}",
-        summary=join(DOT, (*parts, md("only ", models) if models else Md())),
+        name=f"{one_line(array.name)} {array.first} to {array.first + array.count - 1}",
+        summary=join(DOT, parts),
         paragraphs=_paragraphs(by_model(branch.array, lambda _, item: prose(item.description))),
     )
-
-
-def _path(array: Array) -> Md:
-    return code(f"{array.id}[{array.first}]")
 
 
 def _source(section: str) -> Md:
@@ -143,8 +148,8 @@ def commands(context: Context) -> tuple[Entry, ...]:
 
 
 def _command(context: Context, shared: Shared[Command]) -> Entry:
-    models = context.covers(shared.models)
-    parts = (code(f"commands.{shared.key}()"), _source(shared.first.section), md("only ", models) if models else Md())
+    steps = shared.states(lambda _, command: command.steps)
+    parts = (code(f"commands.{shared.key}()"), _source(shared.first.section), _only(context, shared.models))
     return Entry(
         marks=Md("###"),
         anchor=context.anchor("command", shared.key),
@@ -154,7 +159,7 @@ def _command(context: Context, shared: Shared[Command]) -> Entry:
         danger=_paragraphs(by_model(shared, lambda _, item: prose(item.danger))),
         tables=tuple(
             Titled(f"Steps ({', '.join(item.models)})" if item.models else "Steps", _steps(context, item.value))
-            for item in shared.states(lambda _, command: command.steps)
+            for item in steps
         ),
     )
 

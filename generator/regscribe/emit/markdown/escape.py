@@ -9,7 +9,7 @@ INLINE = re.compile(r"[\\`*\[\]#~|$]|(?<![A-Za-z0-9])_|_(?![A-Za-z0-9])")
 """Punctuation that CommonMark, tables, strike-through or mathematics could take for mark-up."""
 
 ENTITIES = {"<": "&lt;", ">": "&gt;"}
-BLOCK_START = re.compile(r"^( ?)(?:([-+=])(?=[ \-+=]|$)|(\d{1,9})([.)])(?= |$))")
+BLOCK_START = re.compile(r"^( ?)(?:([-+])(?=[ -]|$)|(=)(?==* ?$)|(\d{1,9})([.)])(?= |$))")
 """A list marker, a rule or the underline of a heading at the start of a line."""
 
 ADDRESS = re.compile(r"(?:https?|ftp)://[^\s`|<>]*|\bwww\.[^\s`|<>]*|[\w.+-]+@[\w.-]+", re.IGNORECASE)
@@ -48,8 +48,8 @@ def _escape_plain(text: str) -> str:
 
 
 def _escape_start(found: re.Match[str]) -> str:
-    blank, sign, digits, point = found.groups()
-    return f"{blank}\\{sign}" if sign else f"{blank}{digits}\\{point}"
+    blank, sign, rule, digits, point = found.groups()
+    return f"{blank}{digits}\\{point}" if digits else f"{blank}\\{sign or rule}"
 
 
 def md(*parts: str) -> Md:

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 
 from regscribe.emit.markdown.context import Context, by_model
-from regscribe.emit.markdown.escape import Md, code, escape, join, lines, md, prose
+from regscribe.emit.markdown.escape import Md, code, escape, join, lines, link, md, prose
 from regscribe.emit.markdown.outline import LETTERS, Leaf, formula
 from regscribe.emit.markdown.page import Table, table
 from regscribe.emit.text import (
@@ -143,7 +143,15 @@ def _default(context: Context, model: Model, register: Register) -> Md:
 
 
 def _unit(context: Context, model: Model, register: Register) -> Md:
+    anchor = context.anchor("unit", register.unit_id) if len(register.unit) > 1 else ""
+    if anchor:
+        return md(symbols(register), " (", link(register.unit_id, anchor), ")")
     return Md(cases_words(map_cases(register.unit, escape), context.wording(model)))
+
+
+def symbols(register: Register) -> str:
+    """Return the units that a register may have: `°F / °C / K`."""
+    return " / ".join(dict.fromkeys(one_line(case.then) for case in register.unit if case.then))
 
 
 def _persistence(_context: Context, _model: Model, register: Register) -> Md:
@@ -152,8 +160,13 @@ def _persistence(_context: Context, _model: Model, register: Register) -> Md:
     return join("; ", (md(where), md(writes)))
 
 
-def _rescales(_context: Context, _model: Model, register: Register) -> Md:
-    return md("the device converts every value in ", code(register.rescales)) if register.rescales else Md()
+def _rescales(context: Context, _model: Model, register: Register) -> Md:
+    if not register.rescales:
+        return Md()
+    return md(
+        "the device converts every value whose unit is ",
+        link(register.rescales, context.anchor("unit", register.rescales)),
+    )
 
 
 def _unlock(context: Context, _model: Model, register: Register) -> Md:
@@ -164,16 +177,7 @@ def _apply(context: Context, _model: Model, register: Register) -> Md:
     return md("takes effect with ", context.command(register.apply)) if register.apply else Md()
 
 
-def _section(_context: Context, _model: Model, register: Register) -> Md:
-    return escape(one_line(register.section))
-
-
-def _symbol(_context: Context, _model: Model, register: Register) -> Md:
-    return escape(one_line(register.symbol))
-
-
 FACTS: dict[str, Fact] = {
-    "Symbol": _symbol,
     "Transmitted as": _transmitted,
     "Access": _access,
     "Value": _kind,
@@ -188,6 +192,5 @@ FACTS: dict[str, Fact] = {
     "Changing it": _rescales,
     "Before a write": _unlock,
     "After a write": _apply,
-    "Section": _section,
 }
 """The properties in the order of the table; one that is empty for every model is left out."""

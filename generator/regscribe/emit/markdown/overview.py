@@ -6,6 +6,7 @@ from functools import partial
 
 from regscribe.emit.markdown.context import SPACES, Context, by_model
 from regscribe.emit.markdown.escape import Md, code, escape, link, md
+from regscribe.emit.markdown.facts import symbols
 from regscribe.emit.markdown.outline import Leaf, last_address, leaves, lettered
 from regscribe.emit.markdown.page import Table, Titled, table
 from regscribe.emit.text import codes_words, default_words, one_line, range_words, special_words
@@ -51,7 +52,7 @@ def _row(context: Context, leaf: Leaf, offsets: Sequence[int], names: Sequence[s
         cell(lambda _, register: escape(ACCESS[register.access])),
         cell(lambda model, register: _range(context, model, register)),
         cell(lambda model, register: Md(default_words(register, context.wording(model)))),
-        cell(lambda _, register: _unit(register)),
+        cell(lambda _, register: escape(symbols(register))),
         context.covers(shared.models),
     )
 
@@ -72,10 +73,6 @@ def _view(leaf: Leaf, name: str, _model: Model, register: Register) -> Md:
 def _name(leaf: Leaf) -> Md:
     owners = [f"{one_line(array.name)} {array.first} to {array.first + array.count - 1}: " for array in leaf.arrays]
     return md(*owners, one_line(leaf.register.first.name))
-
-
-def _unit(register: Register) -> Md:
-    return escape(" / ".join(dict.fromkeys(case.then for case in register.unit if case.then)))
 
 
 def _range(context: Context, model: Model, register: Register) -> Md:

@@ -99,6 +99,7 @@ class Page:
     transmission: tuple[Md, ...]
     views: tuple[Titled, ...]
     conditions: Table
+    units: Table
     overview: tuple[Titled, ...]
     reserved: Table
     groups: tuple[Section, ...]

@@ -80,7 +80,15 @@ def shown_group(model: Model, shown: Register | None) -> Group | None:
 
 def written_register(model: Model) -> Register | None:
     """Return a number that may be written without harm or preparation, and has a default to write."""
-    return next((register for register in model.registers if _harmless(register)), None)
+    shown = shown_register(model)
+    group = shown.group if shown else ""
+    harmless = (register for register in model.registers if _harmless(register))
+    return max(harmless, key=lambda register: _fitness(register, group), default=None)
+
+
+def _fitness(register: Register, group: str) -> int:
+    """Rank what is near the value that was read, a number, and not worn out by writing."""
+    return (register.group == group) + (register.kind is Kind.NUMBER) + (register.persistence not in {"eeprom", "both"})
 
 
 def _harmless(register: Register) -> bool:

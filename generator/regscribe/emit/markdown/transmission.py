@@ -24,7 +24,7 @@ def plain(context: Context) -> tuple[Md, ...]:
         raw += register.kind is Kind.RAW
         if len(register.views) == 1:
             counts[view_type(register.base)] = counts.get(view_type(register.base), 0) + 1
-    found = [md(f"Transmitted in one way, at one address: {_counted(counts)}.")] if counts else []
+    found = [md(f"Registers with one view: {_counted(counts)}.")] if counts else []
     if raw:
         found.append(md(f"Of {raw} registers the manual does not state the scale; they are read and written raw."))
     return tuple(found)
@@ -38,15 +38,14 @@ def views(context: Context) -> tuple[Titled, ...]:
     """Return each set of views that registers share, with the address of each view from the base address n."""
     found: dict[Shape, int] = {}
     for leaf in leaves(context.nodes):
-        register = leaf.register.first
-        if len(register.views) > 1:
-            shape = _shape(register)
+        shapes = dict.fromkeys(_shape(register) for _, register in leaf.register.versions if len(register.views) > 1)
+        for shape in shapes:
             found[shape] = found.get(shape, 0) + 1
     return tuple(Titled(_title(shape, count), _table(context, shape)) for shape, count in found.items())
 
 
 def _title(shape: Shape, count: int) -> str:
-    return f"Transmitted in {len(shape)} ways: {count} registers (n is the address in the first)"
+    return f"{count} registers in {len(shape)} views (n is the wire address in the first)"
 
 
 def _shape(register: Register) -> Shape:
@@ -83,12 +82,30 @@ def conditions(context: Context) -> Table:
     """Return the named conditions with their meaning; each name is an anchor."""
     rows = (
         (
-            md(Md(f'<a id="{context.anchor("condition", name)}"></a>'), name.replace("_", " ")),
-            condition_words(item, model),
+            _named(context.anchor("condition", name), name.replace("_", " ")),
+            Md(condition_words(item, model, context.wording(model))),
         )
         for name, (model, item) in context.conditions.items()
     )
     return table(("Condition", "Holds if"), rows)
+
+
+def _named(anchor: str, name: str) -> Md:
+    return md(Md(f'<a id="{anchor}"></a>'), name)
+
+
+def units(context: Context) -> Table:
+    """Return the units that depend on a condition; each name is an anchor."""
+    rows = (
+        (
+            _named(context.anchor("unit", name), name) if index == 0 else Md(),
+            Md(when_words(case.when, context.wording(model))),
+            escape(one_line(case.then)),
+        )
+        for name, (model, cases) in context.units.items()
+        for index, case in enumerate(cases)
+    )
+    return table(("Unit", "When", "Symbol"), rows)
 
 
 def givens(context: Context) -> Table:
