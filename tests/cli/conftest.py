@@ -14,7 +14,7 @@ from regscribe.cli.app import run
 PLAIN = """\
 format: 1
 map: {id: acme/oven, title: Oven, maker: Acme, class_prefix: Acme}
-manual: {title: Oven manual}
+manual: {title: Oven manual, number: X1}
 models:
   M1: {}
 protocol: {functions: [3, 6, 16], limits: {read_words: 20, write_words: 20}}

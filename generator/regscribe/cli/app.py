@@ -29,6 +29,10 @@ INTERRUPTED = 130
 """128 + SIGINT, as a shell counts."""
 
 
+MOST_TEXT = 300
+"""Most characters of an internal error's own text: it may hold a whole map."""
+
+
 class LazyCommands(click.Group):
     """A group that imports a command only to run it, so that `--version` and `--help` stay quick."""
 
@@ -107,8 +111,9 @@ def _internal_error(error: Exception, *, debug: bool) -> int:
         return 1
     last = traceback.extract_tb(error.__traceback__)[-1]
     where = f"{Path(last.filename).name}:{last.lineno}"
+    what = f"{type(error).__name__}: {error}"[:MOST_TEXT]
     click.echo(
-        f"regscribe {__version__}: internal error: {type(error).__name__}: {error} ({where})\n"
+        f"regscribe {__version__}: internal error: {what} ({where})\n"
         "This is a bug in regscribe, not in your map. Please report it with the command line, the map and the\n"
         "output of the same command with `regscribe --debug ...`.",
         err=True,
