@@ -132,6 +132,9 @@ ALARM_ACTION = Enum("alarm_action", tuple(Member(c, n, n.upper()) for c, n in ((
 PROCESS_FAULTS = (Sentinel(Fraction(-32768), "low", "sensor_low"), Sentinel(Fraction(32767), "high", "sensor_high"))
 
 
+RATES = (Special(Fraction(9999), "never", "never"), Special(Fraction(9998), "0.2 s", "fast", Fraction(1, 5)))
+
+
 @pytest.fixture(scope="session")
 def controller() -> RegisterMap:
     """Three views, word order from a register, decimals under a condition, garbage, partial writes, silences."""
@@ -140,7 +143,7 @@ def controller() -> RegisterMap:
         fraction("setpoint", 2, scale=LINEAR_DIGITS, default=Fraction(77), range=between("low_limit", "high_limit")),
         fraction("low_limit", 3, scale=LINEAR_DIGITS, default=Fraction(-50)),
         fraction("high_limit", 4, scale=LINEAR_DIGITS, default=Fraction(9000), range=between(-999, "?sensor high")),
-        fraction("rate", 11, range=between(0, 2400), specials=(Special(Fraction(9999), "never", "never"),)),
+        fraction("rate", 11, range=between(0, 2400), specials=RATES),
         word("manual_output", 4009, type=WireType.INT16, range=between(-100, 100), writable=_manual_only()),
         word("controller_mode", 4010, range=between(1, 3), default=Fraction(3)),
         word("controller_type", 4011, access=R),

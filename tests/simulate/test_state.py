@@ -76,6 +76,12 @@ def test_names_of_members_and_special_values_are_values(device: SimulatedDevice)
     assert device.peek("rate") == 9999
 
 
+def test_a_special_value_is_the_number_that_it_stands_for(device: SimulatedDevice) -> None:
+    device.poke("rate", "0.2")
+    assert device.peek_words("rate") == (9998,)
+    assert device.peek("rate") == Fraction("0.2")
+
+
 def test_without_default_a_register_begins_with_what_it_accepts(device: SimulatedDevice) -> None:
     assert device.peek("alarm_2_action") == 1
     assert device.peek("rate") == 0

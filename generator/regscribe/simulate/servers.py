@@ -41,6 +41,7 @@ class TcpServer:
         self._manners = manners
         self._most = most
         self._clients: dict[Connection, asyncio.Task[None]] = {}
+        self._leaving: set[asyncio.Task[None]] = set()
         self._listener: asyncio.Server | None = None
         self._stopped = asyncio.Event()
 
@@ -48,7 +49,7 @@ class TcpServer:
         """Bind and accept; `host` and `port` are then the bound ones. SimulatorError where that is not possible."""
         try:
             self._listener = await asyncio.start_server(self._accept, host, port)
-        except (OSError, OverflowError) as problem:
+        except (OSError, OverflowError, UnicodeError) as problem:
             message = f"cannot listen on {host} port {port}: {problem}. Choose another port, or 0 for any free one"
             raise SimulatorError(message) from problem
         self.host, self.port = self._listener.sockets[0].getsockname()[:2]
@@ -61,18 +62,22 @@ class TcpServer:
         """Stop accepting, then end the clients."""
         if self._listener is not None:
             self._listener.close()
-        tasks = tuple(self._clients.values())
-        for task in tasks:
-            task.cancel()
-        await asyncio.gather(*tasks, return_exceptions=True)
+        for client in tuple(self._clients):
+            self._dismiss(client)
+        await asyncio.gather(*self._leaving, return_exceptions=True)
         self._stopped.set()
 
     def _accept(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         if len(self._clients) >= self._most:
-            silent = min(self._clients, key=lambda client: client.heard)
-            self._clients.pop(silent).cancel()
+            self._dismiss(min(self._clients, key=lambda client: client.heard))
         client = Connection(reader, writer, framer_for(self._framing), self._station, self._manners)
         self._clients[client] = asyncio.create_task(self._attend(client))
+
+    def _dismiss(self, client: Connection) -> None:
+        task = self._clients.pop(client)
+        self._leaving.add(task)
+        task.add_done_callback(self._leaving.discard)
+        task.cancel()
 
     async def _attend(self, client: Connection) -> None:
         try:

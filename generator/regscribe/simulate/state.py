@@ -117,7 +117,9 @@ class State:
         if sentinel is not None:
             return sentinel
         value = self.to_value(register, stored)
-        return (version_text(register, value) if register.kind is Kind.VERSION else None) or value
+        if register.kind is Kind.VERSION:
+            return version_text(register, value) or value
+        return next((each.means for each in register.specials if each.code == value and each.means is not None), value)
 
     def poke(self, path: str, value: Plain) -> None:
         """Set a register, or `register.field`, to a value of use, whatever its access and range (as a process would).

@@ -24,6 +24,8 @@ def with_field(word: Fraction, field: BitField, value: Fraction) -> Fraction:
 def number_of(register: Register, field: BitField | None, value: Plain) -> Fraction:
     """Return the number that `value` is or names: an enum member or a special value by its id, else decimals.
 
+    The number that a special value stands for counts as the special value.
+
     Raises SimulatorError if it is neither.
     """
     if isinstance(value, str):
@@ -33,7 +35,9 @@ def number_of(register: Register, field: BitField | None, value: Plain) -> Fract
         if value.lower() in names:
             return names[value.lower()]
     try:
-        return exact(value)
+        number = exact(value)
     except ValueError:
         message = f"{value!r} is no value of {register.path!r}: give a number or the id of a value"
         raise SimulatorError(message) from None
+    means = {} if field else {each.means: each.code for each in register.specials if each.means is not None}
+    return means.get(number, number)
