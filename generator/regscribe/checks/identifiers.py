@@ -9,12 +9,11 @@ from regscribe.model import Array, Enum, Register, Related, Rule, Span
 
 RUNTIME_NAMES = frozenset(
     """
-    apply ascii change clear close command commands connect exception_status forget forget_all frame given givens group
-    groups identify link loopback map model models mro name open order plan read read_many read_unit register registers
-    rtu self serial session snapshot state tcp transport unit unit_id value view views write write_many
+    bind change close commands exception_status groups identify link loopback map_id model open placed plan protocol
+    read read_part registers rtu run session tcp write
     """.split()  # noqa: SIM905 (a column of quoted words is harder to keep in order)
 )
-"""Names that a driver's class or a bound register has already; a register of that id would hide them."""
+"""Names that a driver has, or is to have, itself: a register of that id would hide them (a test compares the two)."""
 
 ENUM_NAMES = frozenset({"MRO", "NAME", "VALUE"})
 """Names that `enum` refuses or uses itself, in capitals as members are written."""

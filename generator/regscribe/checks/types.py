@@ -174,7 +174,7 @@ def default_of_wrong_sort(register: Register, _: Scope) -> Iterator[Finding]:
     value = register.default
     if value is None:
         return
-    textual = register.kind in {Kind.STRING, Kind.VERSION}
+    textual = register.kind is Kind.STRING  # a version packs digits: its default is the number that they spell
     if textual != isinstance(value, str):
         shown = repr(value) if isinstance(value, str) else show(value)
         message = f"is of kind {register.kind} but has default {shown}"

@@ -9,6 +9,7 @@ from regscribe.runtime.device import (
     AsyncDevice,
     BareDevice,
     Device,
+    SerialSettings,
     async_serial_link,
     serial_link,
 )
@@ -90,6 +91,7 @@ __all__ = [
     "Saturated",
     "Section",
     "SensorFault",
+    "SerialSettings",
     "Snapshot",
     "ValueNotDecodable",
     "ValueRefused",

@@ -3,7 +3,7 @@
 import asyncio
 import time
 from collections.abc import Mapping
-from typing import Any, ClassVar, Self, TypeVar, cast
+from typing import Any, ClassVar, Self, TypedDict, TypeVar, Unpack, cast
 
 from regscribe.runtime import link as links
 from regscribe.runtime import operations
@@ -18,6 +18,16 @@ from regscribe.runtime.snapshot import Snapshot
 
 T = TypeVar("T")
 What = Group | Register[Any] | _Bound[Any] | _AsyncBound[Any]
+
+
+class SerialSettings(TypedDict, total=False):
+    """Settings of a serial line: baud, data bits, parity (N, E or O), stop bits, framing (rtu or ascii)."""
+
+    baud: int
+    data_bits: int
+    parity: str
+    stop_bits: int
+    framing: str
 
 
 class _Common:
@@ -131,7 +141,7 @@ class Device(BareDevice):
         return cls(links.tcp(host, port=port, framing=framing, timeout=timeout or cls.protocol.timeout), unit=unit)
 
     @classmethod
-    def rtu(cls, port: str, *, unit: int, timeout: float | None = None, **line: Any) -> Self:
+    def rtu(cls, port: str, *, unit: int, timeout: float | None = None, **line: Unpack[SerialSettings]) -> Self:
         """A driver over a serial line; `line`: baud, data_bits, parity (N, E, O), stop_bits, framing."""
         return cls(serial_link(cls.protocol, port, timeout=timeout, **line), unit=unit)
 
@@ -213,18 +223,18 @@ class AsyncDevice(AsyncBareDevice):
         return cls(link, unit=unit)
 
     @classmethod
-    def rtu(cls, port: str, *, unit: int, timeout: float | None = None, **line: Any) -> Self:
+    def rtu(cls, port: str, *, unit: int, timeout: float | None = None, **line: Unpack[SerialSettings]) -> Self:
         """As `Device.rtu`."""
         return cls(async_serial_link(cls.protocol, port, timeout=timeout, **line), unit=unit)
 
 
-def _line(protocol: Protocol, timeout: float | None, line: dict[str, Any]) -> dict[str, Any]:
+def _line(protocol: Protocol, timeout: float | None, line: SerialSettings) -> dict[str, Any]:
     data_bits, parity, stop_bits = tuple(protocol.format)  # "8N1"
     usual = {"baud": protocol.baud, "data_bits": int(data_bits), "parity": parity, "stop_bits": int(stop_bits)}
     return {**usual, "timeout": timeout or protocol.timeout, **line}
 
 
-def serial_link(protocol: Protocol, port: str, *, timeout: float | None, **line: Any) -> Link:
+def serial_link(protocol: Protocol, port: str, *, timeout: float | None, **line: Unpack[SerialSettings]) -> Link:
     """A serial link with the settings that the manual gives as default, unless `line` says otherwise."""
     return links.serial(port, **_line(protocol, timeout, line))
 
@@ -234,7 +244,7 @@ def async_serial_link(
     port: str,
     *,
     timeout: float | None,
-    **line: Any,
+    **line: Unpack[SerialSettings],
 ) -> AsyncLink:
     """As `serial_link`, for asyncio."""
     return links.async_serial(port, **_line(protocol, timeout, line))

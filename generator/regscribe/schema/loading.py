@@ -13,6 +13,7 @@ from jsonschema.validators import extend
 import regscribe
 
 FILE = "map.schema.json"
+_BRANCHES = frozenset({"allOf", "then", "else"})
 
 
 def schema_path() -> Path:
@@ -33,26 +34,30 @@ def schema_json() -> dict[str, Any]:
 def validator() -> Validator:
     """Return the validator of the map language, built at the first call."""
     schema = schema_json()
-    checks = extend(Draft202012Validator, {"uniqueItems": _unique_items})
+    checks: type[Validator] = extend(  # type: ignore[no-untyped-call]  # types-jsonschema leaves it untyped
+        Draft202012Validator, {"uniqueItems": _unique_items}
+    )
     return checks(_inline(schema, schema["$defs"], {}))
 
 
-def _inline(node: Any, definitions: Mapping[str, Any], done: dict[int, Any]) -> Any:  # noqa: ANN401  JSON is any
+def _inline(node: Any, definitions: Mapping[str, Any], done: dict[tuple[int, str], Any], title: str = "") -> Any:  # noqa: ANN401  JSON is any
     """Put definitions in place of references: no look-up at run time, and a key's own title stands at its errors.
 
-    The result is a graph with cycles, which validation walks only as deep as the document is.
+    Branches (`then` and the like) without a title take that of the schema around them. The result is a graph with
+    cycles, which validation walks only as deep as the document is.
     """
     if isinstance(node, list):
-        return [_inline(element, definitions, done) for element in node]
+        return [_inline(element, definitions, done, title) for element in node]
     if not isinstance(node, dict):
         return node
-    if id(node) not in done:
-        done[id(node)] = copy = {}
-        merged = _resolve(node, definitions)
+    if (id(node), title) not in done:
+        done[id(node), title] = copy = {}
+        merged = ({"title": title} if title else {}) | _resolve(node, definitions)
         for key, value in merged.items():
             exact = key == "pattern" and isinstance(value, str)
-            copy[_exact(key)] = _exact(value) if exact else _inline(value, definitions, done)
-    return done[id(node)]
+            around = merged.get("title", "") if key in _BRANCHES else ""
+            copy[_exact(key)] = _exact(value) if exact else _inline(value, definitions, done, around)
+    return done[id(node), title]
 
 
 def _resolve(node: Mapping[str, Any], definitions: Mapping[str, Any]) -> dict[str, Any]:

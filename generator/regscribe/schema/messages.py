@@ -104,11 +104,15 @@ def _unknown_keys(error: Violation, path: tuple[str | int, ...]) -> Iterator[Com
         shown = describe(key)
         if "x-key" in schema and not known:
             form = schema["x-key"]
-            said = f"{shown} is no {form['title']}: {form['description']}"
+            said = f"{shown} is not in the form of {form['title']}: {form['description']}"
             yield Complaint(WRONG_FORM, (*path, key), said, example(form), at_key=True)
         else:
             yield Complaint(
-                UNKNOWN_KEY, (*path, key), f"unknown key {shown} in {title(schema)}", _meant(key, known), at_key=True
+                UNKNOWN_KEY,
+                (*path, key),
+                f"unknown key {shown} in {title(schema)}",
+                _meant(key, schema["properties"]),
+                at_key=True,
             )
 
 
@@ -118,8 +122,10 @@ def _unmatched(instance: Mapping[str, Any], known: Sequence[str], patterns: Sequ
             yield key
 
 
-def _meant(key: str, known: Sequence[str]) -> str:
-    near = get_close_matches(key.lower(), known, n=1)
+def _meant(key: str, known: Mapping[str, Mapping[str, Any]]) -> str:
+    """Guess the key that was meant: one that other tools call so, or one spelled nearly so."""
+    also = [name for name, details in known.items() if key.lower() in details.get("x-also", ())]
+    near = also or get_close_matches(key[:100].lower(), known, n=1)
     return f"did you mean `{near[0]}`?" if near else f"the keys here are: {', '.join(known)}"
 
 
@@ -135,9 +141,9 @@ def _missing_keys(error: Violation, path: tuple[str | int, ...]) -> Iterator[Com
             said = error.schema.get("x-missing", f"`{key}`")
             where = f" in {title(error.schema)}" if "title" in error.schema else ""
             details = error.schema.get("properties", {}).get(key, {})
-            advice = " ".join(
-                part for part in (f"add {said}.", details.get("description", ""), example(details)) if part
-            )
+            meaning = str(details.get("description", "")).split(". ")[0].rstrip(".")
+            advice = f"add {said}{f' ({meaning})' if meaning else ''}"
+            advice = ", ".join(part for part in (advice, example(details)) if part)
             yield Complaint(MISSING_KEY, path, f"{said} is missing{where}", advice, at_key=True, same=key)
 
 
@@ -156,7 +162,7 @@ def _retype(instance: object, types: Sequence[str]) -> str:
     if "boolean" in types and isinstance(instance, str) and instance.lower() in _YES_OR_NO:
         return "write true or false, without quotes"
     if "string" in types and isinstance(instance, bool | int | Decimal):
-        return "put it in quotes if a text is meant"
+        return "put it in quotes if a text is meant (8E1 or 007 are numbers to YAML)"
     if "array" in types and "object" not in types and isinstance(instance, str | int):
         return "put it in brackets: [..]"
     return ""
@@ -224,4 +230,4 @@ def describe(value: object) -> str:
         return f"a mapping of {len(value)}"
     if isinstance(value, str):
         return f"`{shorten(value)}`" if value else "an empty text"
-    return shorten(str(value))
+    return f"the number {shorten(f'{value:f}' if isinstance(value, Decimal) else str(value))}"

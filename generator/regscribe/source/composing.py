@@ -39,8 +39,9 @@ from regscribe.source.scalars import NUMBER_HELP, NumberFormError, resolve, shor
 from regscribe.source.syntax import explain
 
 MAX_DEPTH = 64
-MAX_VALUES = 500_000
+MAX_VALUES = 300_000
 MAX_TEXT = 100_000
+CHARACTERS_PER_VALUE = 50  # a long text counts as several values, so that aliases of it are bounded too
 
 _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)  # PyYAML may have been built without libyaml: slow, but equal
 _CORE = "tag:yaml.org,2002:"
@@ -94,7 +95,8 @@ class Composer:
 
     def _scalar(self, event: ScalarEvent) -> None:
         place = place_of(event)
-        self._count(1, place)
+        size = 1 + len(event.value) // CHARACTERS_PER_VALUE
+        self._count(size, place)
         self._check_text(event, place)
         frame = self._stack[-1] if self._stack else None
         if frame and frame.awaits_key:
@@ -102,7 +104,7 @@ class Composer:
             if event.anchor:
                 self._anchors[event.anchor] = Node(frame.key, place)
             return
-        node = Node(self._value(event, place), place)
+        node = Node(self._value(event, place), place, size=size)
         if event.anchor:
             self._anchors[event.anchor] = node
         self._attach(node)
