@@ -6,5 +6,6 @@
 from regscribe.schema.loading import schema_json
 from regscribe.schema.rules import RULES
 from regscribe.schema.validation import validate
+from regscribe.schema.wording import inline
 
-__all__ = ["RULES", "schema_json", "validate"]
+__all__ = ["RULES", "inline", "schema_json", "validate"]

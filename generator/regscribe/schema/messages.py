@@ -18,7 +18,7 @@ from regscribe.schema.rules import (
     WRONG_FORM,
     WRONG_TYPE,
 )
-from regscribe.source import shorten
+from regscribe.schema.wording import describe, example, title
 
 _TYPES = {
     "string": "a text",
@@ -192,42 +192,5 @@ def _not_allowed(error: Violation, path: tuple[str | int, ...], kind: str) -> Co
     return Complaint(VALUE_NOT_ALLOWED, path, said, advice if kind == "enum" else f"write {allowed}")
 
 
-def title(schema: Mapping[str, Any]) -> str:
-    """Name what the schema describes."""
-    return str(schema.get("title", "this"))
-
-
-def example(schema: Mapping[str, Any]) -> str:
-    """Show an example in the notation of the map; empty if the schema has none."""
-    examples = schema.get("examples", ())
-    return f"for example `{inline(examples[0])}`" if examples else ""
-
-
 def _form(schema: Mapping[str, Any]) -> str:
     return str(schema.get("x-form", schema.get("description", ""))).rstrip(".")
-
-
-def inline(value: object) -> str:
-    """Write a value of the schema on one line of YAML."""
-    if isinstance(value, dict):
-        return "{" + ", ".join(f"{key}: {inline(element)}" for key, element in value.items()) + "}"
-    if isinstance(value, list):
-        return f"[{', '.join(inline(element) for element in value)}]"
-    if isinstance(value, bool):
-        return str(value).lower()
-    return str(value)
-
-
-def describe(value: object) -> str:
-    """Name a value of a map in a message: short, printable, its parts left out."""
-    if value is None:
-        return "empty (null)"
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, list):
-        return f"a list of {len(value)}"
-    if isinstance(value, dict):
-        return f"a mapping of {len(value)}"
-    if isinstance(value, str):
-        return f"`{shorten(value)}`" if value else "an empty text"
-    return f"the number {shorten(f'{value:f}' if isinstance(value, Decimal) else str(value))}"

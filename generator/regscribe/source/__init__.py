@@ -10,9 +10,20 @@ from regscribe.model import Diagnostic
 from regscribe.source.document import Document, Path, Plain
 from regscribe.source.reading import display_name, parse, read
 from regscribe.source.rules import RULES
-from regscribe.source.scalars import shorten
+from regscribe.source.scalars import NumberFormError, resolve, shorten
 
-__all__ = ["RULES", "Document", "Path", "Plain", "display_name", "load", "parse", "shorten"]
+__all__ = [
+    "RULES",
+    "Document",
+    "NumberFormError",
+    "Path",
+    "Plain",
+    "display_name",
+    "load",
+    "parse",
+    "resolve",
+    "shorten",
+]
 
 
 def load(path: FilePath, *, name: str | None = None) -> tuple[Document | None, list[Diagnostic]]:
