@@ -249,7 +249,7 @@ def _objects() -> Iterator[tuple[str, Mapping[str, Any]]]:
 
 def _effective(details: Mapping[str, Any]) -> Mapping[str, Any]:
     """A key's schema with what its definition adds (a variant's key may be null: then it is the other branch)."""
-    details = details.get("else", details)
+    details = details["else"] if details.get("if") == {"type": "null"} else details
     if "$ref" not in details:
         return details
     node: Any = schema_json()

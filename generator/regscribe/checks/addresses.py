@@ -39,7 +39,9 @@ def stretches(register: Register) -> Iterator[Stretch]:
     for view in register.views:
         by = f"view {view.name}" if len(register.views) > 1 else ""
         yield Stretch(view.space, view.address, view.last, register, by)
-    for alias in register.aliases:
+    for alias in dict.fromkeys(register.aliases):
+        if alias == register.base.address:
+            continue  # RS0403 speaks of it
         yield Stretch(register.base.space, alias, alias + register.base.words - 1, register, "alias")
 
 

@@ -1,5 +1,6 @@
 """Commands: each step must be a request that the device accepts."""
 
+from bisect import bisect_left
 from collections.abc import Iterator
 from operator import attrgetter
 
@@ -9,6 +10,8 @@ from regscribe.model import Command, Register, Related, Rule, Space, Step
 
 WRITE_WORDS = (6, 16)
 ONE_WORD = 6
+LONGEST = 125
+"""Words of the longest value: no request reads more."""
 
 
 def requests(scope: Scope) -> Iterator[tuple[Command, Step]]:
@@ -33,7 +36,14 @@ def _holding(scope: Scope) -> list[Stretch]:
 
 def _touched(step: Step, scope: Scope) -> Iterator[Stretch]:
     last = step.address + len(step.words) - 1
-    yield from (one for one in _holding(scope) if one.first <= last and one.last >= step.address)
+    every = _holding(scope)
+    start = bisect_left(every, step.address - LONGEST, key=attrgetter("first"))
+    for place in range(start, len(every)):
+        stretch = every[place]
+        if stretch.first > last:
+            return
+        if stretch.last >= step.address:
+            yield stretch
 
 
 @model_rule(

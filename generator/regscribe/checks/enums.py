@@ -1,13 +1,13 @@
 """Enums: codes, labels and ids."""
 
 import keyword
-from collections import Counter
+from collections import defaultdict
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 
 from regscribe.checks.identifiers import ENUM_NAMES, normalised
 from regscribe.checks.registry import Finding, Scope, model_rule, register_rule
-from regscribe.model import Enum, Kind, Register, Rule, WireType, show
+from regscribe.model import Enum, Kind, Member, Register, Rule, WireType, show
 
 
 def enums_of(scope: Scope) -> Iterator[tuple[Register, str, Enum]]:
@@ -42,30 +42,39 @@ def code_outside_type(register: Register, _: Scope) -> Iterator[Finding]:
         yield Finding.at(register, message, "correct the codes or the type")
 
 
+def _label(member: Member) -> str:
+    return " ".join(member.label.casefold().split())
+
+
+def _together(enum: Enum, key: Callable[[Member], str]) -> Iterator[tuple[str, list[Member]]]:
+    """Members of an enum that share a key, in the order of the first."""
+    groups: defaultdict[str, list[Member]] = defaultdict(list)
+    for member in enum.members:
+        groups[key(member)].append(member)
+    yield from ((name, members) for name, members in groups.items() if len(members) > 1)
+
+
+def _codes(members: list[Member]) -> str:
+    return ", ".join(str(member.code) for member in members)
+
+
 @model_rule(Rule("RS0441", "Label used twice in an enum", "Two codes of one meaning: one of them was misread."))
 def label_twice(scope: Scope) -> Iterator[Finding]:
-    """Compare labels, letters and digits and signs, without case and blanks."""
+    """Compare labels without case and blanks."""
     for register, field, enum in enums_of(scope):
-        for label in _twice([" ".join(member.label.casefold().split()) for member in enum.members]):
-            codes = [m.code for m in enum.members if " ".join(m.label.casefold().split()) == label]
-            message = f'has the label "{label}" for codes {", ".join(map(str, codes))}'
+        for label, members in _together(enum, _label):
+            message = f'has the label "{label}" for codes {_codes(members)}'
             yield _finding(register, field, enum, message, "correct a label, or say what tells them apart")
 
 
 @model_rule(Rule("RS0442", "Enum members of one id", "Labels that differ in signs only become one Python name."))
 def member_id_twice(scope: Scope) -> Iterator[Finding]:
-    """Compare the members' ids without case and `_`."""
+    """Compare ids without case and `_`; equal labels are RS0441's."""
     for register, field, enum in enums_of(scope):
-        for name in _twice([normalised(member.id) for member in enum.members]):
-            codes = [member.code for member in enum.members if normalised(member.id) == name]
-            labels = [" ".join(member.label.casefold().split()) for member in enum.members if member.code in codes]
-            if len(set(labels)) == len(labels):
-                message = f"gives codes {', '.join(map(str, codes))} one id, {name.upper()}"
+        for name, members in _together(enum, lambda member: normalised(member.id)):
+            if len({_label(member) for member in members}) == len(members):
+                message = f"gives codes {_codes(members)} one id, {name.upper()}"
                 yield _finding(register, field, enum, message, "give one of them an `id`: {label: ..., id: ...}")
-
-
-def _twice(names: list[str]) -> list[str]:
-    return [name for name, count in Counter(names).items() if count > 1]
 
 
 @register_rule(

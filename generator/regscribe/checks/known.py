@@ -6,6 +6,9 @@ from fractions import Fraction
 from regscribe.model import GivenKind, Model, RegisterMap
 from regscribe.model.reference import Surroundings
 
+MOST_DECIMALS = 30
+"""No display has so many digits."""
+
 
 def with_fields(model: Model, values: dict[str, Fraction]) -> dict[str, Fraction]:
     """The values by path, and those of the bit fields in them by `path.field`, unless these are said apart."""
@@ -23,9 +26,21 @@ def default_values(model: Model) -> dict[str, Fraction]:
     return {register.path: register.default for register in model.registers if isinstance(register.default, Fraction)}
 
 
+def _sensible(model: Model, values: dict[str, Fraction]) -> dict[str, Fraction]:
+    """The values without absurd numbers of decimals, since 10 to the power of them would be computed."""
+    counts = {
+        case.then.decimals.register
+        for register in model.registers
+        for cases in (register.scale, register.range)
+        for case in cases
+        if case.then.decimals
+    }
+    return {path: value for path, value in values.items() if path not in counts or value <= MOST_DECIMALS}
+
+
 def all_defaults(model: Model) -> Surroundings:
     """The state in which every register stands at its default; what has none, and every given, is not known."""
-    return Surroundings(with_fields(model, default_values(model)))
+    return Surroundings(with_fields(model, _sensible(model, default_values(model))))
 
 
 def in_example(register_map: RegisterMap, model: Model, said: Iterable[tuple[str, Fraction]]) -> Surroundings:
@@ -43,4 +58,4 @@ def in_example(register_map: RegisterMap, model: Model, said: Iterable[tuple[str
     facts = {
         given.id: bool(values.pop(given.id, 0)) for given in register_map.givens if given.kind is GivenKind.BOOLEAN
     }
-    return Surroundings(with_fields(model, values), codes, facts)
+    return Surroundings(with_fields(model, _sensible(model, values)), codes, facts)

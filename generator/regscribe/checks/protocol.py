@@ -32,16 +32,6 @@ def fault_without_meaning(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
             yield Finding(MAP, register_map.span, message, "list the code with its name, or correct the fault")
 
 
-@map_rule(Rule("RS0487", "Exception code that cannot be sent", "An exception code is one byte, and 0 says nothing."))
-def exception_code(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
-    """Look at all codes of exceptions."""
-    register_map, protocol = _the_map(scopes)
-    for exception in protocol.exceptions:
-        if not 0 < exception.code <= 0xFF:  # noqa: PLR2004 (one byte)
-            message = f"exception code {exception.code} ({exception.name}) is outside 1..255"
-            yield Finding(MAP, register_map.span, message, "correct the code")
-
-
 @map_rule(
     Rule("RS0488", "Unit ids that cannot be", "A unit id is 1 to 255 (0 broadcasts); the default is one of them.")
 )
@@ -99,25 +89,3 @@ def serial_default(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
         if default is not None and offered and default not in offered:
             message = f"the default {what} {default} is not among {', '.join(map(str, offered))}"
             yield Finding(MAP, register_map.span, message, f"correct `serial.default`, or list the {what}")
-
-
-@map_rule(Rule("RS0492", "Limit that no request can have", "A Modbus frame carries 125 words to read, 123 to write."))
-def limits(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
-    """Compare each limit with 1 and with what a frame carries."""
-    register_map, protocol = _the_map(scopes)
-    for name, most in MOST.items():
-        value = getattr(protocol, name)
-        if not 0 < value <= most:
-            message = f"`protocol.limits.{name}` is {value}, outside 1..{most}"
-            yield Finding(MAP, register_map.span, message, "correct the limit")
-
-
-@map_rule(Rule("RS0493", "Function code that cannot be", "Function codes are 1 to 127, each listed once."))
-def functions(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
-    """Look at all supported functions."""
-    register_map, protocol = _the_map(scopes)
-    for place, code in enumerate(protocol.functions):
-        if not 0 < code <= LAST_FUNCTION:
-            yield Finding(MAP, register_map.span, f"function {code} is outside 1..{LAST_FUNCTION}", "correct it")
-        elif code in protocol.functions[:place]:
-            yield Finding(MAP, register_map.span, f"function {code:02d} is listed twice", "remove one")

@@ -1,21 +1,11 @@
 """Ranges, special values and sentinels."""
 
 from collections.abc import Iterator
-from fractions import Fraction
-from itertools import combinations
+from itertools import pairwise
 
 from regscribe.checks.registry import Finding, Scope, register_rule
-from regscribe.model import Interval, Number, Register, Rule, show
+from regscribe.model import Number, Register, Rule, Sentinel, Special, show
 from regscribe.model.reference import RefusedError, UnknownValueError, choose, limits
-
-
-def _numeric(interval: Interval) -> bool:
-    return isinstance(interval.low, Number) and isinstance(interval.high, Number)
-
-
-def _text(interval: Interval) -> str:
-    ends = (interval.low, interval.high)
-    return "..".join(show(end.value) if isinstance(end, Number) else "?" for end in ends)
 
 
 @register_rule(
@@ -40,16 +30,17 @@ def empty(register: Register, scope: Scope) -> Iterator[Finding]:
     Rule("RS0436", "Intervals of a range overlap", "Parts of a union are apart; where they touch, one end was misread.")
 )
 def intervals_overlap(register: Register, _: Scope) -> Iterator[Finding]:
-    """Compare the intervals of each union in pairs (unions are short)."""
+    """Compare each interval of a union with the one above it."""
     for case in register.range:
-        for one, other in combinations(filter(_numeric, case.then.intervals), 2):
-            if _value(one.low) <= _value(other.high) and _value(other.low) <= _value(one.high):
-                message = f"has a range whose parts {_text(one)} and {_text(other)} overlap"
+        known = [
+            (interval.low.value, interval.high.value)
+            for interval in case.then.intervals
+            if isinstance(interval.low, Number) and isinstance(interval.high, Number)
+        ]
+        for (low, high), (first, last) in pairwise(sorted(known)):
+            if first <= high:
+                message = f"has a range whose parts {show(low)}..{show(high)} and {show(first)}..{show(last)} overlap"
                 yield Finding.at(register, message, "join the parts or correct an end")
-
-
-def _value(limit: object) -> Fraction:
-    return limit.value if isinstance(limit, Number) else Fraction(0)
 
 
 @register_rule(
@@ -57,19 +48,29 @@ def _value(limit: object) -> Fraction:
 )
 def specials_twice(register: Register, _: Scope) -> Iterator[Finding]:
     """Compare codes, ids and labels of special values."""
-    for one, other in combinations(register.specials, 2):
-        if one.code == other.code or one.id == other.id or one.label.casefold() == other.label.casefold():
-            message = f'has special values {show(one.code)} ("{one.label}") and {show(other.code)} ("{other.label}")'
-            yield Finding.at(register, f"{message}, which cannot be told apart", "correct one of them")
+    seen: dict[tuple[str, object], Special] = {}
+    for one in register.specials:
+        for key in (("code", one.code), ("id", one.id), ("label", one.label.casefold())):
+            other = seen.setdefault(key, one)
+            if other is not one:
+                message = (
+                    f'has special values {show(other.code)} ("{other.label}") and {show(one.code)} ("{one.label}")'
+                )
+                yield Finding.at(register, f"{message}, which cannot be told apart", "correct one of them")
+                break
 
 
 @register_rule(Rule("RS0438", "Sentinels not told apart", "Two faults of one number or id cannot both be reported."))
 def sentinels_twice(register: Register, _: Scope) -> Iterator[Finding]:
     """Compare numbers and ids of sentinels."""
-    for one, other in combinations(register.sentinels, 2):
-        if one.stored == other.stored or one.id == other.id:
-            message = f'has sentinels {show(one.stored)} ("{one.label}") and {show(other.stored)} ("{other.label}")'
-            yield Finding.at(register, f"{message}, which cannot be told apart", "correct one of them")
+    seen: dict[tuple[str, object], Sentinel] = {}
+    for one in register.sentinels:
+        for key in (("stored", one.stored), ("id", one.id)):
+            other = seen.setdefault(key, one)
+            if other is not one:
+                message = f'has sentinels {show(other.stored)} ("{other.label}") and {show(one.stored)} ("{one.label}")'
+                yield Finding.at(register, f"{message}, which cannot be told apart", "correct one of them")
+                break
 
 
 @register_rule(

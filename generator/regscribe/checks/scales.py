@@ -5,7 +5,7 @@ from fractions import Fraction
 
 from regscribe.checks.carrying import Fit, best_fit, end_values, listed, numbers
 from regscribe.checks.registry import Finding, Scope, register_rule
-from regscribe.model import Kind, Register, Rule, show
+from regscribe.model import Kind, Register, Rule
 
 
 @register_rule(Rule("RS0430", "Scale of zero", "A factor of 0 makes every value the same and can never be undone."))
@@ -16,17 +16,6 @@ def scale_of_zero(register: Register, _: Scope) -> Iterator[Finding]:
     for view in register.views:
         if view.factor == 0:
             yield Finding.at(register, f"has view {view.name} with factor 0", "correct the view's `factor`")
-
-
-@register_rule(Rule("RS0431", "Step that is not positive", "Values cannot move by nothing, nor backwards."))
-def step_not_positive(register: Register, _: Scope) -> Iterator[Finding]:
-    """Look at the step and the cap of decimals of every case."""
-    for case in register.scale:
-        step, decimals = case.then.step, case.then.decimals
-        if step is not None and step <= 0:
-            yield Finding.at(register, f"has a step of {show(step)}", "give a step above 0, or none")
-        if decimals and decimals.at_most is not None and decimals.at_most < 0:
-            yield Finding.at(register, f"has at most {decimals.at_most} decimals", "correct `at_most`")
 
 
 @register_rule(

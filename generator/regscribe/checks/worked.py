@@ -127,6 +127,8 @@ def compare(
     lossy: bool = False,
 ) -> str:
     """What is wrong with words that should mean `value` (and, unless `lossy`, come from it); empty if nothing is."""
+    if any(case.then.multiply == 0 for case in register.scale):
+        return ""  # RS0430 speaks of it: nothing can be computed back
     wanted = _number(register, value)
     reading = decode(register, view, words, known)
     if reading.meaning not in {Meaning.VALUE, Meaning.UNKNOWN_MEMBER} or reading.value != wanted:

@@ -9,7 +9,7 @@ from regscribe.checks.domains import ANYTHING, domain
 from regscribe.checks.registry import Scope
 from regscribe.model import CodeRange, Condition, Test, show
 
-MOST_WORLDS = 50_000
+MOST_WORLDS = 10_000
 """Beyond this product nothing is said about the conditions: no manual comes near it."""
 
 Atom = tuple[str, str]

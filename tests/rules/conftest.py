@@ -1,0 +1,70 @@
+"""Small maps, and what all phases say of them."""
+
+from collections.abc import Callable
+
+import pytest
+
+from regscribe import checks, lower, schema, source
+from regscribe.model import Diagnostic, RegisterMap, Severity
+
+HEAD = """\
+format: 1
+map: {{id: example/controller, title: Controller, maker: Example, class_prefix: Example}}
+manual: {{title: Controller Manual, number: EC-1}}
+models: {{{models}}}
+{top}
+groups:
+  - id: control
+    name: Control
+    source: "3.1"
+    each: {{access: rw, type: int16}}
+    registers:
+"""
+
+
+def _errors(found: list[Diagnostic]) -> bool:
+    return any(one.severity is Severity.ERROR for one in found)
+
+
+def compile_text(text: str) -> tuple[RegisterMap | None, list[Diagnostic]]:
+    """The phases in their order, each only if the one before found no error."""
+    document, found = source.parse(text.encode(), name="map.yaml")
+    if document is None or _errors(found):
+        return None, found
+    found = [*found, *schema.validate(document)]
+    if _errors(found):
+        return None, found
+    register_map, lowered = lower.lower(document)
+    found = [*found, *lowered]
+    if register_map is None or _errors(found):
+        return None, found
+    return register_map, [*found, *checks.check(register_map)]
+
+
+@pytest.fixture
+def diagnose() -> Callable[[str], list[Diagnostic]]:
+    """All diagnostics of a map given as text."""
+    return lambda text: compile_text(text)[1]
+
+
+@pytest.fixture
+def model_of() -> Callable[[str], RegisterMap]:
+    """The model of a map given as text, which must have no errors before the checks."""
+
+    def lowered(text: str) -> RegisterMap:
+        register_map, found = compile_text(text)
+        assert register_map is not None, found
+        return register_map
+
+    return lowered
+
+
+@pytest.fixture
+def small() -> Callable[..., str]:
+    """The text of a small map: lines of registers, and what stands before `groups` and after them."""
+
+    def text(*registers: str, top: str = "", tail: str = "", models: str = "A1: {}") -> str:
+        lines = "".join(f"      - {{{register}}}\n" for register in registers)
+        return HEAD.format(models=models, top=top or "description: Small") + lines + tail
+
+    return text
