@@ -18,7 +18,7 @@ ROOMS = {
     "schema": {"model", "source"},
     "lower": {"model", "source", "schema"},
     "checks": {"model", "source", "schema", "lower"},
-    "emit": {"model"},
+    "emit": {"model", "schema"},
     "simulate": {"model"},
     "runtime": set[str](),
     "testing": {"runtime"},

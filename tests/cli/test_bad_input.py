@@ -76,6 +76,7 @@ def test_what_is_no_regular_file_exits_1(cli: Callable[..., Any], command: str) 
         "new acme/../oven",
         "new acme/class",
         "new acme/3",
+        "new acme/the_oven",
         "new /",
     ],
 )

@@ -30,7 +30,7 @@ def test_an_explanation_marks_the_lines_in_which_bad_and_good_differ(cli: Callab
     assert not [line for line in good.splitlines() if line.startswith("- ")]
 
 
-@pytest.mark.parametrize("name", ["acme/oven", "acme/oven-3", "my-maker/the_family", "a/b", "true/no"])
+@pytest.mark.parametrize("name", ["acme/oven", "acme/oven-3", "my-maker/the-3rd-family", "a/b", "true/no"])
 def test_a_new_map_passes_check(cli: Callable[..., Any], name: str) -> None:
     result = cli("new", name)
     assert (result.code, result.err) == (0, "")

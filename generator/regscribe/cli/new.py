@@ -12,7 +12,7 @@ import click
 
 from regscribe.cli.locate import shipped
 
-WORD = re.compile(r"[a-z][a-z0-9]*([-_][a-z0-9]+)*")
+WORD = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 """A maker or a family: it becomes a folder, a file and a Python module."""
 
 SCHEMA = "map.schema.json"
@@ -60,8 +60,8 @@ def _parts(map_id: str) -> tuple[str, str]:
 
 def _skeleton(maker: str, family: str, *, schema: str) -> str:
     text = files("regscribe.cli").joinpath("skeleton.yaml").read_text(encoding="utf-8")
-    title = family.replace("-", " ").replace("_", " ").title()
-    maker_name = maker.replace("-", " ").replace("_", " ").title()
+    title = family.replace("-", " ").title()
+    maker_name = maker.replace("-", " ").title()
     prefix = re.sub(r"[^A-Za-z0-9]", "", maker_name)
     return Template(text).substitute(
         id=f"{maker}/{family}", title=title, maker=maker_name, prefix=prefix, schema=schema
