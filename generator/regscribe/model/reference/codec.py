@@ -9,7 +9,10 @@ from regscribe.model.reference.outcome import NOT_DECODABLE, SATURATED, Meaning,
 from regscribe.model.reference.words import HALF, spelled, text_of, wire_number, word_order, words_of_text
 from regscribe.model.register import Kind, Register
 from regscribe.model.value import Conversion
-from regscribe.model.wire import View, WireType
+from regscribe.model.wire import Order, View, WireType
+
+PATTERNS = frozenset({Kind.FLAGS, Kind.FIELDS})
+"""Kinds whose value is a pattern of bits: no number, so it has neither sign nor scale."""
 
 
 def decode(register: Register, view: View, words: tuple[int, ...], known: Surroundings = NOTHING_KNOWN) -> Reading:
@@ -21,6 +24,8 @@ def decode(register: Register, view: View, words: tuple[int, ...], known: Surrou
     number = None if order is None else wire_number(view, words, order)
     if number is None:
         return NOT_DECODABLE
+    if register.kind in PATTERNS:
+        return Reading(Meaning.VALUE, number % (1 << view.type.bits))
     if view.saturates and view.type.is_integer and number in {view.type.minimum, view.type.maximum}:
         return SATURATED
     stored = number / view.factor
@@ -82,6 +87,8 @@ def encode(
         return words_of_text(view, str(value))
     number = version_number(register, value) if isinstance(value, str) else value
     number = _checked(register, number, known)
+    if register.kind in PATTERNS:
+        return _pattern(view, number, known)
     stored = _stored(register, number, known, rounded=rounded)
     if any(stored == sentinel.stored for sentinel in register.sentinels):
         raise RefusedError(Reason.SENTINEL, f"{show(stored)} is how the device reports a fault")
@@ -89,6 +96,14 @@ def encode(
     if order is None:
         raise RefusedError(Reason.CONDITION, "the order of the words is not known")
     return spelled(view, stored * view.factor, order, rounded=rounded)
+
+
+def _pattern(view: View, number: Fraction, known: Surroundings) -> tuple[int, ...]:
+    size = 1 << view.type.bits
+    if not 0 <= number < size:
+        raise RefusedError(Reason.TYPE, f"{show(number)} has more than {view.type.bits} bits")
+    signed = number - size if number > view.type.maximum else number
+    return spelled(view, signed, word_order(view, known) or Order.BIG, rounded=False)
 
 
 def _checked(register: Register, value: Fraction, known: Surroundings) -> Fraction:

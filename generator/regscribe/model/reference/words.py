@@ -67,10 +67,10 @@ def text_of(view: View, words: tuple[int, ...]) -> str | None:
 
 
 def words_of_text(view: View, text: str) -> tuple[int, ...]:
-    """Return the words of an ASCII text, filled up with zeros; RefusedError if it does not fit."""
+    """Return the words of an ASCII text, filled up with blanks; RefusedError if it does not fit."""
     if not text.isascii() or len(text) > 2 * view.words:
         raise RefusedError(Reason.TYPE, f"{text!r} does not fit {2 * view.words} ASCII characters")
-    raw = text.encode("ascii").ljust(2 * view.words, b"\x00")
+    raw = text.encode("ascii").ljust(2 * view.words)
     first, second = (0, 1) if view.byte_order is Order.BIG else (1, 0)
     return tuple(256 * raw[2 * word + first] + raw[2 * word + second] for word in range(view.words))
 

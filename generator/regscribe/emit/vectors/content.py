@@ -1,0 +1,170 @@
+"""The vectors of one register in all its views and situations, without its name and addresses."""
+
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Any
+
+from regscribe.emit.vectors import offer
+from regscribe.emit.vectors.pick import Proposal, wire_bits
+from regscribe.emit.vectors.scale import Scale, scale_now
+from regscribe.emit.vectors.situation import Situation
+from regscribe.model import BitField, Kind, Order, Register, View, WireType, show
+from regscribe.model.reference import (
+    Meaning,
+    Reading,
+    RefusedError,
+    Surroundings,
+    decode,
+    encode,
+    word_order,
+)
+
+Json = dict[str, Any]
+CODED = frozenset({Kind.ENUM, Kind.FLAGS, Kind.FIELDS, Kind.BOOLEAN})
+
+
+def case_of(register: Register, view: View, situation: Situation) -> Json:
+    """Return the vectors of one view in one situation, as `schema/vectors.schema.json` describes them."""
+    known = situation.known
+    scale = scale_now(register, view, known)
+    found: Json = {"view": view.name, **surroundings(situation)}
+    found["decode"] = list(_decodes(register, view, known, _words(register, view, scale, situation)))
+    if not register.access.writable:
+        found["refuse"] = [{"value": _sample(found["decode"]), "reason": "read_only", "note": "cannot be written"}]
+    else:
+        found |= _writes(register, view, scale, situation)
+    return {key: value for key, value in found.items() if value or key == "view"}
+
+
+def surroundings(situation: Situation) -> Json:
+    """Return the state and the givens of a situation."""
+    found: Json = {}
+    if situation.state:
+        found["state"] = {name: show(value) for name, value in situation.state.items()}
+    givens: Json = {name: [show(code) for code in sorted(codes)] for name, codes in situation.codes}
+    givens |= dict(situation.facts)
+    if givens:
+        found["givens"] = givens
+    return found
+
+
+def _sample(decodes: list[Json]) -> str:
+    return next((str(case["value"]) for case in decodes if "value" in case), "0")
+
+
+def _words(register: Register, view: View, scale: Scale | None, situation: Situation) -> dict[tuple[int, ...], str]:
+    if view.type is WireType.STRING:
+        return {
+            (0x4133,) * view.words: "the high byte is A, the low byte is 3",
+            (
+                *((0x4142,) * (view.words - 1)),
+                0x4100 if view.byte_order is Order.BIG else 0x0041,
+            ): "filled up with zero",
+            (0xC3A9,) * view.words: "no ASCII",
+        }
+    order = word_order(view, situation.known) or Order.BIG
+    bits = wire_bits(register, view, scale, full=situation.full)
+    return {_in_order(view, pattern, order): note for pattern, note in bits.items()}
+
+
+def _in_order(view: View, bits: int, order: Order) -> tuple[int, ...]:
+    words = tuple(bits >> 16 * place & 0xFFFF for place in reversed(range(view.type.words)))
+    return words if order is Order.BIG else words[::-1]
+
+
+def _decodes(register: Register, view: View, known: Surroundings, words: dict[tuple[int, ...], str]) -> Iterator[Json]:
+    for sent, note in words.items():
+        reading = decode(register, view, sent, known)
+        yield {"words": list(sent), **_outcome(register, reading), "note": note}
+
+
+def _outcome(register: Register, reading: Reading) -> Json:
+    if reading.meaning is Meaning.FAULT:
+        return {"fault": reading.fault}
+    if reading.meaning in {Meaning.SATURATED, Meaning.NOT_DECODABLE}:
+        return {"outcome": reading.meaning.value}
+    found: Json = {"value": reading.value if isinstance(reading.value, str) else show(reading.value or Fraction(0))}
+    if reading.meaning is Meaning.UNKNOWN_MEMBER:
+        return {**found, "unknown": True}
+    if isinstance(reading.value, Fraction):
+        found |= _named(register, reading.value)
+    return found
+
+
+def _named(register: Register, value: Fraction) -> Json:
+    if register.enum is not None:
+        return {"member": next(member.id for member in register.enum.members if member.code == value)}
+    special = next((special for special in register.specials if special.code == value and special.means is None), None)
+    if special is not None:
+        return {"special": special.id}
+    if register.kind is Kind.FLAGS:
+        return {"flags": [bits.id for bits in register.fields if int(value) >> bits.low & 1]}
+    if register.kind is Kind.FIELDS:
+        return {"fields": {bits.id: str(_part(bits, int(value))) for bits in register.fields}}
+    return {}
+
+
+def _part(bits: BitField, word: int) -> int:
+    return (word >> bits.low) % (1 << bits.width)
+
+
+def _writes(register: Register, view: View, scale: Scale | None, situation: Situation) -> Json:
+    known, encodes, refuses = situation.known, [], []
+    for value, note in _offered(register, view, scale, full=situation.full):
+        shown = value if isinstance(value, str) else show(value)
+        try:
+            encodes.append({"value": shown, "words": list(encode(register, view, value, known)), "note": note})
+        except RefusedError as refusal:
+            refuses.append({"value": shown, "reason": refusal.reason.value, "note": note})
+    if scale is not None and situation.full and register.kind not in CODED and view.type.is_integer:
+        encodes += _rounded(register, view, scale, known)
+    found: Json = {"encode": encodes, "refuse": refuses}
+    if situation.full and word_order(view, known) is not None:
+        found["domain"] = list(_domain(register, scale))
+    return found
+
+
+def _offered(
+    register: Register, view: View, scale: Scale | None, *, full: bool
+) -> Iterator[tuple[Fraction | str, str]]:
+    if register.kind in {Kind.STRING, Kind.VERSION}:
+        yield from offer.texts(register, view)
+        return
+    yield from _once(offer.numbers(register, view, scale, full=full))
+
+
+def _once(proposals: Iterator[Proposal]) -> Iterator[Proposal]:
+    seen: dict[Fraction, str] = {}
+    for value, note in proposals:
+        seen.setdefault(value, note)
+    return (Proposal(value, note) for value, note in seen.items())
+
+
+def _rounded(register: Register, view: View, scale: Scale, known: Surroundings) -> Iterator[Json]:
+    if register.kind is not Kind.NUMBER:
+        return
+    for value, note in _once(offer.rounded(scale)):
+        try:
+            words = encode(register, view, value, known, rounded=True)
+        except RefusedError:
+            continue
+        yield {"value": show(value), "rounded": True, "words": list(words), "note": note}
+
+
+def _domain(register: Register, scale: Scale | None) -> Iterator[Json]:
+    if register.kind is Kind.ENUM and register.enum is not None:
+        yield from ({"low": str(member.code), "high": str(member.code)} for member in register.enum.members)
+    if scale is None or register.kind in CODED or register.kind in {Kind.STRING, Kind.VERSION}:
+        return
+    whole = Fraction(1) if register.kind is not Kind.NUMBER else Fraction(0)
+    step = max(abs(scale.slope) * scale.wire_step, whole)
+    for low, high in scale.domain():
+        holes = [show(value) for value in _holes(register, scale) if low <= value <= high]
+        stretch = {"low": show(low), "high": show(high), "step": show(step) if step else "", "except": holes}
+        yield {key: value for key, value in stretch.items() if value}
+
+
+def _holes(register: Register, scale: Scale) -> list[Fraction]:
+    """Values inside the domain that do not come back: faults, and codes that stand for another number."""
+    faults = [scale.value(sentinel.stored) for sentinel in register.sentinels]
+    return faults + [special.code for special in register.specials if special.means is not None]

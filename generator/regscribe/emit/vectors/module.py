@@ -1,0 +1,117 @@
+"""The generated pytest module: names and paths only; what is tested stands in `regscribe.testing`."""
+
+from regscribe.emit.header import header
+from regscribe.model import RegisterMap
+
+BODY = '''"""The driver against its vectors, and properties that hold for every value."""
+
+{header}
+
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from regscribe_devices.{maker} import {module} as driver
+
+from regscribe.testing import Bench, load
+from regscribe.testing import properties as hold
+
+VECTORS = load(Path(__file__).parents[2] / "vectors" / {maker_text} / {file_text})
+CLASSES = (
+{classes}
+)
+BENCHES = [Bench(cls, VECTORS) for cls in CLASSES]
+
+every_model = pytest.mark.parametrize("bench", BENCHES, ids=[bench.model for bench in BENCHES])
+
+
+@every_model
+def test_the_driver_has_the_registers_of_its_model_at_their_addresses(bench: Bench) -> None:
+    bench.check_registers()
+
+
+@every_model
+def test_words_decode_to_the_values_of_the_vectors(bench: Bench) -> None:
+    bench.check_decoding()
+
+
+@every_model
+def test_values_encode_to_the_words_of_the_vectors(bench: Bench) -> None:
+    bench.check_encoding()
+
+
+@every_model
+def test_values_that_no_words_can_carry_are_refused(bench: Bench) -> None:
+    bench.check_refusals()
+
+
+@every_model
+def test_writes_are_allowed_exactly_under_their_conditions(bench: Bench) -> None:
+    bench.check_conditions_of_writing()
+
+
+@every_model
+def test_the_worked_examples_of_the_manual_hold(bench: Bench) -> None:
+    bench.check_examples()
+
+
+@every_model
+@hold.each_run
+@given(data=st.data())
+def test_what_was_encoded_decodes_to_the_same_value(bench: Bench, data: st.DataObject) -> None:
+    hold.round_trip(bench, data)
+
+
+@every_model
+@hold.each_run
+@given(data=st.data())
+def test_a_value_outside_the_domain_is_refused(bench: Bench, data: st.DataObject) -> None:
+    hold.refusal(bench, data)
+
+
+@every_model
+@hold.each_run
+@given(data=st.data())
+def test_any_words_give_a_value_or_a_documented_error(bench: Bench, data: st.DataObject) -> None:
+    hold.total_decoding(bench, data)
+
+
+@every_model
+@hold.each_run
+@given(data=st.data())
+def test_a_read_covers_each_register_once_and_crosses_no_hole_and_no_limit(bench: Bench, data: st.DataObject) -> None:
+    hold.covering_reads(bench, data)
+'''
+
+
+MIRRORED = """
+
+@every_model
+@hold.each_run
+@given(data=st.data())
+def test_the_views_of_a_register_agree(bench: Bench, data: st.DataObject) -> None:
+    hold.agreement(bench, data)
+"""
+
+
+def test_module(register_map: RegisterMap) -> str:
+    """Return the text of the test module of a map; maker and file names are checked identifiers of the map."""
+    maker, family = register_map.id.split("/")
+    several = any(len(register.views) > 1 for model in register_map.models for register in model.registers)
+    return BODY.format(
+        header=header(register_map, prefix="# ", separator="\n# "),
+        maker=maker.replace("-", "_"),
+        module=family.replace("-", "_"),
+        maker_text=_quoted(maker),
+        file_text=_quoted(f"{family}.json"),
+        classes="\n".join(f"    driver.{model.class_name}," for model in register_map.models),
+    ) + (MIRRORED if several else "")
+
+
+def _quoted(text: str) -> str:
+    quoted = repr(text)
+    return f'"{quoted[1:-1]}"' if '"' not in quoted else quoted
+
+
+test_module.__test__ = False  # type: ignore[attr-defined]  # pytest must not take it for a test

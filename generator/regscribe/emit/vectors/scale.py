@@ -1,0 +1,106 @@
+"""The scale and the limits of a register as they stand in one situation, as numbers."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from math import ceil, floor, gcd, lcm
+
+from regscribe.model import Register, View, WireType
+from regscribe.model.reference import Surroundings, choose, decimal_factor, ieee_number, limits, shortest
+
+LARGEST = {
+    WireType.FLOAT32: shortest(ieee_number(0x7F7FFFFF, WireType.FLOAT32), WireType.FLOAT32),
+    WireType.FLOAT64: shortest(ieee_number(0x7FEFFFFFFFFFFFFF, WireType.FLOAT64), WireType.FLOAT64),
+}
+NEIGHBOURS = (Fraction(-1), Fraction(1))
+
+
+@dataclass(frozen=True, slots=True)
+class Scale:
+    """value = `slope` x stored + `offset`; `limits` in values of use, None where nothing limits.
+
+    `wire_step` is how far two stored numbers lie apart that the view can carry (0: an IEEE view without steps);
+    `lowest` and `highest` are the ends of what the view can carry and a write may use, in stored numbers.
+    """
+
+    slope: Fraction
+    offset: Fraction
+    wire_step: Fraction
+    lowest: Fraction
+    highest: Fraction
+    limits: tuple[tuple[Fraction | None, Fraction | None], ...]
+
+    def value(self, stored: Fraction) -> Fraction:
+        """Return the value of use of a stored number."""
+        return self.slope * stored + self.offset
+
+    def stored(self, value: Fraction) -> Fraction:
+        """Return the stored number of a value of use."""
+        return (value - self.offset) / self.slope
+
+    @property
+    def step(self) -> Fraction:
+        """How far two values lie apart; a tenth of a stored unit where the view has no steps."""
+        return abs(self.slope) * (self.wire_step or Fraction(1, 10))
+
+    def stored_limits(self) -> Iterator[tuple[Fraction, str]]:
+        """Yield the stored numbers of all limits, and of both neighbours of each."""
+        for interval in self.limits:
+            for end in interval:
+                if end is not None:
+                    stored = self.stored(end)
+                    yield stored, "a limit of the range"
+                    yield from ((stored + side * (self.wire_step or 1), "beside a limit") for side in NEIGHBOURS)
+
+    def domain(self) -> tuple[tuple[Fraction, Fraction], ...]:
+        """Return the stretches of values that can be written: limits and view together, ends on whole steps."""
+        ends = sorted((self.value(self.lowest), self.value(self.highest)))
+        found = []
+        for low, high in self.limits or ((None, None),):
+            inner = (max(ends[0], ends[0] if low is None else low), min(ends[1], ends[1] if high is None else high))
+            stretch = self._on_steps(*inner)
+            if stretch[0] <= stretch[1]:
+                found.append(stretch)
+        return tuple(found)
+
+    def _on_steps(self, low: Fraction, high: Fraction) -> tuple[Fraction, Fraction]:
+        if not self.wire_step:
+            return low, high
+        size = abs(self.slope) * self.wire_step
+        return (
+            self.offset + size * ceil((low - self.offset) / size),
+            self.offset + size * floor((high - self.offset) / size),
+        )
+
+
+def scale_now(register: Register, view: View, known: Surroundings) -> Scale | None:
+    """Return the scale in this situation; None if no case holds or the decimals are no number of decimals."""
+    conversion = choose(register.scale, known)
+    factor = None if conversion is None else decimal_factor(conversion.decimals, known)
+    if conversion is None or factor is None:
+        return None
+    lowest, highest = _carried(view)
+    limits_now = choose(register.range, known) if register.access.writable else None
+    if limits_now is not None and decimal_factor(limits_now.decimals, known) is None:
+        return None
+    return Scale(
+        slope=conversion.multiply / factor,
+        offset=conversion.add / factor,
+        wire_step=_common(Fraction(0) if view.type.is_float else 1 / view.factor, conversion.step),
+        lowest=lowest / view.factor,
+        highest=highest / view.factor,
+        limits=limits(limits_now, known) if limits_now else (),
+    )
+
+
+def _carried(view: View) -> tuple[Fraction, Fraction]:
+    if view.type.is_float:
+        return -LARGEST[view.type], LARGEST[view.type]
+    return Fraction(view.type.minimum + view.saturates), Fraction(view.type.maximum - view.saturates)
+
+
+def _common(wire: Fraction, step: Fraction | None) -> Fraction:
+    """Return the smallest number that both steps divide; 0 means no step."""
+    if step is None or wire == 0:
+        return step or wire
+    return Fraction(lcm(wire.numerator, step.numerator), gcd(wire.denominator, step.denominator))

@@ -1,0 +1,136 @@
+"""Vector sets: what registers of several models have in common is worked out and written once."""
+
+import json
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+from regscribe.emit.vectors.content import case_of, surroundings
+from regscribe.emit.vectors.situation import Situation, situations, writable_situations
+from regscribe.model import Enum, Model, OrderFromRegister, Register, RegisterMap, Rounding, Span, View, always, show
+
+Json = dict[str, Any]
+Plan = tuple[tuple[tuple[Situation, ...], ...], tuple[tuple[Situation, bool], ...]]
+NOWHERE = Span("")
+
+
+def vector_sets(register_map: RegisterMap) -> list[Json]:
+    """Return the vector sets of a map; each names the registers, models and addresses that it is true of."""
+    worked_out: dict[tuple[Register, Plan], str] = {}
+    places: dict[str, list[tuple[Register, str]]] = {}
+    contents: dict[str, Json] = {}
+    for model, register in _registers(register_map):
+        key = (_bare(register), _plan(register_map, model, register))
+        if key not in worked_out:
+            content = _content(*key)
+            worked_out[key] = json.dumps(content)
+            contents[worked_out[key]] = content
+        places.setdefault(worked_out[key], []).append((register, model.name))
+    return [{"registers": _placed(places[key]), **content} for key, content in contents.items()]
+
+
+def _registers(register_map: RegisterMap) -> Iterator[tuple[Model, Register]]:
+    return ((model, register) for model in register_map.models for register in model.registers)
+
+
+def _plan(register_map: RegisterMap, model: Model, register: Register) -> Plan:
+    tried = tuple(situations(register_map, model, register, view) for view in register.views)
+    return tried, writable_situations(register_map, model, register)
+
+
+def _bare(register: Register) -> Register:
+    """Return the register without what makes no difference to its words and values."""
+    blank = replace(register, id="", path="", name="", symbol="", description="", section="", group="", aliases=())
+    blank = replace(blank, persistence="", rescales="", unlock="", apply="", danger="", inferred=())
+    return replace(
+        blank,
+        unit_id="",
+        array="",
+        index=(),
+        unit=always(""),
+        endurance=None,
+        views=tuple(replace(view, address=0, region=None) for view in register.views),
+        enum=register.enum and _bare_enum(register.enum),
+        fields=tuple(replace(bits, enum=bits.enum and _bare_enum(bits.enum)) for bits in register.fields),
+        span=NOWHERE,
+    )
+
+
+def _bare_enum(enum: Enum) -> Enum:
+    return replace(enum, id="", description="", span=NOWHERE)
+
+
+def _placed(places: list[tuple[Register, str]]) -> list[Json]:
+    folded: dict[tuple[str, tuple[tuple[str, int], ...], tuple[int, ...]], list[str]] = {}
+    for register, model in places:
+        addresses = tuple((view.name, view.address) for view in register.views)
+        folded.setdefault((register.path, addresses, register.aliases), []).append(model)
+    return [
+        {
+            "path": path,
+            "models": models,
+            "addresses": dict(addresses),
+            **({"aliases": list(aliases)} if aliases else {}),
+        }
+        for (path, addresses, aliases), models in folded.items()
+    ]
+
+
+def _content(register: Register, plan: Plan) -> Json:
+    tried, writable = plan
+    found: Json = {"kind": register.kind.value, "access": register.access.value}
+    found["views"] = [view_facts(view) for view in register.views]
+    found |= _names(register)
+    if writable:
+        found["writable"] = [{**surroundings(situation), "allowed": allowed} for situation, allowed in writable]
+    found["cases"] = [
+        case_of(register, view, situation)
+        for view, several in zip(register.views, tried, strict=True)
+        for situation in several
+    ]
+    return found
+
+
+def view_facts(view: View) -> Json:
+    """Return what a view is, without its address."""
+    found: Json = {"name": view.name, "space": view.space.value, "type": view.type.value, "words": view.words}
+    found["factor"] = show(view.factor)
+    if view.rounding is not Rounding.NONE:
+        found["rounding"] = view.rounding.value
+    if view.saturates:
+        found["saturates"] = True
+    if isinstance(view.word_order, OrderFromRegister):
+        orders = {str(code): order.value for code, order in view.word_order.codes}
+        found["word_order"] = {"register": view.word_order.register, "codes": orders}
+    elif view.words > 1:
+        found["word_order"] = view.word_order.value
+    if view.functions:
+        found["functions"] = list(view.functions)
+    return found
+
+
+def _names(register: Register) -> Json:
+    found: Json = {}
+    if register.enum is not None:
+        found["members"] = _members(register.enum)
+    if register.specials:
+        found["specials"] = [_special(register, place) for place in range(len(register.specials))]
+    if register.sentinels:
+        found["faults"] = [{"stored": show(one.stored), "id": one.id, "label": one.label} for one in register.sentinels]
+    if register.fields:
+        found["fields"] = [
+            {"id": bits.id, "label": bits.label, "low": bits.low, "high": bits.high}
+            | ({"members": _members(bits.enum)} if bits.enum else {})
+            for bits in register.fields
+        ]
+    return found
+
+
+def _special(register: Register, place: int) -> Json:
+    special = register.specials[place]
+    means = {} if special.means is None else {"means": show(special.means)}
+    return {"code": show(special.code), "id": special.id, "label": special.label, **means}
+
+
+def _members(enum: Enum) -> list[Json]:
+    return [{"code": member.code, "id": member.id, "label": member.label} for member in enum.members]

@@ -1,0 +1,10 @@
+"""Run a generated driver against its vectors, and state properties that hold for every value.
+
+A generated test module loads its vectors with `load`, makes a `Bench` for each model and calls the checks; the
+strategies in `regscribe.testing.properties` need hypothesis. Imports the runtime only, never the compiler.
+"""
+
+from regscribe.testing.bench import Bench, Trial
+from regscribe.testing.vectors import Vectors, load, number
+
+__all__ = ["Bench", "Trial", "Vectors", "load", "number"]

@@ -1,0 +1,194 @@
+"""Properties of a generated driver, for hypothesis: each draws a register, a situation and a value or words.
+
+The same tree gives the same result: the examples are derived from the test, not from a clock.
+"""
+
+import math
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any
+
+from hypothesis import settings
+from hypothesis import strategies as st
+
+from regscribe.runtime import ValueNotDecodable, ValueRefused
+from regscribe.testing.bench import Bench, Trial
+from regscribe.testing.reads import read_through
+from regscribe.testing.vectors import number
+
+each_run = settings(max_examples=60, deadline=None, derandomize=True, database=None)
+"""How often each property is tried for each model."""
+
+NO_VALUES: tuple[object, ...] = (math.nan, math.inf, -math.inf, None, b"1", [1], object())
+PARTS = 1_000_000
+SIGNIFICANT = 6
+"""Decimal digits that every float32 keeps."""
+NUMERIC = frozenset({"number", "integer", "raw"})
+
+
+def round_trip(bench: Bench, data: st.DataObject) -> None:
+    """Assert decode(encode(v)) == v for values of the domain."""
+    trial = data.draw(st.sampled_from(_writable(bench)), label="register")
+    value = data.draw(values(trial), label="value")
+    words = trial.encode(value)
+    assert _equal(trial.decode(words), value), f"{trial}: {value!r} became {trial.decode(words)!r} through {words}"  # noqa: S101 (a test library)
+
+
+def refusal(bench: Bench, data: st.DataObject) -> None:
+    """Assert that what lies outside the domain is refused before anything is sent."""
+    trial = data.draw(st.sampled_from(_writable(bench)), label="register")
+    value = data.draw(others(trial), label="no value")
+    try:
+        words = trial.encode(value)
+    except ValueRefused:
+        return
+    message = f"{trial}: {value!r} was not refused but encoded to {words}"
+    raise AssertionError(message)
+
+
+def total_decoding(bench: Bench, data: st.DataObject) -> None:
+    """Assert that any words give a value or a ValueNotDecodable, and that a value that can be written comes back."""
+    trial = data.draw(st.sampled_from(bench.trials), label="register")
+    words = tuple(data.draw(st.lists(_word(trial), min_size=_size(trial), max_size=_size(trial)), label="words"))
+    try:
+        value = trial.decode(words)
+        again = trial.decode(trial.encode(value))
+    except (ValueNotDecodable, ValueRefused):
+        return
+    assert _equal(again, value), f"{trial}: {words} is {value!r}, which was sent and came back as {again!r}"  # noqa: S101 (as above)
+
+
+def agreement(bench: Bench, data: st.DataObject) -> None:
+    """Assert that a value written through one view is the same value in every other view that can carry it."""
+    mirrored = [trial for trial in _writable(bench) if len(trial.register.view_names) > 1]
+    trial = data.draw(st.sampled_from(mirrored), label="register")
+    value = data.draw(values(trial), label="value")
+    for other in _situations(bench, trial):
+        try:
+            words = other.encode(value)
+        except (ValueRefused, ValueNotDecodable):
+            continue
+        assert _equal(other.decode(words), value), f"{other}: {value!r} became {other.decode(words)!r}"  # noqa: S101 (as above)
+
+
+def covering_reads(bench: Bench, data: st.DataObject) -> None:
+    """Assert that reading some registers asks for each exactly once, for no hole, and never for too much."""
+    readable = [register for register in bench.driver.registers.values() if register.access != "w"]
+    chosen = data.draw(
+        st.lists(st.sampled_from(readable), unique_by=lambda one: one.path, max_size=40), label="registers"
+    )
+    wrong = read_through(bench.driver, chosen)
+    assert not wrong, "\n".join(wrong)  # noqa: S101 (as above)
+
+
+def _writable(bench: Bench) -> Sequence[Trial]:
+    kinds = NUMERIC | {"enum"}
+    return [
+        trial
+        for trial in bench.trials
+        if trial.entry["access"] != "r" and (trial.case.get("domain") or trial.entry["kind"] not in kinds)
+    ]
+
+
+def _situations(bench: Bench, trial: Trial) -> Sequence[Trial]:
+    """Return the other views of the register where nothing that the trial says is said differently."""
+    found = []
+    for other in bench.trials:
+        if other.register is trial.register and other.view != trial.view:
+            state = {**other.state, **trial.state}
+            givens = {**other.givens, **trial.givens}
+            if all(other.state[name] == state[name] for name in other.state):
+                found.append(Trial(other.register, other.entry, other.case, state, givens))
+    return found
+
+
+def _equal(found: object, value: object) -> bool:
+    if isinstance(found, float) and isinstance(value, (int, Fraction)):
+        exactly = Fraction(value)
+        return found == exactly.numerator / exactly.denominator
+    return found == value
+
+
+def _size(trial: Trial) -> int:
+    return int(next(view["words"] for view in trial.entry["views"] if view["name"] == trial.view))
+
+
+def _type(trial: Trial) -> str:
+    return str(next(view["type"] for view in trial.entry["views"] if view["name"] == trial.view))
+
+
+def _word(trial: Trial) -> st.SearchStrategy[int]:
+    return st.integers(0, {"bit": 1, "uint8": 255}.get(_type(trial), 65535))
+
+
+def values(trial: Trial) -> st.SearchStrategy[Any]:
+    """Return a strategy of values that can be written in the situation of a trial."""
+    kind, entry = trial.entry["kind"], trial.entry
+    if kind == "boolean":
+        return st.sampled_from((0, 1))
+    if kind == "flags":
+        bits = [1 << bit for field in entry["fields"] for bit in range(field["low"], field["high"] + 1)]
+        return st.sets(st.sampled_from(bits)).map(sum) if bits else st.just(0)
+    if kind == "fields":
+        return st.integers(0, 65536 ** _size(trial) - 1)
+    if kind == "string":
+        return st.text(st.characters(min_codepoint=33, max_codepoint=126), max_size=2 * _size(trial))
+    if kind == "version":
+        return st.sampled_from([vector["value"] for vector in trial.case["encode"]])
+    return st.sampled_from(trial.case["domain"]).flatmap(lambda stretch: _inside(trial, stretch))
+
+
+def _inside(trial: Trial, stretch: dict[str, Any]) -> st.SearchStrategy[Any]:
+    low, high, step = Fraction(stretch["low"]), Fraction(stretch["high"]), Fraction(stretch.get("step", 0))
+    holes = {Fraction(text) for text in stretch.get("except", ())}
+    is_float = _type(trial).startswith("float")
+
+    def value(part: int) -> Fraction:
+        there = low + (high - low) * Fraction(part, PARTS)
+        there = _few_digits(there) if is_float else there
+        return low + (there - low) // step * step if step else there
+
+    def possible(there: Fraction) -> bool:
+        return low <= there <= high and there not in holes and (not is_float or _few_digits(there) == there)
+
+    small = st.integers(-99_999, 99_999).map(lambda tenths: Fraction(tenths, 10 if is_float and not step else 1))
+    near = small.map(lambda there: low + (there - low) // step * step if step else there)
+    anywhere = st.one_of(st.integers(0, PARTS).map(value), near.filter(lambda there: low <= there <= high))
+    ends = st.sampled_from((low, high))
+    return st.one_of(anywhere, ends).filter(possible).map(lambda there: number(f"{there}"))
+
+
+def _few_digits(value: Fraction) -> Fraction:
+    """Cut a number to the digits that every float32 keeps."""
+    return Fraction(f"{value.numerator / value.denominator:.{SIGNIFICANT}g}")
+
+
+def others(trial: Trial) -> st.SearchStrategy[Any]:
+    """Return a strategy of values that must be refused in the situation of a trial."""
+    kind, entry = trial.entry["kind"], trial.entry
+    nonsense: st.SearchStrategy[Any] = st.sampled_from(NO_VALUES)
+    if kind == "enum":
+        codes = {member["code"] for member in entry["members"]}
+        return st.one_of(nonsense, st.integers(-70_000, 70_000).filter(lambda code: code not in codes))
+    if kind == "flags":
+        named = {bit for field in entry["fields"] for bit in range(field["low"], field["high"] + 1)}
+        unnamed = [bit for bit in range(16 * _size(trial) + 1) if bit not in named]
+        return st.one_of(nonsense, st.sampled_from(unnamed).map(lambda bit: 1 << bit))
+    if kind == "string":
+        longest = 2 * _size(trial)
+        return st.one_of(st.text("A", min_size=longest + 1, max_size=longest + 9), st.just("\u00e9"))
+    return st.one_of(nonsense, _outside(trial)) if kind in NUMERIC else nonsense
+
+
+def _outside(trial: Trial) -> st.SearchStrategy[Any]:
+    stretches = [(Fraction(one["low"]), Fraction(one["high"])) for one in trial.case["domain"]]
+    allowed = {Fraction(one[key]) for one in trial.entry.get("specials", ()) for key in ("code", "means") if key in one}
+
+    def outside(value: Fraction) -> bool:
+        return value not in allowed and not any(low <= value <= high for low, high in stretches)
+
+    steps = st.integers(1, 10**6).map(lambda count: Fraction(count, 10))
+    beyond = st.sampled_from(stretches).flatmap(
+        lambda stretch: st.one_of(steps.map(lambda by: stretch[0] - by), steps.map(lambda by: stretch[1] + by))
+    )
+    return beyond.filter(outside).map(lambda value: number(f"{value}"))
