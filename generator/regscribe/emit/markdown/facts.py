@@ -26,7 +26,7 @@ KINDS = {
     Kind.NUMBER: "number",
     Kind.INTEGER: "whole number",
     Kind.RAW: "raw whole number; the manual does not state its scale",
-    Kind.ENUM: "one of the values below",
+    Kind.ENUM: "one of a list of codes",
     Kind.FLAGS: "bits, see below",
     Kind.FIELDS: "bit fields, see below",
     Kind.STRING: "text",
@@ -72,10 +72,10 @@ def transmission(context: Context, view: View) -> Md:
     order = view.word_order
     plain_order = order is Order.BIG or (isinstance(order, Order) and view.words == 1)
     parts = (
-        f"stored value x {show(view.factor)}" if view.factor != 1 else "",
+        f"stored value times {show(view.factor)}" if view.factor != 1 else "",
         ROUNDING[view.rounding],
         f"stops at {view.type.minimum} and {view.type.maximum}" if view.saturates else "",
-        "" if plain_order else Md(order_words(order, context.wording(context.map.models[0]))),
+        "" if plain_order else md("word order: ", Md(order_words(order, context.wording(context.map.models[0])))),
         "least significant byte first" if view.byte_order is Order.LITTLE else "",
         f"functions {', '.join(map(str, view.functions))} only" if view.functions else "",
         f"address and count multiples of {view.align}" if view.align > 1 else "",
