@@ -132,3 +132,14 @@ def test_an_inline_enum_in_an_array_is_named_after_the_array_too(registers: Regi
     found = registers(lines)
     assert found["inputs[1].sensor"].enum == found["inputs[2].sensor"].enum
     assert found["inputs[1].sensor"].enum.id == "inputs_sensor"
+
+
+def test_the_write_order_of_the_map_gives_groups_their_places(lowered: Lowered) -> None:
+    found = lowered("""
+        groups:
+          - {id: one, name: One, registers: [{at: 0, name: First, access: r}]}
+          - {id: two, name: Two, registers: [{at: 1, name: Second, access: r}]}
+          - {id: three, name: Three, registers: [{at: 2, name: Third, access: r}]}
+        write_order: [three, one]
+    """)
+    assert [(group.id, group.order) for group in found.models[0].groups] == [("one", 2), ("two", None), ("three", 1)]

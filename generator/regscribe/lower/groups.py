@@ -2,9 +2,10 @@
 
 from dataclasses import dataclass
 
-from regscribe.lower.names import identifier
+from regscribe.lower.names import identifier, unknown
 from regscribe.lower.node import Node, elements_of, text_of, whole_of
 from regscribe.lower.presence import Models
+from regscribe.lower.rules import UNKNOWN_GROUP
 from regscribe.lower.tree import Entry, Item, Place, entries_of, items_in, span_of
 from regscribe.model import Group
 
@@ -42,12 +43,24 @@ def _bundle(node: Node, model: str, models: Models) -> Bundle:
     return Bundle(node, name, items_in(elements_of(node, "registers"), place))
 
 
-def groups_of(bundles: list[Bundle]) -> tuple[Group, ...]:
+def groups_of(bundles: list[Bundle], root: Node) -> tuple[Group, ...]:
     """The groups that a model has something of; a group that is empty in the map itself is kept for the checks."""
-    return tuple(_group(bundle) for bundle in bundles if bundle.entries or not elements_of(bundle.node, "registers"))
+    places = _write_order(root, [bundle.id for bundle in bundles])
+    kept = [bundle for bundle in bundles if bundle.entries or not elements_of(bundle.node, "registers")]
+    return tuple(_group(bundle, places.get(bundle.id)) for bundle in kept)
 
 
-def _group(bundle: Bundle) -> Group:
+def _write_order(root: Node, known: list[str]) -> dict[str, int]:
+    """The place of each group that the map's `write_order` lists, from 1; RS0332 for unknown groups."""
+    places: dict[str, int] = {}
+    for place, node in enumerate(elements_of(root, "write_order"), start=1):
+        if node.text() not in known:
+            unknown(node, UNKNOWN_GROUP, "group", node.text(), known)
+        places.setdefault(node.text(), place)
+    return places
+
+
+def _group(bundle: Bundle, place: int | None) -> Group:
     node = bundle.node
     return Group(
         id=bundle.id,
@@ -55,6 +68,6 @@ def _group(bundle: Bundle) -> Group:
         members=tuple(entry.path for entry in bundle.entries),
         description=text_of(node, "description"),
         section=text_of(node, "source"),
-        order=whole_of(node, "order") if node.child("order") else None,
+        order=whole_of(node, "order") if node.child("order") else place,
         span=span_of(node),
     )

@@ -75,7 +75,7 @@ def _product(root: Node, scope: Scope, bundles: list[Bundle], protocol: Protocol
         description=text_of(node, "description"),
         members=members,
         registers=registers,
-        groups=groups_of(bundles),
+        groups=groups_of(bundles, root),
         commands=commands,
         span=node.key_span,
     )

@@ -136,9 +136,11 @@ class Node:
 
     def number(self) -> Fraction:
         """The value as an exact number; true counts 1 and false 0."""
-        if isinstance(self.value, int | Decimal):
+        if isinstance(self.value, int):
+            return Fraction(self.value)
+        if isinstance(self.value, Decimal):
             try:
-                return exact(Decimal(self.value))
+                return exact(self.value)
             except ValueError:
                 return self._wrong("a finite number", Fraction(0))
         return self._wrong("a number", Fraction(0))
@@ -154,8 +156,10 @@ class Node:
 
     def choice(self, among: type[Choice], otherwise: Choice) -> Choice:
         """The value as one of the choices of an enumeration."""
-        names = [choice.value for choice in among]
-        return among(self.value) if self.value in names else self._wrong(f"one of {', '.join(names)}", otherwise)
+        try:
+            return among(self.value)
+        except ValueError:
+            return self._wrong(f"one of {', '.join(among)}", otherwise)
 
     def key_whole(self) -> int:
         """The key as a whole number."""

@@ -33,6 +33,7 @@ NO_ENDS = "RS0328"
 BAD_VERSION = "RS0329"
 WRONG_SORT = "RS0330"
 TOO_MANY_ELEMENTS = "RS0331"
+UNKNOWN_GROUP = "RS0332"
 
 _NAMES = "A name must mean something, or the driver would look up what does not exist."
 
@@ -70,4 +71,5 @@ RULES: tuple[Rule, ...] = (
     Rule(BAD_VERSION, "Malformed version pattern", "A version packs decimal digits in groups of equal length."),
     Rule(WRONG_SORT, "Value of another sort", "A number cannot be made of a text, nor the other way round."),
     Rule(TOO_MANY_ELEMENTS, "Array beyond the address space", "There are 65536 addresses, and no more elements."),
+    Rule(UNKNOWN_GROUP, "Unknown group", _NAMES),
 )
