@@ -35,9 +35,8 @@ FLOAT = View("ieee", Space.HOLDING, 8072, WireType.FLOAT32, words=2)
 AFFINE = Conversion(Fraction(65535, 655350), Fraction(-19999, 10))
 
 
-def register(*views: View, **more: object) -> Register:
-    values = {"id": "r", "path": "r", "name": "R", "kind": Kind.NUMBER, "access": Access.READ_WRITE, "views": views}
-    return Register(**(values | more))  # type: ignore[arg-type] - the fields are the caller's choice
+def register(*views: View, kind: Kind = Kind.NUMBER) -> Register:
+    return Register(id="r", path="r", name="R", kind=kind, access=Access.READ_WRITE, views=views)
 
 
 def state(**values: int) -> Surroundings:
@@ -46,7 +45,7 @@ def state(**values: int) -> Surroundings:
 
 @pytest.mark.parametrize(("raw", "value"), [(20249, "25"), (0, "-1999.9"), (65535, "4553.6"), (19999, "0")])
 def test_an_affine_word_is_a_straight_line_between_the_ends(raw: int, value: str) -> None:
-    set_point = register(UINT16, scale=always(AFFINE))
+    set_point = replace(register(UINT16), scale=always(AFFINE))
     assert decode(set_point, UINT16, (raw,)).value == Fraction(value)
     assert encode(set_point, UINT16, Fraction(value)) == (raw,)
 
@@ -103,27 +102,27 @@ def test_a_saturating_view_stops_at_its_ends_and_is_not_decoded_there(stored: in
 def test_decimals_from_a_register_count_while_their_condition_holds() -> None:
     linear = Condition((Asked("input", codes=(CodeRange(Fraction(13), Fraction(22)),)),))
     scale = (Case(linear, Conversion(decimals=Decimals("digits", 3))), Case(ALWAYS, Conversion()))
-    alarm = register(INT16, scale=scale)
+    alarm = replace(register(INT16), scale=scale)
     assert decode(alarm, INT16, (9575,), state(input=14, digits=2)).value == Fraction("95.75")
     assert decode(alarm, INT16, (9575,), state(input=3, digits=2)).value == 9575
     assert encode(alarm, INT16, Fraction("95.75"), state(input=14, digits=2)) == (9575,)
 
 
 def test_a_sentinel_is_a_fault_and_no_number() -> None:
-    sensor = register(INT16, sentinels=(Sentinel(Fraction(-32768), "sensor low", "low"),))
+    sensor = replace(register(INT16), sentinels=(Sentinel(Fraction(-32768), "sensor low", "low"),))
     assert decode(sensor, INT16, (0x8000,)).fault == "low"
     with pytest.raises(RefusedError):
         encode(sensor, INT16, Fraction(-32768))
 
 
 def test_a_special_value_stands_for_the_number_it_means() -> None:
-    cycle = register(INT16, specials=(Special(Fraction(0), "0.2 s", "fast", means=Fraction("0.2")),))
+    cycle = replace(register(INT16), specials=(Special(Fraction(0), "0.2 s", "fast", means=Fraction("0.2")),))
     assert decode(cycle, INT16, (0,)).value == Fraction("0.2")
     assert encode(cycle, INT16, Fraction("0.2")) == (0,)
 
 
 def test_a_version_packs_its_digits_in_groups() -> None:
-    version = register(INT16, kind=Kind.VERSION, version_digits=6, version_group=2)
+    version = replace(register(INT16, kind=Kind.VERSION), version_digits=6, version_group=2)
     assert decode(version, INT16, (13100,)).value == "01.31.00"
 
 

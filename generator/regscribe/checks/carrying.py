@@ -5,7 +5,7 @@ from enum import Enum
 from fractions import Fraction
 from typing import NamedTuple
 
-from regscribe.model import Conversion, Decimals, Number, Range, Register, View, show
+from regscribe.model import IDENTITY, Conversion, Decimals, Number, Range, Register, View, show
 
 MOST_DECIMALS = 4
 """Decimals tried where a register holds their number and the map does not limit it (16 bits have five digits)."""
@@ -28,18 +28,26 @@ def factors(decimals: Decimals | None) -> tuple[Fraction, ...]:
 
 
 class Form(NamedTuple):
-    """One conversion with the decimals settled."""
+    """One conversion with the decimals settled; `plain` is the identity, which most registers have."""
 
     conversion: Conversion
     factor: Fraction
+    plain: bool = False
 
     def stored(self, value: Fraction) -> Fraction:
         """The stored number of a value of use."""
+        if self.plain:
+            return value
         return (value * self.factor - self.conversion.add) / self.conversion.multiply
+
+
+PLAIN = (Form(IDENTITY, Fraction(1), plain=True),)
 
 
 def forms(register: Register) -> tuple[Form, ...]:
     """All conversions of a register that can be inverted."""
+    if len(register.scale) == 1 and register.scale[0].then == IDENTITY:
+        return PLAIN
     return tuple(
         Form(case.then, factor)
         for case in register.scale
@@ -51,7 +59,7 @@ def forms(register: Register) -> tuple[Form, ...]:
 def fit(form: Form, view: View, value: Fraction) -> Fit:
     """How one value of use does in one view under one conversion."""
     stored = form.stored(value)
-    wire = stored * view.factor
+    wire = stored if view.factor == 1 else stored * view.factor
     if view.type.is_integer and not view.type.minimum <= wire <= view.type.maximum:
         return Fit.TOO_LARGE
     step = form.conversion.step
@@ -75,7 +83,7 @@ def best_fit(register: Register, values: tuple[Fraction, ...]) -> Fit:
 
 def end_values(limits: Range, number: Fraction) -> tuple[Fraction, ...]:
     """Every value that a printed limit can mean: the range's decimals divide it."""
-    return tuple(number / factor for factor in factors(limits.decimals))
+    return tuple(number / factor for factor in factors(limits.decimals)) if limits.decimals else (number,)
 
 
 def numbers(limits: Range) -> Iterator[Fraction]:

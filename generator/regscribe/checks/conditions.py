@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from regscribe.checks.registry import MAP, Finding, Scope, map_rule, warning
 from regscribe.checks.worlds import Verdict, verdict
-from regscribe.model import Case, Condition, Register, Rule, Span
+from regscribe.model import Condition, Register, Rule, Span
 
 Ask = tuple[Condition, ...]
 
@@ -21,12 +21,7 @@ class Asked:
 
 
 def _cases_of(register: Register) -> Iterator[tuple[str, Ask]]:
-    groups: tuple[tuple[str, tuple[Case[object], ...]], ...] = (
-        ("scale", tuple(Case(case.when, None) for case in register.scale)),
-        ("range", tuple(Case(case.when, None) for case in register.range)),
-        ("unit", tuple(Case(case.when, None) for case in register.unit)),
-    )
-    for what, cases in groups:
+    for what, cases in (("scale", register.scale), ("range", register.range), ("unit", register.unit)):
         if len(cases) > 1 or (cases and not cases[0].when.always):
             yield what, tuple(case.when for case in cases)
     if register.writable:
@@ -34,7 +29,16 @@ def _cases_of(register: Register) -> Iterator[tuple[str, Ask]]:
 
 
 def _asked(scopes: tuple[Scope, ...]) -> list[tuple[Ask, Asked]]:
-    """All sets of conditions of the map, each once: what can hold on one model can hold."""
+    """All sets of conditions of the map, each once: what can hold on one model can hold. Kept for all rules."""
+    found = scopes[0].memo.setdefault("asked", [])
+    if not isinstance(found, list):  # pragma: no cover (the key names what is kept)
+        raise TypeError
+    if not found:
+        found.extend(_collected(scopes))
+    return found
+
+
+def _collected(scopes: tuple[Scope, ...]) -> list[tuple[Ask, Asked]]:
     every: dict[tuple[str, Ask], Asked] = {}
     for scope in scopes:
         for register in scope.model.registers:
