@@ -6,12 +6,15 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from regscribe.runtime.errors import NotDecodable, Saturated, SensorFault, ValueRefused
+from regscribe.runtime.errors import NotDecodable, Saturated, SensorFault, ValueNotDecodable, ValueRefused
 from regscribe.runtime.spec import Conversion, Givens, Limits, Ref, State, Text, View, choose
 from regscribe.runtime.wire import LITTLE, ROUNDINGS, exact, shortest, show
 
 if TYPE_CHECKING:
     from regscribe.runtime.register import Register
+
+BIT_SPACES = frozenset({"coil", "discrete", "status"})
+"""Spaces whose values come as one number, not as words: bits, and the byte of function 07."""
 
 MAX_DECIMALS = 9
 """A decimals register above this is no decimal position of any device; scaling by it would only hide a fault."""
@@ -56,6 +59,11 @@ def reader(register: "Register[Any]", view: View, state: State, givens: Givens) 
     return _guarded(register, view, factor, _with_specials(register, scaled))
 
 
+def same(wire: int) -> int:
+    """The reader of plain whole numbers; a block recognises it and does not call it."""
+    return wire
+
+
 def _whole(register: "Register[Any]", slope: Fraction, offset: Fraction) -> Callable[[int], Any]:
     # int / int is correctly rounded in Python, so (a x wire + b) / c is the float nearest to the exact value
     scale = math.lcm(slope.denominator, offset.denominator)
@@ -65,7 +73,7 @@ def _whole(register: "Register[Any]", slope: Fraction, offset: Fraction) -> Call
             return lambda wire: (a * wire + b) / scale
         return (lambda wire: wire / scale) if a == 1 else (lambda wire: a * wire / scale)
     if (a, b, scale) == (1, 0, 1):
-        return lambda wire: wire
+        return same
     return lambda wire: _no_fraction(register, Fraction(a * wire + b, scale))
 
 
@@ -118,19 +126,37 @@ def _guarded(
     return checked
 
 
+def decoder(register: "Register[Any]", view: View, state: State, givens: Givens) -> Callable[[Sequence[int]], Any]:
+    """A function from the words of `view` (in wire order) to a value of use, under the present `state`.
+
+    It raises ValueNotDecodable with the words in it.
+    """
+    if register.kind.name == "string":
+        return lambda words: _text(register, view, words)
+    make = register.kind.make
+    if view.space in BIT_SPACES:
+        return lambda words: make(words[0])
+    backward = view.words > 1 and view.word_order(register.path, state) == LITTLE
+    unpack, convert = view.type.unpack, reader(register, view, state, givens)
+
+    def decode(words: Sequence[int]) -> Any:
+        try:
+            return convert(unpack(words[::-1] if backward else words))
+        except ValueNotDecodable as error:
+            error.words = tuple(words)
+            raise
+
+    return decode
+
+
 def decode(register: "Register[Any]", view: View, words: Sequence[int], state: State, givens: Givens) -> Any:
     """The value of use that `words` (in wire order) spell; ValueNotDecodable carries the words."""
     if len(words) != view.words:
         message = f"{register.path} has {view.words} words in its {view.name} view, not {len(words)}"
         raise ValueError(message)
     try:
-        if register.kind.name == "string":
-            return _text(register, view, words)
-        if view.space in {"coil", "discrete"} or (view.space == "status" and view.words == 1):
-            return register.kind.make(words[0])
-        wire = view.type.unpack(arrange(view, register.path, words, state))
-        return reader(register, view, state, givens)(wire)
-    except (Saturated, SensorFault, NotDecodable) as error:
+        return decoder(register, view, state, givens)(words)
+    except ValueNotDecodable as error:
         error.words = tuple(words)
         raise
 

@@ -7,7 +7,8 @@ from collections.abc import Callable, Generator, Iterable, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from regscribe.runtime import codec
-from regscribe.runtime.errors import ValueNotDecodable, ValueRefused
+from regscribe.runtime.block import prepare
+from regscribe.runtime.errors import ValueRefused
 from regscribe.runtime.plan import Item, plan
 from regscribe.runtime.request import (
     LOOPBACK,
@@ -76,12 +77,15 @@ def read(register: "Register[T]", view_name: str | None) -> Task[T]:
     """Read one register and decode it."""
 
     def task(session: Session) -> Operation[T]:
-        view = register.view(view_name)
-        needs = register.needs(view)
-        if needs:
-            yield from know(session, needs)
-        words = yield from session.exchange(_read_request(register, view))
-        return cast("T", codec.decode(register, view, words, session.memory, session.givens))
+        key = (register.path, view_name)
+        if key not in session.prepared:
+            view = register.view(view_name)
+            yield from know(session, register.needs(view))
+            made = codec.decoder(register, view, session.memory, session.givens)
+            session.prepared[key] = _read_request(register, view), made
+        request, decode = session.prepared[key]
+        words = yield from session.exchange(request)
+        return cast("T", decode(words))
 
     return task
 
@@ -115,17 +119,15 @@ def read_many(registers: Sequence["Register[Any]"]) -> Task[Snapshot]:
     """Read several registers in few requests: one snapshot with a value or an error for each."""
 
     def task(session: Session) -> Operation[Snapshot]:
-        views = [register.view() for register in registers]
-        needs = [path for register, view in zip(registers, views, strict=True) for path in register.needs(view)]
-        yield from know(session, needs)
-        found = yield from _fetch(session, map(_item, registers, views))
-        values: dict[str, Any] = {}
-        for register, view in zip(registers, views, strict=True):
-            words = found[_item(register, view)]
-            try:
-                values[register.path] = codec.decode(register, view, words, session.memory, session.givens)
-            except ValueNotDecodable as error:
-                values[register.path] = error
+        key = tuple(register.path for register in registers)
+        if key not in session.prepared:
+            needs = [path for register in registers for path in register.needs(register.view())]
+            yield from know(session, needs)
+            session.prepared[key] = prepare(registers, session)
+        values: dict[str, Any] = dict.fromkeys(key)
+        for block in session.prepared[key]:
+            words = yield from session.exchange(block.request)
+            values.update(block.decode(words))
         return Snapshot(values)
 
     return task

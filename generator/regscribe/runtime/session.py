@@ -47,9 +47,10 @@ class Session:
     """One device behind one link: `memory` holds the registers that the meaning of others depends on.
 
     It is forgotten when one of them is written, when a command ran, and when the link was opened anew (`epoch`).
+    `prepared` caches requests and decoders made under that memory, so it goes whenever the memory changes.
     """
 
-    __slots__ = ("commands", "epoch", "givens", "memory", "protocol", "registers", "unit", "version")
+    __slots__ = ("commands", "epoch", "givens", "memory", "prepared", "protocol", "registers", "unit")
 
     def __init__(
         self,
@@ -67,21 +68,21 @@ class Session:
         self.unit, self.protocol, self.givens = unit, protocol, givens
         self.registers, self.commands = registers, commands
         self.memory: dict[str, Any] = {}
-        self.epoch = self.version = 0
+        self.prepared: dict[Any, Any] = {}
+        self.epoch = 0
 
     def remember(self, path: str, value: object) -> None:
         """Keep the value of a register that others depend on."""
         self.memory[path] = value
-        self.version += 1
+        self.prepared.clear()
 
     def forget(self, paths: Iterable[str] | None = None) -> None:
         """Drop some registers from memory; all of them without `paths`."""
-        if paths is None:
-            self.memory.clear()
-        else:
-            for path in paths:
-                self.memory.pop(path, None)
-        self.version += 1
+        gone = list(self.memory) if paths is None else [path for path in paths if path in self.memory]
+        for path in gone:
+            del self.memory[path]
+        if gone:
+            self.prepared.clear()
 
     def at_epoch(self, epoch: int) -> None:
         """Forget everything if the link was opened anew since the last operation."""
