@@ -2,6 +2,8 @@
 
 from collections.abc import Callable
 
+import pytest
+
 from regscribe.model import Diagnostic, RegisterMap
 
 Tried = Callable[[str], tuple[RegisterMap | None, list[Diagnostic]]]
@@ -78,3 +80,26 @@ def test_a_named_thing_that_only_one_model_can_use_is_no_mistake_while_none_uses
 def test_a_text_of_the_map_cannot_break_the_line_of_a_message(tried: Tried) -> None:
     _, mistakes = tried(LINES + '              - {at: 0, name: Level, unit: "one\\ntwo"}\n')
     assert mistakes[0].message == "there is no unit `one two`"
+
+
+@pytest.mark.parametrize(
+    ("register", "value"),
+    [
+        ("type: int16", "70000"),
+        ("type: int16, multiply: 0", "1"),
+        ("type: int16, decimals: 1", "1.25"),
+        ("type: uint32, word_order: {register: order, codes: {0: big, 1: little}}", "70000"),
+        ("type: string, length: 1", "longer"),
+    ],
+)
+def test_a_step_whose_words_are_not_certain_is_refused(tried: Tried, register: str, value: str) -> None:
+    _, mistakes = tried(
+        LINES
+        + f"""
+              - {{at: 0, name: Order, range: 0..1}}
+              - {{at: 1, name: Level, {register}}}
+        commands: {{go: {{name: Go, steps: [{{register: level, value: {value}}}]}}}}
+    """
+    )
+    assert [each.rule for each in mistakes] == ["RS0326"]
+    assert "`level`" in mistakes[0].message

@@ -119,7 +119,7 @@ def test_the_steps_of_a_command_become_words(lowered: Lowered) -> None:
               - {register: kind, value: linear}
               - {register: level, value: 12.5}
               - {register: total, value: 65538}
-              - {register: ratio, value: 1.5}
+              - {register: ratio, value: 3.1415}
               - {register: relay, words: [1]}
               - {at: 120, words: [1], function: 16}
               - {wait: 2000}
@@ -134,7 +134,7 @@ def test_the_steps_of_a_command_become_words(lowered: Lowered) -> None:
         Step(0, (1,), 6, register="kind"),
         Step(2, (125,), 6, register="level"),
         Step(4, (2, 1), 16, register="total"),
-        Step(6, (0x3FC0, 0), 16, register="ratio"),
+        Step(6, (0x4049, 0x0E56), 16, register="ratio"),
         Step(9, (1,), 15, register="relay"),
         Step(120, (1,), 16),
         Step(wait=2000),
