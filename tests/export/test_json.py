@@ -23,7 +23,7 @@ def validator() -> jsonschema.Draft202012Validator:
     return jsonschema.Draft202012Validator(schema)
 
 
-def document(*maps: RegisterMap) -> Any:  # noqa: ANN401 (parsed JSON)
+def document(*maps: RegisterMap) -> Any:
     return json.loads(json_text(maps))
 
 

@@ -1,6 +1,7 @@
 """Reference docs in Markdown: a map in, `{path: text}` out; no clock, no environment, no order of sets."""
 
 from collections.abc import Iterable
+from functools import cache
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
@@ -23,6 +24,7 @@ def render_index(maps: Iterable[RegisterMap]) -> dict[str, str]:
     return {"docs/README.md": text}
 
 
+@cache
 def _environment() -> Environment:
     """Return an environment that escapes every value for Markdown unless it is a `Md`."""
     return Environment(

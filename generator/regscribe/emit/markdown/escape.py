@@ -4,6 +4,7 @@
 """
 
 import re
+from functools import lru_cache
 
 INLINE = re.compile(r"[\\`*\[\]#~|$]|(?<![A-Za-z0-9])_|_(?![A-Za-z0-9])")
 """Punctuation that CommonMark, tables, strike-through or mathematics could take for mark-up."""
@@ -31,6 +32,7 @@ class Md(str):
     __slots__ = ()
 
 
+@lru_cache(maxsize=4096)  # a page says the same few words of every register
 def escape(text: str) -> Md:
     """Escape text so that it renders as itself on one line; addresses of the net become code, so none is a link."""
     text = CONTROL.sub(lambda found: f"U+{ord(found[0]):04X}", re.sub(r"\s+", " ", text))

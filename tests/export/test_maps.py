@@ -1,0 +1,37 @@
+"""The exports of the maps of this repository."""
+
+import csv
+import io
+import json
+from pathlib import Path
+
+import jsonschema
+import pytest
+
+from regscribe import lower, source
+from regscribe.emit.export import csv_text, json_text
+from regscribe.model import RegisterMap
+
+ROOT = Path(__file__).parents[2]
+MAPS = sorted((ROOT / "maps").glob("*/*.yaml"))
+
+
+@pytest.fixture(scope="module", params=MAPS, ids=lambda path: path.stem)
+def real(request: pytest.FixtureRequest) -> RegisterMap:
+    document, found = source.load(request.param)
+    assert document is not None, found
+    register_map, lowered = lower.lower(document)
+    assert register_map is not None, lowered
+    return register_map
+
+
+def test_the_json_of_a_real_map_is_valid_under_the_schema(real: RegisterMap) -> None:
+    schema = json.loads((ROOT / "schema" / "export.schema.json").read_text(encoding="utf-8"))
+    jsonschema.Draft202012Validator(schema).validate(json.loads(json_text([real])))
+
+
+def test_the_csv_of_a_real_map_has_a_row_for_each_value_and_command(real: RegisterMap) -> None:
+    rows = list(csv.reader(io.StringIO(csv_text([real]), newline=""), strict=True))
+    assert {len(row) for row in rows} == {24}
+    assert len(rows) == 1 + sum(len(model.registers) + len(model.commands) for model in real.models)
+    assert len({(row[1], row[2], row[10] == "command") for row in rows[1:]}) == len(rows) - 1
