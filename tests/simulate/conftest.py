@@ -68,6 +68,10 @@ def between(low: float | str, high: float | str) -> Cases[Range]:
     return always(Range((Interval(limit(low), limit(high)),)))
 
 
+def reduced(low: float, high: float) -> Cases[Range]:
+    return always(Range((Interval(limit(low), limit(high)),), Decimals("decimal_position")))
+
+
 def word(path: str, address: int, kind: Kind = Kind.INTEGER, access: Access = RW, **more: object) -> Register:
     wire = more.pop("type", WireType.UINT16)
     space = more.pop("space", Space.HOLDING)
@@ -154,9 +158,13 @@ def controller() -> RegisterMap:
         word("ieee_ordering", 4084, range=between(0, 1), default=Fraction(1)),
         word("calibration", 4090, unlock="unlock", default=Fraction(5)),
         word("key", 4091, access=W),
+        word("highest", 4092, type=WireType.INT16, range=between(0, 9999)),
+        fraction("span", 12, scale=LINEAR_DIGITS, range=reduced(0, 9000)),
     )
     commands = (
         Command(id="load_defaults", name="", steps=(Step(7000, (85, 92)),)),
+        Command(id="restart", name="", steps=(Step(7100, (1,), 6), Step(wait=10), Step(7101, (2,), 6))),
+        Command(id="reset_highest", name="", steps=(Step(4092, (-1999,), 6, register="highest"),)),
         Command(id="unlock", name="", steps=(Step(4091, (26669,), 6, register="key"),)),
     )
     faults = Faults(

@@ -155,6 +155,12 @@ def test_limits_that_are_registers_move_with_them(device: SimulatedDevice) -> No
     assert ask(device, 6, 2, 9001) == struct.pack(">BHH", 6, 2, 9001)
 
 
+def test_limits_may_be_reduced_by_the_decimals(device: SimulatedDevice) -> None:
+    device.poke("decimal_position", 1)
+    assert ask(device, 6, 12, 901) == b"\x86\x03"
+    assert ask(device, 6, 12, 900) == struct.pack(">BHH", 6, 12, 900)
+
+
 def test_an_open_limit_is_not_checked(device: SimulatedDevice) -> None:
     assert ask(device, 6, 4, 32767) == struct.pack(">BHH", 6, 4, 32767)
     assert ask(device, 6, 4, 0x10000 - 1000) == b"\x86\x03"
@@ -221,6 +227,19 @@ def test_a_command_is_accepted_at_addresses_that_are_no_registers(device: Simula
 def test_other_words_at_the_address_of_a_command_are_bad_values(device: SimulatedDevice, words: tuple[int]) -> None:
     assert write(device, 7000, *words) == 3
     assert device.commands_run == ()
+
+
+def test_a_command_is_run_when_all_its_steps_came_in_order_by_their_function(device: SimulatedDevice) -> None:
+    assert write(device, 7100, 1) == 3
+    for address, word in ((7101, 2), (7100, 1), (7100, 1), (7101, 2)):
+        assert ask(device, 6, address, word) == struct.pack(">BHH", 6, address, word)
+    assert device.commands_run == ("restart",)
+
+
+def test_the_words_of_a_command_are_taken_outside_the_range_of_their_register(device: SimulatedDevice) -> None:
+    assert ask(device, 6, 4092, 0xFFFF & -1998) == b"\x86\x03"
+    assert ask(device, 6, 4092, 0xFFFF & -1999) == struct.pack(">BHh", 6, 4092, -1999)
+    assert device.commands_run == ("reset_highest",)
 
 
 def test_a_locked_register_refuses_until_its_command_was_run(device: SimulatedDevice) -> None:

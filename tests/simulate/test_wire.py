@@ -72,7 +72,7 @@ def receive(link: socket.socket, size: int) -> bytes:
     return data
 
 
-def serving(work: Callable[[Server], Coroutine[Any, Any, None]], *devices: SimulatedDevice, **options: Any) -> None:  # noqa: ANN401 -- keywords of Service
+def serving(work: Callable[[Server], Coroutine[Any, Any, None]], *devices: SimulatedDevice, **options: Any) -> None:
     async def run() -> None:
         server = await start(devices, Service(**options))
         try:
@@ -203,6 +203,12 @@ def test_a_broadcast_is_written_and_not_answered(controller: RegisterMap, transp
     with simulate(controller, "16C", transport=transport) as running, sync_client(running, transport) as client:
         client.write_register(2, 55, device_id=0, no_response_expected=True)
         assert client.read_holding_registers(2).registers == [55]
+
+
+def test_a_broadcast_that_the_device_does_not_know_changes_nothing(bit_device: RegisterMap) -> None:
+    with simulate(bit_device, "IO") as running, sync_client(running, "tcp") as client:
+        client.write_register(40, 55, device_id=0, no_response_expected=True)
+        assert client.read_holding_registers(40).registers == [0]
 
 
 def test_units_on_one_line_are_apart_but_for_a_broadcast(controller: RegisterMap) -> None:
