@@ -143,6 +143,28 @@ def test_the_steps_of_a_command_become_words(lowered: Lowered) -> None:
     assert [command.id for command in found.model("B-2").commands] == ["reset", "fan"]
 
 
+def test_the_value_of_a_step_is_rounded_as_its_view_rounds_whatever_the_range_depends_on(lowered: Lowered) -> None:
+    found = lowered("""
+        views:
+          fraction:
+            base: {type: int16, rounding: half_up}
+            x10: {offset: 1000, type: int16, factor: 10, rounding: half_up}
+        groups:
+          - id: main
+            name: Main
+            each: {access: rw, views: fraction}
+            registers:
+              - {at: 1, name: Limit}
+              - {at: 2, name: Level, range: {from: 0, to: limit}}
+        commands:
+          go: {name: Go, steps: [{register: level, value: 12.5}, {register: level, value: 12.5, view: x10}]}
+    """)
+    assert found.models[0].commands[0].steps == (
+        Step(2, (13,), 6, register="level"),
+        Step(1002, (125,), 6, register="level"),
+    )
+
+
 def test_one_word_is_written_by_function_16_where_the_device_has_no_other(lowered: Lowered) -> None:
     command = "commands: {go: {name: Go, steps: [{at: 1, words: [1]}]}}\n"
     found = lowered(f"protocol: {{functions: [3, 16]}}\n{command}groups: [{{id: a, name: A, registers: []}}]\n")
@@ -210,18 +232,20 @@ def test_value_examples_resolve_names_and_signs(lowered: Lowered) -> None:
 def test_an_example_may_name_the_codes_of_a_given(lowered: Lowered) -> None:
     found = lowered(
         """
-        givens: {linear_kinds: {type: codes, register: kind, description: Linear codes., reason: Another manual.}}
+        givens:
+          linear_kinds: {type: codes, register: kind, description: Linear codes., reason: Another manual.}
+          cooled: {type: boolean, description: Cooled., reason: Another manual.}
     """
         + MAIN
         + """
         examples:
           - {source: "3.1", register: level, with: {linear_kinds: linear}, words: [10], value: 1}
-          - {source: "3.1", register: level, with: {linear_kinds: 7}, words: [10], value: 1}
+          - {source: "3.1", register: level, with: {linear_kinds: 7, cooled: 1}, words: [10], value: 1}
     """
     ).examples
     assert [example.state for example in found if isinstance(example, ValueExample)] == [
         (("linear_kinds", Fraction(1)),),
-        (("linear_kinds", Fraction(7)),),
+        (("linear_kinds", Fraction(7)), ("cooled", Fraction(1))),
     ]
 
 

@@ -171,6 +171,7 @@ def test_specials_and_sentinels_have_ids_like_members(registers: Registers) -> N
     ("keys", "default"),
     [
         ("enum: {0: a, 7: slow mode}, default: slow_mode", Fraction(7)),
+        ("enum: {0: a, 7: slow mode}, default: SLOW_MODE", Fraction(7)),
         ("range: 4..9, special: {3: 'off'}, default: 'off'", Fraction(3)),
         ("decimals: 1, default: 12.5", Fraction(25, 2)),
         ("type: string, length: 2, default: M3", "M3"),

@@ -19,9 +19,8 @@ def words_of_value(node: Node, register: Register, view: View) -> tuple[int, ...
         return ()
     # A range is none of the words: whether the device takes the value may depend on other registers.
     unlimited = replace(register, range=())
-    rounds = view.type.is_float or view.rounding is not Rounding.NONE
     try:
-        return encode(unlimited, view, value, rounded=rounds)
+        return encode(unlimited, view, value, rounded=view.rounding is not Rounding.NONE)
     except UnknownValueError as unknown:
         message = f"what `{register.path}` sends for {node.text()} depends on other registers: {unknown}"
     except RefusedError as refused:
