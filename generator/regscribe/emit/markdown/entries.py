@@ -67,7 +67,11 @@ def _register(context: Context, leaf: Leaf, seen: dict[Table, Leaf], marks: str)
         anchor=context.anchor("register", shared.key),
         name=one_line(first.name),
         summary=_summary(context, leaf),
-        paragraphs=_paragraphs(by_model(shared, lambda _, item: prose(item.description)), reference),
+        paragraphs=_paragraphs(
+            by_model(shared, lambda _, item: prose(item.description)),
+            by_model(shared, lambda _, item: prose(item.enum.description if item.enum else "")),
+            reference,
+        ),
         danger=_paragraphs(by_model(shared, lambda _, item: prose(item.danger))),
         facts=facts(context, leaf),
         tables=(*views(context, leaf), *by_condition(context, leaf), *known, *bits(leaf), *elements(context, leaf)),

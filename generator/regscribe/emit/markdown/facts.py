@@ -108,6 +108,9 @@ def _access(context: Context, model: Model, register: Register) -> Md:
 def _kind(_context: Context, _model: Model, register: Register) -> Md:
     if register.kind is Kind.STRING:
         return md(f"text of {2 * register.base.words} characters")
+    if register.kind is Kind.VERSION and register.version_group:
+        groups = register.version_digits // register.version_group
+        return md("version, packed decimal digits: ", ".".join(["n" * register.version_group] * groups))
     return md(KINDS[register.kind])
 
 

@@ -74,11 +74,10 @@ class Section:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class QuickStart:
-    """The lines of the examples in Python; `notes` say what to put in."""
+    """The lines of the examples in Python."""
 
     sync_lines: tuple[Md, ...]
     async_lines: tuple[Md, ...]
-    notes: tuple[Md, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

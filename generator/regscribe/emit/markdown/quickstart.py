@@ -1,9 +1,10 @@
 """A first program for this device: which registers it shows is chosen by their properties, never by their names."""
 
+import re
+
 from regscribe.emit.markdown.context import Context
-from regscribe.emit.markdown.escape import Md, code, md, prose
+from regscribe.emit.markdown.escape import Md
 from regscribe.emit.markdown.page import QuickStart
-from regscribe.emit.text import one_line
 from regscribe.model import Group, Kind, Model, Register, show
 
 ADDRESS = "192.0.2.10"
@@ -33,7 +34,6 @@ def quick_start(context: Context) -> QuickStart:
             f"    async with {opened[1]} as controller:",
             *(f"    {line}" for line in _body(model, asynchronous=True)),
         ),
-        notes=tuple(md(code(given.id), ": ", prose(given.description)) for given in context.map.givens),
     )
 
 
@@ -43,7 +43,8 @@ def _unit(context: Context) -> int:
 
 
 def _code(*lines: str) -> tuple[Md, ...]:
-    return tuple(Md(one_line(line) if line == line.lstrip() else line.rstrip().replace("`", "'")) for line in lines)
+    """Return lines of a fenced block; nothing in an id may leave its line or end the block."""
+    return tuple(Md(re.sub(r"[\r\n`]", " ", line)) for line in lines)
 
 
 def _body(model: Model, *, asynchronous: bool) -> list[str]:
