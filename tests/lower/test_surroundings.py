@@ -155,7 +155,7 @@ def test_the_value_of_a_step_is_rounded_as_its_view_rounds_whatever_the_range_de
             each: {access: rw, views: fraction}
             registers:
               - {at: 1, name: Limit}
-              - {at: 2, name: Level, range: {from: 0, to: limit}}
+              - {at: 2, name: Level, kind: number, range: {from: 0, to: limit}}
         commands:
           go: {name: Go, steps: [{register: level, value: 12.5}, {register: level, value: 12.5, view: x10}]}
     """)
