@@ -43,6 +43,12 @@ def test_the_commands_of_the_readme_are_understood(line: str) -> None:
     assert command.make_context(name, arguments).params
 
 
+def test_the_lines_of_a_map_in_the_readme_stand_in_that_map() -> None:
+    (shown,) = re.findall(r"```yaml\n(.*?)```", README, re.DOTALL)
+    lines = (ROOT / "maps/athena/series-c.yaml").read_text(encoding="utf-8").splitlines()
+    assert set(shown.splitlines()) <= {line.strip() for line in lines}
+
+
 def test_the_links_of_the_readme_lead_somewhere() -> None:
     links = re.findall(r"\]\(([^)#:]+)\)", README)
     assert [link for link in links if not (ROOT / link).exists()] == []

@@ -11,14 +11,14 @@ Piece = tuple[str, str]
 
 def show(pieces: Iterable[Piece], *, stream: TextIO | None = None) -> None:
     """Write the pieces to `stream` (standard output); nothing is added between or after them."""
-    stream = stream or sys.stdout
-    if not in_colour(stream):
-        stream.write("".join(text for text, _ in pieces))
+    out = sys.stdout if stream is None else stream
+    if not in_colour(out):
+        out.write("".join(text for text, _ in pieces))
         return
     from rich.console import Console  # noqa: PLC0415 - 60 ms that only a terminal needs
     from rich.text import Text  # noqa: PLC0415 - as above
 
-    console = Console(file=stream, highlight=False, soft_wrap=True)
+    console = Console(file=out, highlight=False, soft_wrap=True)
     console.print(Text.assemble(*pieces), end="")
 
 

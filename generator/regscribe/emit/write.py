@@ -127,11 +127,11 @@ def origin_of(path: Path) -> str | None:
 
 def _replace(texts: Mapping[Path, str]) -> None:
     """Write every text beside its target, then move all of them into place: a failure leaves the tree as it was."""
-    beside: dict[Path, Path] = {}
+    beside = {target: target.with_name(f".{target.name}.{os.getpid()}.tmp") for target in texts}
+    target = Path()
     try:
         for target, text in texts.items():
             target.parent.mkdir(parents=True, exist_ok=True)
-            beside[target] = target.with_name(f".{target.name}.{os.getpid()}.tmp")
             beside[target].write_bytes(text.encode())
         for target, temporary in beside.items():
             temporary.replace(target)
@@ -139,7 +139,8 @@ def _replace(texts: Mapping[Path, str]) -> None:
         raise _refusal(target, error) from None
     finally:
         for temporary in beside.values():
-            temporary.unlink(missing_ok=True)
+            with suppress(OSError):  # moved already, or never made
+                temporary.unlink()
 
 
 def _remove(path: str, out: Path) -> None:

@@ -1,0 +1,51 @@
+"""Each phase runs only if none before it found an error; what warnings say is carried to the end."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from regscribe import pipeline
+from regscribe.model import Diagnostic, Severity, Span
+
+PHASES = ("source", "schema", "lower", "checks")
+PATH = Path("m.yaml")
+
+
+def found(phase: str, severity: Severity = Severity.ERROR) -> Diagnostic:
+    return Diagnostic(phase, "wrong", Span("m.yaml", 9 - PHASES.index(phase)), severity=severity)
+
+
+@pytest.fixture
+def phases(monkeypatch: pytest.MonkeyPatch) -> dict[str, list[Diagnostic]]:
+    """What each phase finds; a phase that runs is noted under `ran`."""
+    finds: dict[str, Any] = {phase: [] for phase in PHASES} | {"ran": []}
+
+    def phase(name: str, value: object) -> Any:  # noqa: ANN401 - stands for four signatures
+        def run(_: object) -> object:
+            finds["ran"].append(name)
+            return finds[name] if value is None else (value, finds[name])
+
+        return run
+
+    monkeypatch.setattr(pipeline.source, "load", phase("source", "document"))
+    monkeypatch.setattr(pipeline.schema, "validate", phase("schema", None))
+    monkeypatch.setattr(pipeline.lower, "lower", phase("lower", "map"))
+    monkeypatch.setattr(pipeline.checks, "check", phase("checks", None))
+    return finds
+
+
+@pytest.mark.parametrize("last", range(4))
+def test_an_error_ends_the_pipeline_after_its_phase(phases: dict[str, list[Any]], last: int) -> None:
+    errors = [found(PHASES[last]), found(PHASES[last])]
+    phases[PHASES[last]] = errors
+    assert pipeline.compile_map(PATH) == pipeline.Compiled(PATH, None, tuple(errors))
+    assert phases["ran"] == list(PHASES[: last + 1])
+
+
+def test_warnings_of_all_phases_come_with_the_map_in_the_order_of_the_file(phases: dict[str, list[Any]]) -> None:
+    for phase in PHASES:
+        phases[phase] = [found(phase, Severity.WARNING)]
+    compiled = pipeline.compile_map(PATH)
+    assert (compiled.map, phases["ran"]) == ("map", list(PHASES))
+    assert [diagnostic.rule for diagnostic in compiled.diagnostics] == list(reversed(PHASES))
