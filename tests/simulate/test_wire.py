@@ -19,6 +19,7 @@ from regscribe.model import RegisterMap
 from regscribe.simulate import (
     Exchange,
     Foreign,
+    Line,
     Patience,
     Running,
     Server,
@@ -259,6 +260,13 @@ def test_an_impossible_port_is_one_clear_message(controller: RegisterMap, port: 
 def test_an_absent_serial_device_is_one_clear_message(controller: RegisterMap, path: str) -> None:
     with pytest.raises(SimulatorError, match="serial device"):
         asyncio.run(start([SimulatedDevice(controller, "16C")], Service(transport=Transport.SERIAL, path=path)))
+
+
+@pytest.mark.parametrize("form", ["", "8N", "9N1", "8X1", "8N3", "8N1 "])
+def test_an_impossible_character_format_is_one_clear_message(controller: RegisterMap, form: str) -> None:
+    service = Service(transport=Transport.SERIAL, path="/dev/null", line=Line(format=form))
+    with pytest.raises(SimulatorError, match=f"such as 8N1, 8E1 or 7O2, not '{form}'"):
+        asyncio.run(start([SimulatedDevice(controller, "16C")], service))
 
 
 def test_two_devices_of_one_unit_are_one_clear_message(controller: RegisterMap) -> None:

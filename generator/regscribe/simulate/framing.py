@@ -4,6 +4,7 @@ pymodbus' framers check and build single frames; where a frame begins and ends i
 the framers drop what follows a frame (pipelined requests) or a bad one, and wedge on a foreign protocol id.
 """
 
+from abc import abstractmethod
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Protocol
@@ -38,15 +39,19 @@ class Framer(Protocol):
     """Finds requests in the bytes of one connection; keeps at most one frame of them between calls."""
 
     @property
+    @abstractmethod
     def pending(self) -> bool:
         """Whether bytes wait for the rest of their frame."""
 
+    @abstractmethod
     def feed(self, data: bytes) -> list[Request]:
         """Add bytes and return every request that they complete, in order; garbage is skipped."""
 
+    @abstractmethod
     def expire(self) -> list[Request]:
         """Give up waiting for the rest of a frame; return what could be made out behind it."""
 
+    @abstractmethod
     def answer(self, request: Request, pdu: bytes) -> bytes:
         """Return the frame that answers `request` with `pdu`."""
 
@@ -65,6 +70,7 @@ class _Buffered:
     """Bytes that wait for the rest of their frame."""
 
     __slots__ = ("_buffer",)
+    _buffer: bytearray
 
     def __init__(self) -> None:
         self._buffer = bytearray()

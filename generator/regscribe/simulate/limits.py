@@ -1,5 +1,6 @@
 """Which values a register accepts: enum members, special values, ranges by condition, limits that are registers."""
 
+from abc import abstractmethod
 from fractions import Fraction
 from typing import Protocol
 
@@ -11,12 +12,15 @@ from regscribe.simulate.values import field_value
 class Present(Protocol):
     """The questions that limits ask about the present state of the device."""
 
+    @abstractmethod
     def lookup(self, subject: str) -> Fraction:
         """Return the present number of a register or of `register.field`."""
 
+    @abstractmethod
     def choose(self, cases: Cases[T]) -> T | None:
         """Return what the first case that holds now says; None if none holds."""
 
+    @abstractmethod
     def power(self, decimals: Decimals | None) -> int:
         """10 to the number of decimals that a register holds now."""
 

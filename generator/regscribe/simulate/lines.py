@@ -42,8 +42,9 @@ class OpenLine:
 
 def open_serial(path: str, line: Line) -> OpenLine:
     """Open a serial device; SimulatorError if it is absent, busy, not ours, or cannot be set to `line`."""
+    bits, parity, stop_bits = _characters(line.format)
     try:
-        port = serial.Serial(path, timeout=0, write_timeout=0, exclusive=True, **_settings(line))
+        port = serial.Serial(path, line.baud, bits, parity, stop_bits, timeout=0, write_timeout=0, exclusive=True)
     except (OSError, ValueError) as problem:
         message = f"cannot open serial device {path!r} with {line.baud} baud {line.format}: {problem}"
         raise SimulatorError(message) from problem
@@ -58,9 +59,10 @@ def open_pseudo_terminal() -> OpenLine:
     return OpenLine(os.ttyname(theirs), ours, held=theirs)
 
 
-def _settings(line: Line) -> dict[str, object]:
-    text = line.format.upper()
-    if len(text) != _FORMAT_LENGTH or text[0] not in "5678" or text[1] not in "NEOMS" or text[2] not in "12":
-        message = f"character format is data bits, parity and stop bits such as 8N1, 8E1 or 7O2, not {line.format!r}"
+def _characters(text: str) -> tuple[int, str, int]:
+    """Return data bits, parity and stop bits of a character format."""
+    form = text.upper()
+    if len(form) != _FORMAT_LENGTH or form[0] not in "5678" or form[1] not in "NEOMS" or form[2] not in "12":
+        message = f"character format is data bits, parity and stop bits such as 8N1, 8E1 or 7O2, not {text!r}"
         raise SimulatorError(message)
-    return {"baudrate": line.baud, "bytesize": int(text[0]), "parity": text[1], "stopbits": int(text[2])}
+    return int(form[0]), form[1], int(form[2])
