@@ -74,6 +74,12 @@ def test_registers_of_different_models_may_share_an_address(diagnose: Diagnose, 
     assert diagnose(text) == []
 
 
+def test_a_view_of_one_word_where_two_must_be_asked_for_is_misaligned(diagnose: Diagnose, small: Small) -> None:
+    views = "views: {pairs: {base: {type: int16, align: 2}}}"
+    text = small("at: 2, name: Setpoint, views: pairs", top=views)
+    assert rules_of(diagnose(text)) == ["RS0456"]
+
+
 def test_a_default_is_judged_with_the_defaults_of_the_registers_that_decide(diagnose: Diagnose, small: Small) -> None:
     unit = "at: 0, name: Unit Code, default: {}, range: 1..2"
     bias = "at: 1, name: Bias, default: -800, range: [{{when: {{unit_code: 1}}, is: -1000..1000}}, {{is: -556..556}}]"

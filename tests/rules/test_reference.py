@@ -88,6 +88,12 @@ def test_a_device_rounds_a_half_as_its_view_says(rounding: Rounding, sent: tuple
     assert tuple(transmit(view, half)[0] for half in both) == tuple(word % 65536 for word in sent)
 
 
+@pytest.mark.parametrize("rounding", [Rounding.HALF_UP, Rounding.HALF_AWAY, Rounding.HALF_EVEN])
+def test_what_is_nearer_is_sent_whatever_becomes_of_a_half(rounding: Rounding) -> None:
+    view = replace(INT16, rounding=rounding)
+    assert [transmit(view, Fraction(text))[0] for text in ("2.4", "2.6", "-2.4", "-2.6")] == [2, 3, 65534, 65533]
+
+
 def test_a_stored_half_is_sent_rounded_and_ten_times_exactly() -> None:
     assert transmit(INT16, Fraction("120.5")) == (121,)
     assert transmit(X10, Fraction("150.5")) == (1505,)
