@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from difflib import get_close_matches
 from importlib import import_module
 from pathlib import Path
+from typing import NoReturn
 
 import click
 
@@ -75,7 +76,7 @@ def regscribe(*, debug: bool) -> None:
     """Compile Modbus register maps: one YAML file becomes typed drivers, docs, test vectors and a simulator."""
 
 
-def main() -> None:
+def main() -> NoReturn:
     """Run the command line and exit with its code."""
     sys.exit(run(sys.argv[1:]))
 
