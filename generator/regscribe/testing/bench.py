@@ -71,7 +71,7 @@ class Bench:
 
     def check_registers(self) -> None:
         """Assert that the driver has the registers of the model, no others, at their addresses in every view."""
-        differences = [*self._names(), *self._places()]
+        differences = [*self._places(), *self._names()]
         assert not differences, report(differences)  # noqa: S101 (this is a test library)
 
     def _names(self) -> Iterator[str]:

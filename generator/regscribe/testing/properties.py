@@ -12,8 +12,9 @@ from hypothesis import settings
 from hypothesis import strategies as st
 
 from regscribe.runtime import ValueNotDecodable, ValueRefused
+from regscribe.runtime.register import Register
 from regscribe.testing.bench import Bench, Trial
-from regscribe.testing.reads import read_through
+from regscribe.testing.reads import wrong_requests, wrong_values
 from regscribe.testing.vectors import number
 
 each_run = settings(max_examples=60, deadline=None, derandomize=True, database=None)
@@ -73,12 +74,21 @@ def agreement(bench: Bench, data: st.DataObject) -> None:
 
 def covering_reads(bench: Bench, data: st.DataObject) -> None:
     """Assert that reading some registers asks for each exactly once, for no hole, and never for too much."""
-    readable = [register for register in bench.driver.registers.values() if register.access != "w"]
-    chosen = data.draw(
-        st.lists(st.sampled_from(readable), unique_by=lambda one: one.path, max_size=40), label="registers"
-    )
-    wrong = read_through(bench.driver, chosen)
+    wrong = wrong_requests(bench.driver, data.draw(_several(bench), label="registers"))
     assert not wrong, "\n".join(wrong)  # noqa: S101 (as above)
+
+
+def batches(bench: Bench, data: st.DataObject) -> None:
+    """Assert that registers read together have the values that they have alone, whatever the words."""
+    chosen = data.draw(_several(bench), label="registers")
+    seed, code = data.draw(st.integers(0, 65535), label="words"), data.draw(st.integers(0, 3), label="state")
+    wrong = wrong_values(bench.driver, chosen, seed=seed, code=code)
+    assert not wrong, "\n".join(wrong)  # noqa: S101 (as above)
+
+
+def _several(bench: Bench) -> st.SearchStrategy[list[Register[Any]]]:
+    readable = [register for register in bench.driver.registers.values() if register.access != "w"]
+    return st.lists(st.sampled_from(readable), unique_by=lambda one: one.path, min_size=1, max_size=40)
 
 
 def _writable(bench: Bench) -> Sequence[Trial]:

@@ -1,13 +1,14 @@
 """Drive the read operation of a driver without a link, and judge the requests that it makes."""
 
 from collections import Counter, defaultdict
-from collections.abc import Iterator, Sequence
-from typing import Any
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any, NamedTuple
 
-from regscribe.runtime import operations
+from regscribe.runtime import ValueNotDecodable, operations
 from regscribe.runtime.register import Register
 from regscribe.runtime.request import READ_FUNCTIONS, Reply, Request
 from regscribe.runtime.session import Protocol, Session
+from regscribe.runtime.snapshot import Snapshot
 from regscribe.runtime.spec import View
 
 Cell = tuple[str, int]
@@ -17,11 +18,51 @@ SPACES = {function: space for space, function in READ_FUNCTIONS.items()}
 BITS = frozenset({"coil", "discrete"})
 
 
-def read_through(driver: Any, chosen: Sequence[Register[Any]]) -> list[str]:  # noqa: ANN401 (a generated class)
-    """Read registers from a device whose words are all zero; return what is wrong with the requests."""
-    if not chosen:
-        return []
-    requests = tuple(_requests(driver, chosen))
+class Reading(NamedTuple):
+    """The requests that a read made, and what it returned; both as the driver's runtime has them."""
+
+    requests: tuple[Request, ...]
+    snapshot: Snapshot
+    session: Session
+
+
+def read_through(driver: Any, chosen: Sequence[Register[Any]], *, seed: int = 0, code: int = 0) -> Reading:  # noqa: ANN401 (a generated class)
+    """Read registers from a device whose words follow from `seed`.
+
+    All registers that the meaning of others depends on are taken to be known and to hold `code`, so only what was
+    chosen is read.
+    """
+    session = Session(
+        unit=driver.protocol.unit_ids[0],
+        protocol=driver.protocol,
+        registers=driver.registers,
+        commands={},
+        givens=defaultdict(frozenset),
+    )
+    needs = (path for register in chosen for path in register.needs(register.view()))
+    session.memory.update(dict.fromkeys(needs, code))
+    operation = operations.read_many(chosen)(session)
+    requests: list[Request] = []
+    try:
+        asked = next(operation)
+        while isinstance(asked, Request):
+            requests.append(asked)
+            words = tuple(word_at(asked.address + offset, seed) for offset in range(asked.quantity))
+            asked = operation.send(Reply(asked.function, words))
+    except StopIteration as done:
+        return Reading(tuple(requests), done.value, session)
+    message = f"a read paused: {asked}"
+    raise TypeError(message)
+
+
+def word_at(address: int, seed: int) -> int:
+    """Return the word at an address: any word, but always the same."""
+    return (address * 40503 + seed * 60493) & 0xFFFF if seed else 0
+
+
+def wrong_requests(driver: Any, chosen: Sequence[Register[Any]]) -> list[str]:  # noqa: ANN401 (a generated class)
+    """Return what is wrong with the requests: registers left out or asked for twice, holes, limits."""
+    requests = read_through(driver, chosen).requests
     asked = Counter(cell for request in requests for cell in _cells(SPACES[request.function], request))
     wanted = Counter(cell for register in chosen for cell in _cells_of(register, register.view()))
     known = {
@@ -32,29 +73,6 @@ def read_through(driver: Any, chosen: Sequence[Register[Any]]) -> list[str]:  # 
     if not driver.protocol.read_holes:
         found += [f"{space} {address} is no register" for space, address in asked if (space, address) not in known]
     return found + [text for request in requests for text in _too_much(driver.protocol, request)]
-
-
-def _requests(driver: Any, chosen: Sequence[Register[Any]]) -> Iterator[Request]:  # noqa: ANN401 (as above)
-    session = Session(
-        unit=driver.protocol.unit_ids[0],
-        protocol=driver.protocol,
-        registers=driver.registers,
-        commands={},
-        givens=defaultdict(frozenset),
-    )
-    needs = (path for register in chosen for path in register.needs(register.view()))
-    session.memory.update(dict.fromkeys(needs, 0))  # what decides about them is known, so only they are read
-    operation = operations.read_many(chosen)(session)
-    try:
-        request = next(operation)
-        while True:
-            if not isinstance(request, Request):
-                message = f"a read paused: {request}"
-                raise TypeError(message)
-            yield request
-            request = operation.send(Reply(request.function, (0,) * request.quantity))
-    except StopIteration:
-        return
 
 
 def _cells(space: str, request: Request) -> Iterator[Cell]:
@@ -71,3 +89,29 @@ def _too_much(protocol: Protocol, request: Request) -> Iterator[str]:
     most = protocol.read_bits if SPACES[request.function] in BITS else protocol.read_words
     if request.quantity > most:
         yield f"{request.quantity} addresses from {request.address} in one request, where {most} are allowed"
+
+
+def wrong_values(driver: Any, chosen: Sequence[Register[Any]], *, seed: int, code: int) -> list[str]:  # noqa: ANN401 (as above)
+    """Return where a read of several registers gives another value (or another error) than each word alone."""
+    reading = read_through(driver, chosen, seed=seed, code=code)
+    found = []
+    for register in chosen:
+        together = _outcome(lambda path=register.path: reading.snapshot[path])  # type: ignore[misc]
+        alone = _outcome(lambda register=register: _alone(register, reading.session, seed))  # type: ignore[misc]
+        if together != alone:
+            found.append(f"{register.path}: {together} with others, {alone} alone")
+    return found
+
+
+def _alone(register: Register[Any], session: Session, seed: int) -> Any:  # noqa: ANN401 (any value)
+    view = register.view()
+    words = [word_at(view.address(register.at) + offset, seed) for offset in range(view.words)]
+    return register.decode(words, state=session.memory, givens=session.givens)
+
+
+def _outcome(read: Callable[[], Any]) -> tuple[str, Any]:
+    try:
+        value = read()
+    except ValueNotDecodable as error:
+        return type(error).__name__, str(error)
+    return type(value).__name__, value

@@ -82,6 +82,13 @@ def test_any_words_give_a_value_or_a_documented_error(bench: Bench, data: st.Dat
 @given(data=st.data())
 def test_a_read_covers_each_register_once_and_crosses_no_hole_and_no_limit(bench: Bench, data: st.DataObject) -> None:
     hold.covering_reads(bench, data)
+
+
+@every_model
+@hold.each_run
+@given(data=st.data())
+def test_registers_read_together_have_the_values_that_they_have_alone(bench: Bench, data: st.DataObject) -> None:
+    hold.batches(bench, data)
 '''
 
 
