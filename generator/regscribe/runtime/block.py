@@ -34,7 +34,8 @@ class PreparedBlock:
         self.unpacker = struct.Struct(_format(together, block.quantity))
         self.order = _order(together, block.quantity, session)
         self.paths = [register.path for register, _, _ in together]
-        self.converters = [_converter(*one, session) for one in together]
+        converters = [_converter(*one, session) for one in together]
+        self.converters = [(place, convert) for place, convert in enumerate(converters) if convert is not codec.same]
         self.alone = [(*one, _decoder(*one, session)) for one in others]
 
     def decode(self, words: Sequence[int]) -> dict[str, Any]:
@@ -47,17 +48,12 @@ class PreparedBlock:
         return found
 
     def _together(self, words: Sequence[int]) -> dict[str, Any]:
-        numbers = self.unpacker.unpack(self.packer.pack(*words))
-        try:
-            values = [
-                number if convert is None else convert(number)
-                for number, convert in zip(numbers, self.converters, strict=True)
-            ]
-        except ValueNotDecodable:
-            values = [
-                number if convert is None else _caught(convert, number)
-                for number, convert in zip(numbers, self.converters, strict=True)
-            ]
+        values: list[Any] = list(self.unpacker.unpack(self.packer.pack(*words)))
+        for place, convert in self.converters:
+            try:
+                values[place] = convert(values[place])
+            except ValueNotDecodable as error:
+                values[place] = error
         return dict(zip(self.paths, values, strict=True))
 
 
@@ -105,12 +101,11 @@ def _order(together: Sequence[Placed], quantity: int, session: "Session") -> lis
     return None if places == sorted(places) else places
 
 
-def _converter(register: "Register[Any]", view: View, _: int, session: "Session") -> Callable[[Any], Any] | None:
+def _converter(register: "Register[Any]", view: View, _: int, session: "Session") -> Callable[[Any], Any]:
     try:
-        made = codec.reader(register, view, session.memory, session.givens)
+        return codec.reader(register, view, session.memory, session.givens)
     except ValueNotDecodable as error:
         return _always(error)
-    return None if made is codec.same else made
 
 
 def _decoder(register: "Register[Any]", view: View, _: int, session: "Session") -> Callable[[Any], Any]:

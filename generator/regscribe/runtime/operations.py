@@ -4,7 +4,7 @@ An operation is created with a register and run by a part of a driver, which sen
 """
 
 from collections.abc import Callable, Generator, Iterable, Sequence
-from typing import TYPE_CHECKING, Any, TypeVar, cast
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from regscribe.runtime import codec
 from regscribe.runtime.block import prepare
@@ -84,8 +84,8 @@ def read(register: "Register[T]", view_name: str | None) -> Task[T]:
             made = codec.decoder(register, view, session.memory, session.givens)
             session.prepared[key] = _read_request(register, view), made
         request, decode = session.prepared[key]
-        words = yield from session.exchange(request)
-        return cast("T", decode(words))
+        value: T = decode((yield from session.exchange(request)))
+        return value
 
     return task
 
