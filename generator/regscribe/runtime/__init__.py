@@ -10,6 +10,7 @@ from regscribe.runtime.device import (
     BareDevice,
     Device,
     SerialSettings,
+    TcpSettings,
     async_serial_link,
     serial_link,
 )
@@ -93,6 +94,7 @@ __all__ = [
     "SensorFault",
     "SerialSettings",
     "Snapshot",
+    "TcpSettings",
     "ValueNotDecodable",
     "ValueRefused",
     "View",

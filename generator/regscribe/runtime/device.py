@@ -9,7 +9,7 @@ from regscribe.runtime import link as links
 from regscribe.runtime import operations
 from regscribe.runtime.bound import _AsyncBound, _Bound
 from regscribe.runtime.errors import RegscribeError
-from regscribe.runtime.link import MODBUS_TCP_PORT, AsyncLink, Link
+from regscribe.runtime.link import AsyncLink, Link
 from regscribe.runtime.parts import AsyncPart, Command, Group, Part, Section
 from regscribe.runtime.register import Register
 from regscribe.runtime.request import Reply, Request
@@ -21,13 +21,25 @@ What = Group | Register[Any] | _Bound[Any] | _AsyncBound[Any]
 
 
 class SerialSettings(TypedDict, total=False):
-    """Settings of a serial line: baud, data bits, parity (N, E or O), stop bits, framing (rtu or ascii)."""
+    """Settings of a serial line: baud, data bits, parity (N, E or O), stop bits, framing (rtu or ascii), addressing.
+
+    `addressing` is modbus, or jbus for a unit that counts its addresses from 1.
+    """
 
     baud: int
     data_bits: int
     parity: str
     stop_bits: int
     framing: str
+    addressing: str
+
+
+class TcpSettings(TypedDict, total=False):
+    """Settings of a TCP link: port, framing (tcp, rtu or ascii), addressing (modbus, or jbus: counted from 1)."""
+
+    port: int
+    framing: str
+    addressing: str
 
 
 class _Common:
@@ -134,15 +146,16 @@ class Device(BareDevice):
     """A synchronous driver of a device without givens."""
 
     @classmethod
-    def tcp(
-        cls, host: str, *, unit: int, port: int = MODBUS_TCP_PORT, framing: str = "tcp", timeout: float | None = None
-    ) -> Self:
-        """A driver over TCP; `framing` is tcp, rtu or ascii; `timeout` in seconds, by default the manual's longest."""
-        return cls(links.tcp(host, port=port, framing=framing, timeout=timeout or cls.protocol.timeout), unit=unit)
+    def tcp(cls, host: str, *, unit: int, timeout: float | None = None, **settings: Unpack[TcpSettings]) -> Self:
+        """A driver over TCP; `settings`: port, framing (tcp, rtu, ascii), addressing (modbus, jbus).
+
+        `timeout` is in seconds, by default the longest that the manual's latencies allow.
+        """
+        return cls(links.tcp(host, timeout=timeout or cls.protocol.timeout, **settings), unit=unit)
 
     @classmethod
     def rtu(cls, port: str, *, unit: int, timeout: float | None = None, **line: Unpack[SerialSettings]) -> Self:
-        """A driver over a serial line; `line`: baud, data_bits, parity (N, E, O), stop_bits, framing."""
+        """A driver over a serial line; `line`: baud, data_bits, parity (N, E, O), stop_bits, framing, addressing."""
         return cls(serial_link(cls.protocol, port, timeout=timeout, **line), unit=unit)
 
 
@@ -215,12 +228,9 @@ class AsyncDevice(AsyncBareDevice):
     """An asyncio driver of a device without givens."""
 
     @classmethod
-    def tcp(
-        cls, host: str, *, unit: int, port: int = MODBUS_TCP_PORT, framing: str = "tcp", timeout: float | None = None
-    ) -> Self:
+    def tcp(cls, host: str, *, unit: int, timeout: float | None = None, **settings: Unpack[TcpSettings]) -> Self:
         """As `Device.tcp`."""
-        link = links.async_tcp(host, port=port, framing=framing, timeout=timeout or cls.protocol.timeout)
-        return cls(link, unit=unit)
+        return cls(links.async_tcp(host, timeout=timeout or cls.protocol.timeout, **settings), unit=unit)
 
     @classmethod
     def rtu(cls, port: str, *, unit: int, timeout: float | None = None, **line: Unpack[SerialSettings]) -> Self:

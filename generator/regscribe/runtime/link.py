@@ -41,11 +41,13 @@ class AsyncLink(Protocol):
         """Send one request once and wait for its answer; NoAnswer or LinkLost."""
 
 
-def tcp(host: str, *, port: int = MODBUS_TCP_PORT, framing: str = "tcp", timeout: float = 1.0) -> Link:
-    """A TCP link; `framing` is tcp (MBAP), rtu or ascii; `timeout` in seconds."""
+def tcp(
+    host: str, *, port: int = MODBUS_TCP_PORT, framing: str = "tcp", timeout: float = 1.0, addressing: str = "modbus"
+) -> Link:
+    """A TCP link; `framing`: tcp (MBAP), rtu, ascii; `timeout` in seconds; `addressing`: modbus, jbus (one higher)."""
     from regscribe.runtime import transport  # noqa: PLC0415 (pymodbus loads slowly; a driver's import must not wait)
 
-    return transport.SyncTransport.tcp(host, port=port, framing=framing, timeout=timeout)
+    return transport.SyncTransport.tcp(host, port=port, framing=framing, timeout=timeout, addressing=addressing)
 
 
 def serial(
@@ -57,19 +59,22 @@ def serial(
     stop_bits: int = 1,
     framing: str = "rtu",
     timeout: float,
+    addressing: str = "modbus",
 ) -> Link:
     """A serial link; `parity` is N, E or O; `framing` rtu or ascii; `timeout` in seconds."""
     from regscribe.runtime import transport  # noqa: PLC0415 (as above)
 
     line = transport.Line(port, baud, data_bits, parity, stop_bits)
-    return transport.SyncTransport.serial(line, framing=framing, timeout=timeout)
+    return transport.SyncTransport.serial(line, framing=framing, timeout=timeout, addressing=addressing)
 
 
-def async_tcp(host: str, *, port: int = MODBUS_TCP_PORT, framing: str = "tcp", timeout: float = 1.0) -> AsyncLink:
+def async_tcp(
+    host: str, *, port: int = MODBUS_TCP_PORT, framing: str = "tcp", timeout: float = 1.0, addressing: str = "modbus"
+) -> AsyncLink:
     """As `tcp`, for asyncio."""
     from regscribe.runtime import transport  # noqa: PLC0415 (as above)
 
-    return transport.AsyncTransport.tcp(host, port=port, framing=framing, timeout=timeout)
+    return transport.AsyncTransport.tcp(host, port=port, framing=framing, timeout=timeout, addressing=addressing)
 
 
 def async_serial(
@@ -81,9 +86,10 @@ def async_serial(
     stop_bits: int = 1,
     framing: str = "rtu",
     timeout: float,
+    addressing: str = "modbus",
 ) -> AsyncLink:
     """As `serial`, for asyncio."""
     from regscribe.runtime import transport  # noqa: PLC0415 (as above)
 
     line = transport.Line(port, baud, data_bits, parity, stop_bits)
-    return transport.AsyncTransport.serial(line, framing=framing, timeout=timeout)
+    return transport.AsyncTransport.serial(line, framing=framing, timeout=timeout, addressing=addressing)

@@ -17,6 +17,11 @@ from regscribe.runtime.errors import LinkLost, NoAnswer
 from regscribe.runtime.request import Reply, Request
 
 FRAMERS = {"tcp": FramerType.SOCKET, "rtu": FramerType.RTU, "ascii": FramerType.ASCII}
+ADDRESSINGS = {"modbus": 0, "jbus": 1}
+"""The number of a device's first address: JBUS counts from 1 what Modbus counts from 0."""
+
+UNADDRESSED = frozenset({functions.READ_STATUS, functions.LOOPBACK})
+
 RECONNECT_SECONDS = 5.0
 """Upper bound of pymodbus' growing reconnect delay, which it lets grow to 300 s."""
 BITS_IN_BYTE = 8
@@ -100,10 +105,23 @@ def _echo(answer: Any) -> tuple[int, ...]:
 
 
 class _Base:
-    def __init__(self, client: Any, name: str, seconds: float) -> None:
+    def __init__(self, client: Any, name: str, seconds: float, addressing: str) -> None:
+        if addressing not in ADDRESSINGS:
+            message = f"addressing {addressing!r} is none of {', '.join(ADDRESSINGS)}"
+            raise ValueError(message)
         self.client, self.name, self.seconds = client, name, seconds
+        self.first = ADDRESSINGS[addressing]
         self.epoch = 0
         self.opened = False
+
+    def _outward(self, asked: Request) -> Request:
+        if not self.first or asked.function in UNADDRESSED:
+            return asked
+        return asked._replace(address=asked.address + self.first)
+
+    def _inward(self, asked: Request, answer: Any) -> Reply:
+        reply = _reply(asked, answer)
+        return reply._replace(address=reply.address - self.first) if self.first else reply
 
     def _closed(self) -> LinkLost:
         return LinkLost(f"{self.name} is not open: use the driver in a `with` statement, or call open()")
@@ -118,21 +136,21 @@ class _Base:
 class SyncTransport(_Base):
     """A pymodbus synchronous client as a `Link`."""
 
-    def __init__(self, client: Any, name: str, seconds: float) -> None:
-        super().__init__(client, name, seconds)
+    def __init__(self, client: Any, name: str, seconds: float, addressing: str) -> None:
+        super().__init__(client, name, seconds, addressing)
         self.lock = threading.RLock()
 
     @classmethod
-    def tcp(cls, host: str, *, port: int, framing: str, timeout: float) -> Self:
+    def tcp(cls, host: str, *, port: int, framing: str, timeout: float, addressing: str) -> Self:
         """Over TCP; nothing is sent before `open`."""
         client = ModbusTcpClient(host, port=port, framer=_framer(framing), timeout=timeout, retries=0)
-        return cls(client, f"tcp://{host}:{port}", timeout)
+        return cls(client, f"tcp://{host}:{port}", timeout, addressing)
 
     @classmethod
-    def serial(cls, line: Line, *, framing: str, timeout: float) -> Self:
+    def serial(cls, line: Line, *, framing: str, timeout: float, addressing: str) -> Self:
         """Over a serial line."""
         client = ModbusSerialClient(line.port, framer=_framer(framing), timeout=timeout, retries=0, **line.settings())
-        return cls(client, line.port, timeout)
+        return cls(client, line.port, timeout, addressing)
 
     def open(self) -> None:
         """Open it; LinkLost if the other end does not take the connection."""
@@ -163,7 +181,7 @@ class SyncTransport(_Base):
             if not self.client.connected and not self._connect():
                 message = f"{self.name}: nobody answers there any more"
                 raise LinkLost(message)
-            return _reply(request, _send(self.client, unit, request))
+            return self._inward(request, _send(self.client, unit, self._outward(request)))
         except ConnectionException as error:
             raise self._lost(error) from error
         except ModbusException as error:
@@ -180,7 +198,7 @@ class AsyncTransport(_Base):
     lock: asyncio.Lock
 
     @classmethod
-    def tcp(cls, host: str, *, port: int, framing: str, timeout: float) -> Self:
+    def tcp(cls, host: str, *, port: int, framing: str, timeout: float, addressing: str) -> Self:
         """Over TCP; nothing is sent before `open`."""
         client = AsyncModbusTcpClient(
             host,
@@ -190,10 +208,10 @@ class AsyncTransport(_Base):
             retries=0,
             reconnect_delay_max=RECONNECT_SECONDS,
         )
-        return cls(client, f"tcp://{host}:{port}", timeout)
+        return cls(client, f"tcp://{host}:{port}", timeout, addressing)
 
     @classmethod
-    def serial(cls, line: Line, *, framing: str, timeout: float) -> Self:
+    def serial(cls, line: Line, *, framing: str, timeout: float, addressing: str) -> Self:
         """Over a serial line."""
         client = AsyncModbusSerialClient(
             line.port,
@@ -203,10 +221,10 @@ class AsyncTransport(_Base):
             reconnect_delay_max=RECONNECT_SECONDS,
             **line.settings(),
         )
-        return cls(client, line.port, timeout)
+        return cls(client, line.port, timeout, addressing)
 
-    def __init__(self, client: Any, name: str, seconds: float) -> None:
-        super().__init__(client, name, seconds)
+    def __init__(self, client: Any, name: str, seconds: float, addressing: str) -> None:
+        super().__init__(client, name, seconds, addressing)
         self.lock = asyncio.Lock()
         client.ctx.trace_connect = self._traced
 
@@ -234,7 +252,7 @@ class AsyncTransport(_Base):
             if not self.client.connected and not await self.client.connect():
                 message = f"{self.name}: nobody answers there any more"
                 raise LinkLost(message)
-            return _reply(request, await _send(self.client, unit, request))
+            return self._inward(request, await _send(self.client, unit, self._outward(request)))
         except ConnectionException as error:
             raise self._lost(error) from error
         except ModbusException as error:
