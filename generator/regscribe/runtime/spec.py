@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from fractions import Fraction
+from functools import cache
 from typing import Any, NamedTuple
 
 from regscribe.runtime.errors import NotDecodable
@@ -93,6 +94,7 @@ Cases = tuple[tuple[When, Any], ...]
 SAME: Cases = (((), IDENTITY),)
 
 
+@cache
 def within(low: Text | Ref | None, high: Text | Ref | None) -> Cases:
     """Limits that hold under no condition."""
     return (((), Limits((Interval(low, high),))),)
