@@ -1,20 +1,18 @@
 """Drivers: a device behind a link, synchronous and asyncio, running the same operations."""
 
-import asyncio
-import time
 from collections.abc import Mapping
-from typing import Any, ClassVar, Self, TypedDict, TypeVar, Unpack, cast
+from typing import Any, ClassVar, Self, TypedDict, TypeVar, Unpack
 
 from regscribe.runtime import link as links
 from regscribe.runtime import operations
 from regscribe.runtime.bound import _AsyncBound, _Bound
-from regscribe.runtime.errors import RegscribeError
+from regscribe.runtime.execute import carry_out, carry_out_async
 from regscribe.runtime.link import AsyncLink, Link
 from regscribe.runtime.parts import AsyncPart, Command, Group, Part, Section
 from regscribe.runtime.register import Register
-from regscribe.runtime.request import Reply, Request
-from regscribe.runtime.session import Pause, Protocol, Session
+from regscribe.runtime.session import Protocol, Session
 from regscribe.runtime.snapshot import Snapshot
+from regscribe.runtime.spec import Identity
 
 T = TypeVar("T")
 What = Group | Register[Any] | _Bound[Any] | _AsyncBound[Any]
@@ -48,6 +46,7 @@ class _Common:
     model: ClassVar[str] = ""
     map_id: ClassVar[str] = ""
     protocol: ClassVar[Protocol] = Protocol()
+    identity: ClassVar[tuple[Identity, ...]] = ()
     registers: ClassVar[Mapping[str, Register[Any]]]
     session: Session
 
@@ -104,23 +103,7 @@ class BareDevice(_Common, Part):
         """Carry out an operation: its requests one after the other, under the link's lock."""
         with self.link.lock:
             self.session.at_epoch(self.link.epoch)
-            operation = task(self.session)
-            reply: Reply | None = None
-            try:
-                while True:
-                    asked = operation.send(reply)
-                    reply = self._carry(asked)
-            except StopIteration as done:
-                return cast("T", done.value)
-            except RegscribeError:
-                operation.close()
-                raise
-
-    def _carry(self, asked: Request | Pause) -> Reply | None:
-        if isinstance(asked, Pause):
-            time.sleep(asked.seconds)
-            return None
-        return self.link.call(self.session.unit, asked)
+            return carry_out(task(self.session), self.link, self.session.unit)
 
     def read(self, *what: What) -> Snapshot:
         """Read groups and registers (all without arguments) in few requests; see `Snapshot`."""
@@ -186,23 +169,7 @@ class AsyncBareDevice(_Common, AsyncPart):
         """Carry out an operation: its requests one after the other, under the link's lock."""
         async with self.link.lock:
             self.session.at_epoch(self.link.epoch)
-            operation = task(self.session)
-            reply: Reply | None = None
-            try:
-                while True:
-                    asked = operation.send(reply)
-                    reply = await self._carry(asked)
-            except StopIteration as done:
-                return cast("T", done.value)
-            except RegscribeError:
-                operation.close()
-                raise
-
-    async def _carry(self, asked: Request | Pause) -> Reply | None:
-        if isinstance(asked, Pause):
-            await asyncio.sleep(asked.seconds)
-            return None
-        return await self.link.call(self.session.unit, asked)
+            return await carry_out_async(task(self.session), self.link, self.session.unit)
 
     async def read(self, *what: What) -> Snapshot:
         """As `BareDevice.read`."""

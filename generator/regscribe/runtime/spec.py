@@ -51,6 +51,22 @@ When = tuple[Is, ...]
 """Tests that must all hold; none: always."""
 
 
+class Identity(NamedTuple):
+    """How a device shows its model: all tests hold, and each text register begins with the text beside it."""
+
+    when: When = ()
+    texts: tuple[tuple[str, str], ...] = ()
+
+    def registers(self) -> tuple[str, ...]:
+        """The registers that must be read."""
+        return tuple(dict.fromkeys([test.register for test in self.when] + [path for path, _ in self.texts]))
+
+    def fits(self, state: State) -> bool:
+        """Tell whether the values read are those of the model."""
+        told = all(str(state[path]).startswith(text) for path, text in self.texts)
+        return told and all(test.holds(state, {}) for test in self.when)
+
+
 class Conversion(NamedTuple):
     """value = (`multiply` x stored + `add`) / 10^d with d from register `decimals`, at most `at_most`.
 
