@@ -9,6 +9,9 @@ from fractions import Fraction
 
 from regscribe.emit.export import COLUMNS, csv_text
 from regscribe.model import (
+    Case,
+    CodeRange,
+    Condition,
     Conversion,
     Decimals,
     Interval,
@@ -19,6 +22,7 @@ from regscribe.model import (
     RegisterMap,
     Sentinel,
     Special,
+    Test,
     always,
 )
 
@@ -107,6 +111,16 @@ def test_limits_with_decimals_from_a_register_say_so(only: Only, setpoint: Regis
     limits = Range((Interval(Number(Fraction(0)), Number(Fraction(9999))),), Decimals("dp", at_most=3))
     found = row(only(replace(setpoint, range=always(limits))), "setpoint")
     assert (found["minimum"], found["maximum"]) == ("0", "9999/10^min(dp, 3)")
+
+
+def test_limits_that_only_a_linear_input_divides_stand_as_the_table_prints_them(only: Only, setpoint: Register) -> None:
+    limits = Range((Interval(Number(Fraction(-1999)), Number(Fraction(9999))),))
+    linear = Condition((Test("kind", codes=(CodeRange(Fraction(2), Fraction(3)),)),))
+    cases = (Case(linear, replace(limits, decimals=Decimals("dp"))), Case(Condition(), limits))
+
+    found = row(only(replace(setpoint, range=cases)), "setpoint")
+
+    assert (found["minimum"], found["maximum"]) == ("-1999", "9999")
 
 
 def test_scales_are_readable_and_exact(device: RegisterMap) -> None:

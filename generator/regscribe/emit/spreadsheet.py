@@ -4,7 +4,7 @@ import csv
 import io
 import json
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import astuple, dataclass, fields
+from dataclasses import astuple, dataclass, fields, replace
 
 from regscribe.emit.text import (
     bits_words,
@@ -21,6 +21,7 @@ from regscribe.model import (
     IDENTITY,
     BitField,
     Case,
+    Cases,
     Command,
     Kind,
     Model,
@@ -30,6 +31,7 @@ from regscribe.model import (
     Space,
     Step,
     View,
+    always,
     show,
 )
 
@@ -185,15 +187,21 @@ def _scale(register: Register) -> str:
 
 def _limits(register: Register) -> tuple[str, str]:
     """Numbers where the range is one interval between numbers, else the limits of each case in words."""
-    plain = plain_interval(register.range)
+    cases = _as_printed(register.range)
+    plain = plain_interval(cases)
     if plain:
         return show(plain[0]), show(plain[1])
-    sides = (_side(register, low=True), _side(register, low=False))
-    return sides[0], sides[1]
+    return _side(cases, low=True), _side(cases, low=False)
 
 
-def _side(register: Register, *, low: bool) -> str:
-    return cases_words(tuple(Case(case.when, _range_side(case.then, low=low)) for case in register.range))
+def _as_printed(cases: Cases[Range]) -> Cases[Range]:
+    """Take cases that differ in their decimals only as the one range that the manual's table prints."""
+    printed = [replace(case.then, decimals=None) for case in cases]
+    return always(printed[0]) if len(cases) > 1 and all(one == printed[0] for one in printed) else cases
+
+
+def _side(cases: Cases[Range], *, low: bool) -> str:
+    return cases_words(tuple(Case(case.when, _range_side(case.then, low=low)) for case in cases))
 
 
 def _range_side(limits: Range, *, low: bool) -> str:
