@@ -22,7 +22,7 @@ from regscribe.model import (
     RegisterMap,
     Sentinel,
     Special,
-    Test,
+    Test as Ask,
     always,
 )
 
@@ -115,7 +115,7 @@ def test_limits_with_decimals_from_a_register_say_so(only: Only, setpoint: Regis
 
 def test_limits_that_only_a_linear_input_divides_stand_as_the_table_prints_them(only: Only, setpoint: Register) -> None:
     limits = Range((Interval(Number(Fraction(-1999)), Number(Fraction(9999))),))
-    linear = Condition((Test("kind", codes=(CodeRange(Fraction(2), Fraction(3)),)),))
+    linear = Condition((Ask("kind", codes=(CodeRange(Fraction(2), Fraction(3)),)),))
     cases = (Case(linear, replace(limits, decimals=Decimals("dp"))), Case(Condition(), limits))
 
     found = row(only(replace(setpoint, range=cases)), "setpoint")
