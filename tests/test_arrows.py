@@ -16,14 +16,15 @@ ROOMS = {
     "model": set[str](),
     "source": {"model"},
     "schema": {"model", "source"},
+    "compose": {"model", "source", "schema"},
     "lower": {"model", "source", "schema"},
-    "checks": {"model", "source", "schema", "lower"},
+    "checks": {"model", "source", "schema", "compose", "lower"},
     "emit": {"model", "schema"},
     "simulate": {"model"},
     "runtime": set[str](),
     "testing": {"runtime"},
-    "pipeline": {"model", "source", "schema", "lower", "checks"},
-    "cli": {"model", "source", "schema", "lower", "checks", "emit", "simulate", "pipeline"},
+    "pipeline": {"model", "source", "schema", "compose", "lower", "checks"},
+    "cli": {"model", "source", "schema", "compose", "lower", "checks", "emit", "simulate", "pipeline"},
 }
 """Which other rooms a room may import."""
 

@@ -1,39 +1,81 @@
-"""The phases in their order: source, schema, lower, checks.
+"""The phases in their order: source, schema, compose (and schema again, for the whole), lower, checks.
 
 A phase reports all its errors; the next one runs only if there are none. Warnings stop nothing.
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from regscribe import checks, lower, schema, source
-from regscribe.model import Diagnostic, RegisterMap, Severity
+from regscribe import checks, compose, lower, schema, source
+from regscribe.lower.rules import DEPENDS_ON_MAP
+from regscribe.model import Diagnostic, RegisterMap, Related, Severity
+from regscribe.source import Document
 
 
 @dataclass(frozen=True, slots=True)
 class Compiled:
-    """What became of one file: the map, unless an error was found, and all that was found, in the file's order."""
+    """What became of one file: the map, unless an error was found, and all that was found, in the file's order.
+
+    There is no map of a library either. `files` are the other files that were read for it, each with its SHA-256.
+    """
 
     path: Path
     map: RegisterMap | None
     diagnostics: tuple[Diagnostic, ...] = ()
+    files: tuple[tuple[Path, str], ...] = ()
 
 
 def compile_map(path: Path) -> Compiled:
-    """Read, validate, lower and check the map at `path`; what is wrong with the file is in the diagnostics."""
+    """Read, validate, compose, lower and check the map at `path`; what is wrong is in the diagnostics."""
     document, found = source.load(path)
-    if document is None or has_errors(found):
-        return Compiled(path, None, _ordered(found))
-    found = [*found, *schema.validate(document)]
+    return Compiled(path, None, _ordered(found)) if document is None else compile_document(document, path)
+
+
+def compile_document(document: Document, path: Path) -> Compiled:
+    """Compile a document that was read; `path` is where it lies, and what it builds on is looked for from there."""
+    found = schema.validate(document)
     if has_errors(found):
         return Compiled(path, None, _ordered(found))
-    register_map, lowered = lower.lower(document)
-    found = [*found, *lowered]
+    if compose.is_library(document):
+        return Compiled(path, None, _ordered([*found, *_check_library(document, path)]))
+    composed = compose.compose(document, path)
+    found += composed.diagnostics
+    if composed.document is not None and composed.document is not document:
+        found += schema.validate(composed.document)
+    if composed.document is None or has_errors(found):
+        return Compiled(path, None, _ordered(found), composed.files)
+    register_map, checked = _meaning(composed)
+    return Compiled(path, register_map, _ordered([*found, *_told(checked, document)]), composed.files)
+
+
+def _meaning(composed: compose.Composed) -> tuple[RegisterMap | None, list[Diagnostic]]:
+    """Lower and check what was composed."""
+    if composed.document is None:
+        return None, []
+    register_map, found = lower.lower(composed.document)
     if register_map is None or has_errors(found):
-        return Compiled(path, None, _ordered(found))
-    found = [*found, *checks.check(register_map)]
-    return Compiled(path, None if has_errors(found) else register_map, _ordered(found))
+        return None, found
+    whole = replace(register_map, extends=composed.extends, uses=composed.uses, overrides=composed.overrides)
+    found = [*found, *checks.check(whole)]
+    return None if has_errors(found) else whole, found
+
+
+def _check_library(document: Document, path: Path) -> list[Diagnostic]:
+    """Look at a library alone: what it refers to must be in it, but for what each map adds."""
+    misplaced = compose.misplaced(document, path)
+    _, found = lower.lower(compose.as_map(document))
+    return [*misplaced, *(diagnostic for diagnostic in found if diagnostic.rule not in DEPENDS_ON_MAP)]
+
+
+def _told(found: Iterable[Diagnostic], document: Document) -> Iterable[Diagnostic]:
+    """Add to what is wrong in another file which map was being compiled."""
+    for diagnostic in found:
+        if diagnostic.span.file in {document.name, ""}:
+            yield diagnostic
+        else:
+            here = Related("in this map, which builds on that file", document.span(("map", "id")))
+            yield replace(diagnostic, related=(*diagnostic.related, here))
 
 
 def has_errors(found: Iterable[Diagnostic]) -> bool:

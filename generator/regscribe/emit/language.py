@@ -73,9 +73,10 @@ def _table(schema: Schema, definitions: Schema) -> Iterator[str]:
     if not all(_owner(own) for own in schema["properties"].values()):
         yield "| key | value | required | default | meaning | example |"
         yield "|---|---|---|---|---|---|"
+    required = {*schema.get("required", ()), *schema.get("else", {}).get("required", ())}  # else: of a map, no library
     for key, own in schema["properties"].items():
         if not _owner(own):
-            yield _row(key, own, _effective(own, definitions), required=key in schema.get("required", ()))
+            yield _row(key, own, _effective(own, definitions), required=key in required)
 
 
 def _row(key: str, own: Schema, details: Schema, *, required: bool) -> str:
@@ -184,9 +185,11 @@ def _rules(schema: Schema) -> Iterator[str]:
         if "x-missing" in branch
     ]
     for rule in (schema, *schema.get("allOf", ())):
+        refused: dict[str, list[str]] = {}
         for key, branch in rule.get("then", {}).get("properties", {}).items():
             if "not" in branch:
-                lines.append(f"- `{key}` {branch['description']}.")
+                refused.setdefault(branch["description"], []).append(f"`{key}`")
+        lines += [f"- {', '.join(keys)} {why}." for why, keys in refused.items()]
     if lines:
         yield "\n".join(lines) + "\n"
 

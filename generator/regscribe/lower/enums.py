@@ -1,13 +1,14 @@
 """Enums and bit fields, as one model has them."""
 
 from regscribe.lower.ends import whole_ends
-from regscribe.lower.names import identifier, snake
+from regscribe.lower.names import identifier
 from regscribe.lower.node import Node, text_of
 from regscribe.lower.presence import present
 from regscribe.lower.rules import BAD_BITS, UNKNOWN_ENUM
 from regscribe.lower.scope import Scope
 from regscribe.lower.tree import Entry
 from regscribe.model import BitField, Enum, Member
+from regscribe.model.name import snake
 
 
 def enum_of(node: Node, scope: Scope, *, inline_id: str) -> Enum | None:

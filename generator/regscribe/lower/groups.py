@@ -26,10 +26,10 @@ class Bundle:
 
 def bundles_of(root: Node, model: str, models: Models) -> list[Bundle]:
     """The groups of the map with the registers that `model` has, in the manual's order."""
-    return [_bundle(node, model, models) for node in elements_of(root, "groups")]
+    return [_bundle(node, root, model, models) for node in elements_of(root, "groups")]
 
 
-def _bundle(node: Node, model: str, models: Models) -> Bundle:
+def _bundle(node: Node, root: Node, model: str, models: Models) -> Bundle:
     name = identifier(node.child("name") or node, label=text_of(node, "name"), given=node.child("id"))
     each = node.child("each")
     place = Place(
@@ -39,6 +39,7 @@ def _bundle(node: Node, model: str, models: Models) -> Bundle:
         group=name,
         section=text_of(node, "source"),
         layers=(each,) if each else (),
+        sets=root.child("sets"),
     )
     return Bundle(node, name, items_in(elements_of(node, "registers"), place))
 

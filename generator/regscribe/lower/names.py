@@ -6,14 +6,10 @@ from difflib import get_close_matches
 
 from regscribe.lower.node import Node, brief
 from regscribe.lower.rules import NO_IDENTIFIER
+from regscribe.model.name import snake, unindexed
 
 _RUN = re.compile(r"[A-Za-z0-9]+")
 _LISTED = 12
-
-
-def snake(text: str) -> str:
-    """Lower snake case of a name: `Alarm 1 Action` gives `alarm_1_action`; empty where no letter or digit is."""
-    return "_".join(_RUN.findall(text)).lower()
 
 
 def letters_and_digits(text: str) -> str:
@@ -23,7 +19,7 @@ def letters_and_digits(text: str) -> str:
 
 def identifier(node: Node, *, label: str, given: Node | None, capitals: bool = False) -> str:
     """The identifier `given` in the map, or else the one derived from `label`; RS0317 where that is none."""
-    name = given.text() if given else snake(label)
+    name = given.text() if given else snake(unindexed(label))
     if not name.isidentifier():
         where = given or node
         what = f"`{name}` is no identifier" if given else f"no identifier can be derived from `{brief(label)}`"

@@ -33,12 +33,18 @@ class Context:
 
     document: Document
     found: dict[tuple[str, Span], Diagnostic] = field(default_factory=dict)
+    grown: dict[str, int] = field(default_factory=dict)
 
     def report(
         self, rule: str, message: str, *, span: Span, remedy: str = "", related: tuple[Related, ...] = ()
     ) -> None:
         """Keep a diagnostic, unless the same rule spoke at the same place already."""
         self.found.setdefault((rule, span), Diagnostic(rule, message, span, help=remedy, related=related))
+
+    def grow(self, model: str, registers: int) -> int:
+        """Count registers that sets put into a model; return how many there are so far."""
+        self.grown[model] = self.grown.get(model, 0) + registers
+        return self.grown[model]
 
     def spoke(self, rule: str, span: Span) -> bool:
         """Whether the rule spoke at this place already."""

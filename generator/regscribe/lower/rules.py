@@ -34,6 +34,8 @@ BAD_VERSION = "RS0329"
 WRONG_SORT = "RS0330"
 TOO_MANY_ELEMENTS = "RS0331"
 UNKNOWN_GROUP = "RS0332"
+UNKNOWN_SET = "RS0333"
+SET_IN_ITSELF = "RS0334"
 
 _NAMES = "A name must mean something, or the driver would look up what does not exist."
 
@@ -72,4 +74,11 @@ RULES: tuple[Rule, ...] = (
     Rule(WRONG_SORT, "Value of another sort", "A number cannot be made of a text, nor the other way round."),
     Rule(TOO_MANY_ELEMENTS, "Array beyond the address space", "There are 65536 addresses, and no more elements."),
     Rule(UNKNOWN_GROUP, "Unknown group", _NAMES),
+    Rule(UNKNOWN_SET, "Unknown set", _NAMES),
+    Rule(SET_IN_ITSELF, "Set that contains itself", "A set within itself would have no end."),
 )
+
+DEPENDS_ON_MAP = frozenset(
+    {UNKNOWN_REGISTER, OTHER_MODELS, UNKNOWN_GIVEN, UNKNOWN_MODEL, NO_ACCESS, IDLE_VARIANT, ON_NO_MODEL}
+)
+"""Rules that cannot be judged in a library alone: what it lacks may stand in the maps that use it."""

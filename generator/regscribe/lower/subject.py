@@ -4,11 +4,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from regscribe.lower.enums import code_anywhere, enum_for, fields_of
-from regscribe.lower.names import snake, unknown
+from regscribe.lower.names import unknown
 from regscribe.lower.node import Node, text_of
 from regscribe.lower.rules import UNKNOWN_FIELD, UNKNOWN_MEMBER
 from regscribe.lower.scope import Scope
 from regscribe.lower.tree import Entry
+from regscribe.model.name import snake
 
 
 @dataclass(frozen=True, slots=True)

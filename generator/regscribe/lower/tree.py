@@ -8,6 +8,7 @@ from regscribe.lower.names import identifier
 from regscribe.lower.node import Node, elements_of, text_of, whole_of
 from regscribe.lower.presence import Models, present
 from regscribe.lower.rules import ON_NO_MODEL, TOO_MANY_ELEMENTS
+from regscribe.lower.sets import left_of, table_of
 from regscribe.model import Span
 
 ADDRESSES = 65536
@@ -19,6 +20,8 @@ class Place:
 
     `among` are the models that the surroundings exist on, `layers` the `each` defaults from the outside in, `prefixes`
     the paths of the surrounding elements from the inside out, `shift` the steps that the elements add to `at`.
+    `over` are the keys that a use of a set lays over those of its registers; `sets` is the map's table of sets, `open`
+    the names of the sets around.
     """
 
     model: str
@@ -32,6 +35,9 @@ class Place:
     index: tuple[int, ...] = ()
     shift: int = 0
     elements: int = 1
+    over: tuple[Node, ...] = ()
+    sets: Node | None = None
+    open: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,9 +82,12 @@ def span_of(node: Node) -> Span:
 
 
 def items_in(nodes: list[Node], place: Place) -> tuple[Item, ...]:
-    """The registers and arrays of a list that the model of `place` has."""
+    """The registers and arrays of a list that the model of `place` has, those of sets among them."""
     items: list[Item] = []
     for node in nodes:
+        if node.child("set"):
+            items += _set(node, place)
+            continue
         has = present(node, place.among, place.every)
         if not has and place.among:
             _nowhere(node, place)
@@ -90,15 +99,33 @@ def items_in(nodes: list[Node], place: Place) -> tuple[Item, ...]:
     return tuple(items)
 
 
+def _set(node: Node, place: Place) -> tuple[Item, ...]:
+    """The registers of the set that `node` puts here."""
+    name, each = text_of(node, "set"), node.child("set_each")
+    has = present(node, place.among, place.every)
+    if not has and place.among:
+        _nowhere(node, place)
+    table = table_of(node, place.sets, place.open)
+    registers = left_of(table, node, place.model) if table and place.model in has else []
+    inside = replace(
+        place,
+        among=has,
+        shift=place.shift + whole_of(node, "shift"),
+        over=(each, *place.over) if each else place.over,
+        open=(*place.open, name),
+    )
+    return items_in(registers, inside)
+
+
 def _nowhere(node: Node, place: Place) -> None:
     at = node.child("except") or node.child("models") or node
-    message = f"`{text_of(node, 'name')}` is on no model"
+    message = f"`{text_of(node, 'name', text_of(node, 'set'))}` is on no model"
     at.report(ON_NO_MODEL, message, remedy=f"its surroundings are on: {', '.join(place.among)}")
 
 
 def _entry(node: Node, name: str, has: Models, place: Place) -> Entry:
     layers = [part for each in place.layers for part in with_variants(each, place.model, place.every, place.every)]
-    settings = settings_of([*layers, *with_variants(node, place.model, has, place.every)])
+    settings = settings_of([*layers, *with_variants(node, place.model, has, place.every), *place.over])
     return Entry(node=node, id=name, path=_inside(place, name), settings=settings, place=place)
 
 
@@ -121,12 +148,18 @@ def _branch(node: Node, name: str, place: Place) -> Branch:
     inside = replace(
         place,
         layers=(*place.layers, each) if each else place.layers,
-        section=text_of(node, "source", place.section),
+        section=_section(node, place),
         array=f"{place.array}.{name}" if place.array else name,
         elements=(last - first + 1) * place.elements,
     )
     elements = tuple(_element(node, name, inside, step, first) for step in range(last - first + 1))
     return Branch(node=node, id=name, first=first, stride=stride, section=inside.section, elements=elements)
+
+
+def _section(node: Node, place: Place) -> str:
+    """Where an array is described: as the use of its set says, else as it says itself, else as its surroundings do."""
+    told = [text_of(each, "source") for each in place.over if each.child("source")]
+    return told[-1] if told else text_of(node, "source", place.section)
 
 
 def _element(node: Node, name: str, place: Place, step: int, first: int) -> tuple[Item, ...]:

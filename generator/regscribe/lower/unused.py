@@ -11,17 +11,24 @@ from regscribe.model import Space, WireType
 
 
 def look_at_tables(root: Node, scope: Scope) -> None:
-    """Lower every named thing of the map for one model and forget it; the mistakes stay in the context."""
-    for _, node in items_of(root, "conditions"):
+    """Lower every named thing of the map for one model and forget it; the mistakes stay in the context.
+
+    What a library or a base declares may be for other maps: there only what is used counts.
+    """
+    for _, node in _own(root, "conditions"):
         condition(node, scope)
-    for name, node in items_of(root, "enums"):
+    for name, node in _own(root, "enums"):
         enum_at(node, scope, name)
-    for _, node in items_of(root, "views"):
+    for _, node in _own(root, "views"):
         set_at(node, Home(Space.HOLDING, at=0, length=1), scope)
-    for _, node in items_of(root, "decimals"):
+    for _, node in _own(root, "decimals"):
         rule_at(node, scope)
-    for _, node in items_of(root, "scales"):
+    for _, node in _own(root, "scales"):
         scale_at(node, WireType.INT16, scope)
-    for _, node in items_of(root, "units"):
+    for _, node in _own(root, "units"):
         if node.is_list:
             cases_at(node, scope)
+
+
+def _own(root: Node, table: str) -> list[tuple[str, Node]]:
+    return [(name, node) for name, node in items_of(root, table) if node.span.file == root.context.document.name]

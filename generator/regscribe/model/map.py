@@ -76,10 +76,14 @@ class Command:
 
 @dataclass(frozen=True, slots=True)
 class Identity:
-    """Under `when`, the device is one of `models` (several: the answer does not tell them apart)."""
+    """Under `when`, the device is one of `models` (several: the answer does not tell them apart).
+
+    `texts` are further demands: (register, text) of string registers whose value must begin with the text.
+    """
 
     when: Condition
     models: tuple[str, ...]
+    texts: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -87,6 +91,7 @@ class Model:
     """One product: only the registers it has, with its own enums, ranges and defaults.
 
     `members` keeps arrays folded, in the manual's order; `registers` is the same with arrays expanded.
+    `unused` are stretches of addresses (space, first, last) that read as 0 and refuse writes.
     """
 
     name: str
@@ -96,6 +101,7 @@ class Model:
     registers: tuple[Register, ...] = ()
     groups: tuple[Group, ...] = ()
     commands: tuple[Command, ...] = ()
+    unused: tuple[tuple[Space, int, int], ...] = ()
     by_path: dict[str, Register] = field(default_factory=dict, compare=False, hash=False, repr=False)
     span: Span = Span("")
 
@@ -198,9 +204,27 @@ class Waiver:
     span: Span = Span("")
 
 
+@dataclass(frozen=True, slots=True)
+class Override:
+    """What a map changes of the one that it extends, and why.
+
+    `what` is `register`, `group`, `command`, `enum`, `errata`, `examples`, `notes` or `waivers`; `changed` says key by
+    key what was and what is (`default: 77 -> 100`). Nothing in `changed`: the thing is dropped.
+    """
+
+    what: str
+    id: str
+    reason: str
+    changed: tuple[str, ...] = ()
+    span: Span = Span("")
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RegisterMap:
-    """A device family, read from one YAML file. `content_hash` is the SHA-256 of the file's bytes, in hex."""
+    """A device family, read from a YAML file and those that it builds on (`extends` one map, `uses` libraries).
+
+    `content_hash` is the SHA-256 in hex of the file's bytes, or of the hashes of all files where there are several.
+    """
 
     id: str
     title: str
@@ -221,6 +245,9 @@ class RegisterMap:
     waivers: tuple[Waiver, ...] = ()
     notes: tuple[str, ...] = ()
     unit_symbols: tuple[str, ...] = ()
+    extends: str = ""
+    uses: tuple[str, ...] = ()
+    overrides: tuple[Override, ...] = ()
     span: Span = Span("")
 
     def model(self, name: str) -> Model:

@@ -43,19 +43,25 @@ class Faults:
     misaligned_address: int = 2
     misaligned_count: int = 3
     view_function: int = 2
+    unused_write: int = 2
     later_read: Later = Later.EXCEPTION
     later_write: Later = Later.EXCEPTION
 
 
 @dataclass(frozen=True, slots=True)
 class Latency:
-    """Milliseconds from the end of a request to the start of the answer: fixed part plus a part for each word."""
+    """Milliseconds from the end of a request to the start of the answer: fixed part plus a part for each word.
+
+    `characters` character times at the speed of the line are added to both ends; `note` is the manual's further remark.
+    """
 
     function: int
     minimum: Fraction = Fraction(0)
     maximum: Fraction = Fraction(0)
     minimum_per_word: Fraction = Fraction(0)
     maximum_per_word: Fraction = Fraction(0)
+    characters: Fraction = Fraction(0)
+    note: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -76,6 +82,7 @@ class Protocol:
     """What the device accepts: function codes, unit ids, most words (or bits) in a request, holes and faults.
 
     `read_holes`: whether a read may run over addresses of no register (a planner may then bridge gaps).
+    `alike`: function codes that do the same (2 reads coils as 1 does); registers stand in the space of one of them.
     """
 
     functions: tuple[int, ...] = (3, 6, 16)
@@ -92,3 +99,4 @@ class Protocol:
     latencies: tuple[Latency, ...] = ()
     serial: Serial = Serial()
     section: str = ""
+    alike: tuple[tuple[int, ...], ...] = ()

@@ -72,6 +72,7 @@ class Register:
     word's bits), a text, or None where the manual gives none. `section` is where the manual describes it.
     `rescales` names the unit (of the map's units) whose registers the device converts when this one is written.
     `unlock` and `apply` name commands that must precede and follow a write.
+    `symbol` is a clean reading of the manual's short code, `printed` the code as it is printed (empty: the same).
     `version_digits` is how many decimal digits a `VERSION` packs, `version_groups` how many digits stand in a group.
     """
 
@@ -107,6 +108,7 @@ class Register:
     version_group: int = 0
     array: str = ""
     index: tuple[int, ...] = ()
+    printed: str = ""
     span: Span = Span("")
 
     @property

@@ -95,12 +95,13 @@ class Sentinel:
 
 @dataclass(frozen=True, slots=True)
 class Member:
-    """One code of an enum; `id` is its Python name in capitals."""
+    """One code of an enum; `id` is its Python name in capitals, `cells` what the enum's columns say of it."""
 
     code: int
     label: str
     id: str
     description: str = ""
+    cells: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,6 +109,7 @@ class Enum:
     """Codes with meanings, as one model has them; `invalid` lists codes that the manual calls invalid, with why.
 
     `id` is the map's name; models whose members differ have enums of the same id with different members.
+    `columns` are the heads of the manual's table, where it says several things of each code.
     """
 
     id: str
@@ -115,6 +117,7 @@ class Enum:
     invalid: tuple[tuple[int, str], ...] = ()
     description: str = ""
     span: Span = Span("")
+    columns: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -102,7 +102,7 @@ def _unknown_keys(error: Violation, path: tuple[str | int, ...]) -> Iterator[Com
     patterns = list(schema.get("patternProperties", ()))
     for key in _unmatched(error.instance, known, patterns):
         shown = describe(key)
-        if "x-key" in schema and not known:
+        if "x-key" in schema and not get_close_matches(key[:100].lower(), known, n=1):
             form = schema["x-key"]
             said = f"{shown} is not in the form of {form['title']}: {form['description']}"
             yield Complaint(WRONG_FORM, (*path, key), said, example(form), at_key=True)

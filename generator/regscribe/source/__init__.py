@@ -7,7 +7,7 @@
 from pathlib import Path as FilePath
 
 from regscribe.model import Diagnostic
-from regscribe.source.document import Document, Path, Plain
+from regscribe.source.document import Document, Node, Path, Place, Plain
 from regscribe.source.reading import display_name, parse, read
 from regscribe.source.rules import RULES
 from regscribe.source.scalars import NumberFormError, resolve, shorten
@@ -15,8 +15,10 @@ from regscribe.source.scalars import NumberFormError, resolve, shorten
 __all__ = [
     "RULES",
     "Document",
+    "Node",
     "NumberFormError",
     "Path",
+    "Place",
     "Plain",
     "display_name",
     "load",

@@ -81,7 +81,7 @@ class Composer:
         try:
             yield from yaml.parse(self._text, Loader=_LOADER)
         except yaml.YAMLError as error:
-            raise explain(error, self._findings) from None
+            raise explain(error, self._text, self._findings) from None
 
     def _take(self, event: Event) -> None:
         if isinstance(event, ScalarEvent):

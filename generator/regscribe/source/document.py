@@ -16,16 +16,20 @@ Path = tuple[str | int, ...]
 
 
 class Place(NamedTuple):
-    """Start and end (exclusive) in the text; lines and columns count from 0."""
+    """Start and end (exclusive) in the text; lines and columns count from 0.
+
+    `file` is empty in the document's own file; in a document of several files it tells the others apart.
+    """
 
     line: int
     column: int
     end_line: int
     end_column: int
+    file: str = ""
 
     def span(self, file: str) -> Span:
         """Count from 1, as people do."""
-        return Span(file, self.line + 1, self.column + 1, self.end_line + 1, self.end_column + 1)
+        return Span(self.file or file, self.line + 1, self.column + 1, self.end_line + 1, self.end_column + 1)
 
 
 class Node(NamedTuple):
@@ -51,6 +55,9 @@ class Node(NamedTuple):
 @dataclass(frozen=True, slots=True)
 class Document:
     """A map as read: `name` is the file as diagnostics show it, `content_hash` the SHA-256 of its bytes in hex.
+
+    A document may be composed of several files: then each place below `root` knows the file that it lies in, `text` is
+    that of the file `name`, and `content_hash` stands for all of them.
 
     `text` has line feeds as its only line ends and no byte order mark, so that a span's line is the element
     `span.line - 1` of `text` split at line feeds.

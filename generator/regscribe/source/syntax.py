@@ -2,6 +2,7 @@
 
 import yaml
 
+from regscribe.source.decoding import place_at
 from regscribe.source.document import Place
 from regscribe.source.findings import Findings, StopReadingError
 from regscribe.source.rules import SYNTAX
@@ -46,17 +47,26 @@ _BLAMED_ON_START = ("end of stream", "could not find expected ':'")
 _ELSEWHERE = "check indentation, quotes and brackets around here"
 
 
-def explain(error: yaml.YAMLError, findings: Findings) -> StopReadingError:
-    """Add the parser's `error` to the findings; the caller raises what this returns."""
+def explain(error: yaml.YAMLError, text: str, findings: Findings) -> StopReadingError:
+    """Add the parser's `error` in `text` to the findings; the caller raises what this returns."""
     if not isinstance(error, yaml.MarkedYAMLError):
         return findings.stop(SYNTAX, "the file is not YAML", Place(0, 0, 0, 0), advice=_ELSEWHERE)
     problem = error.problem or "not well-formed"
     message, advice = next(((said, do) for part, said, do in _KNOWN if part in problem), (problem, _ELSEWHERE))
     place, start = _place(error.problem_mark), _place(error.context_mark)
+    last = _last(text)
+    if place.line > last.line:
+        place, problem = last, _BLAMED_ON_START[0]
     if error.context_mark and any(part in problem for part in _BLAMED_ON_START):
         return findings.stop(SYNTAX, message, start, advice=advice)
     related = ((error.context or "in what starts here", start),) if error.context_mark and start != place else ()
     return findings.stop(SYNTAX, message, place, advice=advice, related=related)
+
+
+def _last(text: str) -> Place:
+    """Place the last character that is no blank: libyaml counts a line more than a text has that ends without one."""
+    rest = text.rstrip()
+    return place_at(rest, max(0, len(rest) - 1))
 
 
 def _place(mark: "yaml.Mark | None") -> Place:

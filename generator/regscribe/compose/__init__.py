@@ -1,0 +1,122 @@
+"""The files of a map to one document: the map that it extends, the libraries that it uses, and itself.
+
+`compose` takes a document whose shape is right and gives one whose shape is to be validated again: a plain map, in
+which each value still knows the file that it stands in. A map that stands alone passes unchanged.
+"""
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from regscribe.compose.extension import extended
+from regscribe.compose.findings import Findings
+from regscribe.compose.libraries import as_map, with_libraries
+from regscribe.compose.rules import CYCLE, OTHER_ID, RULES
+from regscribe.compose.shelf import ENDINGS, LIBRARY, MAP, File, Shelf, folder_of
+from regscribe.compose.tree import cut, elements, in_file, text
+from regscribe.model import Diagnostic, Override
+from regscribe.source import Document, Node, Place
+
+__all__ = ["RULES", "Composed", "as_map", "compose", "is_library", "misplaced"]
+
+COMPOSING = ("extends", "uses", "renumber", "drop", "override")
+"""Top-level keys that have done their work when a map is composed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Composed:
+    """The document of all files, None if there are diagnostics; what it was made of, with the SHA-256 of each file."""
+
+    document: Document | None
+    diagnostics: tuple[Diagnostic, ...] = ()
+    extends: str = ""
+    uses: tuple[str, ...] = ()
+    overrides: tuple[Override, ...] = ()
+    files: tuple[tuple[Path, str], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class _Part:
+    """A map of the chain as far as it is composed, and the libraries in it."""
+
+    root: Node
+    libraries: tuple[str, ...] = ()
+    overrides: tuple[Override, ...] = ()
+
+
+def is_library(document: Document) -> bool:
+    """Whether the file is a library and no map."""
+    return isinstance(document.data, dict) and LIBRARY in document.data
+
+
+def misplaced(library: Document, path: Path) -> list[Diagnostic]:
+    """What is wrong with the name of a library's file: no map finds it under another than its id."""
+    name = str(library.data[LIBRARY]["id"]).rpartition("/")[2] + ENDINGS[LIBRARY]
+    if path.name == name:
+        return []
+    message = f"the library `{library.data[LIBRARY]['id']}` stands in {path.name}, where no map finds it"
+    return [Diagnostic(OTHER_ID, message, library.span((LIBRARY, "id")), f"call the file {name}, or correct the id")]
+
+
+def compose(document: Document, path: Path) -> Composed:
+    """The map of `document`, which lies at `path`, with all that it builds on."""
+    root = document.root
+    null = any(command.value is None for command in ((root.child("commands") or root).members or {}).values())
+    if is_library(document) or not (null or any(root.child(key) for key in COMPOSING)):
+        return Composed(document)
+    findings = Findings()
+    root = in_file(root, document.name)
+    about = root.child(MAP) or root
+    own = File(text(about.child("id")), path, root)
+    shelf = Shelf(folder_of(path, own.id), findings)
+    part = _build(own, shelf, (own,))
+    files = tuple(shelf.hashes.items())
+    if part is None or findings.diagnostics:
+        return Composed(None, tuple(sorted(findings.diagnostics, key=lambda found: found.span)), files=files)
+    content_hash = shelf.content_hash(document.content_hash) if files else document.content_hash
+    whole = replace(document, data=part.root.value, root=part.root, content_hash=content_hash)
+    return Composed(whole, (), text(root.child("extends")), part.libraries, part.overrides, files)
+
+
+def _build(file: File, shelf: Shelf, chain: tuple[File, ...]) -> _Part | None:
+    """Compose one map of a chain of extensions, the deepest first; None if something that it needs is missing."""
+    base = _base(file, shelf, chain)
+    known = base.libraries if base else ()
+    wanted = [node for node in elements(file.root.child("uses")) if text(node) not in known]
+    libraries = [shelf.find(node, LIBRARY) for node in wanted]
+    if (file.root.child("extends") and base is None) or None in libraries:
+        return None
+    found = [library for library in libraries if library is not None]
+    own = with_libraries(file.root, found, shelf.findings)
+    names = (*known, *(library.id for library in found))
+    if base is None:
+        return _Part(_plain(own), names)
+    root, overrides = extended(base.root, own, shelf.findings)
+    return _Part(_plain(root), names, overrides)
+
+
+def _base(file: File, shelf: Shelf, chain: tuple[File, ...]) -> _Part | None:
+    node = file.root.child("extends")
+    found = shelf.find(node, MAP) if node else None
+    if node is None or found is None:
+        return None
+    if any(found.path.resolve() == each.path.resolve() for each in chain):
+        _refuse_cycle(node, found, shelf, chain)
+        return None
+    return _build(found, shelf, (*chain, found))
+
+
+def _refuse_cycle(node: Node, found: File, shelf: Shelf, chain: tuple[File, ...]) -> None:
+    names = " -> ".join([*(each.id for each in chain), found.id])
+    steps: list[tuple[str, Place]] = []
+    for each in chain[:-1]:
+        step = each.root.child("extends")
+        if step is not None:
+            steps.append((f"`{each.id}` extends `{text(step)}`", step.place))
+    message = f"the map extends itself: {names}"
+    shelf.findings.add(CYCLE, message, node.place, "let one of them stand alone", *steps)
+
+
+def _plain(root: Node) -> Node:
+    for key in COMPOSING:
+        root = cut(root, key) if root.child(key) is not None else root
+    return root

@@ -1,0 +1,64 @@
+"""Libraries: their names become names of the map, their commands, errata and notes come along."""
+
+from regscribe.compose.findings import Findings, meant
+from regscribe.compose.merge import TABLES, append, merge_notations, merge_protocol, merge_tables
+from regscribe.compose.rules import LEAVES_NOTHING_OUT
+from regscribe.compose.shelf import File
+from regscribe.compose.tree import cut, edit, key_place, listing, mapping, members, put, scalar
+from regscribe.source import Document, Node
+
+_LISTS = ("errata", "notes")
+_MERGED = {*TABLES, *_LISTS, "notations", "protocol"}
+
+
+def with_libraries(root: Node, libraries: list[File], findings: Findings) -> Node:
+    """The map with all that its libraries hold, less the commands that it gives as null."""
+    left_out = _left_out(root)
+    below = mapping({}, {}, root.place)
+    for library in libraries:
+        part = _without(library.root, left_out)
+        below = _laid(below, part, findings, owner="another library", advice="use one of the two libraries only")
+    every = [name for library in libraries for name in members(library.root.child("commands"))]
+    for name in left_out - set(every):
+        message = f"there is no command `{name}` in a library that could be left out"
+        where = key_place(root.child("commands") or root, name)
+        findings.add(
+            LEAVES_NOTHING_OUT, message, where, f"commands of a base are dropped by `drop`; {meant(name, every)}"
+        )
+    own = _without(root, left_out)
+    merged = _laid(below, own, findings, owner="a library that it uses", advice="use that one, or rename yours")
+    for key, value in (own.members or {}).items():
+        if key not in _MERGED:
+            merged = put(merged, key, value, key_place(own, key))
+    return merged
+
+
+def _laid(below: Node, above: Node, findings: Findings, *, owner: str, advice: str) -> Node:
+    below = merge_tables(below, above, findings, owner=owner, advice=advice)
+    below = append(merge_notations(below, above, findings, owner=owner), above, _LISTS)
+    protocol = merge_protocol(below.child("protocol"), above.child("protocol"))
+    return below if protocol is None else put(below, "protocol", protocol, key_place(above, "protocol"))
+
+
+def _left_out(root: Node) -> set[str]:
+    return {name for name, command in members(root.child("commands")).items() if command.value is None}
+
+
+def _without(root: Node, commands: set[str]) -> Node:
+    for name in sorted(commands):
+        root = edit(root, ("commands", name), lambda _: None)
+    return root
+
+
+def as_map(library: Document) -> Document:
+    """A map of one model with a group for each set of a library, so that its references can be looked at."""
+    root, place = library.root, library.root.place
+    groups = []
+    for name, registers in members(root.child("sets")).items():
+        label = scalar(name, registers.place)
+        groups.append(mapping({"id": label, "name": label, "registers": registers}, {}, registers.place))
+    about = root.child("library") or root
+    models = mapping({"Library": mapping({}, {}, place)}, {}, place)
+    root = put(put(cut(root, "library"), "map", about, place), "models", models, place)
+    root = put(root, "groups", listing(groups, place), place)
+    return Document(library.name, library.text, root.value, library.content_hash, root)

@@ -1,0 +1,100 @@
+"""The tables of one file laid beside those of another: under each name there is one thing, or it is an error."""
+
+from collections.abc import Iterable
+
+from regscribe.compose.findings import Findings
+from regscribe.compose.rules import NAME_CLASH
+from regscribe.compose.tree import elements, key_place, listing, mapping, members, put, text
+from regscribe.source import Node
+
+TABLES = {
+    "givens": "given",
+    "conditions": "condition",
+    "units": "unit",
+    "enums": "enum",
+    "views": "view set",
+    "decimals": "decimals rule",
+    "scales": "scale",
+    "sets": "set",
+    "commands": "command",
+}
+"""Top-level mappings from a name to a thing, and what the thing is called."""
+
+LISTS = ("reserved", "unused", "examples", "errata", "waivers", "notes")
+"""Top-level lists to which each file adds."""
+
+NESTED = ("limits", "faults", "exceptions", "latency", "serial")
+"""Keys of `protocol` that are merged key by key in turn."""
+
+
+def merge_protocol(below: Node | None, above: Node | None) -> Node | None:
+    """The protocol of both; what stands above wins, key by key."""
+    if below is None or above is None:
+        return above or below
+    merged = below
+    for key, value in members(above).items():
+        under = below.child(key)
+        new = _over(under, value) if key in NESTED and under is not None else value
+        merged = put(merged, key, new, key_place(above, key))
+    return merged
+
+
+def _over(below: Node, above: Node) -> Node:
+    for key, value in members(above).items():
+        below = put(below, key, value, key_place(above, key))
+    return below
+
+
+def merge_tables(below: Node, above: Node, findings: Findings, *, owner: str, advice: str) -> Node:
+    """`below` with the entries of the tables of `above`; a name that both have is an error at the one above.
+
+    `owner` says whose the names below are; they stand first.
+    """
+    for table, what in TABLES.items():
+        added = above.child(table)
+        if added is None:
+            continue
+        have = below.child(table)
+        merged = have or mapping({}, {}, added.place)
+        for name, value in members(added).items():
+            clash = have.child(name) if have else None
+            if have is not None and clash is not None:
+                message = f"the {what} `{name}` is declared here and in {owner}"
+                other = (f"the {what} of {owner}", key_place(have, name))
+                findings.add(NAME_CLASH, message, key_place(added, name), advice, other)
+            else:
+                merged = put(merged, name, value, key_place(added, name))
+        below = put(below, table, merged, key_place(above, table))
+    return below
+
+
+def merge_notations(below: Node, above: Node, findings: Findings, *, owner: str) -> Node:
+    """`below` with the notations of `above`; one name for one space in both is an error."""
+    have = {(text(one.child("name")), text(one.child("space"))): one for one in elements(below.child("notations"))}
+    for one in elements(above.child("notations")):
+        clash = have.get((text(one.child("name")), text(one.child("space"))))
+        if clash is not None:
+            message = f"the notation `{text(one.child('name'))}` is declared here and in {owner}"
+            other = (f"the notation of {owner}", clash.place)
+            findings.add(NAME_CLASH, message, one.place, "remove one of the two", other)
+    return append(below, above, ("notations",))
+
+
+def append(below: Node, above: Node, keys: Iterable[str]) -> Node:
+    """`below` with the elements of the lists of `above` behind its own."""
+    for key in keys:
+        added = above.child(key)
+        if added is not None:
+            have = below.child(key)
+            both = listing([*elements(have), *elements(added)], (have or added).place)
+            below = put(below, key, both, key_place(above, key))
+    return below
+
+
+def replace(below: Node, above: Node, keys: Iterable[str]) -> Node:
+    """`below` with the values that `above` has under these keys."""
+    for key in keys:
+        value = above.child(key)
+        if value is not None:
+            below = put(below, key, value, key_place(above, key))
+    return below

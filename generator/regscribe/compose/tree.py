@@ -1,0 +1,114 @@
+"""Parsed values of several files as one tree: each value keeps the place that it came from. Trees are never mutated."""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+
+from regscribe.model.name import snake, unindexed
+from regscribe.source import Node, Place, Plain
+
+Step = str | int
+Location = tuple[Step, ...]
+"""Keys and list indices from the top of the tree to a value."""
+
+
+def mapping(members: Mapping[str, Node], keys: Mapping[str, Place], place: Place) -> Node:
+    """A mapping of these values; a key without a place of its own stands where its value does."""
+    known = {key: keys.get(key, member.place) for key, member in members.items()}
+    return Node({key: member.value for key, member in members.items()}, place, known, dict(members))
+
+
+def listing(elements: Iterable[Node], place: Place) -> Node:
+    """A list of these values."""
+    every = list(elements)
+    return Node([element.value for element in every], place, elements=every)
+
+
+def scalar(value: Plain, place: Place) -> Node:
+    """A text or a number."""
+    return Node(value, place)
+
+
+def in_file(node: Node, name: str) -> Node:
+    """The same tree, with the file's name at each place: so it can be told from values of other files."""
+    place = node.place._replace(file=name)
+    if node.members is not None:
+        keys = {key: where._replace(file=name) for key, where in (node.keys or {}).items()}
+        return mapping({key: in_file(member, name) for key, member in node.members.items()}, keys, place)
+    if node.elements is not None:
+        return listing((in_file(element, name) for element in node.elements), place)
+    return node._replace(place=place)
+
+
+def members(node: Node | None) -> dict[str, Node]:
+    """The values of a mapping by key, without `x-` keys; none of any other value."""
+    every = (node.members if node else None) or {}
+    return {key: member for key, member in every.items() if not key.startswith("x-")}
+
+
+def elements(node: Node | None) -> list[Node]:
+    """The elements of a list; none of any other value."""
+    return (node.elements if node else None) or []
+
+
+def key_place(node: Node, key: str) -> Place:
+    """Where a key stands; where there is none of that name, where the mapping does."""
+    return (node.keys or {}).get(key, node.place)
+
+
+def text(node: Node | None) -> str:
+    """A scalar as text; empty for none."""
+    return "" if node is None or node.value is None else str(node.value)
+
+
+def put(node: Node, key: str, value: Node, place: Place) -> Node:
+    """The mapping with another value under a key; a new key comes last."""
+    return mapping({**(node.members or {}), key: value}, {**(node.keys or {}), key: place}, node.place)
+
+
+def cut(node: Node, key: str) -> Node:
+    """The mapping without a key."""
+    kept = {name: member for name, member in (node.members or {}).items() if name != key}
+    return mapping(kept, node.keys or {}, node.place)
+
+
+def at(node: Node, location: Location) -> Node | None:
+    """The value at a location, if there is one."""
+    found: Node | None = node
+    for step in location:
+        found = found.child(step) if found else None
+    return found
+
+
+def edit(node: Node, location: Location, change: Callable[[Node], Node | None]) -> Node:
+    """The tree with `change` applied to what stands at a location that exists; None removes it."""
+    step, rest = location[0], location[1:]
+    child = node.child(step)
+    if child is None:
+        return node
+    new = edit(child, rest, change) if rest else change(child)
+    if node.elements is not None:
+        kept = (new if place == step else element for place, element in enumerate(node.elements))
+        return listing((element for element in kept if element is not None), node.place)
+    key = str(step)
+    return cut(node, key) if new is None else put(node, key, new, key_place(node, key))
+
+
+def id_of(node: Node) -> str:
+    """The id of a register, an array or a group: given, or made of its name."""
+    return text(node.child("id")) or snake(unindexed(text(node.child("name"))))
+
+
+def registers(root: Node) -> Iterator[tuple[str, Location]]:
+    """Every register and array of a map, in groups and in sets: its id with those of arrays around it, and where."""
+    for number, group in enumerate(elements(root.child("groups"))):
+        yield from _registers(group.child("registers"), ("groups", number, "registers"), "")
+    for name, one in members(root.child("sets")).items():
+        yield from _registers(one, ("sets", name), "")
+
+
+def _registers(node: Node | None, location: Location, prefix: str) -> Iterator[tuple[str, Location]]:
+    for number, element in enumerate(elements(node)):
+        if element.child("set"):
+            continue
+        name = f"{prefix}{id_of(element)}"
+        yield name, (*location, number)
+        yield from _registers(element.child("registers"), (*location, number, "registers"), f"{name}.")

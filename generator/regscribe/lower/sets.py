@@ -1,0 +1,48 @@
+"""Sets of registers: which one a use names, and what of it is put there."""
+
+from regscribe.lower.names import unknown
+from regscribe.lower.node import Node, elements_of, text_of, texts_of
+from regscribe.lower.rules import SET_IN_ITSELF, TOO_MANY_ELEMENTS, UNKNOWN_REGISTER, UNKNOWN_SET
+from regscribe.model.name import snake, unindexed
+
+MOST = 65536
+"""Registers that sets put into one model: there are no more addresses."""
+
+
+def table_of(node: Node, sets: Node | None, around: tuple[str, ...]) -> Node | None:
+    """The set that `node` names; RS0333 where there is none, RS0334 where it is one of those `around` it."""
+    name = text_of(node, "set")
+    at = node.child("set") or node
+    table = sets.child(name) if sets else None
+    if table is None:
+        unknown(at, UNKNOWN_SET, "set", name, [key for key, _ in sets.items()] if sets else [])
+        return None
+    if name in around:
+        message = f"the set contains itself: {' -> '.join((*around, name))}"
+        at.report(SET_IN_ITSELF, message, remedy="put its registers into a set of their own, and use that twice")
+        return None
+    return table
+
+
+def left_of(table: Node, node: Node, model: str) -> list[Node]:
+    """The elements of a set but those that `except_ids` of `node` names.
+
+    RS0301 for an id that the set does not have, RS0331 where sets have grown beyond all addresses.
+    """
+    ids = {_id(element): element for element in table.elements()}
+    for left_out in elements_of(node, "except_ids"):
+        if left_out.text() not in ids:
+            unknown(left_out, UNKNOWN_REGISTER, "register", left_out.text(), ids, of=text_of(node, "set"))
+    names = set(texts_of(node, "except_ids"))
+    kept = [element for element in table.elements() if _id(element) not in names]
+    if node.context.grow(model, len(kept)) <= MOST:
+        return kept
+    message = f"sets put more than {MOST} registers into {model}"
+    node.report(TOO_MANY_ELEMENTS, message, remedy="look for a set that is used in a set that is used often")
+    return []
+
+
+def _id(node: Node) -> str:
+    if node.child("set"):
+        return ""
+    return text_of(node, "id") or snake(unindexed(text_of(node, "name")))
