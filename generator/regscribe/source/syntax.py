@@ -56,7 +56,7 @@ def explain(error: yaml.YAMLError, text: str, findings: Findings) -> StopReading
     place, start = _place(error.problem_mark), _place(error.context_mark)
     last = _last(text)
     if place.line > last.line:
-        place, problem = last, _BLAMED_ON_START[0]
+        place, start, problem = last, min(start, last), _BLAMED_ON_START[0]
     if error.context_mark and any(part in problem for part in _BLAMED_ON_START):
         return findings.stop(SYNTAX, message, start, advice=advice)
     related = ((error.context or "in what starts here", start),) if error.context_mark and start != place else ()
