@@ -1,27 +1,20 @@
 """Reference docs in Markdown: a map in, `{path: text}` out; no clock, no environment, no order of sets."""
 
-from collections.abc import Iterable
 from functools import cache
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
-from regscribe.emit.markdown.build import index, page
+from regscribe.emit.markdown.build import index_row, page
 from regscribe.emit.markdown.escape import Md, escape
 from regscribe.model import RegisterMap
 
-__all__ = ["render", "render_index"]
+__all__ = ["index_row", "render"]
 
 
 def render(register_map: RegisterMap) -> dict[str, str]:
     """Return the reference of a map: CommonMark with tables, at `docs/<maker>/<family>.md`."""
     text = _environment().get_template("page.md.j2").render(page=page(register_map))
     return {f"docs/{register_map.id}.md": text}
-
-
-def render_index(maps: Iterable[RegisterMap]) -> dict[str, str]:
-    """Return the list of all references, ordered by id, at `docs/README.md`."""
-    text = _environment().get_template("index.md.j2").render(index=index(maps))
-    return {"docs/README.md": text}
 
 
 @cache

@@ -1,7 +1,5 @@
 """The page of a map and the list of all pages, ready for the templates."""
 
-from collections.abc import Iterable
-
 from regscribe.emit.header import header
 from regscribe.emit.markdown.context import Context, context
 from regscribe.emit.markdown.entries import commands, sections
@@ -9,7 +7,7 @@ from regscribe.emit.markdown.escape import Md, code, escape, join, link, md, pro
 from regscribe.emit.markdown.examples import examples
 from regscribe.emit.markdown.line import exceptions, faults, latency, line
 from regscribe.emit.markdown.overview import overview
-from regscribe.emit.markdown.page import Index, Page, Table, table
+from regscribe.emit.markdown.page import Page, Table, table
 from regscribe.emit.markdown.quickstart import quick_start
 from regscribe.emit.markdown.transmission import conditions, givens, identity, plain, reserved, units, views
 from regscribe.emit.text import one_line
@@ -74,17 +72,12 @@ def _errata(found: Context) -> Table:
     return table(("Where", "The manual says", "Read as", "Why"), rows)
 
 
-def index(maps: Iterable[RegisterMap]) -> Index:
-    """Return the list of the references of several maps."""
-    headers = ("Device family", "Maker", "Models", "Registers", "Manual")
-    rows = (
-        (
-            md(Md("["), one_line(item.title), Md(f"]({item.id}.md)")),
-            one_line(item.maker),
-            ", ".join(one_line(model.name) for model in item.models),
-            str(max((len(model.registers) for model in item.models), default=0)),
-            _manual(item.manual),
-        )
-        for item in sorted(maps, key=lambda item: item.id)
+def index_row(register_map: RegisterMap) -> tuple[str, ...]:
+    """Return what the list of all references says of a map, ready: link, maker, models, registers at most, manual."""
+    return (
+        md(Md("["), one_line(register_map.title), Md(f"]({register_map.id}.md)")),
+        escape(one_line(register_map.maker)),
+        escape(", ".join(one_line(model.name) for model in register_map.models)),
+        str(max((len(model.registers) for model in register_map.models), default=0)),
+        _manual(register_map.manual),
     )
-    return Index(maps=table(headers, rows))

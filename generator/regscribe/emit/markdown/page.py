@@ -108,10 +108,3 @@ class Page:
     examples: tuple[Titled, ...]
     errata: Table
     notes: tuple[Md, ...]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Index:
-    """The list of all references."""
-
-    maps: Table
