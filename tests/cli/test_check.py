@@ -30,6 +30,11 @@ def test_an_error_exits_1_and_shows_the_line_with_carets(cli: Callable[..., Any]
     assert result.out.endswith("1 map checked: 1 error\n")
 
 
+def test_a_separator_that_ends_no_line_does_not_shift_what_is_shown(cli: Callable[..., Any], oven: Path) -> None:
+    oven.write_text(oven.read_text().replace("name: Control", "name: Con\u2028trol"))
+    assert "    9 |     name: Con\ufffdtrol\n      |              ^\n" in cli("check").out
+
+
 def test_all_maps_are_checked_even_if_the_first_is_wrong(cli: Callable[..., Any], oven: Path) -> None:
     (oven.parent / "a.yaml").write_text("")
     (oven.parent / "b.yaml").write_text("x: [")

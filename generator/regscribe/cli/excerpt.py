@@ -13,8 +13,8 @@ WIDTH = 110
 MOST_BYTES = 8_000_000
 """A larger file is not read again just to show a line of it."""
 
-LINE_BREAK = re.compile("\r\n|[\n\r\x85\u2028\u2029]")
-"""What YAML counts as the end of a line."""
+LINE_BREAK = re.compile("\r\n|[\n\r]")
+"""What the places of diagnostics count as the end of a line."""
 
 
 @dataclass(frozen=True, slots=True)
