@@ -11,15 +11,15 @@ from regscribe.model import Condition, Register, Rule
 def identification(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
     """Count models and conditions of the identification, if the map has one."""
     register_map = scopes[0].register_map
-    conditions: set[Condition] = set()
+    conditions: set[tuple[Condition, tuple[tuple[str, str], ...]]] = set()
     for identity in register_map.identity:
         twice = [name for name, count in Counter(identity.models).items() if count > 1]
         if twice:
             yield Finding(MAP, register_map.span, f"`identify` lists {', '.join(twice)} twice at once", "remove one")
-        if identity.when in conditions:
+        if (identity.when, identity.texts) in conditions:
             message = f"`identify` has two entries of one condition (the second for {', '.join(identity.models)})"
             yield Finding(MAP, register_map.span, message, "list the models in one entry")
-        conditions.add(identity.when)
+        conditions.add((identity.when, identity.texts))
     listed = {name for identity in register_map.identity for name in identity.models}
     missing = [model.name for model in register_map.models if listed and model.name not in listed]
     if missing:

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from regscribe.lower.about import errata_of, givens_of, manual_of, notations_of, reserved_of, waivers_of
+from regscribe.lower.about import errata_of, givens_of, manual_of, notations_of, reserved_of, unused_of, waivers_of
 from regscribe.lower.arrays import members_of
 from regscribe.lower.commands import Device, commands_of
 from regscribe.lower.conditions import condition
@@ -12,7 +12,8 @@ from regscribe.lower.names import letters_and_digits
 from regscribe.lower.node import Node, elements_of, items_of, text_of, texts_of
 from regscribe.lower.presence import Models, named_models
 from regscribe.lower.protocol import protocol_of
-from regscribe.lower.scope import Scope
+from regscribe.lower.scope import Scope, path_of
+from regscribe.lower.subject import subject_of
 from regscribe.lower.units import own_symbols
 from regscribe.lower.unused import look_at_tables
 from regscribe.model import Identity, Model, Protocol, RegisterMap
@@ -77,6 +78,7 @@ def _product(root: Node, scope: Scope, bundles: list[Bundle], protocol: Protocol
         registers=registers,
         groups=groups_of(bundles, root),
         commands=commands,
+        unused=unused_of(root, scope.model, scope.models),
         span=node.key_span,
     )
     return model, Product(scope, by_path, tuple(command.id for command in commands))
@@ -94,5 +96,16 @@ def _identities(root: Node, scopes: list[Scope]) -> tuple[Identity, ...]:
 def _identity(node: Node, scopes: list[Scope]) -> list[Identity]:
     every = tuple(scope.model for scope in scopes)
     models = named_models(elements_of(node, "models"), every)
-    conditions = [condition(node.child("when"), scope) for scope in scopes if scope.model in models]
-    return [Identity(conditions[0], models)] if conditions else []
+    mine = [scope for scope in scopes if scope.model in models]
+    conditions = [condition(node.child("when"), scope) for scope in mine]
+    texts = [_identity_texts(node.child("text"), scope) for scope in mine]
+    return [Identity(conditions[0], models, texts[0])] if conditions else []
+
+
+def _identity_texts(node: Node | None, scope: Scope) -> tuple[tuple[str, str], ...]:
+    found = []
+    for key, text in node.items() if node else ():
+        subject = subject_of(text, key, scope)
+        if subject is not None:
+            found.append((path_of(subject.entry, subject.name), text.text()))
+    return tuple(found)

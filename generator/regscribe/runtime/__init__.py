@@ -27,6 +27,7 @@ from regscribe.runtime.errors import (
     ValueRefused,
     WrongAnswer,
 )
+from regscribe.runtime.identify import Identification, identify, identify_async, known_models
 from regscribe.runtime.kinds import (
     boolean,
     choice,
@@ -46,7 +47,7 @@ from regscribe.runtime.parts import Array, AsyncPart, Command, Group, Part, Sect
 from regscribe.runtime.register import ReadOnly, ReadWrite, Register, WriteOnly
 from regscribe.runtime.session import Protocol
 from regscribe.runtime.snapshot import Snapshot
-from regscribe.runtime.spec import Conversion, Interval, Is, Limits, OrderFrom, Ref, View, within, word
+from regscribe.runtime.spec import Conversion, Identity, Interval, Is, Limits, OrderFrom, Ref, View, within, word
 from regscribe.runtime.wire import FLOAT32, FLOAT64, INT16, INT32, INT64, UINT16, UINT32, UINT64
 
 __all__ = [
@@ -73,6 +74,8 @@ __all__ = [
     "Field",
     "Flags",
     "Group",
+    "Identification",
+    "Identity",
     "Interval",
     "Is",
     "Limits",
@@ -106,8 +109,11 @@ __all__ = [
     "boolean",
     "choice",
     "flags",
+    "identify",
+    "identify_async",
     "integer",
     "integer_or",
+    "known_models",
     "number",
     "number_or",
     "number_with",

@@ -14,7 +14,7 @@ def initial_value(register_map: RegisterMap, model: Model, register: Register, s
     accepts it, its first enum member, its first low limit that is known, 0.
     """
     if register.kind is Kind.STRING:
-        return register.default if isinstance(register.default, str) else ""
+        return _initial_text(register_map, model, register)
     tests = _identifying_tests(register_map, model, register)
     if tests:
         return _identifying(register, tests)
@@ -27,6 +27,12 @@ def initial_value(register_map: RegisterMap, model: Model, register: Register, s
     limits = state.choose(register.range)
     lows = (limit_value(each.low, limits, state) for each in limits.intervals) if limits else ()
     return next((low for low in lows if low is not None), Fraction(0))
+
+
+def _initial_text(register_map: RegisterMap, model: Model, register: Register) -> str:
+    mine = [each for each in register_map.identity if model.name in each.models]
+    shown = [text for each in mine for path, text in each.texts if path == register.path]
+    return shown[0] if shown else register.default if isinstance(register.default, str) else ""
 
 
 def _identifying_tests(register_map: RegisterMap, model: Model, register: Register) -> tuple[Test, ...]:

@@ -118,6 +118,7 @@ class Classes:
                 f"{INDENT}model = {literal(model.name)}",
                 f"{INDENT}map_id = {literal(self.register_map.id)}",
                 f"{INDENT}protocol = _PROTOCOL",
+                *self._identity(model),
                 f"{INDENT}groups = {self.stem}Groups",
             ]
             if commands:
@@ -125,6 +126,19 @@ class Classes:
             kind = "asyncio driver" if prefix else "synchronous driver"
             self._class(name, [*parents, device], f"{': '.join(filter(None, about))} ({kind}).", body)
             self.public.append(name)
+
+    def _identity(self, model: Model) -> list[str]:
+        specs = Specs(model, self.pool)
+        shown = [
+            call(
+                "Identity",
+                specs.when(one.when),
+                *([group([group([literal(path), literal(text)]) for path, text in one.texts])] if one.texts else []),
+            )
+            for one in self.register_map.identity
+            if model.name in one.models
+        ]
+        return lay(group(shown), head="identity = ", depth=1) if shown else []
 
 
 def _steps(command: Command) -> Expression:
