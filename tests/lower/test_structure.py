@@ -70,7 +70,7 @@ def test_members_keep_arrays_folded_with_the_first_element(lowered: Lowered) -> 
         ["programs[1].segments[3].ramp_time"],
     )
     assert limit is model.registers[0]
-    assert repeats is model.registers[1]
+    assert (repeats.path, repeats.name) == (model.registers[1].path, "Repeats")
     assert model.groups[0].members == tuple(register.path for register in model.registers)
 
 

@@ -1,7 +1,7 @@
 """`regscribe check`: report what is wrong in maps."""
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import click
 
@@ -28,10 +28,15 @@ def command(*, paths: tuple[str, ...], form: str, strict: bool) -> int:
 
     PATH is a map file, a folder that is searched for *.yaml, or the id of a map (fdc/series-100). Without PATH: maps/.
     """
-    maps = find_maps(paths)
-    found = [diagnostic for path in maps for diagnostic in compile_map(path).diagnostics]
+    maps = find_maps(paths, libraries=True)
+    found = _each_once(diagnostic for path in maps for diagnostic in compile_map(path).diagnostics)
     _print(found, form=form, maps=len(maps))
     return int(has_errors(found) or (strict and bool(found)))
+
+
+def _each_once(found: Iterable[Diagnostic]) -> list[Diagnostic]:
+    """What is wrong in a library or a base is found again in each map that builds on it: the first one speaks."""
+    return list({(one.rule, one.span, one.message): one for one in reversed(list(found))}.values())[::-1]
 
 
 def _print(found: Sequence[Diagnostic], *, form: str, maps: int) -> None:

@@ -3,7 +3,7 @@
 from regscribe.lower.ends import whole_ends
 from regscribe.lower.names import unknown
 from regscribe.lower.node import Node, elements_of, items_of, text_of, whole_of
-from regscribe.lower.presence import Models
+from regscribe.lower.presence import Models, present
 from regscribe.lower.rules import UNKNOWN_REGISTER
 from regscribe.model import Erratum, Given, GivenKind, Manual, Notation, Space, Waiver
 
@@ -55,6 +55,16 @@ def reserved_of(root: Node) -> tuple[tuple[Space, int, int], ...]:
         at = node.child("at")
         first, last = whole_ends(at) if at else (0, 0)
         found.append((_space(node), first, last))
+    return tuple(found)
+
+
+def unused_of(root: Node, model: str, every: Models) -> tuple[tuple[Space, int, int], ...]:
+    """Stretches of addresses that the manual calls unused on a model: space, first, last."""
+    found = []
+    for node in elements_of(root, "unused"):
+        at = node.child("at")
+        if at and model in present(node, every, every):
+            found.append((_space(node), *whole_ends(at)))
     return tuple(found)
 
 

@@ -1,7 +1,7 @@
 """The members of a model: registers, and arrays both folded and expanded."""
 
 from regscribe.lower.node import text_of
-from regscribe.lower.registers import register_of
+from regscribe.lower.registers import folded, register_of
 from regscribe.lower.scope import Scope
 from regscribe.lower.tree import Branch, Entry, Item, span_of
 from regscribe.model import Array, Register
@@ -14,7 +14,7 @@ def members_of(items: tuple[Item, ...], scope: Scope) -> tuple[tuple[Register | 
     for item in items:
         if isinstance(item, Entry):
             register = register_of(item, scope)
-            members.append(register)
+            members.append(folded(register, item))
             registers.append(register)
         else:
             array, expanded = _array(item, scope)

@@ -2,13 +2,16 @@
 
 from regscribe.lower.ends import whole_ends
 from regscribe.lower.names import identifier
-from regscribe.lower.node import Node, text_of
+from regscribe.lower.node import Node, text_of, texts_of
 from regscribe.lower.presence import present
 from regscribe.lower.rules import BAD_BITS, UNKNOWN_ENUM
 from regscribe.lower.scope import Scope
 from regscribe.lower.tree import Entry
 from regscribe.model import BitField, Enum, Member
 from regscribe.model.name import snake
+
+COLUMNS = "columns"
+"""The key beside the codes of an enum that names the columns of the manual's table."""
 
 
 def enum_of(node: Node, scope: Scope, *, inline_id: str) -> Enum | None:
@@ -28,28 +31,37 @@ def enum_at(table: Node, scope: Scope, name: str) -> Enum:
     """The enum whose members stand at `table`, as the model of the scope has it."""
     members = []
     invalid = []
-    for node in table.values():
+    for node in _codes(table):
         here = scope.model in present(node, scope.models, scope.models)
-        if here and (not node.is_mapping or node.child("label")):
+        if here and _label(node):
             members.append(_member(node))
-        elif node.child("invalid") and (here or node.child("label")):
+        elif node.child("invalid") and (here or _label(node)):
             invalid.append((node.key_whole(), text_of(node, "invalid")))
-    return Enum(id=name, members=tuple(members), invalid=tuple(invalid), span=table.key_span)
+    columns = texts_of(table, COLUMNS)
+    return Enum(id=name, members=tuple(members), invalid=tuple(invalid), span=table.key_span, columns=columns)
+
+
+def _codes(table: Node) -> list[Node]:
+    """The members of an enum, without what stands beside the codes."""
+    return [node for key, node in table.items() if key != COLUMNS]
 
 
 def _member(node: Node) -> Member:
     label = _label(node)
     name = identifier(node.child("label") or node, label=label, given=node.child("id"), capitals=True)
-    return Member(code=node.key_whole(), label=label, id=name, description=text_of(node, "description"))
+    return Member(node.key_whole(), label, name, text_of(node, "description"), texts_of(node, "cells"))
 
 
 def _label(node: Node) -> str:
-    return text_of(node, "label") if node.is_mapping else node.text()
+    """What a code or a bit is called; a code without a label by its cells."""
+    if not node.is_mapping:
+        return node.text()
+    return text_of(node, "label") or ", ".join(texts_of(node, "cells"))
 
 
 def code_anywhere(node: Node, text: str) -> int | None:
     """The code of the member `text` in the enum at `node`, whichever models have it; None if there is none."""
-    for member in node.values():
+    for member in _codes(node):
         label = _label(member)
         given = text_of(member, "id") if member.is_mapping else ""
         if label and (given or snake(label)).lower() == text.lower():

@@ -4,14 +4,14 @@ from dataclasses import replace
 from fractions import Fraction
 
 from regscribe.lower.ends import ends, whole_ends
-from regscribe.lower.node import Node, items_of, text_of, texts_of, truth_of, whole_of, wholes_of
+from regscribe.lower.node import Node, elements_of, items_of, text_of, texts_of, truth_of, whole_of, wholes_of
 from regscribe.lower.rules import WRONG_SORT
 from regscribe.model import SILENCE, ExceptionCode, Faults, Latency, Later, Protocol, Serial
 
 _LATER = ("later_read", "later_write")
 _CODES = (
     *("function", "address", "value", "read_only", "condition", "quantity"),
-    *("misaligned_address", "misaligned_count", "view_function"),
+    *("misaligned_address", "misaligned_count", "view_function", "unused_write"),
 )
 
 
@@ -37,6 +37,7 @@ def protocol_of(node: Node | None) -> Protocol:
         latencies=tuple(_latency(each) for _, each in items_of(node, "latency")),
         serial=_serial(node.child("serial")),
         section=text_of(node, "source"),
+        alike=tuple(tuple(each.whole() for each in one.elements()) for one in elements_of(node, "alike")),
     )
 
 
@@ -46,6 +47,7 @@ def _faults(node: Node | None) -> Faults:
         return faults
     read, write = node.child("later_read"), node.child("later_write")
     codes = {key: _code(each) for key, each in node.items() if key in _CODES}
+    codes.setdefault("unused_write", codes.get("address", faults.unused_write))
     return replace(
         faults,
         **codes,
@@ -64,7 +66,9 @@ def _exception(node: Node) -> ExceptionCode:
 
 def _latency(node: Node) -> Latency:
     fixed, each = _times(node.child("fixed")), _times(node.child("per_word"))
-    return Latency(node.key_whole(), fixed[0], fixed[1], each[0], each[1])
+    told = node.child("characters")
+    characters = told.number() if told else Fraction(0)
+    return Latency(node.key_whole(), *fixed, *each, characters, text_of(node, "note"))
 
 
 def _times(node: Node | None) -> tuple[Fraction, Fraction]:

@@ -1,5 +1,7 @@
 """One register of one model, from the keys that count for it."""
 
+from dataclasses import replace
+
 from regscribe.lower.conditions import condition
 from regscribe.lower.enums import enum_of, fields_of
 from regscribe.lower.limits import range_of
@@ -12,6 +14,7 @@ from regscribe.lower.units import rescaled, unit_of
 from regscribe.lower.values import default_of, sentinels_of, specials_of, version_of
 from regscribe.lower.views import views_of
 from regscribe.model import IDENTITY, Access, Case, Inferred, Kind, Register, View, WireType, Writable
+from regscribe.model.name import has_mark, indexed
 
 _BY_KEY = {"enum": Kind.ENUM, "flags": Kind.FLAGS, "fields": Kind.FIELDS, "version": Kind.VERSION}
 
@@ -29,11 +32,11 @@ def register_of(entry: Entry, everywhere: Scope) -> Register:
     return Register(
         id=entry.id,
         path=entry.path,
-        name=_text(entry, "name"),
+        name=_name(entry),
         kind=kind,
         access=_access(entry),
         views=views,
-        symbol=_text(entry, "symbol"),
+        symbol=indexed(_text(entry, "symbol"), entry.place.index),
         description=_text(entry, "description"),
         section=_text(entry, "source") or entry.place.section,
         group=entry.place.group,
@@ -59,6 +62,7 @@ def register_of(entry: Entry, everywhere: Scope) -> Register:
         version_group=group,
         array=entry.place.array,
         index=entry.place.index,
+        printed=indexed(_text(entry, "printed"), entry.place.index),
         span=entry.span,
     )
 
@@ -90,6 +94,20 @@ def _has_fractions(entry: Entry, views: tuple[View, ...], scaling: tuple[Scaling
 
 def _text(entry: Entry, key: str) -> str:
     return entry.settings[key].text().strip() if key in entry.settings else ""
+
+
+def _name(entry: Entry) -> str:
+    """The manual's name, in an array with the index of the element (those of arrays in arrays joined by dots)."""
+    name, index = _text(entry, "name"), entry.place.index
+    if not index or has_mark(name):
+        return indexed(name, index)
+    return f"{name} {'.'.join(map(str, index))}"
+
+
+def folded(register: Register, entry: Entry) -> Register:
+    """A register of an array's first element as one of all elements: named without an index, marks as they are."""
+    names = {key: _text(entry, key) for key in ("name", "symbol", "printed")}
+    return replace(register, **names) if entry.place.index else register
 
 
 def _access(entry: Entry) -> Access:
