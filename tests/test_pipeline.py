@@ -1,14 +1,17 @@
 """Each phase runs only if none before it found an error; what warnings say is carried to the end."""
 
 from pathlib import Path
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, cast
 
 import pytest
 
 from regscribe import pipeline
+from regscribe.compose import Composed
 from regscribe.model import Diagnostic, Severity, Span
+from regscribe.source import Document
 
-PHASES = ("source", "schema", "lower", "checks")
+PHASES = ("source", "schema", "compose", "lower", "checks")
 PATH = Path("m.yaml")
 
 
@@ -28,14 +31,23 @@ def phases(monkeypatch: pytest.MonkeyPatch) -> dict[str, list[Diagnostic]]:
 
         return run
 
-    monkeypatch.setattr("regscribe.source.load", phase("source", "document"))
+    document = SimpleNamespace(name="m.yaml")
+
+    def compose(_: object, path: Path) -> Composed:
+        assert path == PATH
+        finds["ran"].append("compose")
+        return Composed(cast("Document", document), tuple(finds["compose"]))
+
+    monkeypatch.setattr("regscribe.source.load", phase("source", document))
     monkeypatch.setattr("regscribe.schema.validate", phase("schema", None))
+    monkeypatch.setattr("regscribe.compose.is_library", lambda _: False)
+    monkeypatch.setattr("regscribe.compose.compose", compose)
     monkeypatch.setattr("regscribe.lower.lower", phase("lower", "map"))
     monkeypatch.setattr("regscribe.checks.check", phase("checks", None))
     return finds
 
 
-@pytest.mark.parametrize("last", range(4))
+@pytest.mark.parametrize("last", range(5))
 def test_an_error_ends_the_pipeline_after_its_phase(phases: dict[str, list[Any]], last: int) -> None:
     errors = [found(PHASES[last]), found(PHASES[last])]
     phases[PHASES[last]] = errors

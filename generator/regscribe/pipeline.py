@@ -29,20 +29,21 @@ class Compiled:
 def compile_map(path: Path) -> Compiled:
     """Read, validate, compose, lower and check the map at `path`; what is wrong is in the diagnostics."""
     document, found = source.load(path)
-    return Compiled(path, None, _ordered(found)) if document is None else compile_document(document, path)
+    if document is None or has_errors(found):
+        return Compiled(path, None, _ordered(found))
+    return _compile(document, path, found)
 
 
-def compile_document(document: Document, path: Path) -> Compiled:
-    """Compile a document that was read; `path` is where it lies, and what it builds on is looked for from there."""
-    found = schema.validate(document)
+def _compile(document: Document, path: Path, found: list[Diagnostic]) -> Compiled:
+    found = [*found, *schema.validate(document)]
     if has_errors(found):
         return Compiled(path, None, _ordered(found))
     if compose.is_library(document):
         return Compiled(path, None, _ordered([*found, *_check_library(document, path)]))
     composed = compose.compose(document, path)
-    found += composed.diagnostics
+    found = [*found, *composed.diagnostics]
     if composed.document is not None and composed.document is not document:
-        found += schema.validate(composed.document)
+        found = [*found, *schema.validate(composed.document)]
     if composed.document is None or has_errors(found):
         return Compiled(path, None, _ordered(found), composed.files)
     register_map, checked = _meaning(composed)
@@ -56,9 +57,11 @@ def _meaning(composed: compose.Composed) -> tuple[RegisterMap | None, list[Diagn
     register_map, found = lower.lower(composed.document)
     if register_map is None or has_errors(found):
         return None, found
-    whole = replace(register_map, extends=composed.extends, uses=composed.uses, overrides=composed.overrides)
-    found = [*found, *checks.check(whole)]
-    return None if has_errors(found) else whole, found
+    if composed.files:
+        origin = {"extends": composed.extends, "uses": composed.uses, "overrides": composed.overrides}
+        register_map = replace(register_map, **origin)  # type: ignore[arg-type]  # three fields of three types
+    found = [*found, *checks.check(register_map)]
+    return None if has_errors(found) else register_map, found
 
 
 def _check_library(document: Document, path: Path) -> list[Diagnostic]:

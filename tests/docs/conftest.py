@@ -1,13 +1,14 @@
 """A small map as a user would write it, compiled without the checks, and tools to read the page as a renderer does."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
 from markdown_it import MarkdownIt
 
-from regscribe import lower, source
+from regscribe import compose, lower, source
 from regscribe.emit.markdown import render
 from regscribe.model import RegisterMap
 
@@ -134,14 +135,16 @@ def parse() -> Callable[[str], Page]:
 
 @pytest.fixture(scope="session")
 def load() -> Callable[[Path], RegisterMap]:
-    """Return a function that reads a map without checking it."""
+    """Return a function that reads a map, with the files that it builds on, without checking it."""
 
     def read(path: Path) -> RegisterMap:
         document, found = source.load(path)
         assert document is not None, found
-        register_map, lowered = lower.lower(document)
+        composed = compose.compose(document, path)
+        assert composed.document is not None, composed.diagnostics
+        register_map, lowered = lower.lower(composed.document)
         assert register_map is not None, lowered
-        return register_map
+        return replace(register_map, extends=composed.extends, uses=composed.uses, overrides=composed.overrides)
 
     return read
 

@@ -15,11 +15,13 @@ import pytest
 from markdown_it import MarkdownIt
 
 from regscribe.emit.header import header
-from regscribe.emit.markdown import render, render_index
+from regscribe.emit.index import render_index
+from regscribe.emit.markdown import render
+from regscribe.evidence import card
 from regscribe.model import RegisterMap
 
 ROOT = Path(__file__).parents[2]
-MAPS = sorted((ROOT / "maps").glob("*/*.yaml"))
+MAPS = [path for path in sorted((ROOT / "maps").glob("*/*.yaml")) if not path.name.endswith(".library.yaml")]
 HOSTILE = (
     "a|b <script>alert(1)</script>\n\n# `x` [x](javascript:y) 😀 \u202e -->\n| - | </details> "
     "${7*7} {{ 7*7 }} \"quoted' https://a.example"
@@ -131,11 +133,21 @@ def test_the_path_comes_from_the_id(oven: RegisterMap) -> None:
 
 def test_the_index_links_every_page(oven: RegisterMap, markdown: MarkdownIt, parse: Callable[[str], Any]) -> None:
     other = replace(oven, id="acme/another", title="A|nother <b>")
-    pages = render_index([oven, other])
+    pages = render_index([card(oven), card(other)])
     page = parse(markdown.render(pages["docs/README.md"]))
-    assert page.links == ["acme/another.md", "acme/big-oven.md"]
+    assert page.links[:2] == ["acme/another.md", "acme/big-oven.md"]
     assert "A|nother <b>" in page.text
-    assert render_index([other, oven]) == pages
+    assert render_index([card(other), card(oven)]) == pages
+
+
+def test_the_index_of_a_hostile_map_stays_text(
+    oven: RegisterMap, markdown: MarkdownIt, parse: Callable[[str], Any]
+) -> None:
+    page = parse(markdown.render(render_index([card(hostile(oven))])["docs/README.md"]))
+    assert page.tags <= TAGS
+    assert set(page.links) == {"acme/big-oven.md"}
+    assert all(len(set(table)) == 1 for table in page.tables)
+    assert "<script>alert(1)</script>" in page.text
 
 
 def test_the_header_names_map_and_hash_and_no_date(oven: RegisterMap) -> None:

@@ -105,6 +105,18 @@ def reserved(register: Register, scope: Scope) -> Iterator[Finding]:
                 yield Finding.at(register, f"takes {stretch}, but {first}..{last} are reserved", help_text)
 
 
+@register_rule(
+    Rule("RS0407", "Register at an unused address", "The manual cannot both list an address as unused and describe it.")
+)
+def unused(register: Register, scope: Scope) -> Iterator[Finding]:
+    """Compare each stretch with those that the model does not use."""
+    for space, first, last in scope.model.unused:
+        for stretch in stretches(register):
+            if stretch.space == space and stretch.first <= last and stretch.last >= first:
+                help_text = "correct `at`, or shorten the entry under `unused`"
+                yield Finding.at(register, f"takes {stretch}, but {first}..{last} are unused", help_text)
+
+
 @map_rule(
     Rule("RS0405", "Notation declared twice", "Two offsets under one name leave a printed address with two meanings.")
 )

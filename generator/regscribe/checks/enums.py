@@ -99,6 +99,18 @@ def no_members(scope: Scope) -> Iterator[Finding]:
             yield _finding(register, field, enum, "has no members", help_text)
 
 
+@model_rule(
+    Rule("RS0454", "Cells and columns of an enum differ", "A cell without a column, or the reverse, says nothing certain.")
+)
+def cells_of_columns(scope: Scope) -> Iterator[Finding]:
+    """Count the cells of each member that has some."""
+    for register, field, enum in enums_of(scope):
+        for member in enum.members:
+            if member.cells and len(member.cells) != len(enum.columns):
+                message = f"has {len(member.cells)} cells for code {member.code}, but {len(enum.columns)} columns"
+                yield _finding(register, field, enum, message, "give one cell for each of `columns`")
+
+
 @model_rule(Rule("RS0445", "Member id is no Python name", "A member becomes an attribute of an IntEnum class."))
 def member_no_name(scope: Scope) -> Iterator[Finding]:
     """Refuse what is no identifier, a keyword, or a name that `enum` uses itself."""

@@ -75,6 +75,20 @@ def broadcast(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
 
 
 @map_rule(
+    Rule("RS0492", "Functions alike that cannot be", "Each function of the device does one thing, alone or like others.")
+)
+def alike(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+    """Look for functions that the device lacks, and for those that stand in two lists."""
+    register_map, protocol = _the_map(scopes)
+    every = [code for codes in protocol.alike for code in codes]
+    for code in dict.fromkeys(every):
+        if code not in protocol.functions or every.count(code) > 1:
+            why = "stands in two lists" if every.count(code) > 1 else "is not among `protocol.functions`"
+            message = f"function {code:02d} of `protocol.alike` {why}"
+            yield Finding(MAP, register_map.span, message, "correct `protocol.alike`")
+
+
+@map_rule(
     Rule("RS0491", "Default of the serial line is not offered", "The default is one of the speeds and formats listed.")
 )
 def serial_default(scopes: tuple[Scope, ...]) -> Iterator[Finding]:

@@ -161,15 +161,17 @@ def timing_examples(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
 
 
 def _times(example: TimingExample, protocol: Protocol) -> Iterator[str]:
-    gap = protocol.serial.gap_characters * bits_per_character(example.format) * 1000 / example.baud
+    character = Fraction(bits_per_character(example.format) * 1000, example.baud)
+    gap = protocol.serial.gap_characters * character
     latency = next((one for one in protocol.latencies if one.function == example.function), None)
     if latency is None:
         yield f"no latency of function {example.function:02d} is stated"
         return
+    more = latency.characters * character
     computed = {
         "gap": (gap, example.gap),
-        "earliest": (gap + latency.minimum + example.words * latency.minimum_per_word, example.earliest),
-        "latest": (gap + latency.maximum + example.words * latency.maximum_per_word, example.latest),
+        "earliest": (gap + more + latency.minimum + example.words * latency.minimum_per_word, example.earliest),
+        "latest": (gap + more + latency.maximum + example.words * latency.maximum_per_word, example.latest),
     }
     for name, (mine, printed) in computed.items():
         if abs(mine - printed) > HALF_A_CENT:
