@@ -20,11 +20,12 @@ ROOMS = {
     "lower": {"model", "source", "schema"},
     "checks": {"model", "source", "schema", "compose", "lower"},
     "emit": {"model", "schema"},
+    "evidence": {"model", "emit"},
     "simulate": {"model"},
     "runtime": set[str](),
     "testing": {"runtime"},
     "pipeline": {"model", "source", "schema", "compose", "lower", "checks"},
-    "cli": {"model", "source", "schema", "compose", "lower", "checks", "emit", "simulate", "pipeline"},
+    "cli": {"model", "source", "schema", "compose", "lower", "checks", "emit", "evidence", "simulate", "pipeline"},
 }
 """Which other rooms a room may import."""
 

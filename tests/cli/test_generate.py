@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 
 DRIVER = Path("generated/regscribe_devices/acme/oven.py")
+INDEX = Path("generated/docs/README.md")
 OTHER = "acme/kiln"
 
 
@@ -23,8 +24,9 @@ def add_kiln(oven: Path) -> Path:
 def test_a_map_becomes_driver_docs_vectors_and_tests_with_a_summary(cli: Callable[..., Any]) -> None:
     result = cli("generate")
     assert (result.code, result.err) == (0, "")
-    assert result.out.startswith("1 map, 1 model, 2 registers, 1 enum; 7 files in generated: 7 written, 0 unchanged, ")
+    assert result.out.startswith("1 map, 1 model, 2 registers, 1 enum; 8 files in generated: 8 written, 0 unchanged, ")
     assert sorted(tree()) == [
+        "docs/README.md",
         "docs/acme/oven.md",
         "regscribe_devices/__init__.py",
         "regscribe_devices/acme/__init__.py",
@@ -41,7 +43,7 @@ def test_a_second_run_compiles_and_writes_nothing(cli: Callable[..., Any], monke
     monkeypatch.setattr("regscribe.pipeline.compile_map", None)
     result = cli("generate")
     assert result.code == 0
-    assert "1 map, 1 model, 2 registers, 1 enum; 7 files in generated: 0 written, 7 unchanged, 0 removed" in result.out
+    assert "1 map, 1 model, 2 registers, 1 enum; 8 files in generated: 0 written, 8 unchanged, 0 removed" in result.out
 
 
 @pytest.mark.usefixtures("oven")
@@ -72,7 +74,7 @@ def test_a_generated_file_that_was_changed_is_put_right(
         DRIVER.unlink()
     else:
         DRIVER.write_bytes(damage)
-    assert "1 written, 6 unchanged" in cli("generate").out
+    assert "1 written, 7 unchanged" in cli("generate").out
     assert tree() == good
 
 
@@ -81,7 +83,7 @@ def test_only_the_map_that_changed_is_written_again(cli: Callable[..., Any], ove
     cli("generate")
     oven.write_text(oven.read_text().replace("0..400", "0..450"))
     result = cli("generate")
-    assert "2 maps, 2 models, 4 registers, 2 enums; 11 files in generated: 4 written, 7 unchanged" in result.out
+    assert "2 maps, 2 models, 4 registers, 2 enums; 12 files in generated: 4 written, 8 unchanged" in result.out
 
 
 def test_a_new_generator_renders_again_what_the_old_one_left(
@@ -98,7 +100,7 @@ def test_a_broken_cache_is_no_error(cli: Callable[..., Any], oven: Path, tmp_pat
     (record,) = (tmp_path / "cache" / "regscribe").iterdir()
     for content in ("", "[]", '{"entries": {"a": 1}, "fingerprint": 1}', '{"entries": []}', "{"):
         record.write_text(content)
-        assert "0 written, 7 unchanged" in cli("generate").out
+        assert "0 written, 8 unchanged" in cli("generate").out
     record.unlink()
     record.mkdir()
     assert cli("generate").code == 0
@@ -134,7 +136,7 @@ def test_what_was_generated_from_a_map_that_is_gone_is_removed(cli: Callable[...
     assert cli("generate", "--check").code == 1
     assert "4 removed" in cli("generate").out
     assert not any("kiln" in path for path in tree())
-    assert len(tree()) == 7
+    assert len(tree()) == 8
 
 
 def test_a_run_over_one_map_leaves_those_of_others_alone(cli: Callable[..., Any], oven: Path) -> None:
@@ -142,7 +144,47 @@ def test_a_run_over_one_map_leaves_those_of_others_alone(cli: Callable[..., Any]
     cli("generate")
     kiln.unlink()
     assert "0 removed" in cli("generate", oven).out
-    assert len(tree()) == 11
+    assert len(tree()) == 12
+
+
+def test_the_index_lists_every_map_of_a_run_with_its_coverage(cli: Callable[..., Any], oven: Path) -> None:
+    add_kiln(oven)
+    cli("generate")
+    index = INDEX.read_text()
+    assert "[Oven](acme/oven.md) | Acme | M1 | 2 |" in index
+    assert "| [Oven](acme/kiln.md) | M1 | 2 | 1 | 1 | 2 | 1 | 2 | 0 | 0 | 0 | 0 |" in index
+    assert cli("coverage", "--format", "markdown").out in index
+    assert cli("generate", "--check").code == 0
+
+
+def test_the_index_follows_a_map_that_changed_without_compiling_the_others(
+    cli: Callable[..., Any], oven: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from regscribe.pipeline import compile_map  # noqa: PLC0415 - as it was before it is replaced
+
+    add_kiln(oven)
+    cli("generate")
+    before = INDEX.read_text()
+    oven.write_text(oven.read_text().replace(", range: 0..400", ""))
+    monkeypatch.setattr("regscribe.pipeline.compile_map", lambda path: compile_map({oven.name: path}[path.name]))
+    cli("generate")
+    row = "| [Oven](acme/oven.md) | M1 | 2 | {} | 1 | 2 | 1 | 2 |"
+    assert INDEX.read_text() == before.replace(row.format(1), row.format(0))
+
+
+def test_a_run_over_one_map_of_several_leaves_the_index_as_it_is(cli: Callable[..., Any], oven: Path) -> None:
+    kiln = add_kiln(oven)
+    cli("generate")
+    before = INDEX.read_text()
+    oven.write_text(oven.read_text().replace(", range: 0..400", ""))
+    cli("generate", oven)
+    assert INDEX.read_text() == before
+    cli("generate", oven.parent)
+    assert INDEX.read_text() != before
+    assert "kiln" in INDEX.read_text()
+    kiln.unlink()
+    cli("generate")
+    assert "kiln" not in INDEX.read_text()
 
 
 def test_an_error_in_one_map_leaves_everything_as_it_was(cli: Callable[..., Any], oven: Path) -> None:

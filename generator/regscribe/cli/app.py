@@ -22,6 +22,8 @@ COMMANDS = {
     "explain": "Explain a rule, with a bad and a good example.",
     "new": "Start a map: a commented skeleton that passes `check`.",
     "export": "Print every value of every model as CSV or JSON.",
+    "compare": "Hold a map against a second transcription in CSV, or against another map.",
+    "coverage": "Count what maps cover; list what is inferred and open.",
     "simulate": "Serve one model of a map as a Modbus device.",
 }
 """Name and help of each command; `regscribe.cli.<name>` holds it and is imported when it is called for."""

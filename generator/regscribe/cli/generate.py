@@ -13,7 +13,8 @@ from regscribe.cli.terminal import show
 from regscribe.cli.text import count, findings, tally
 from regscribe.emit import cache, render
 from regscribe.emit.cache import Counts, Entry
-from regscribe.emit.write import Report, WriteError, write
+from regscribe.emit.index import render_index
+from regscribe.emit.write import Report, WriteError, origin_of, write
 from regscribe.model import Diagnostic, RegisterMap
 
 
@@ -42,7 +43,8 @@ def command(*, maps: tuple[str, ...], check: bool, out: Path) -> int:
     MAP is a map file, a folder that is searched for *.yaml, or the id of a map (fdc/series-100). Without MAP all of
     maps/ is compiled, and files generated from maps that are gone are removed.
 
-    Nothing is written unless every map is free of errors; only files that differ are written.
+    Nothing is written unless every map is free of errors; only files that differ are written. The index of the
+    reference docs, with the coverage of each map, is left as it is by a run that leaves out maps which have references.
     """
     started = perf_counter()
     paths = find_maps(maps)
@@ -76,6 +78,7 @@ def _build(paths: Iterable[Path], known: cache.Cache) -> Build:
 
 
 def _compile(path: Path, build: Build) -> None:
+    from regscribe.evidence.card import card  # noqa: PLC0415 - a build without change needs neither
     from regscribe.pipeline import compile_map  # noqa: PLC0415 - 150 ms that a build without change does not need
 
     compiled = compile_map(path)
@@ -86,7 +89,8 @@ def _compile(path: Path, build: Build) -> None:
     files = render(compiled.map)
     build.rendered |= files
     hashes = {name: cache.digest(text.encode()) for name, text in files.items()}
-    build.entries[path] = Entry(compiled.map.id, compiled.map.content_hash, hashes, _counts(compiled.map))
+    counts = _counts(compiled.map)
+    build.entries[path] = Entry(compiled.map.id, compiled.map.content_hash, hashes, counts, card(compiled.map))
     if compiled.diagnostics:
         build.noisy.add(path)
 
@@ -108,12 +112,19 @@ def _write(build: Build, out: Path, *, check: bool, whole: bool) -> Report:
                 raise WriteError(message)
     ids = {entry.id for entry in build.entries.values()}
     return write(
-        build.rendered,
+        build.rendered | _index(build, out, whole=whole),
         out,
         check=check,
         kept=[name for name in makers if name not in build.rendered],
         owned=lambda origin: whole or origin in ids,
     )
+
+
+def _index(build: Build, out: Path, *, whole: bool) -> dict[str, str]:
+    """Render the index, unless there are references of maps that are not of this run: then theirs is left as it is."""
+    pages = () if whole else (out / "docs").rglob("*.md")
+    others = {origin_of(page) for page in pages} - {entry.id for entry in build.entries.values()} - {None}
+    return {} if others else render_index(entry.card for entry in build.entries.values())
 
 
 def _remember(build: Build, known: cache.Cache, *, whole: bool) -> None:

@@ -16,6 +16,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import regscribe
+from regscribe.emit.index import Card, card_of
 
 LIBRARIES = ("jinja2", "yaml", "jsonschema")
 """Another version of these may read or render something differently."""
@@ -32,12 +33,16 @@ class Counts:
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """One map of the last run: its id, the SHA-256 of its file, that of each file written from it, and its counts."""
+    """One map of the last run: its id, the SHA-256 of its file, that of each file written from it, and its counts.
+
+    `card` is its part of the index, which is written anew when any map changes.
+    """
 
     id: str
     source: str
     files: dict[str, str]
     counts: Counts
+    card: Card
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +91,7 @@ def _entry(plain: Mapping[str, object]) -> Entry:
     files = fields["files"]
     if not isinstance(counts, dict) or not isinstance(files, dict):
         raise TypeError
-    return Entry(str(fields["id"]), str(fields["source"]), files, Counts(**counts))
+    return Entry(str(fields["id"]), str(fields["source"]), files, Counts(**counts), card_of(fields["card"]))
 
 
 def key(path: Path) -> str:

@@ -1,0 +1,128 @@
+"""Which columns of a table are compared with which of the export; docs/evidence.md lists the other names."""
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from difflib import get_close_matches
+
+from regscribe.emit.spreadsheet import COLUMNS
+from regscribe.evidence.table import Table, TableError
+
+SYNONYMS = {
+    "models": "model",
+    "path": "id",
+    "parameter": "name",
+    "wire_address": "address",
+    "addr": "address",
+    "alias": "aliases",
+    "rw": "access",
+    "r_w": "access",
+    "units": "unit",
+    "min": "minimum",
+    "max": "maximum",
+    "factory_default": "default",
+    "enum": "values",
+    "flags": "bits",
+    "source": "section",
+}
+"""Other names that a header may use, folded (see `fold`), with the column of the export that they mean."""
+
+KEYS = ("map", "model", "space", "address", "id", "kind")
+"""Columns that tell which register a row is about."""
+
+PLACES = frozenset({"map", "model"})
+"""Columns that are equal in every pair of matched rows, so there is nothing to compare."""
+
+
+@dataclass(frozen=True, slots=True)
+class Columns:
+    """Where the columns stand in a table: `at` is name and index of those in use, `compared` those held together."""
+
+    at: tuple[tuple[str, int], ...]
+    compared: tuple[str, ...]
+
+    @property
+    def names(self) -> frozenset[str]:
+        """The columns that the table has, of those in use."""
+        return frozenset(name for name, _ in self.at)
+
+
+def fold(name: str) -> str:
+    """Return a header in lower case, every run of other characters than letters and digits as `_`."""
+    return re.sub(r"\W+|_+", "_", name.casefold()).strip("_")
+
+
+def choose(table: Table, wanted: Sequence[str], notations: Sequence[str]) -> Columns:
+    """Find the columns of the export in the header of a table; `notations` are further ways to write the address.
+
+    `wanted` names the columns to compare, `name` or `name=header` where the table calls it otherwise; none: all that
+    the table has, and then every header must be known. Raises TableError for unknown, missing or doubled columns.
+    """
+    known = {fold(name): fold(name) for name in (*COLUMNS, *notations)}
+    known = {**{f"{fold(name)}_address": fold(name) for name in notations}, **SYNONYMS, **known}
+    if not any(fold(head) in known for head in table.header) and not wanted:
+        raise TableError(_no_header(table))
+    asked = dict(_asked(wanted, known))
+    heads = {head: fold(head) for head in table.header}
+    at: dict[str, int] = {}
+    for index, head in enumerate(table.header):
+        name = _name_of(head, asked, known)
+        if name in at:
+            message = f"{table.name}: `{table.header[at[name]]}` and `{head}` both are the column `{name}`: drop one"
+            raise TableError(message)
+        if name:
+            at[name] = index
+        elif not wanted and (head or any(row.cells[index].strip() for row in table.rows)):
+            raise TableError(_unknown(table, head, index, known))
+    if missing := [f"`{head}`" for name, head in asked.items() if name not in at]:
+        message = f"{table.name} has no column {', '.join(missing)}: it has {', '.join(heads)}"
+        raise TableError(message)
+    compared = tuple(name for name in (asked or at) if name not in PLACES)
+    return Columns(tuple(at.items()), compared)
+
+
+def _asked(wanted: Sequence[str], known: dict[str, str]) -> Iterable[tuple[str, str]]:
+    """Yield the column of the export and the table's name of it, for each item of --columns."""
+    for item in wanted:
+        name, _, head = (part.strip() for part in item.partition("="))
+        if fold(name) not in known:
+            message = f"there is no column `{name}`{_meant(name, known)}"
+            raise TableError(message)
+        yield known[fold(name)], head or name
+
+
+def _name_of(head: str, asked: dict[str, str], known: dict[str, str]) -> str:
+    """Return the column of the export that a header means; empty for one that is not used."""
+    for name, wanted in asked.items():
+        if fold(head) == fold(wanted):
+            return name
+    name = known.get(fold(head), "")
+    if not asked:
+        return name
+    if name in asked and known.get(fold(asked[name])) == name:
+        return name  # asked for by another of its names
+    return name if name in KEYS and name not in asked else ""
+
+
+def _unknown(table: Table, head: str, index: int, known: dict[str, str]) -> str:
+    if not head:
+        return (
+            f"{table.name}: column {index + 1} has no name in the header, but content: name it or choose with --columns"
+        )
+    return (
+        f"{table.name}: there is no column `{head}`{_meant(head, known)}; choose the columns to compare with --columns "
+        f"(name=header where the table calls it otherwise)"
+    )
+
+
+def _no_header(table: Table) -> str:
+    heads = ", ".join(f"`{head[:40]}`" for head in table.header[:6])
+    return (
+        f"{table.name}: none of {heads} is the name of a column: the first line must name the columns, for example "
+        f"address,name,access; known are {', '.join(COLUMNS)}"
+    )
+
+
+def _meant(name: str, known: dict[str, str]) -> str:
+    near = get_close_matches(fold(name), known, n=1)
+    return f"; did you mean `{near[0]}`?" if near else f"; there are {', '.join(dict.fromkeys(known.values()))}"

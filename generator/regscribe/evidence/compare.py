@@ -1,0 +1,202 @@
+"""A map against a second transcription, or against another map: what only one side has, and which cells differ."""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from difflib import get_close_matches
+
+from regscribe.emit.spreadsheet import COLUMNS
+from regscribe.emit.text import one_line
+from regscribe.evidence.cells import differing
+from regscribe.evidence.columns import Columns, choose, fold
+from regscribe.evidence.entry import Entry, Spot, of_map, of_table
+from regscribe.evidence.matching import Matching, match
+from regscribe.evidence.result import Comparison, Difference
+from regscribe.evidence.table import Table, TableError
+from regscribe.model import RegisterMap, Space
+
+OF_BASE = frozenset({"address", "aliases", "views", "id"})
+"""What a row at an alias says of itself and not of the register."""
+
+
+def compare_table(
+    register_map: RegisterMap,
+    table: Table,
+    *,
+    columns: Sequence[str] = (),
+    model: str = "",
+    loose: bool = False,
+    partial: bool = False,
+) -> Comparison:
+    """Hold a map against a table that has columns of the export (see docs/evidence.md).
+
+    `columns` are those to compare (`name`, or `name=header` where the table calls it otherwise; none: all of the
+    table), `model` the only one to look at, `loose` as in `differing`; with `partial` the table need not have every
+    register. Raises TableError where the table cannot be compared.
+    """
+    notations = tuple(dict.fromkeys(notation.name for notation in register_map.notations))
+    chosen = choose(table, columns, notations)
+    _refuse_keyless(table, chosen, notations)
+    model = _model(register_map, table, chosen, model)
+    theirs = list(of_table(table, chosen, register_map, model))
+    notes = tuple(_notes(register_map, table, chosen, theirs))
+    ours = [entry for entry in of_map(register_map) if not model or entry.model == model]
+    matching = match(ours, theirs, name=table.name)
+    if "kind" not in chosen.names:  # such a table lists registers: a command in it is a chance
+        matching.only_ours = [entry for entry in matching.only_ours if not entry.is_command]
+    if partial:
+        matching.only_ours = []
+    silent = _silent(register_map)
+    agreed = [row for row in matching.only_theirs if row.is_silent and _stands_in(row, silent)]
+    if agreed:
+        matching.only_theirs = [row for row in matching.only_theirs if row not in agreed]
+        notes += (f"{len(agreed)} rows name no register where the map has none (unused, reserved or a further word)",)
+    return _comparison(
+        matching, ours=register_map.id, theirs=table.name, columns=chosen.compared, loose=loose, notes=notes
+    )
+
+
+def compare_maps(
+    ours: RegisterMap,
+    theirs: RegisterMap,
+    *,
+    pairs: Mapping[str, str] | None = None,
+    columns: Sequence[str] = (),
+    loose: bool = False,
+) -> Comparison:
+    """Hold two maps against each other, model by model, in the columns of the export (`columns`: only these).
+
+    `pairs` names the models that belong together, ours first; without it models of the same name do, and the others in
+    their order. Raises TableError where the models cannot be paired so, or for a column that the export has not.
+    """
+    paired = dict(pairs) if pairs else _paired(ours, theirs)
+    labels = {left: left if left == right else f"{left} = {right}" for left, right in paired.items()}
+    chosen = _columns_of_export(columns)
+    matching = match(
+        _of_models(ours, labels),
+        _of_models(theirs, {right: labels[left] for left, right in paired.items()}),
+        name=theirs.id,
+    )
+    unpaired = [
+        f"{one.id}: not compared: {', '.join(names)}"
+        for one, used in ((ours, paired.keys()), (theirs, paired.values()))
+        if (names := [model.name for model in one.models if model.name not in used])
+    ]
+    return _comparison(matching, ours=ours.id, theirs=theirs.id, columns=chosen, loose=loose, notes=tuple(unpaired))
+
+
+def _of_models(register_map: RegisterMap, labels: Mapping[str, str]) -> list[Entry]:
+    names = {one_line(name): label for name, label in labels.items()}
+    return [replace(entry, model=names[entry.model]) for entry in of_map(register_map) if entry.model in names]
+
+
+def _paired(ours: RegisterMap, theirs: RegisterMap) -> dict[str, str]:
+    left, right = ([model.name for model in one.models] for one in (ours, theirs))
+    lone_left, lone_right = [name for name in left if name not in right], [name for name in right if name not in left]
+    if len(lone_left) != len(lone_right):
+        message = (
+            f"{ours.id} has {', '.join(left)} and {theirs.id} has {', '.join(right)}: say which belong together, for "
+            f"example --pair {left[-1]}={right[-1]}"
+        )
+        raise TableError(message)
+    others = dict(zip(lone_left, lone_right, strict=True))
+    return {name: others.get(name, name) for name in left}
+
+
+def _columns_of_export(wanted: Sequence[str]) -> tuple[str, ...]:
+    header = Table("the export", COLUMNS, ())
+    return choose(header, wanted, ()).compared
+
+
+def _comparison(
+    matching: Matching, *, ours: str, theirs: str, columns: tuple[str, ...], loose: bool, notes: tuple[str, ...]
+) -> Comparison:
+    besides = tuple(column for column in columns if column in COLUMNS and column not in OF_BASE)
+    found = [difference for pair in matching.pairs for difference in _differences(*pair, columns=columns, loose=loose)]
+    found += [
+        difference for pair in matching.by_alias for difference in _differences(*pair, columns=besides, loose=loose)
+    ]
+    return Comparison(
+        ours=ours,
+        theirs=theirs,
+        columns=columns,
+        matched=len(matching.pairs) + len(matching.by_alias),
+        only_ours=tuple(entry.place for entry in matching.only_ours),
+        only_theirs=tuple(entry.place for entry in matching.only_theirs),
+        differences=tuple(found),
+        notes=notes,
+    )
+
+
+def _differences(ours: Entry, theirs: Entry, *, columns: Iterable[str], loose: bool) -> Iterator[Difference]:
+    for column in columns:
+        left, right = ours.cells.get(column, ""), theirs.cells[column]
+        if column == "space" and not right.strip():
+            continue  # a row that leaves the space open was looked for in all of them
+        if apart := differing(column, left, right, loose=loose):
+            yield Difference(replace(ours.place, line=theirs.line), column, *apart)
+
+
+def _silent(register_map: RegisterMap) -> set[tuple[str, Spot]]:
+    """Return by model the places where no register begins although the manual lists them."""
+    found: set[tuple[str, Spot]] = set()
+    for model in register_map.models:
+        further = [
+            (base.space, base.address + 1, base.last)
+            for base in (register.base for register in model.registers)
+            if not base.space.is_bits
+        ]
+        for space, first, last in (*model.unused, *register_map.reserved, *further):
+            found |= {(one_line(model.name), (space.value, address)) for address in range(first, last + 1)}
+    return found
+
+
+def _stands_in(row: Entry, places: set[tuple[str, Spot]]) -> bool:
+    """Whether one of the places where a row may stand is among `places`; a row without space may stand in any."""
+    spots = [(own, address) for space, address in row.spots for own in ([space] if space else Space)]
+    return any((row.model, (str(own), address)) in places for own, address in spots)
+
+
+def _refuse_keyless(table: Table, chosen: Columns, notations: Iterable[str]) -> None:
+    wanted = ["address", *notations, "id"]
+    if not chosen.names & {fold(name) for name in wanted}:
+        message = (
+            f"{table.name} has none of the columns {', '.join(wanted)}: nothing tells which register a row is about"
+        )
+        raise TableError(message)
+
+
+def _model(register_map: RegisterMap, table: Table, chosen: Columns, model: str) -> str:
+    """Return the model to look at; empty for all of them."""
+    names = [one_line(one.name) for one in register_map.models]
+    if model and one_line(model) not in names:
+        message = f"{register_map.id} has no model `{model}`{_meant(model, names)}"
+        raise TableError(message)
+    if model or "model" in chosen.names:
+        return one_line(model)
+    if len(names) > 1:
+        message = (
+            f"{table.name} has no column `model`, and {register_map.id} has {', '.join(names)}: name one with --model"
+        )
+        raise TableError(message)
+    return names[0]
+
+
+def _notes(register_map: RegisterMap, table: Table, chosen: Columns, theirs: Sequence[Entry]) -> Iterator[str]:
+    """Yield what is left out of the comparison, and models that the map does not have."""
+    places = dict(chosen.at)
+    if "map" in places:
+        maps = [row.cells[places["map"]].strip() for row in table.rows]
+        others = [name for name in maps if name != register_map.id]
+        if len(others) == len(maps):
+            message = f"{table.name} has no row of the map {register_map.id}, but of {', '.join(dict.fromkeys(others))}"
+            raise TableError(message)
+        if others:
+            yield f"left out: {len(others)} rows of other maps ({', '.join(dict.fromkeys(others))})"
+    names = [one_line(model.name) for model in register_map.models]
+    for foreign in dict.fromkeys(entry.model for entry in theirs if entry.model not in names):
+        yield f"{register_map.id} has no model `{foreign}`{_meant(foreign, names)}"
+
+
+def _meant(name: str, names: Sequence[str]) -> str:
+    near = get_close_matches(name, names, n=1, cutoff=0.5)
+    return f"; did you mean `{near[0]}`?" if near else f": it has {', '.join(names)}"

@@ -1,0 +1,143 @@
+"""How much of a device a map covers: addresses, facts of registers, worked examples, what is inferred and open."""
+
+import re
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Iterator
+
+from regscribe.emit.text import one_line
+from regscribe.evidence.exemplified import exemplified
+from regscribe.evidence.statement import Addresses, MapCoverage, ModelCoverage, Remark
+from regscribe.model import Kind, Model, Open, Register, RegisterMap, Space
+
+BIT_FUNCTIONS = frozenset({5, 15})
+"""Function codes that write coils; every other write of a command goes to holding registers."""
+
+INFERRED, OPEN_LIMIT, NOT_STATED = KINDS = ("inferred", "open limit", "decimals not stated")
+"""What is said of registers, in this order."""
+
+
+def coverage(register_map: RegisterMap) -> MapCoverage:
+    """Count what a map covers."""
+    return MapCoverage(
+        id=register_map.id,
+        title=one_line(register_map.title),
+        models=tuple(_model(register_map, model) for model in register_map.models),
+        remarks=tuple(_remarks(register_map)),
+        errata=len(register_map.errata),
+        waivers=len(register_map.waivers),
+        overrides=len(register_map.overrides),
+        givens=len(register_map.givens),
+        examples=len(register_map.examples),
+    )
+
+
+def _model(register_map: RegisterMap, model: Model) -> ModelCoverage:
+    def number(fact: Callable[[Register], object]) -> int:
+        return sum(bool(fact(register)) for register in model.registers)
+
+    shown = exemplified(register_map, model)
+    return ModelCoverage(
+        name=one_line(model.name),
+        addresses=tuple(_addresses(register_map, model)),
+        registers=len(model.registers),
+        ranged=number(lambda register: register.range),
+        coded=number(lambda register: register.enum or register.fields or register.specials or register.sentinels),
+        defaults=number(lambda register: register.default is not None),
+        units=number(lambda register: any(case.then for case in register.unit)),
+        sections=number(lambda register: register.section),
+        examples=number(lambda register: register.path in shown),
+        inferred=number(lambda register: register.inferred),
+        open_limits=number(open_limits),
+        raw=number(_is_raw),
+    )
+
+
+def open_limits(register: Register) -> tuple[str, ...]:
+    """Return the limits that the manual names without giving them, each once, in the order of the range."""
+    intervals = (interval for case in register.range for interval in case.then.intervals)
+    limits = (limit for interval in intervals for limit in (interval.low, interval.high))
+    return tuple(dict.fromkeys(one_line(limit.text) for limit in limits if isinstance(limit, Open)))
+
+
+def _is_raw(register: Register) -> bool:
+    return register.kind is Kind.RAW
+
+
+def _addresses(register_map: RegisterMap, model: Model) -> Iterator[Addresses]:
+    """Yield the counts of each space that holds anything, in the order of `Space`."""
+    mapped = _by_space(_mapped(model))
+    aliases = _by_space(_aliases(model))
+    commands = _by_space(_commanded(model))
+    unused = _by_space(model.unused)
+    reserved = _by_space(register_map.reserved)
+    for space in Space:
+        kinds = [found[space] for found in (mapped, aliases, commands, unused, reserved)]
+        if documented := set[int]().union(*kinds):
+            yield Addresses(
+                space=space.value,
+                documented=len(documented),
+                mapped=len(mapped[space]),
+                aliases=len(aliases[space]),
+                commands=len(commands[space] - mapped[space] - aliases[space]),
+                unused=len(unused[space]),
+                reserved=len(reserved[space]),
+            )
+
+
+Stretch = tuple[Space, int, int]
+"""A space, and the first and the last address of a stretch in it."""
+
+
+def _by_space(stretches: Iterable[Stretch]) -> dict[Space, set[int]]:
+    found: dict[Space, set[int]] = defaultdict(set)
+    for space, first, last in stretches:
+        found[space].update(range(first, last + 1))
+    return found
+
+
+def _mapped(model: Model) -> Iterator[Stretch]:
+    for register in model.registers:
+        yield from ((view.space, view.address, view.last) for view in register.views)
+
+
+def _aliases(model: Model) -> Iterator[Stretch]:
+    for register in model.registers:
+        base = register.base
+        yield from ((base.space, alias, alias + base.words - 1) for alias in register.aliases)
+
+
+def _commanded(model: Model) -> Iterator[Stretch]:
+    for command in model.commands:
+        for step in command.steps:
+            if step.words:
+                space = Space.COIL if step.function in BIT_FUNCTIONS else Space.HOLDING
+                yield space, step.address, step.address + len(step.words) - 1
+
+
+def _remarks(register_map: RegisterMap) -> Iterator[Remark]:
+    """Yield what is inferred and open, by kind; what several models or registers share is said once."""
+    models: dict[tuple[str, str, str], dict[str, None]] = {}
+    for model in register_map.models:
+        for register in model.registers:
+            for kind, text in _of_register(register):
+                at = re.sub(r"\[\d+\]", "[i]", register.path)
+                models.setdefault((kind, text, at), {})[one_line(model.name)] = None
+    shared: dict[tuple[str, str, tuple[str, ...]], list[str]] = {}
+    for (kind, text, at), having in models.items():
+        some = () if len(having) == len(register_map.models) else tuple(having)
+        shared.setdefault((kind, text, some), []).append(at)
+    for wanted in KINDS:
+        for (kind, text, names), paths in shared.items():
+            if kind == wanted:
+                yield Remark(kind=kind, at=tuple(paths), text=text, models=names)
+    for given in register_map.givens:
+        yield Remark(kind="given", at=(given.id,), text=f"{one_line(given.description)}: {one_line(given.reason)}")
+
+
+def _of_register(register: Register) -> Iterator[tuple[str, str]]:
+    for item in register.inferred:
+        yield INFERRED, f"{one_line(item.what)}: {one_line(item.why)}"
+    for text in open_limits(register):
+        yield OPEN_LIMIT, text
+    if _is_raw(register):
+        yield NOT_STATED, ""
