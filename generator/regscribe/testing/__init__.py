@@ -4,7 +4,8 @@ A generated test module loads its vectors with `load`, makes a `Bench` for each 
 strategies in `regscribe.testing.properties` need hypothesis. Imports the runtime only, never the compiler.
 """
 
-from regscribe.testing.bench import Bench, Trial
+from regscribe.testing.bench import Bench
+from regscribe.testing.trial import Trial
 from regscribe.testing.vectors import Vectors, load, number
 
 __all__ = ["Bench", "Trial", "Vectors", "load", "number"]

@@ -13,11 +13,12 @@ from hypothesis import strategies as st
 
 from regscribe.runtime import ValueNotDecodable, ValueRefused
 from regscribe.runtime.register import Register
-from regscribe.testing.bench import Bench, Trial
+from regscribe.testing.bench import Bench
 from regscribe.testing.reads import wrong_requests, wrong_values
+from regscribe.testing.trial import Trial
 from regscribe.testing.vectors import number
 
-each_run = settings(max_examples=60, deadline=None, derandomize=True, database=None)
+each_run = settings(max_examples=40, deadline=None, derandomize=True, database=None)
 """How often each property is tried for each model."""
 
 NO_VALUES: tuple[object, ...] = (math.nan, math.inf, -math.inf, None, b"1", [1], object())
@@ -87,8 +88,12 @@ def batches(bench: Bench, data: st.DataObject) -> None:
 
 
 def _several(bench: Bench) -> st.SearchStrategy[list[Register[Any]]]:
+    """Return a strategy of registers to read together: all, neighbours, or any."""
     readable = [register for register in bench.driver.registers.values() if register.access != "w"]
-    return st.lists(st.sampled_from(readable), unique_by=lambda one: one.path, min_size=1, max_size=40)
+    ends = st.tuples(st.integers(0, len(readable) - 1), st.integers(1, len(readable)))
+    neighbours = ends.map(lambda one: sorted(readable, key=lambda register: register.at)[one[0] : one[0] + one[1]])
+    scattered = st.lists(st.sampled_from(readable), unique_by=lambda one: one.path, min_size=1, max_size=40)
+    return st.one_of(st.just(readable), neighbours, scattered)
 
 
 def _writable(bench: Bench) -> Sequence[Trial]:

@@ -17,7 +17,9 @@ class Vectors:
     map_id: str
     models: tuple[str, ...]
     sets: tuple[Json, ...] = field(repr=False)
-    examples: tuple[Json, ...] = field(repr=False)
+    examples: tuple[Json, ...] = field(default=(), repr=False)
+    protocol: Json = field(default_factory=dict, repr=False)
+    commands: tuple[Json, ...] = field(default=(), repr=False)
 
     def registers(self, model: str) -> Iterator[tuple[Json, Json]]:
         """Yield each register of a model as its place (path, addresses) and the set that is true of it."""
@@ -32,7 +34,14 @@ class Vectors:
 def load(path: Path) -> Vectors:
     """Read a vector file; OSError or ValueError if it cannot be read."""
     data = json.loads(path.read_text(encoding="utf-8"))
-    return Vectors(data["map"], tuple(data["models"]), tuple(data["sets"]), tuple(data["examples"]))
+    return Vectors(
+        map_id=data["map"],
+        models=tuple(data["models"]),
+        sets=tuple(data["sets"]),
+        examples=tuple(data["examples"]),
+        protocol=data["protocol"],
+        commands=tuple(data["commands"]),
+    )
 
 
 def number(text: str) -> int | float | Fraction:

@@ -3,6 +3,7 @@
 from typing import Any
 
 from regscribe.emit.header import FORMAT, header
+from regscribe.emit.vectors.device import command_facts, protocol_facts
 from regscribe.emit.vectors.layout import dumps
 from regscribe.emit.vectors.module import test_module
 from regscribe.emit.vectors.send import transmissions
@@ -35,6 +36,8 @@ def document(register_map: RegisterMap) -> dict[str, Any]:
         "title": register_map.title,
         "sha256": register_map.content_hash,
         "models": [model.name for model in register_map.models],
+        "protocol": protocol_facts(register_map),
+        "commands": command_facts(register_map),
         "givens": [_given(given) for given in register_map.givens],
         "sets": vector_sets(register_map),
         "transmissions": transmissions(register_map),

@@ -32,6 +32,11 @@ def test_the_driver_has_the_registers_of_its_model_at_their_addresses(bench: Ben
 
 
 @every_model
+def test_requests_keep_to_the_limits_of_the_device_and_commands_send_what_the_map_says(bench: Bench) -> None:
+    bench.check_device()
+
+
+@every_model
 def test_words_decode_to_the_values_of_the_vectors(bench: Bench) -> None:
     bench.check_decoding()
 

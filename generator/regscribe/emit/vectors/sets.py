@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from regscribe.emit.vectors.content import case_of, surroundings
-from regscribe.emit.vectors.situation import Situation, situations, writable_situations
+from regscribe.emit.vectors.situation import Finder, Situation, writable_situations
 from regscribe.model import Enum, Model, OrderFromRegister, Register, RegisterMap, Rounding, Span, View, always, show
 
 Json = dict[str, Any]
@@ -19,8 +19,10 @@ def vector_sets(register_map: RegisterMap) -> list[Json]:
     worked_out: dict[tuple[Register, Plan], str] = {}
     places: dict[str, list[tuple[Register, str]]] = {}
     contents: dict[str, Json] = {}
+    finder = Finder(register_map)
     for model, register in _registers(register_map):
-        key = (_bare(register), _plan(register_map, model, register))
+        tried = tuple(finder.situations(model, register, view) for view in register.views)
+        key = (_bare(register), (tried, writable_situations(register_map, model, register)))
         if key not in worked_out:
             content = _content(*key)
             worked_out[key] = json.dumps(content)
@@ -31,11 +33,6 @@ def vector_sets(register_map: RegisterMap) -> list[Json]:
 
 def _registers(register_map: RegisterMap) -> Iterator[tuple[Model, Register]]:
     return ((model, register) for model in register_map.models for register in model.registers)
-
-
-def _plan(register_map: RegisterMap, model: Model, register: Register) -> Plan:
-    tried = tuple(situations(register_map, model, register, view) for view in register.views)
-    return tried, writable_situations(register_map, model, register)
 
 
 def _bare(register: Register) -> Register:
@@ -61,19 +58,20 @@ def _bare_enum(enum: Enum) -> Enum:
 
 
 def _placed(places: list[tuple[Register, str]]) -> list[Json]:
-    folded: dict[tuple[str, tuple[tuple[str, int], ...], tuple[int, ...]], list[str]] = {}
+    folded: dict[str, tuple[Json, list[str]]] = {}
     for register, model in places:
-        addresses = tuple((view.name, view.address) for view in register.views)
-        folded.setdefault((register.path, addresses, register.aliases), []).append(model)
-    return [
-        {
-            "path": path,
-            "models": models,
-            "addresses": dict(addresses),
-            **({"aliases": list(aliases)} if aliases else {}),
-        }
-        for (path, addresses, aliases), models in folded.items()
-    ]
+        place = _place(register)
+        folded.setdefault(json.dumps(place), (place, []))[1].append(model)
+    return [{"path": place["path"], "models": models, **place} for place, models in folded.values()]
+
+
+def _place(register: Register) -> Json:
+    found: Json = {"path": register.path, "addresses": {view.name: view.address for view in register.views}}
+    if register.aliases:
+        found["aliases"] = list(register.aliases)
+    if register.default is not None:
+        found["default"] = register.default if isinstance(register.default, str) else show(register.default)
+    return found
 
 
 def _content(register: Register, plan: Plan) -> Json:

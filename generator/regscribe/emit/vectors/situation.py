@@ -1,6 +1,6 @@
 """In which surroundings a register must be tried: every case of its scale and range, every order, every decimals."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import islice, product
@@ -9,6 +9,9 @@ from regscribe.emit.vectors.subject import GivenTry, Questions, Tries, Values, q
 from regscribe.model import Interval, Kind, Model, Number, Reference, Register, RegisterMap, View
 from regscribe.model.condition import Cases, T
 from regscribe.model.reference import Surroundings, choose, decimal_factor, holds, word_order
+
+Meaning = Callable[[Surroundings], object]
+"""What a situation comes to, for the register that is tried."""
 
 MOST_COMBINATIONS = 20_000
 """Enough for every combination of six registers with five values each; more would only repeat what was tried."""
@@ -21,13 +24,14 @@ LOW_STORED, HIGH_STORED = Fraction(100), Fraction(1500)
 class Situation:
     """What is known beside the register itself. Not `full`: it differs from another one only in the codes.
 
-    `parts` are the names in `values` that are a field of a register which stands there too.
+    `parts` are the names in `values` that are a field of a register; `words` those of such registers.
     """
 
     values: tuple[tuple[str, Fraction], ...] = ()
     codes: tuple[tuple[str, frozenset[Fraction]], ...] = ()
     facts: tuple[tuple[str, bool], ...] = ()
     parts: tuple[str, ...] = ()
+    words: tuple[str, ...] = ()
     full: bool = True
 
     @property
@@ -41,22 +45,38 @@ class Situation:
         return Surroundings(dict(self.values), dict(self.codes), dict(self.facts))
 
 
-def situations(register_map: RegisterMap, model: Model, register: Register, view: View) -> tuple[Situation, ...]:
-    """Return the situations in which `view` must be tried.
+class Finder:
+    """Finds situations; registers that depend on the same things in the same way are worked out once."""
 
-    Full ones: each combination of a case of the scale, a case of the range and their decimals, and each word order;
-    besides, one for each code that decides between the cases.
-    """
-    tries = tries_of(register_map, model, questions_of(register, view))
+    def __init__(self, register_map: RegisterMap) -> None:
+        self._map = register_map
+        self._known: dict[object, tuple[Situation, ...]] = {}
+
+    def situations(self, model: Model, register: Register, view: View) -> tuple[Situation, ...]:
+        """Return the situations in which `view` must be tried.
+
+        Full ones: each combination of a case of the scale, a case of the range and their decimals, and each word order;
+        besides, one for each code that decides between the cases.
+        """
+        tries = tries_of(self._map, model, questions_of(register, view))
+        asked = tuple(tries.values.items()), tuple(tries.givens.items()), tuple(tries.parts.items())
+        ranges = register.range if register.access.writable else ()
+        key = (register.scale, ranges, register.kind, view.word_order, view.words, asked)
+        if key not in self._known:
+            self._known[key] = _situations(tries, register, view)
+        return self._known[key]
+
+
+def _situations(tries: Tries, register: Register, view: View) -> tuple[Situation, ...]:
     seen: dict[object, Situation] = {}
-    every: list[Situation] = list(islice(_combinations(tries), MOST_COMBINATIONS))
+    every = list(islice(_combinations(tries), MOST_COMBINATIONS))
     for situation in every:
         known = situation.known
         seen.setdefault(_signature(register, known), situation)
         if view.words > 1:
             seen.setdefault(word_order(view, known), situation)
     full = list(dict.fromkeys(seen.values()))
-    found = [*full, *_missing(tries.values, full, every)]
+    found = [*full, *_missing(tries.values, full, every, lambda known: _meaning(register, known))]
     return tuple(_with_limits(register, situation) for situation in found)
 
 
@@ -70,7 +90,8 @@ def writable_situations(
     tries = tries_of(register_map, model, Questions((condition,)))
     every = list(islice(_combinations(tries), MOST_COMBINATIONS))
     seen = {holds(condition, situation.known): situation for situation in reversed(every)}
-    found = [*seen.values(), *_missing(tries.values, list(seen.values()), every)]
+    full = list(seen.values())
+    found = [*full, *_missing(tries.values, full, every, lambda known: holds(condition, known))]
     return tuple((situation, holds(condition, situation.known)) for situation in found)
 
 
@@ -84,6 +105,7 @@ def _combinations(tries: Tries) -> Iterator[Situation]:
             tuple((name, codes) for name, codes in said if isinstance(codes, frozenset)),
             tuple((name, fact) for name, fact in said if isinstance(fact, bool)),
             tuple(tries.parts),
+            tuple(register for register, _ in tries.parts.values()),
         )
 
 
@@ -95,18 +117,28 @@ def _words(tries: Tries, values: dict[str, Fraction]) -> tuple[tuple[str, Fracti
     return tuple((register, Fraction(word)) for register, word in words.items() if register not in values)
 
 
-def _missing(values: Values, full: list[Situation], every: list[Situation]) -> list[Situation]:
+def _missing(values: Values, full: list[Situation], every: list[Situation], meaning: Meaning) -> list[Situation]:
+    """Return a situation for each value that no full one has: one where this value makes a difference, if it can."""
     covered = {pair for situation in full for pair in situation.values}
     wanted = [(name, value) for name, listed in values.items() for value in listed if (name, value) not in covered]
-    found: list[Situation] = []
-    for pair in wanted:
-        if pair in covered:
-            continue
-        situation = next((other for other in every if pair in other.values), None)
-        if situation is not None:
-            found.append(replace(situation, full=False))
-            covered |= set(situation.values)
-    return found
+    if not wanted:
+        return []
+    meanings = {situation: meaning(situation.known) for situation in every}
+    found: dict[Situation, None] = {}
+    for name, value in wanted:
+        differ: dict[object, set[object]] = {}
+        for situation, meant in meanings.items():
+            differ.setdefault(_without(situation, name), set()).add(meant)
+        having = [situation for situation in every if (name, value) in situation.values]
+        best = max(having, key=lambda situation: len(differ[_without(situation, name)]), default=None)
+        if best is not None:
+            found[replace(best, full=False)] = None
+    return list(found)
+
+
+def _without(situation: Situation, name: str) -> object:
+    others = tuple(pair for pair in situation.values if pair[0] != name and pair[0] not in situation.words)
+    return others, situation.codes, situation.facts
 
 
 def _index(cases: Cases[T], known: Surroundings) -> int:
@@ -122,6 +154,15 @@ def _signature(register: Register, known: Surroundings) -> object:
         _index(register.range, known) if register.access.writable else 0,
         limits_now and decimal_factor(limits_now.decimals, known),
     )
+
+
+def _meaning(register: Register, known: Surroundings) -> object:
+    """Return the scale and the limits as numbers: two cases that say the same are the same."""
+    conversion = choose(register.scale, known)
+    factor = conversion and decimal_factor(conversion.decimals, known)
+    scale = (conversion.multiply / factor, conversion.add / factor, conversion.step) if conversion and factor else None
+    limits_now = choose(register.range, known) if register.access.writable else None
+    return scale, limits_now and limits_now.intervals, limits_now and decimal_factor(limits_now.decimals, known)
 
 
 def _with_limits(register: Register, situation: Situation) -> Situation:

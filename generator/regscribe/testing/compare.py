@@ -1,0 +1,99 @@
+"""Hold a driver's answer against a vector, and say what differs."""
+
+from collections.abc import Iterable, Iterator
+from fractions import Fraction
+from typing import Any
+
+from regscribe.runtime import NotDecodable, Saturated, SensorFault, ValueNotDecodable, ValueRefused
+from regscribe.testing.trial import Trial
+from regscribe.testing.vectors import Json, number
+
+MOST_SHOWN = 12
+"""Differences listed in a failure; more would hide the pattern."""
+
+
+def differs(where: str, what: str, found: object, expected: object) -> Iterator[str]:
+    """Yield a line if the two are not equal."""
+    if found != expected:
+        yield f"{where}: {what} {found!r}, expected {expected!r}"
+
+
+def report(differences: Iterable[str]) -> str:
+    """Return differences as the message of a failure: how many, and the first of them."""
+    listed = list(differences)
+    rest = f"\n  ... and {len(listed) - MOST_SHOWN} more" if len(listed) > MOST_SHOWN else ""
+    return f"{len(listed)} differences:\n  " + "\n  ".join(listed[:MOST_SHOWN]) + rest
+
+
+def same(found: object, text: str) -> bool:
+    """Tell whether a decoded value is what a vector spells; a float must be the nearest one."""
+    if isinstance(found, str):
+        return found == text
+    if isinstance(found, float):
+        exactly = Fraction(text)
+        return found == exactly.numerator / exactly.denominator
+    return isinstance(found, (int, Fraction)) and found == Fraction(text)
+
+
+def decoded(trial: Trial, vector: Json) -> Iterator[str]:
+    """Yield a line if the words of a vector decode to anything but its value, fault or outcome."""
+    where = f"{trial}: words {vector['words']}"
+    expected = vector.get("value") or vector.get("fault") or vector.get("outcome")
+    try:
+        found = trial.decode(vector["words"])
+    except SensorFault as fault:
+        yield from differs(where, "fault", fault.fault, vector.get("fault", expected))
+    except Saturated:
+        yield from differs(where, "outcome", "saturated", vector.get("outcome", expected))
+    except NotDecodable as error:
+        yield from differs(where, "outcome", "not_decodable", vector.get("outcome", f"{expected} ({error})"))
+    else:
+        if "value" not in vector or not same(found, vector["value"]):
+            yield f"{where}: value {found!r}, expected {expected!r}"
+        else:
+            yield from _named(where, trial, found, vector)
+
+
+def _named(where: str, trial: Trial, found: Any, vector: Json) -> Iterator[str]:  # noqa: ANN401 (any value)
+    for key in ("member", "special"):
+        if key in vector:
+            labels = trial.entry.get(f"{key}s", ())
+            label = next((one["label"] for one in labels if one["id"] == vector[key]), None)
+            yield from differs(where, key, getattr(found, "name", None), vector[key])
+            yield from differs(where, "label", getattr(found, "label", None), label) if label is not None else ()
+    if "unknown" in vector:
+        yield from differs(where, "known", getattr(found, "known", None), not vector["unknown"])
+    if "flags" in vector:
+        names = {str(member.name).lower() for member in type(found) if member in found} if found else set()
+        yield from differs(where, "flags", names, {name.lower() for name in vector["flags"]})
+    for name, part in vector.get("fields", {}).items():
+        yield from differs(where, name, getattr(found, name, None), int(part))
+
+
+def written(trial: Trial, text: str) -> Any:  # noqa: ANN401 (a text or a number)
+    """Return the value of a vector as a program hands it over."""
+    return text if trial.entry["kind"] in {"string", "version"} else number(text)
+
+
+def encoded(trial: Trial, vector: Json) -> Iterator[str]:
+    """Yield a line if the value of a vector encodes to anything but its words."""
+    where = f"{trial}: value {vector['value']}"
+    try:
+        words = trial.encode(written(trial, vector["value"]), rounded=vector.get("rounded", False))
+    except (ValueRefused, ValueNotDecodable) as error:
+        yield f"{where}: refused ({error}), expected words {vector['words']}"
+    else:
+        yield from differs(where, "words", list(words), vector["words"])
+
+
+def refused(trial: Trial, vector: Json) -> Iterator[str]:
+    """Yield a line if the value of a vector is not refused."""
+    try:
+        words = trial.encode(written(trial, vector["value"]))
+    except ValueRefused:
+        return
+    except ValueNotDecodable as error:
+        if vector["reason"] != "condition":
+            yield f"{trial}: value {vector['value']}: {error}, expected a refusal ({vector['reason']})"
+    else:
+        yield f"{trial}: value {vector['value']}: words {list(words)}, expected a refusal ({vector['reason']})"

@@ -1,0 +1,49 @@
+"""One register in one situation, and the driver's codec under it."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from regscribe.runtime.register import Register
+from regscribe.testing.vectors import Json, number
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Trial:
+    """One register in one view and situation: `case` has its vectors, `entry` what the register is."""
+
+    register: Register[Any]
+    entry: Json
+    case: Json
+    state: Mapping[str, Any]
+    givens: Mapping[str, Any]
+
+    @property
+    def view(self) -> str:
+        """The name of the view."""
+        return str(self.case["view"])
+
+    def decode(self, words: Sequence[int]) -> Any:  # noqa: ANN401 (whatever the register holds)
+        """Decode with the driver under the state of this trial."""
+        return self.register.decode(words, view=self.view, state=self.state, givens=self.givens)
+
+    def encode(self, value: object, *, rounded: bool = False) -> tuple[int, ...]:
+        """Encode with the driver under the state of this trial."""
+        return self.register.encode(value, view=self.view, state=self.state, givens=self.givens, rounded=rounded)
+
+    def __repr__(self) -> str:
+        given = {name: codes for name, codes in self.givens.items() if name in self.case.get("givens", {})}
+        return f"{self.register.path} ({self.view}) with {dict(self.state) | given}"
+
+
+def known(case: Json) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return the state and the givens of a case as a driver takes them."""
+    givens = case.get("givens", {})
+    stated = {**case.get("assumed", {}), **case.get("state", {})}
+    return (
+        {path: number(text) for path, text in stated.items()},
+        {
+            name: codes if isinstance(codes, bool) else {number(text) for text in codes}
+            for name, codes in givens.items()
+        },
+    )
