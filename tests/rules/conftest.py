@@ -1,11 +1,14 @@
 """Small maps, and what all phases say of them."""
 
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
 from regscribe import checks, lower, schema, source
+from regscribe.checks.catalogue import Example
 from regscribe.model import Diagnostic, RegisterMap, Severity
+from regscribe.pipeline import compile_map
 
 HEAD = """\
 format: 1
@@ -45,6 +48,20 @@ def compile_text(text: str) -> tuple[RegisterMap | None, list[Diagnostic]]:
 def diagnose() -> Callable[[str], list[Diagnostic]]:
     """All diagnostics of a map given as text."""
     return lambda text: compile_text(text)[1]
+
+
+@pytest.fixture
+def diagnose_files(tmp_path: Path) -> Callable[[Example], list[Diagnostic]]:
+    """All diagnostics of an example: its files lie in one maps folder, the first of them is compiled."""
+
+    def diagnose(files: Example) -> list[Diagnostic]:
+        for name, text in files:
+            path = tmp_path / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(text.encode())
+        return list(compile_map(tmp_path / files[0][0]).diagnostics)
+
+    return diagnose
 
 
 @pytest.fixture

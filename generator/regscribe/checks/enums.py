@@ -100,7 +100,11 @@ def no_members(scope: Scope) -> Iterator[Finding]:
 
 
 @model_rule(
-    Rule("RS0454", "Cells and columns of an enum differ", "A cell without a column, or the reverse, says nothing certain.")
+    Rule(
+        "RS0454",
+        "Cells and columns of an enum differ",
+        "A cell without a column, or the reverse, says nothing certain.",
+    )
 )
 def cells_of_columns(scope: Scope) -> Iterator[Finding]:
     """Count the cells of each member that has some."""

@@ -75,7 +75,9 @@ def broadcast(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
 
 
 @map_rule(
-    Rule("RS0492", "Functions alike that cannot be", "Each function of the device does one thing, alone or like others.")
+    Rule(
+        "RS0492", "Functions alike that cannot be", "Each function of the device does one thing, alone or like others."
+    )
 )
 def alike(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
     """Look for functions that the device lacks, and for those that stand in two lists."""

@@ -6,6 +6,7 @@ from difflib import SequenceMatcher, get_close_matches
 import click
 
 from regscribe.checks import catalogue
+from regscribe.checks.catalogue import Example
 from regscribe.cli.terminal import Piece, show
 from regscribe.cli.text import STYLES
 from regscribe.model import Rule
@@ -44,11 +45,15 @@ def _explanation(rule: Rule) -> Iterator[Piece]:
         yield "\nNo example: the rule is about the file, not about what stands in it.\n", ""
 
 
-def _example(title: str, text: str | None, *, other: str | None, mark: str, style: str) -> Iterator[Piece]:
-    """Show one example; lines that the other one has, too, are plain."""
-    if text is None:
-        return
-    yield f"\n{title}:\n", "bold"
+def _example(title: str, files: Example | None, *, other: Example | None, mark: str, style: str) -> Iterator[Piece]:
+    """Show the files of one example; lines that the other one has, too, are plain."""
+    others = dict(other or ())
+    for name, text in files or ():
+        yield f"\n{title}{f', maps/{name}' if len(files or ()) > 1 else ''}:\n", "bold"
+        yield from _lines(text, None if other is None else others.get(name, ""), mark=mark, style=style)
+
+
+def _lines(text: str, other: str | None, *, mark: str, style: str) -> Iterator[Piece]:
     lines = text.splitlines()
     matcher = SequenceMatcher(None, lines, (other or "").splitlines(), autojunk=False)
     same = {block.a + offset for block in matcher.get_matching_blocks() for offset in range(block.size)}

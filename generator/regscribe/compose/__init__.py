@@ -14,7 +14,7 @@ from regscribe.compose.rules import CYCLE, OTHER_ID, RULES
 from regscribe.compose.shelf import ENDINGS, LIBRARY, MAP, File, Shelf, folder_of
 from regscribe.compose.tree import cut, elements, in_file, text
 from regscribe.model import Diagnostic, Override
-from regscribe.source import Document, Node, Place
+from regscribe.source import Document, Node
 
 __all__ = ["RULES", "Composed", "as_map", "compose", "is_library", "misplaced"]
 
@@ -100,20 +100,17 @@ def _base(file: File, shelf: Shelf, chain: tuple[File, ...]) -> _Part | None:
     if node is None or found is None:
         return None
     if any(found.path.resolve() == each.path.resolve() for each in chain):
-        _refuse_cycle(node, found, shelf, chain)
+        _refuse_cycle(found, shelf, chain)
         return None
     return _build(found, shelf, (*chain, found))
 
 
-def _refuse_cycle(node: Node, found: File, shelf: Shelf, chain: tuple[File, ...]) -> None:
+def _refuse_cycle(found: File, shelf: Shelf, chain: tuple[File, ...]) -> None:
+    """Report the circle at the map that is compiled, with each further step of it."""
     names = " -> ".join([*(each.id for each in chain), found.id])
-    steps: list[tuple[str, Place]] = []
-    for each in chain[:-1]:
-        step = each.root.child("extends")
-        if step is not None:
-            steps.append((f"`{each.id}` extends `{text(step)}`", step.place))
-    message = f"the map extends itself: {names}"
-    shelf.findings.add(CYCLE, message, node.place, "let one of them stand alone", *steps)
+    steps = [(each.id, each.root.child("extends") or each.root) for each in chain]
+    others = [(f"`{name}` extends `{text(step)}`", step.place) for name, step in steps[1:]]
+    shelf.findings.add(CYCLE, f"maps extend each other: {names}", steps[0][1].place, "let one stand alone", *others)
 
 
 def _plain(root: Node) -> Node:
