@@ -101,9 +101,9 @@ def _all(names: list[str]) -> list[str]:
     return ["__all__ = [", *(f"    {literal(name)}," for name in names), "]", ""]
 
 
-def _natural(name: str) -> list[tuple[int, str]]:
+def _natural(name: str) -> list[tuple[str, int]]:
     # the order that ruff asks of __all__: numbers inside names count as numbers
-    return [(int(digits or 0), letters) for letters, digits in re.findall(r"(\D*)(\d*)", name)]
+    return [(letters, int(digits or 0)) for letters, digits in re.findall(r"(\D*)(\d*)", name)]
 
 
 def _protocol(protocol: Protocol) -> Call:
