@@ -9,7 +9,6 @@ import pytest
 from regscribe import pipeline
 from regscribe.compose import Composed
 from regscribe.model import Diagnostic, Severity, Span
-from regscribe.source import Document
 
 PHASES = ("source", "schema", "compose", "lower", "checks")
 PATH = Path("m.yaml")
@@ -31,12 +30,12 @@ def phases(monkeypatch: pytest.MonkeyPatch) -> dict[str, list[Diagnostic]]:
 
         return run
 
-    document = SimpleNamespace(name="m.yaml")
+    document = SimpleNamespace(name="m.yaml", content_hash="abc")
 
     def compose(_: object, path: Path) -> Composed:
         assert path == PATH
         finds["ran"].append("compose")
-        return Composed(cast("Document", document), tuple(finds["compose"]))
+        return Composed(cast("Any", document), tuple(finds["compose"]))
 
     monkeypatch.setattr("regscribe.source.load", phase("source", document))
     monkeypatch.setattr("regscribe.schema.validate", phase("schema", None))
@@ -60,5 +59,6 @@ def test_warnings_of_all_phases_come_with_the_map_in_the_order_of_the_file(phase
         phases[phase] = [found(phase, Severity.WARNING)]
     compiled = pipeline.compile_map(PATH)
     assert str(compiled.map) == "map"
+    assert compiled.files == ((PATH, "abc"),)
     assert phases["ran"] == list(PHASES)
     assert [diagnostic.rule for diagnostic in compiled.diagnostics] == list(reversed(PHASES))

@@ -17,7 +17,8 @@ from regscribe.source import Document
 class Compiled:
     """What became of one file: the map, unless an error was found, and all that was found, in the file's order.
 
-    There is no map of a library either. `files` are the other files that were read for it, each with its SHA-256.
+    There is no map of a library either. `files` are all files that the map was made of, its own first, each with the
+    SHA-256 of its bytes.
     """
 
     path: Path
@@ -45,9 +46,11 @@ def _compile(document: Document, path: Path, found: list[Diagnostic]) -> Compile
     if composed.document is not None and composed.document is not document:
         found = [*found, *schema.validate(composed.document)]
     if composed.document is None or has_errors(found):
-        return Compiled(path, None, _ordered(found), composed.files)
+        return Compiled(path, None, _ordered(found))
     register_map, checked = _meaning(composed)
-    return Compiled(path, register_map, _ordered([*found, *_told(checked, document)]), composed.files)
+    found = [*found, *_told(checked, document)]
+    files = ((path, document.content_hash), *composed.files)
+    return Compiled(path, register_map, _ordered(found), files if register_map is not None else ())
 
 
 def _meaning(composed: compose.Composed) -> tuple[RegisterMap | None, list[Diagnostic]]:

@@ -90,7 +90,8 @@ def _compile(path: Path, build: Build) -> None:
     build.rendered |= files
     hashes = {name: cache.digest(text.encode()) for name, text in files.items()}
     counts = _counts(compiled.map)
-    build.entries[path] = Entry(compiled.map.id, compiled.map.content_hash, hashes, counts, card(compiled.map))
+    sources = {cache.key(source): known for source, known in compiled.files}
+    build.entries[path] = Entry(compiled.map.id, sources, hashes, counts, card(compiled.map))
     if compiled.diagnostics:
         build.noisy.add(path)
 

@@ -1,8 +1,9 @@
 """What the last run wrote, so that an unchanged map need not be compiled again.
 
-A map counts as unchanged only if its own bytes, the whole generator and every file written from it are what they were;
-only maps without any finding are remembered, so that no warning goes unseen. The record lies in the user's cache
-directory, not in the output: the output stays reproducible, and losing the record costs one full build.
+A map counts as unchanged only if its own bytes, those of the files that it builds on, the whole generator and every file
+written from it are what they were; only maps without any finding are remembered, so that no warning goes unseen. The
+record lies in the user's cache directory, not in the output: the output stays reproducible, and losing the record costs
+one full build.
 """
 
 import hashlib
@@ -33,13 +34,13 @@ class Counts:
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """One map of the last run: its id, the SHA-256 of its file, that of each file written from it, and its counts.
+    """One map of the last run: its id, the SHA-256 of each file it was made of and of each written from it, its counts.
 
     `card` is its part of the index, which is written anew when any map changes.
     """
 
     id: str
-    source: str
+    sources: dict[str, str]
     files: dict[str, str]
     counts: Counts
     card: Card
@@ -57,7 +58,7 @@ class Cache:
         """Return the entry of the map at `path` if compiling it again would change nothing."""
         entry = self.entries.get(key(path))
         with suppress(OSError, ValueError):
-            if entry is not None and digest(path.read_bytes()) == entry.source and self._written(entry):
+            if entry is not None and _same(entry.sources) and self._written(entry):
                 return entry
         return None
 
@@ -88,10 +89,15 @@ def load(out: Path) -> Cache:
 def _entry(plain: Mapping[str, object]) -> Entry:
     fields: dict[str, object] = dict(plain)
     counts = fields.pop("counts")
-    files = fields["files"]
-    if not isinstance(counts, dict) or not isinstance(files, dict):
+    files, sources = fields["files"], fields["sources"]
+    if not isinstance(counts, dict) or not isinstance(files, dict) or not isinstance(sources, dict) or not sources:
         raise TypeError
-    return Entry(str(fields["id"]), str(fields["source"]), files, Counts(**counts), card_of(fields["card"]))
+    return Entry(str(fields["id"]), sources, files, Counts(**counts), card_of(fields["card"]))
+
+
+def _same(sources: Mapping[str, str]) -> bool:
+    """Whether a map and all that it builds on are what they were."""
+    return all(digest(Path(source).read_bytes()) == known for source, known in sources.items())
 
 
 def key(path: Path) -> str:

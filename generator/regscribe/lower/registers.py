@@ -106,8 +106,10 @@ def _name(entry: Entry) -> str:
 
 def folded(register: Register, entry: Entry) -> Register:
     """A register of an array's first element as one of all elements: named without an index, marks as they are."""
-    names = {key: _text(entry, key) for key in ("name", "symbol", "printed")}
-    return replace(register, **names) if entry.place.index else register
+    if not entry.place.index:
+        return register
+    name, symbol, printed = (_text(entry, key) for key in ("name", "symbol", "printed"))
+    return replace(register, name=name, symbol=symbol, printed=printed)
 
 
 def _access(entry: Entry) -> Access:
