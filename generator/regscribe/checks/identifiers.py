@@ -5,7 +5,7 @@ import re
 from collections.abc import Iterator
 
 from regscribe.checks.registry import Finding, Scope, model_rule, register_rule, warning
-from regscribe.model import Array, Enum, Register, Related, Rule, Span
+from regscribe.model import Array, Enum, Kind, Register, Related, Rule, Span
 
 RUNTIME_NAMES = frozenset(
     """
@@ -14,6 +14,14 @@ RUNTIME_NAMES = frozenset(
     """.split()  # noqa: SIM905 (a column of quoted words is harder to keep in order)
 )
 """Names that a driver has, or is to have, itself: a register of that id would hide them (a test compares the two)."""
+
+HIDDEN = {
+    "register": RUNTIME_NAMES,
+    "array": RUNTIME_NAMES,
+    "command": frozenset({"bind", "placed", "read", "registers", "run"}),
+    "bit field": frozenset({"int", "parts", "replace"}),
+}
+"""What a driver's class for registers, for commands or for a word of bit fields uses itself."""
 
 ENUM_NAMES = frozenset({"MRO", "NAME", "VALUE"})
 """Names that `enum` refuses or uses itself, in capitals as members are written."""
@@ -39,7 +47,8 @@ def _named(scope: Scope) -> Iterator[tuple[str, str, Span]]:
                 yield from walk(member.members)
             else:
                 yield "register", member.id, member.span
-                yield from (("bit field", bits.id, member.span) for bits in member.fields)
+                part = "bit field" if member.kind is Kind.FIELDS else "flag"
+                yield from ((part, bits.id, member.span) for bits in member.fields)
 
     yield from walk(scope.model.members)
     yield from (("group", group.id, group.span) for group in scope.model.groups)
@@ -65,11 +74,11 @@ def not_a_name(scope: Scope) -> Iterator[Finding]:
     Rule("RS0411", "Id hides a name of the driver", "A register called `write` would replace the method `write`.")
 )
 def hides_runtime(scope: Scope) -> Iterator[Finding]:
-    """Refuse ids of registers and arrays that a driver's class uses itself."""
+    """Refuse ids that a driver's class uses itself."""
     for what, name, span in _named(scope):
-        if what in {"register", "array"} and name in RUNTIME_NAMES:
+        if name in HIDDEN.get(what, ()):
             message = f"{what} `{name}` would hide the driver's own `{name}`"
-            yield Finding(name, span, message, f"give it another `id`, for example `{name}_register`")
+            yield Finding(name, span, message, f"give it another `id`, for example `{name}_{what.split()[-1]}`")
 
 
 @model_rule(Rule("RS0412", "Id used twice", "Two things of one id cannot both be reached from the driver."))

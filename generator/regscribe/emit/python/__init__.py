@@ -13,20 +13,10 @@ from regscribe.emit.python.classes import Classes
 from regscribe.emit.python.layout import Call, call, group, lay, mapping
 from regscribe.emit.python.literals import camel, docstring, literal
 from regscribe.emit.python.named import NamedClasses
+from regscribe.emit.python.names import RUNTIME, hidden
 from regscribe.emit.python.pool import Pool
 from regscribe.emit.text import one_line
 from regscribe.model import Array, GivenKind, Protocol, Register, RegisterMap
-
-RUNTIME = tuple(
-    """
-    FLOAT32 FLOAT64 INT16 INT32 INT64 UINT16 UINT32 UINT64 Array AsyncBareDevice AsyncDevice AsyncLink AsyncPart
-    BareDevice Bit Choice Command Conversion Device Field Flags Group Identity Interval Is Limits Link OrderFrom
-    Part Protocol ReadOnly ReadWrite Ref Section SerialSettings TcpSettings View Word WriteOnly async_serial_link
-    async_tcp boolean choice flags integer integer_or number number_or number_with raw serial_link tcp text version
-    within word word_of
-    """.split()  # noqa: SIM905 (a column of quoted words is harder to keep in order)
-)
-"""What a generated module may import from `regscribe.runtime`, in import order."""
 
 NOT_CODE = re.compile(r'"""[\s\S]*?"""|"(?:[^"\\\n]|\\.)*"|\'(?:[^\'\\\n]|\\.)*\'|#[^\n]*')
 MARGIN_SECONDS = 0.5
@@ -43,7 +33,7 @@ def path_of(register_map: RegisterMap) -> str:
 def render(register_map: RegisterMap) -> dict[str, str]:
     """The driver module of a map, as {path: text}."""
     stem = camel(register_map.id.split("/")[1])
-    named, pool = NamedClasses(register_map), Pool()
+    named, pool = NamedClasses(register_map), Pool(hidden(register_map))
     for model in register_map.models:
         for register in _registers(model.members):
             named.collect(register, model.name)
@@ -86,24 +76,33 @@ def _module(register_map: RegisterMap, classes: Classes) -> str:
         *(["from collections.abc import Collection"] if "Collection" in used else []),
         *(["from typing import Self, Unpack"] if "Self" in used else []),
         *([""] if "Collection" in used or "Self" in used else []),
-        *_import([name for name in RUNTIME if name in used]),
+        *_import(used, classes.pool.hidden),
         "",
         *_all(sorted({*names, *classes.public, f"{classes.stem}Groups"}, key=_natural)),
     ]
     return "\n".join(head) + "\n" + body
 
 
-def _import(names: list[str]) -> list[str]:
-    return ["from regscribe.runtime import (", *(f"    {name}," for name in names), ")"]
+def _import(used: set[str], hidden_names: frozenset[str]) -> list[str]:
+    names = [name for name in RUNTIME if name in used and name not in hidden_names]
+    aliases = [name for name in RUNTIME if f"_{name}" in used and name in hidden_names]
+    return [
+        "from regscribe.runtime import (",
+        *(f"    {name}," for name in names),
+        ")",
+        *(f"from regscribe.runtime import {name} as _{name}" for name in aliases),
+    ]
 
 
 def _all(names: list[str]) -> list[str]:
     return ["__all__ = [", *(f"    {literal(name)}," for name in names), "]", ""]
 
 
-def _natural(name: str) -> list[tuple[str, int]]:
-    # the order that ruff asks of __all__: numbers inside names count as numbers
-    return [(letters, int(digits or 0)) for letters, digits in re.findall(r"(\D*)(\d*)", name)]
+def _natural(name: str) -> tuple[bool, list[tuple[str, int]]]:
+    # the order that ruff asks of __all__: names in capitals first, and numbers inside names count as numbers
+    parts = re.findall(r"\d+|\D", name)
+    capitals = name.isupper() and len(name) > 1
+    return not capitals, [("", int(part)) if part.isdecimal() else (part, 0) for part in parts]
 
 
 def _protocol(protocol: Protocol) -> Call:

@@ -8,6 +8,7 @@ from regscribe.emit.python.families import Shared, bases, partition, suffix
 from regscribe.emit.python.layout import INDENT, Expression, call, group, lay
 from regscribe.emit.python.literals import camel, docstring, literal
 from regscribe.emit.python.named import NamedClasses
+from regscribe.emit.python.names import free
 from regscribe.emit.python.pool import Pool
 from regscribe.emit.python.specs import Specs
 from regscribe.emit.text import one_line
@@ -56,9 +57,9 @@ class Classes:
         # an array that models fill differently has an element class for each filling; the usual one has the plain name
         same = [self._array_of(model, array.id) for model in self.register_map.models]
         usual = max(filter(None, same), key=same.count)
-        name = camel(array.name) + ("" if array == usual else suffix(models))
-        if name in self.named.wanted or name in self.public:
-            name += "Element"
+        plain = camel(array.name) if camel(array.name).isidentifier() else camel(array.id)
+        used = {*self.named.taken, *self.named.wanted, *self.public}
+        name = free(plain + ("" if array == usual else suffix(models)), used, "Element")
         members = dict.fromkeys(models, array.members)
         parents = bases(self._family(name, members), models[0])
         about = f"One {one_line(array.name)} of {array.id} ({one_line(array.section)})."

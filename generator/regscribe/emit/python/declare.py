@@ -49,27 +49,29 @@ class Declarations:
         )
 
     def _kind(self, register: Register) -> Expression:
+        helper = self.specs.pool.helper
         match register.kind:
             case Kind.ENUM if register.enum:
-                return f"choice({self.named.name(register.enum.id, enum_content(register.enum))})"
+                return f"{helper('choice')}({self.named.name(register.enum.id, enum_content(register.enum))})"
             case Kind.FLAGS:
-                return f"flags({self.named.name(register.id, word_content(register))})"
+                return f"{helper('flags')}({self.named.name(register.id, word_content(register))})"
             case Kind.FIELDS:
-                return f"word_of({self.named.name(register.id, word_content(register))})"
+                return f"{helper('word_of')}({self.named.name(register.id, word_content(register))})"
             case Kind.STRING:
-                return "text"
+                return helper("text")
             case Kind.VERSION:
-                return f"version({register.version_digits}, {register.version_group})"
-        return self._numeric(register) if register.specials else str(register.kind)
+                return f"{helper('version')}({register.version_digits}, {register.version_group})"
+        return self._numeric(register) if register.specials else helper(register.kind)
 
     def _numeric(self, register: Register) -> Expression:
+        helper = self.specs.pool.helper
         means = [(str(int(one.code)), exact(one.means)) for one in register.specials if one.means is not None]
         if not specials(register):
-            return call("number_with", mapping(means))
+            return call(helper("number_with"), mapping(means))
         special = self.named.name(f"{register.id}_special", special_content(register))
         if means:
-            return call("number_or", special, mapping(means))
-        return f"{'number_or' if register.kind is Kind.NUMBER else 'integer_or'}({special})"
+            return call(helper("number_or"), special, mapping(means))
+        return f"{helper('number_or' if register.kind is Kind.NUMBER else 'integer_or')}({special})"
 
 
 def _default(register: Register) -> str | None:

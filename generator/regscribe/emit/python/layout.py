@@ -1,5 +1,6 @@
 """Expressions of generated code, laid out as `ruff format` would: emitted formatted, never formatted afterwards."""
 
+import unicodedata
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -17,6 +18,17 @@ class Call:
 
 
 Expression = str | Call
+
+
+def width(text: str) -> int:
+    """The columns of a text as `ruff format` counts them: two for a wide character, none for a combining one."""
+    return len(text) if text.isascii() else sum(map(_columns, text))
+
+
+def _columns(character: str) -> int:
+    if unicodedata.category(character) in {"Mn", "Me", "Cf"}:
+        return 0
+    return 2 if unicodedata.east_asian_width(character) in "WF" else 1
 
 
 def call(name: str, *positional: Expression, **keywords: Expression | None) -> Call:
@@ -48,12 +60,12 @@ def flat(expression: Expression) -> str:
 def lay(expression: Expression, *, head: str, tail: str = "", depth: int = 0) -> list[str]:
     """The lines of `head` + expression + `tail`, split from the outermost bracket inward where they are too long."""
     whole = f"{INDENT * depth}{head}{flat(expression)}{tail}"
-    if len(whole) <= WIDTH or isinstance(expression, str) or not expression.items:
+    if width(whole) <= WIDTH or isinstance(expression, str) or not expression.items:
         return [whole]
     body = ", ".join(prefix + flat(item) for prefix, item in expression.items)
     display = len(expression.opening) == 1  # a tuple or dict is split one item a line, a call only where it must
     lines = [f"{INDENT * depth}{head}{expression.opening}"]
-    if len(INDENT) * (depth + 1) + len(body) <= WIDTH and not display:
+    if len(INDENT) * (depth + 1) + width(body) <= WIDTH and not display:
         lines.append(f"{INDENT * (depth + 1)}{body}")
     else:
         for prefix, item in expression.items:

@@ -4,7 +4,7 @@ import re
 import textwrap
 from fractions import Fraction
 
-from regscribe.emit.python.layout import INDENT, WIDTH
+from regscribe.emit.python.layout import INDENT, WIDTH, width
 from regscribe.model import show
 
 
@@ -38,7 +38,10 @@ def docstring(text: str, depth: int) -> list[str]:
     printable = "".join(character if character.isprintable() else " " for character in text)
     safe = " ".join(printable.split()).replace("\\", "/").replace('"', "'")
     indent = INDENT * depth
-    if len(indent) + len(safe) + 6 <= WIDTH:
+    room = WIDTH - len(indent) - 3
+    first, *rest = textwrap.wrap(safe, room, break_long_words=False, break_on_hyphens=False)
+    if not rest and width(safe) > room - 3:  # nor do the closing quotes go alone on the second line
+        first, *rest = textwrap.wrap(safe, min(room, len(safe)) - 3, break_long_words=False, break_on_hyphens=False)
+    if not rest:
         return [f'{indent}"""{safe}"""']
-    first, *rest = textwrap.wrap(safe, WIDTH - len(indent) - 3, break_long_words=False, break_on_hyphens=False)
     return [f'{indent}"""{first}', *(f"{indent}{line}" for line in rest), f'{indent}"""']

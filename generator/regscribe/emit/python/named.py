@@ -4,8 +4,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from regscribe.emit.python.families import suffix
-from regscribe.emit.python.layout import INDENT, WIDTH, Call, call, group, lay
+from regscribe.emit.python.layout import INDENT, WIDTH, Call, call, group, lay, width
 from regscribe.emit.python.literals import camel, docstring, literal
+from regscribe.emit.python.names import free, taken
 from regscribe.emit.text import one_line
 from regscribe.model import BitField, Enum, Kind, Register, RegisterMap
 
@@ -23,6 +24,10 @@ class NamedClasses:
     register_map: RegisterMap
     wanted: dict[str, dict[Content, list[str]]] = field(default_factory=dict)
     bodies: dict[Content, list[str]] = field(default_factory=dict)
+    taken: frozenset[str] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.taken = taken(self.register_map)
 
     def collect(self, register: Register, model: str) -> None:
         """Note the classes that a register of a model needs."""
@@ -50,8 +55,13 @@ class NamedClasses:
     def name(self, wanted: str, content: Content) -> str:
         """The class name for `wanted` with this content."""
         variants = self.wanted[camel(wanted)]
-        usual = max(variants.values(), key=len)
-        return camel(wanted) + ("" if variants[content] is usual else suffix(variants[content]))
+        plain = free(camel(wanted), self.taken, "Value")
+        usual = max(variants, key=lambda one: len(variants[one]))
+        if content == usual:
+            return plain
+        own = suffix(variants[content])
+        alike = [one for one in variants if one != usual and suffix(variants[one]) == own]
+        return f"{plain}{own}{alike.index(content) + 1 if content != alike[0] else ''}"
 
     def lines(self) -> list[str]:
         """All class definitions, enums before the words that use them."""
@@ -103,7 +113,7 @@ def _members(members: Sequence[tuple[int, str, str, str]]) -> list[str]:
     for code, name, label, description in members:
         items = [str(code), literal(label), *([literal(description)] if description else [])]
         written = f"{INDENT}{name.upper()} = {', '.join(items)}"
-        lines += [written] if len(written) <= WIDTH else lay(group(items), head=f"{name.upper()} = ", depth=1)
+        lines += [written] if width(written) <= WIDTH else lay(group(items), head=f"{name.upper()} = ", depth=1)
     return lines
 
 

@@ -12,10 +12,18 @@ SHORT = 40
 
 @dataclass(slots=True)
 class Pool:
-    """Named constants by their text; `lines` are their definitions in the order of first use."""
+    """Named constants by their text; `lines` are their definitions in the order of first use.
 
+    `hidden` are the functions of the runtime that go by another name in this module.
+    """
+
+    hidden: frozenset[str] = frozenset()
     names: dict[str, str] = field(default_factory=dict)
     lines: list[str] = field(default_factory=list)
+
+    def helper(self, name: str) -> str:
+        """The name under which this module calls a function of the runtime."""
+        return f"_{name}" if name in self.hidden else name
 
     def share(self, name: str, expression: Call, comment: str = "") -> str:
         """The name of a constant of this content, defined now if it is new."""

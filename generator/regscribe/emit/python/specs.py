@@ -85,7 +85,9 @@ class Specs:
             return None
         if len(cases) == 1 and cases[0].when.always and self._simple(cases[0].then):
             (interval,) = cases[0].then.intervals
-            return self.pool.maybe("range", call("within", _limit(interval.low), _limit(interval.high)))
+            return self.pool.maybe(
+                "range", call(self.pool.helper("within"), _limit(interval.low), _limit(interval.high))
+            )
         words = cases_words(tuple(Case(case.when, range_words(case.then)) for case in cases))
         built = group([group([self.when(case.when), self._limits(case.then)]) for case in cases])
         return self.pool.share("range", built, words)
@@ -119,7 +121,7 @@ class Specs:
         if len(register.views) > 1:
             return self.pool.share(joined([view.name for view in register.views]), templates)
         if base == _plain(base):
-            return self.pool.share(base.type, call("word", base.type.upper()))
+            return self.pool.share(base.type, call(self.pool.helper("word"), base.type.upper()))
         kind = base.type if base.space is Space.HOLDING else f"{base.space}_{base.type}"
         return self.pool.share(kind, templates)
 
