@@ -43,7 +43,7 @@ class SimulatedDevice:
         self.state = State(register_map, self.model, givens or {})
         self._protocol = register_map.protocol
         self._commands = Commands(self.model.commands)
-        layout = Layout(self.model, register_map.reserved)
+        self._layout = layout = Layout(self.model, register_map.reserved)
         self._reader = Reader(self._protocol, layout, self.state, seed, self.unit)
         self._writer = Writer(self._protocol, layout, self.state, self._commands)
         self._lock = RLock()
@@ -120,8 +120,14 @@ class SimulatedDevice:
 
     def _read(self, pdu: bytes) -> bytes:
         address, count = self._fields(">HH", pdu)
-        space = READS[pdu[0]]
-        return _read_answer(pdu[0], space, self._reader.read(space, pdu[0], address, count))
+        function = self._reading(pdu[0], address)
+        space = READS[function]
+        return _read_answer(pdu[0], space, self._reader.read(space, function, address, count))
+
+    def _reading(self, function: int, address: int) -> int:
+        """The function that reads what stands at `address`: this one, or one that does the same in another space."""
+        others = (code for codes in self._protocol.alike if function in codes for code in codes if code in READS)
+        return next((code for code in (function, *others) if self._layout.documents(READS[code], address)), function)
 
     def _write_bit(self, pdu: bytes) -> bytes:
         address, word = self._fields(">HH", pdu)

@@ -37,7 +37,7 @@ class Region:
 class Layout:
     """The address index of one model: immutable once built, so devices of the same model may share it."""
 
-    __slots__ = ("_bounds", "_places", "_regions", "command_addresses", "reserved")
+    __slots__ = ("_bounds", "_places", "_regions", "command_addresses", "reserved", "unused")
 
     def __init__(self, model: Model, reserved: Iterable[tuple[Space, int, int]] = ()) -> None:
         self._places: dict[Space, dict[int, Place]] = {space: {} for space in Space}
@@ -45,9 +45,8 @@ class Layout:
         for register in model.registers:
             for place in places_of(register):
                 self._places[place.view.space].update(dict.fromkeys(place.covers(), place))
-        self.reserved = frozenset(
-            (space, address) for space, first, last in reserved for address in range(first, last + 1)
-        )
+        self.reserved = _each(reserved)
+        self.unused = _each(model.unused)
         for space in Space:
             self._regions[space] = _regions(model, space)
         steps = (step for command in model.commands for step in command.steps if step.words)
@@ -62,13 +61,22 @@ class Layout:
         """Return the rules for a request that starts at `address`; None if no view set speaks of it."""
         return next((region for region in self._regions[space] if region.first <= address <= region.last), None)
 
+    def documents(self, space: Space, address: int) -> bool:
+        """Whether `address` lies between the lowest and the highest of which the map says anything in that space."""
+        return address in self._bounds[space]
+
     def in_hole(self, space: Space, address: int) -> bool:
         """Whether `address` holds no register but lies between the lowest and the highest that the map documents."""
         return address in self._bounds[space] and address not in self._places[space]
 
     def _bounds_of(self, space: Space) -> range:
-        known = (*self._places[space], *(address for kind, address in self.reserved if kind is space))
+        silent = (address for kind, address in self.reserved | self.unused if kind is space)
+        known = (*self._places[space], *silent)
         return range(min(known), max(known) + 1) if known else range(0)
+
+
+def _each(stretches: Iterable[tuple[Space, int, int]]) -> frozenset[tuple[Space, int]]:
+    return frozenset((space, address) for space, first, last in stretches for address in range(first, last + 1))
 
 
 def places_of(register: Register) -> tuple[Place, ...]:

@@ -53,7 +53,7 @@ class Reader:
 
     def _fill(self, space: Space, address: int, *, first: bool) -> int:
         later = self.protocol.faults.later_read
-        if (space, address) in self.layout.reserved:
+        if (space, address) in self.layout.reserved or (space, address) in self.layout.unused:
             return 0
         if later is not Later.GARBAGE and self.protocol.read_holes and self.layout.in_hole(space, address):
             return 0

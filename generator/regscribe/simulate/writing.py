@@ -79,8 +79,9 @@ class Writer:
         if place is None:
             if (space, address) in self.layout.reserved:
                 raise Refusal(faults.read_only)
-            is_command = space is Space.HOLDING and address in self.layout.command_addresses
-            raise Refusal(faults.value if is_command else faults.address)
+            if space is Space.HOLDING and address in self.layout.command_addresses:
+                raise Refusal(faults.value)
+            raise Refusal(faults.unused_write if (space, address) in self.layout.unused else faults.address)
         if address != place.start:
             raise Refusal(faults.misaligned_address)
         if place.words > left:
