@@ -88,7 +88,7 @@ def _bare(text: str) -> str:
 
 
 def _access(text: str) -> str:
-    return ACCESS.get(re.sub(r"[\W_]+", "", text.casefold()), text)
+    return ACCESS.get(re.sub(r"[\s/_-]+", "", text.casefold()), text)
 
 
 def _within(part: str, whole: str) -> bool:

@@ -59,7 +59,8 @@ def choose(table: Table, wanted: Sequence[str], notations: Sequence[str]) -> Col
     the table has, and then every header must be known. Raises TableError for unknown, missing or doubled columns.
     """
     known = {fold(name): fold(name) for name in (*COLUMNS, *notations)}
-    known = {**{f"{fold(name)}_address": fold(name) for name in notations}, **SYNONYMS, **known}
+    known |= {f"{fold(name)}_address": fold(name) for name in notations}
+    known |= {name: column for name, column in SYNONYMS.items() if name not in known}
     if not any(fold(head) in known for head in table.header) and not wanted:
         raise TableError(_no_header(table))
     asked = dict(_asked(wanted, known))

@@ -46,10 +46,10 @@ def compare_table(
     if partial:
         matching.only_ours = []
     silent = _silent(register_map)
-    agreed = [row for row in matching.only_theirs if row.is_silent and _stands_in(row, silent)]
-    if agreed:
-        matching.only_theirs = [row for row in matching.only_theirs if row not in agreed]
-        notes += (f"{len(agreed)} rows name no register where the map has none (unused, reserved or a further word)",)
+    told = [row.is_silent and _stands_in(row, silent) for row in matching.only_theirs]
+    if any(told):
+        matching.only_theirs = [row for row, agreed in zip(matching.only_theirs, told, strict=True) if not agreed]
+        notes += (f"{sum(told)} rows name no register where the map has none (unused, reserved or a further word)",)
     return _comparison(
         matching, ours=register_map.id, theirs=table.name, columns=chosen.compared, loose=loose, notes=notes
     )

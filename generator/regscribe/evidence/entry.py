@@ -2,9 +2,9 @@
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 
-from regscribe.emit.spreadsheet import rows
+from regscribe.emit.spreadsheet import COLUMNS, rows
 from regscribe.emit.text import one_line
 from regscribe.evidence.cells import problem
 from regscribe.evidence.columns import Columns, fold
@@ -59,7 +59,8 @@ class Entry:
 
 def of_map(register_map: RegisterMap) -> list[Entry]:
     """Return a row for each register and command of each model, with its address in every notation, too."""
-    return [_of_export(asdict(row), register_map.notations) for row in rows([register_map])]
+    every = ({name: getattr(row, name) for name in COLUMNS} for row in rows([register_map]))
+    return [_of_export(cells, register_map.notations) for cells in every]
 
 
 def _of_export(cells: dict[str, str], notations: Sequence[Notation]) -> Entry:
