@@ -96,13 +96,22 @@ def _format(together: Sequence[Placed], quantity: int) -> str:
 def _order(together: Sequence[Placed], quantity: int, session: "Session") -> list[int] | None:
     places = list(range(quantity))
     for register, view, start in together:
-        if view.words > 1 and view.word_order(register.path, session.memory) == LITTLE:
+        if view.words > 1 and _backward(register, view, session):
             places[start : start + view.words] = places[start : start + view.words][::-1]
     return None if places == sorted(places) else places
 
 
+def _backward(register: "Register[Any]", view: View, session: "Session") -> bool:
+    try:
+        return view.word_order(register.path, session.memory) == LITTLE
+    except ValueNotDecodable:
+        return False  # its converter says so, for this register alone
+
+
 def _converter(register: "Register[Any]", view: View, _: int, session: "Session") -> Callable[[Any], Any]:
     try:
+        if view.words > 1:
+            view.word_order(register.path, session.memory)
         return codec.reader(register, view, session.memory, session.givens)
     except ValueNotDecodable as error:
         return _always(error)

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 BIT_SPACES = frozenset({"coil", "discrete", "status"})
 """Spaces whose values come as one number, not as words: bits, and the byte of function 07."""
 
+PATTERNS = frozenset({"flags", "fields"})
+"""Kinds whose words are patterns of bits: never negative, whatever the type of the view."""
+
 MAX_DECIMALS = 9
 """A decimals register above this is no decimal position of any device; scaling by it would only hide a fault."""
 
@@ -50,6 +53,9 @@ def reader(register: "Register[Any]", view: View, state: State, givens: Givens) 
 
     It raises Saturated, SensorFault or NotDecodable for numbers that are no values.
     """
+    if register.kind.name in PATTERNS:
+        make, mask = register.kind.make, (1 << 16 * view.words) - 1
+        return lambda wire: make(wire & mask)
     if register.kind.coded:
         return register.kind.make
     conversion, divisor = _conversion(register, state, givens)
@@ -246,6 +252,8 @@ def _wire_words(register: "Register[Any]", view: View, stored: Fraction, *, roun
     if exactly.denominator != 1 and not rounded:
         raise ValueRefused(register.path, f"finer than the {view.name} view can carry (its step is 1/{view.factor})")
     wire = ROUNDINGS[view.rounding](exactly)
+    if register.kind.name in PATTERNS and wire > view.type.maximum:
+        wire -= 1 << 16 * view.words
     low, high = view.type.minimum + view.saturates, view.type.maximum - view.saturates
     if not low <= wire <= high:
         raise ValueRefused(register.path, f"{wire} on the wire lies outside {low} to {high} of the {view.name} view")
