@@ -20,6 +20,7 @@ from regscribe.model import (
     Enum,
     Interval,
     Limit,
+    Member,
     Model,
     Number,
     Open,
@@ -100,6 +101,12 @@ def _code_words(code: CodeRange, labels: Mapping[int, str]) -> str:
         return f"{show(code.low)} to {show(code.high)}"
     label = labels.get(int(code.low)) if code.low.denominator == 1 else None
     return f"{one_line(label)} ({show(code.low)})" if label else show(code.low)
+
+
+def member_words(member: Member, enum: Enum) -> str:
+    """What a member is beside its label: each cell under the head of its column, then its description."""
+    cells = (f"{column}: {cell}" for column, cell in zip(enum.columns, member.cells, strict=False))
+    return "; ".join(one_line(part) for part in (*cells, member.description) if part)
 
 
 def labels_of(enum: Enum | None) -> dict[int, str]:

@@ -9,10 +9,9 @@ from regscribe.emit.markdown.merge import Shared, Stated
 from regscribe.emit.markdown.outline import Leaf, formula
 from regscribe.emit.markdown.page import Titled, table
 from regscribe.emit.text import bits_words, conversion_words, one_line, range_words, when_words
-from regscribe.model import Enum, Model, Register
+from regscribe.model import Enum, Member, Model, Register
 
 Rows = tuple[tuple[Md, ...], ...]
-ENUM_HEADERS = ("Code", "Meaning", "In Python", "Remark", "Models")
 
 
 def views(context: Context, leaf: Leaf) -> tuple[Titled, ...]:
@@ -82,21 +81,32 @@ def _limits(context: Context, model: Model, register: Register) -> Rows:
 
 def values(leaf: Leaf) -> tuple[Titled, ...]:
     """Return the members of a register's enum and the codes that the manual calls invalid."""
-    rows = _by_model(leaf.register, lambda register: _enum_rows(register.enum))
-    found = table(ENUM_HEADERS, sorted(rows, key=lambda row: int(row[0])))
+    enums = [register.enum for _, register in leaf.register.versions if register.enum]
+    columns = max((enum.columns for enum in enums), key=len, default=())
+    rows = _by_model(leaf.register, lambda register: _enum_rows(register.enum, len(columns)))
+    heads = (one_line(column).replace("_", " ") for column in columns)
+    headers = ("Code", "Meaning", "In Python", *heads, "Remark", "Models")
+    found = table(headers, sorted(rows, key=lambda row: int(row[0])))
     return (Titled("Values", found),) if found.rows else ()
 
 
-def _enum_rows(enum: Enum | None) -> Rows:
+def _enum_rows(enum: Enum | None, columns: int) -> Rows:
     if enum is None:
         return ()
-    rows = [(member.code, member.label, member.id, prose(member.description)) for member in enum.members]
-    rows += [(number, "invalid", "", prose(why)) for number, why in enum.invalid]
-    ordered = sorted(rows, key=lambda row: row[0])
-    return tuple(
-        (escape(str(number)), escape(one_line(label)), code(name) if name else Md(), remark)
-        for number, label, name, remark in ordered
-    )
+    rows = [(member.code, _member_row(member, columns)) for member in enum.members]
+    rows += [
+        (number, (escape(str(number)), md("invalid"), Md(), *[Md()] * columns, prose(why)))
+        for number, why in enum.invalid
+    ]
+    return tuple(row for _, row in sorted(rows, key=lambda row: row[0]))
+
+
+def _member_row(member: Member, columns: int) -> tuple[Md, ...]:
+    """A label that only repeats the cells is left out: they stand beside it."""
+    cells = [escape(one_line(cell)) for cell in member.cells]
+    label = "" if member.label == ", ".join(member.cells) else one_line(member.label)
+    filled = (cells + [Md()] * columns)[:columns]
+    return (escape(str(member.code)), escape(label), code(member.id), *filled, prose(member.description))
 
 
 def bits(leaf: Leaf) -> tuple[Titled, ...]:

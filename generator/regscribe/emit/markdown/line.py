@@ -48,6 +48,10 @@ def _requests(protocol: Protocol) -> Iterable[tuple[str, Md]]:
     first, last = protocol.unit_ids
     usual = f", {protocol.default_unit} unless set" if protocol.default_unit is not None else ""
     yield "Functions", md("; ".join(_function(code) for code in protocol.functions))
+    yield (
+        "Functions that do the same",
+        md("; ".join(listed([f"{code:02d}" for code in same], last="and") for same in protocol.alike)),
+    )
     yield "Broadcast (unit 0)", md("; ".join(_function(code) for code in protocol.broadcast) or "not supported")
     yield "Unit ids", md(f"{first} to {last}{usual}")
     yield "Most words in a request", md(f"{protocol.read_words} to read, {protocol.write_words} to write")
@@ -74,14 +78,15 @@ def _serial(serial: Serial) -> Iterable[tuple[str, Md]]:
 
 def latency(context: Context) -> Table:
     """Return the time from the end of a request to the start of the answer by function."""
-    headers = ("Function", "Fixed", "For each word")
+    headers = ("Function", "Fixed", "For each word", "Characters at the speed of the line", "Remark")
     return table(headers, (_latency(item) for item in context.map.protocol.latencies))
 
 
 def _latency(item: Latency) -> tuple[str, ...]:
     fixed = f"{show(item.minimum)} to {show(item.maximum)} ms" if item.maximum else ""
     words = f"{show(item.minimum_per_word)} to {show(item.maximum_per_word)} ms" if item.maximum_per_word else ""
-    return (_function(item.function), fixed, words)
+    characters = show(item.characters) if item.characters else ""
+    return (_function(item.function), fixed, words, characters, prose(item.note))
 
 
 def faults(context: Context) -> Table:
@@ -96,6 +101,8 @@ def faults(context: Context) -> Table:
     ]
     if any(register.writable for model in context.map.models for register in model.registers):
         rows.append(("write under a condition that forbids it", found.condition))
+    if any(model.unused for model in context.map.models):
+        rows.append(("write to an address listed as unused", found.unused_write))
     rows.append(("more words than a request may have", found.quantity))
     if any(view.align > 1 for view in views):
         rows.append(("first address between two values of several words", found.misaligned_address))

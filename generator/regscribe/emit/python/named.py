@@ -7,7 +7,7 @@ from regscribe.emit.python.families import suffix
 from regscribe.emit.python.layout import INDENT, WIDTH, Call, call, group, lay, width
 from regscribe.emit.python.literals import camel, docstring, literal
 from regscribe.emit.python.names import free, taken
-from regscribe.emit.text import one_line
+from regscribe.emit.text import member_words, one_line
 from regscribe.model import BitField, Enum, Kind, Register, RegisterMap
 
 Content = tuple[object, ...]
@@ -87,7 +87,7 @@ class NamedClasses:
 
 def enum_content(enum: Enum) -> Content:
     """What makes two enums the same class."""
-    return ("enum", enum.id, tuple((member.code, member.id, member.label) for member in enum.members))
+    return ("enum", enum.id, tuple((member.code, member.id, member.label, member.cells) for member in enum.members))
 
 
 def word_content(register: Register) -> Content:
@@ -119,7 +119,7 @@ def _members(members: Sequence[tuple[int, str, str, str]]) -> list[str]:
 
 def _enum_body(enum: Enum, register: Register) -> list[str]:
     about = one_line(enum.description) or f"{one_line(register.name)} ({one_line(register.section)})."
-    members = [(member.code, member.id, member.label, one_line(member.description)) for member in enum.members]
+    members = [(member.code, member.id, member.label, member_words(member, enum)) for member in enum.members]
     return ["Choice", *docstring(about, 1), "", *_members(members)]
 
 

@@ -1,0 +1,54 @@
+"""What a map took from elsewhere and changed, and what its manual lists without using it."""
+
+from collections.abc import Sequence
+
+from regscribe.emit.markdown.context import SPACES, Context
+from regscribe.emit.markdown.escape import Md, code, escape, join, lines, link, md, prose
+from regscribe.emit.markdown.page import Table, table
+from regscribe.emit.text import one_line
+from regscribe.model import Override, Space
+
+Stretch = tuple[Space, int, int]
+PLURALS = frozenset({"errata", "examples", "notes", "waivers"})
+ALL = "all"
+
+
+def base(context: Context) -> Md:
+    """Return the map that this one extends, with a link to its reference; empty if it stands alone."""
+    other = context.map.extends
+    up = "../" * context.map.id.count("/")
+    return md(Md("["), one_line(other), Md(f"]({up}{other}.md)")) if other else Md()
+
+
+def overrides(context: Context) -> Table:
+    """Return what differs from the map that this one extends, with the reason of each."""
+    rows = ((_subject(context, item), _change(item), prose(item.reason)) for item in context.map.overrides)
+    return table(("What", "How it differs", "Why"), rows)
+
+
+def _subject(context: Context, item: Override) -> Md:
+    if item.what in PLURALS:
+        return md(item.what, "" if item.id == ALL else f" of {one_line(item.id)}")
+    anchor = context.anchor(item.what, item.id)
+    return join(" ", (escape(item.what), link(code(item.id), anchor) if anchor else code(item.id)))
+
+
+def _change(item: Override) -> Md:
+    if item.changed:
+        return lines(*(escape(one_line(change)) for change in item.changed))
+    return md("not taken over" if item.what in PLURALS else "is not there")
+
+
+def unused(context: Context) -> Table:
+    """Return the addresses that the manual lists as unused, with the models where not all agree."""
+    found: dict[Stretch, list[str]] = {}
+    for model in context.map.models:
+        for stretch in model.unused:
+            found.setdefault(stretch, []).append(model.name)
+    rows = ((SPACES[stretch[0]], _addresses(stretch), context.covers(models)) for stretch, models in found.items())
+    return table(("Space", "Wire addresses", "Models"), rows)
+
+
+def _addresses(stretch: Sequence[Space | int]) -> str:
+    _, low, high = stretch
+    return str(low) if low == high else f"{low} to {high}"
