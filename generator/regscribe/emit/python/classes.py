@@ -1,6 +1,6 @@
 """The classes of a generated module: shared parts, array elements, commands, groups and models."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from regscribe.emit.python.declare import Declarations
@@ -55,8 +55,8 @@ class Classes:
 
     def _array(self, array: Array, models: tuple[str, ...]) -> list[str]:
         # an array that models fill differently has an element class for each filling; the usual one has the plain name
-        same = [self._array_of(model, array.id) for model in self.register_map.models]
-        usual = max(filter(None, same), key=same.count)
+        same = [one for model in self.register_map.models for one in _arrays(model.members) if one.id == array.id]
+        usual = max(same, key=same.count)
         plain = camel(array.name) if camel(array.name).isidentifier() else camel(array.id)
         used = {*self.named.taken, *self.named.wanted, *self.public}
         name = free(plain + ("" if array == usual else suffix(models)), used, "Element")
@@ -72,10 +72,6 @@ class Classes:
             *lay(call("Array", name, f"Async{name}", **numbers), head=f"{array.id} = ", depth=1),
             *docstring(what, 1),
         ]
-
-    @staticmethod
-    def _array_of(model: Model, array_id: str) -> Array | None:
-        return next((one for one in model.members if isinstance(one, Array) and one.id == array_id), None)
 
     def _commands(self) -> dict[str, str]:
         owned = {model.name: model.commands for model in self.register_map.models if model.commands}
@@ -140,6 +136,13 @@ class Classes:
             if model.name in one.models
         ]
         return lay(group(shown), head="identity = ", depth=1) if shown else []
+
+
+def _arrays(members: Sequence[Register | Array]) -> Iterator[Array]:
+    for member in members:
+        if isinstance(member, Array):
+            yield member
+            yield from _arrays(member.members)
 
 
 def _steps(command: Command) -> Expression:
