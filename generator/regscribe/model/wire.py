@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
+from functools import cached_property
 
 FLOAT_BITS = {"float32": 32, "float64": 64}
 
@@ -37,7 +38,7 @@ class WireType(StrEnum):
     FLOAT64 = "float64"
     STRING = "string"
 
-    @property
+    @cached_property
     def bits(self) -> int:
         """Width in bits; 16 for one word of a string."""
         if self is WireType.BIT:
@@ -46,27 +47,27 @@ class WireType(StrEnum):
             return 16
         return int(self.value.lstrip("uintfloa"))
 
-    @property
+    @cached_property
     def words(self) -> int:
         """Registers that one value takes (bits take one address)."""
         return max(1, self.bits // 16)
 
-    @property
+    @cached_property
     def is_float(self) -> bool:
         """Whether it is an IEEE 754 number."""
         return self.value in FLOAT_BITS
 
-    @property
+    @cached_property
     def is_integer(self) -> bool:
         """Whether it is a whole number (a bit is)."""
         return not self.is_float and self is not WireType.STRING
 
-    @property
+    @cached_property
     def minimum(self) -> int:
         """Smallest whole number of the type; 0 for types that are not whole numbers."""
         return -(1 << (self.bits - 1)) if self.value.startswith("int") else 0
 
-    @property
+    @cached_property
     def maximum(self) -> int:
         """Largest whole number of the type."""
         return (1 << (self.bits - (1 if self.value.startswith("int") else 0))) - 1
