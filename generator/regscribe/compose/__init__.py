@@ -22,6 +22,10 @@ COMPOSING = ("extends", "uses", "renumber", "drop", "override")
 """Top-level keys that have done their work when a map is composed."""
 
 
+DEEPEST = 16
+"""Maps that may stand between a map and the one that all of them build on."""
+
+
 @dataclass(frozen=True, slots=True)
 class Composed:
     """The document of all files, None if there are diagnostics; what it was made of, with the SHA-256 of each file."""
@@ -99,7 +103,7 @@ def _base(file: File, shelf: Shelf, chain: tuple[File, ...]) -> _Part | None:
     found = shelf.find(node, MAP) if node else None
     if node is None or found is None:
         return None
-    if any(found.path.resolve() == each.path.resolve() for each in chain):
+    if len(chain) > DEEPEST or any(found.path.resolve() == each.path.resolve() for each in chain):
         _refuse_cycle(found, shelf, chain)
         return None
     return _build(found, shelf, (*chain, found))
@@ -110,7 +114,9 @@ def _refuse_cycle(found: File, shelf: Shelf, chain: tuple[File, ...]) -> None:
     names = " -> ".join([*(each.id for each in chain), found.id])
     steps = [(each.id, each.root.child("extends") or each.root) for each in chain]
     others = [(f"`{name}` extends `{text(step)}`", step.place) for name, step in steps[1:]]
-    shelf.findings.add(CYCLE, f"maps extend each other: {names}", steps[0][1].place, "let one stand alone", *others)
+    shelf.findings.add(
+        CYCLE, f"maps extend each other, or too many: {names}", steps[0][1].place, "let one stand alone", *others
+    )
 
 
 def _plain(root: Node) -> Node:

@@ -8,6 +8,7 @@ from regscribe.compose.patch import Patch
 from regscribe.compose.rules import CHANGES_NOTHING, DROPS_NOTHING, NO_REASON, NO_TARGET
 from regscribe.compose.tree import (
     Location,
+    at,
     cut,
     edit,
     elements,
@@ -60,7 +61,7 @@ class Changes:
         if not places:
             self._missing(NO_TARGET, kind, name)
             return
-        patches = [Patch() for _ in places]
+        patches = [Patch(self._defaults(location)) for location in places]
         for location, patch in zip(places, patches, strict=True):
             self.root = edit(self.root, location, partial(patch.lay, above=new))
         self._idle(kind, text(name), patches)
@@ -69,11 +70,19 @@ class Changes:
 
     def _idle(self, kind: str, name: str, patches: list[Patch]) -> None:
         """Report the keys that changed nothing in any of the things of that name."""
-        for path, where, below in patches[0].idle:
-            if all(any(path == each for each, _, _ in patch.idle) for patch in patches):
-                message = f"this changes nothing: `{path}` of {kind} `{name}` is so in the base already"
-                advice = "remove the key; what a group's `each` says is overridden at the group"
-                self.findings.add(CHANGES_NOTHING, message, where, advice, ("in the base", below))
+        for idle in patches[0].idle:
+            if all(any(idle.path == each.path for each in patch.idle) for patch in patches):
+                message = f"this changes nothing: `{idle.path}` of {kind} `{name}` is so in the base already"
+                advice = "remove the key"
+                if idle.is_default:
+                    message = f"this removes nothing: {kind} `{name}` has `{idle.path}` from the `each` around it only"
+                    advice = "override the group or array that has the `each`"
+                self.findings.add(CHANGES_NOTHING, message, idle.place, advice, ("in the base", idle.below))
+
+    def _defaults(self, location: Location) -> tuple[Node, ...]:
+        """The `each` of the array and the group around a register, the innermost first."""
+        around = (at(self.root, location[:length]) for length in range(len(location) - 1, 0, -1))
+        return tuple(each for node in around if node and (each := node.child("each")))
 
     def _drop_thing(self, kind: str, node: Node) -> None:
         name, reason = node.child("id") or node, node.child("reason")

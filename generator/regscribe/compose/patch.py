@@ -11,23 +11,41 @@ _LONGEST = 160
 _NOTHING = "nothing"
 
 
+@dataclass(frozen=True, slots=True)
+class Idle:
+    """A key that changes nothing: its path, its place, that of the value below; or null for a default's key."""
+
+    path: str
+    place: Place
+    below: Place
+    is_default: bool = False
+
+
 @dataclass(slots=True)
 class Patch:
-    """What came of it: `changed` in words, and for each idle key its path, its place and that of the value below."""
+    """What came of it: `changed` in words, and what was `idle`.
 
+    `defaults` are the keys that count where the mapping below has none of its own, the innermost first.
+    """
+
+    defaults: tuple[Node, ...] = ()
     changed: list[str] = field(default_factory=list)
-    idle: list[tuple[str, Place, Place]] = field(default_factory=list)
+    idle: list[Idle] = field(default_factory=list)
 
     def lay(self, below: Node, above: Node, path: str = "") -> Node:
         """`below` with the keys of `above`; mappings in both are merged in turn."""
         for key, new in members(above).items():
             old, name, where = below.child(key), f"{path}{key}", key_place(above, key)
+            default = next((each for each in self.defaults if each.child(key)), None) if not path else None
             if old is not None and old.members is not None and new.members is not None:
                 below = put(below, key, self.lay(old, new, f"{name}."), key_place(below, key))
+            elif old is None and default is not None and (new.value is None or _same(default.child(key), new)):
+                self.idle.append(Idle(name, where, key_place(default, key), is_default=new.value is None))
             elif _same(old, new):
-                self.idle.append((name, where, key_place(below, key)))
+                self.idle.append(Idle(name, where, key_place(below, key)))
             else:
-                self.changed.append(f"{name}: {_shown(old)} -> {_shown(new)}")
+                before = old or (default.child(key) if default else None)
+                self.changed.append(f"{name}: {_shown(before)} -> {_shown(new)}")
                 below = cut(below, key) if new.value is None else put(below, key, _clean(new), where)
         return below
 

@@ -26,7 +26,7 @@ def brief(text: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Context:
-    """The document in work and the diagnostics found in it so far.
+    """The document in work and the diagnostics found in it so far; `sizes` of sets, and how far models have `grown`.
 
     Registers are lowered once for each model and element, so a finding counts once per rule and place.
     """
@@ -34,6 +34,7 @@ class Context:
     document: Document
     found: dict[tuple[str, Span], Diagnostic] = field(default_factory=dict)
     grown: dict[str, int] = field(default_factory=dict)
+    sizes: dict[str, int] = field(default_factory=dict)
 
     def report(
         self, rule: str, message: str, *, span: Span, remedy: str = "", related: tuple[Related, ...] = ()

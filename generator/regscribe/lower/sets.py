@@ -1,5 +1,6 @@
 """Sets of registers: which one a use names, and what of it is put there."""
 
+from regscribe.lower.ends import whole_ends
 from regscribe.lower.names import unknown
 from regscribe.lower.node import Node, elements_of, text_of, texts_of
 from regscribe.lower.rules import SET_IN_ITSELF, TOO_MANY_ELEMENTS, UNKNOWN_REGISTER, UNKNOWN_SET
@@ -7,6 +8,11 @@ from regscribe.model.name import snake, unindexed
 
 MOST = 65536
 """Registers that sets put into one model: there are no more addresses."""
+
+DEEPEST = 16
+"""Sets within sets."""
+
+_REMEDY = "look for a set that is used often in a set that is used often"
 
 
 def table_of(node: Node, sets: Node | None, around: tuple[str, ...]) -> Node | None:
@@ -21,7 +27,45 @@ def table_of(node: Node, sets: Node | None, around: tuple[str, ...]) -> Node | N
         message = f"the set contains itself: {' -> '.join((*around, name))}"
         at.report(SET_IN_ITSELF, message, remedy="put its registers into a set of their own, and use that twice")
         return None
-    return table
+    return table if _fits(node, sets) else None
+
+
+def _fits(node: Node, sets: Node | None) -> bool:
+    """Whether there are addresses enough for all that a set brings; RS0331 where not, before any of it is looked at."""
+    if _size(text_of(node, "set"), sets, node.context.sizes, DEEPEST) <= MOST:
+        return True
+    message = f"the set brings more than {MOST} registers, or sets within sets more than {DEEPEST} deep"
+    node.report(TOO_MANY_ELEMENTS, message, remedy=_REMEDY)
+    return False
+
+
+def _size(name: str, sets: Node | None, known: dict[str, int], depth: int) -> int:
+    """How many registers a set has with all sets and arrays in it, `depth` sets deep at most."""
+    if name not in known:
+        if not depth:
+            return MOST + 1
+        known[name] = 0  # of a set that contains itself
+        table = sets.child(name) if sets else None
+        known[name] = _sum(table.elements() if table else [], sets, known, depth - 1)
+    return known[name]
+
+
+def _sum(nodes: list[Node], sets: Node | None, known: dict[str, int], depth: int) -> int:
+    total = 0
+    for node in nodes:
+        if node.child("set"):
+            total += _size(text_of(node, "set"), sets, known, depth)
+        elif node.child("registers"):
+            total += _repeats(node) * _sum(elements_of(node, "registers"), sets, known, depth)
+        else:
+            total += 1
+    return total
+
+
+def _repeats(node: Node) -> int:
+    repeat = node.child("repeat")
+    first, last = whole_ends(repeat) if repeat else (1, 1)
+    return last - first + 1
 
 
 def left_of(table: Node, node: Node, model: str) -> list[Node]:
@@ -38,7 +82,7 @@ def left_of(table: Node, node: Node, model: str) -> list[Node]:
     if node.context.grow(model, len(kept)) <= MOST:
         return kept
     message = f"sets put more than {MOST} registers into {model}"
-    node.report(TOO_MANY_ELEMENTS, message, remedy="look for a set that is used in a set that is used often")
+    node.report(TOO_MANY_ELEMENTS, message, remedy=_REMEDY)
     return []
 
 
