@@ -9,7 +9,7 @@ from regscribe.source import Node
 Names = Mapping[str, tuple[str, ...]]
 """The new names of each model of the base; none for a model that is dropped."""
 
-_ELSEWHERE = frozenset({"when", "with", "writes", "conditions"})
+_ELSEWHERE = frozenset({"when", "text", "with", "writes", "conditions"})
 """Below these keys stand names of registers, which may be called like anything."""
 
 

@@ -10,6 +10,12 @@ from regscribe.model import Override, Space
 
 Stretch = tuple[Space, int, int]
 PLURALS = frozenset({"errata", "examples", "notes", "waivers"})
+INTERNAL = frozenset({"waivers"})
+"""What is between the map and the compiler, and no fact of the device."""
+
+WORDS = "description"
+"""A key whose text stands at the thing itself."""
+
 ALL = "all"
 
 
@@ -22,7 +28,8 @@ def base(context: Context) -> Md:
 
 def overrides(context: Context) -> Table:
     """Return what differs from the map that this one extends, with the reason of each."""
-    rows = ((_subject(context, item), _change(item), prose(item.reason)) for item in context.map.overrides)
+    shown = (item for item in context.map.overrides if item.what not in INTERNAL)
+    rows = ((_subject(context, item), _change(item), prose(item.reason)) for item in shown)
     return table(("What", "How it differs", "Why"), rows)
 
 
@@ -35,8 +42,13 @@ def _subject(context: Context, item: Override) -> Md:
 
 def _change(item: Override) -> Md:
     if item.changed:
-        return lines(*(escape(one_line(change)) for change in item.changed))
+        return lines(*(_words(one_line(change)) for change in item.changed))
     return md("not taken over" if item.what in PLURALS else "is not there")
+
+
+def _words(change: str) -> Md:
+    key, _, values = change.partition(": ")
+    return escape(f"other {key}" if key.rpartition(".")[2] == WORDS else f"{key}: {values}")
 
 
 def unused(context: Context) -> Table:
