@@ -11,8 +11,8 @@ from regscribe.emit.header import FORMAT
 from regscribe.model import Array, FrameExample, Model, Register, RegisterMap, TimingExample, ValueExample, exact, show
 
 EXAMPLES = {ValueExample: "value", FrameExample: "frame", TimingExample: "timing"}
-PLACES = frozenset({"span", "by_path"})
-"""Fields that say where something stands in a file, or that only speed a look-up."""
+PLACES = frozenset({"span", "by_path", "base", "renumber", "libraries"})
+"""Fields that say where something stands in a file, that only speed a look-up, or that only let emitters share."""
 
 Json = Any  # what the json module writes: nested lists and dicts of str, int, float, bool and None
 
@@ -74,4 +74,5 @@ def _plain(value: Any) -> Json:  # noqa: ANN401 (any value of the model)
         return value.value
     if value is None or isinstance(value, str | bool | int):
         return value
-    return WRITERS.get(type(value), _fields)(value)
+    write: Callable[[Any], Json] = WRITERS.get(type(value), _fields)
+    return write(value)

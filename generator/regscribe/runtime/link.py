@@ -23,6 +23,7 @@ class Link(Protocol):
 
     def call(self, unit: int, request: Request) -> Reply:
         """Send one request once and wait for its answer; NoAnswer or LinkLost."""
+        raise NotImplementedError
 
 
 class AsyncLink(Protocol):
@@ -39,6 +40,7 @@ class AsyncLink(Protocol):
 
     async def call(self, unit: int, request: Request) -> Reply:
         """Send one request once and wait for its answer; NoAnswer or LinkLost."""
+        raise NotImplementedError
 
 
 def tcp(

@@ -52,14 +52,15 @@ def shortest(number: float, wire_type: WireType) -> Decimal:
     if wire_type is FLOAT64:
         return Decimal(repr(number))
     packed = FLOAT32.packer.pack(number)
-    for digits in FLOAT32_DIGITS:
-        text = f"{number:.{digits}g}"
-        try:
-            if FLOAT32.packer.pack(float(text)) == packed:
-                return Decimal(text)
-        except OverflowError:  # rounded beyond the largest float32: take one digit more
-            continue
-    return Decimal(text)
+    texts = (f"{number:.{digits}g}" for digits in FLOAT32_DIGITS)
+    return Decimal(next((text for text in texts if _packs_to(text, packed)), repr(number)))
+
+
+def _packs_to(text: str, packed: bytes) -> bool:
+    try:
+        return FLOAT32.packer.pack(float(text)) == packed
+    except OverflowError:  # rounded beyond the largest float32: one digit more is needed
+        return False
 
 
 def exact(value: float | Decimal | Fraction) -> Fraction:

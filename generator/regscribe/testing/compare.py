@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from typing import Any
 
-from regscribe.runtime import NotDecodable, Saturated, SensorFault, ValueNotDecodable, ValueRefused
+from regscribe.runtime import Flags, NotDecodable, Saturated, SensorFault, ValueNotDecodable, ValueRefused
 from regscribe.testing.trial import Trial
 from regscribe.testing.vectors import Json, number
 
@@ -64,7 +64,8 @@ def _named(where: str, trial: Trial, found: Any, vector: Json) -> Iterator[str]:
     if "unknown" in vector:
         yield from differs(where, "known", getattr(found, "known", None), not vector["unknown"])
     if "flags" in vector:
-        names = {str(member.name).lower() for member in type(found) if member in found} if found else set()
+        members = list(type(found)) if isinstance(found, Flags) else []
+        names = {str(member.name).lower() for member in members if member in found} if found else set()
         yield from differs(where, "flags", names, {name.lower() for name in vector["flags"]})
     for name, part in vector.get("fields", {}).items():
         yield from differs(where, name, getattr(found, name, None), int(part))

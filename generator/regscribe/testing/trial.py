@@ -1,18 +1,15 @@
 """One register in one situation, and the driver's codec under it."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
-from regscribe.runtime.register import Register
 from regscribe.testing.vectors import Json, number
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class Trial:
+class Trial(NamedTuple):
     """One register in one view and situation: `case` has its vectors, `entry` what the register is."""
 
-    register: Register[Any]
+    register: Any  # a Register; named so, pyright would let the field take what its __set__ takes, which is nothing
     entry: Json
     case: Json
     state: Mapping[str, Any]
