@@ -75,8 +75,10 @@ def _unused(model: Model) -> set[tuple[Space, int]]:
 
 
 def _named(name: str) -> list[tuple[Row, Register]]:
-    known = _registers(_map(name).models[0])
-    return [(row, known[row.space, row.addresses[0]]) for row in _rows(name) if row.name != "-"]
+    model = _map(name).models[0]
+    known, further = _registers(model), _continued(model)
+    named = [row for row in _rows(name) if row.name != "-" and (row.space, row.addresses[0]) not in further]
+    return [(row, known[row.space, row.addresses[0]]) for row in named]
 
 
 def _normalised(text: str) -> str:
