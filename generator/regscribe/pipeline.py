@@ -63,6 +63,9 @@ def _meaning(composed: compose.Composed) -> tuple[RegisterMap | None, list[Diagn
     if composed.files:
         origin = {"extends": composed.extends, "uses": composed.uses, "overrides": composed.overrides}
         register_map = replace(register_map, **origin)  # type: ignore[arg-type]  # three fields of three types
+        base = compile_map(composed.base).map if composed.base is not None else None
+        libraries = tuple(lower.library_of(library) for library in composed.libraries)
+        register_map = replace(register_map, base=base, renumber=composed.renumber, libraries=libraries)
     found = [*found, *checks.check(register_map)]
     return None if has_errors(found) else register_map, found
 

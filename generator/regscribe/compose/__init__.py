@@ -12,7 +12,7 @@ from regscribe.compose.findings import Findings
 from regscribe.compose.libraries import as_map, with_libraries
 from regscribe.compose.rules import CYCLE, OTHER_ID, RULES
 from regscribe.compose.shelf import ENDINGS, LIBRARY, MAP, File, Shelf, folder_of
-from regscribe.compose.tree import cut, elements, in_file, text
+from regscribe.compose.tree import cut, elements, in_file, members, text
 from regscribe.model import Diagnostic, Override
 from regscribe.source import Document, Node
 
@@ -28,7 +28,11 @@ DEEPEST = 16
 
 @dataclass(frozen=True, slots=True)
 class Composed:
-    """The document of all files, None if there are diagnostics; what it was made of, with the SHA-256 of each file."""
+    """The document of all files, None if there are diagnostics; what it was made of, with the SHA-256 of each file.
+
+    `base` is where the map that it extends lies, `renumber` the chapters that have another number here, `libraries`
+    are the documents of `uses`.
+    """
 
     document: Document | None
     diagnostics: tuple[Diagnostic, ...] = ()
@@ -36,15 +40,20 @@ class Composed:
     uses: tuple[str, ...] = ()
     overrides: tuple[Override, ...] = ()
     files: tuple[tuple[Path, str], ...] = ()
+    base: Path | None = None
+    renumber: tuple[tuple[str, str], ...] = ()
+    libraries: tuple[Document, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class _Part:
-    """A map of the chain as far as it is composed, and the libraries in it."""
+    """A map of the chain as far as it is composed, where it lies, and the libraries in it."""
 
     root: Node
-    libraries: tuple[str, ...] = ()
+    path: Path
+    libraries: tuple[File, ...] = ()
     overrides: tuple[Override, ...] = ()
+    base: Path | None = None
 
 
 def is_library(document: Document) -> bool:
@@ -78,24 +87,38 @@ def compose(document: Document, path: Path) -> Composed:
         return Composed(None, tuple(sorted(findings.diagnostics, key=lambda found: found.span)), files=files)
     content_hash = shelf.content_hash(document.content_hash) if files else document.content_hash
     whole = replace(document, data=part.root.value, root=part.root, content_hash=content_hash)
-    return Composed(whole, (), text(root.child("extends")), part.libraries, part.overrides, files)
+    return Composed(
+        whole,
+        extends=text(root.child("extends")),
+        uses=tuple(library.id for library in part.libraries),
+        overrides=part.overrides,
+        files=files,
+        base=part.base,
+        renumber=tuple((old, text(new)) for old, new in members(root.child("renumber")).items()),
+        libraries=tuple(_document(library, shelf) for library in part.libraries),
+    )
+
+
+def _document(library: File, shelf: Shelf) -> Document:
+    return Document(library.path.name, "", library.root.value, shelf.hashes[library.path], library.root)
 
 
 def _build(file: File, shelf: Shelf, chain: tuple[File, ...]) -> _Part | None:
     """Compose one map of a chain of extensions, the deepest first; None if something that it needs is missing."""
     base = _base(file, shelf, chain)
     known = base.libraries if base else ()
-    wanted = [node for node in elements(file.root.child("uses")) if text(node) not in known]
+    names = {library.id for library in known}
+    wanted = [node for node in elements(file.root.child("uses")) if text(node) not in names]
     libraries = [shelf.find(node, LIBRARY) for node in wanted]
     if (file.root.child("extends") and base is None) or None in libraries:
         return None
     found = [library for library in libraries if library is not None]
     own = with_libraries(file.root, found, shelf.findings)
-    names = (*known, *(library.id for library in found))
+    every = (*known, *found)
     if base is None:
-        return _Part(_plain(own), names)
+        return _Part(_plain(own), file.path, every)
     root, overrides = extended(base.root, own, shelf.findings)
-    return _Part(_plain(root), names, overrides)
+    return _Part(_plain(root), file.path, every, overrides, base.path)
 
 
 def _base(file: File, shelf: Shelf, chain: tuple[File, ...]) -> _Part | None:

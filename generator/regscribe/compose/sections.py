@@ -1,14 +1,13 @@
 """Chapters under another number: the sections of a base as the manual of the extension numbers them."""
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from regscribe.compose.tree import key_place, listing, members, put, scalar
+from regscribe.model import chapters_of, renumbered
 from regscribe.source import Node
 
-_CHAPTER = re.compile(r"(^|[,;] ?| and )((?:[Tt]able|[Ff]igure|[Ss]ection|[Cc]hapter) )?([0-9]+)")
-_ELSEWHERE = frozenset({"when", "with", "writes", "conditions"})
+_ELSEWHERE = frozenset({"when", "text", "with", "writes", "conditions"})
 _SECTIONS = {"source", "where"}
 
 
@@ -27,14 +26,10 @@ class Renumbering:
             if key in _ELSEWHERE:
                 continue
             if key in _SECTIONS and member.members is None and member.elements is None:
-                new = scalar(_CHAPTER.sub(self._chapter, str(member.value)), member.place)
+                section = str(member.value)
+                self.used.update(chapter for chapter in chapters_of(section) if chapter in self.chapters)
+                new = scalar(renumbered(section, self.chapters), member.place)
             else:
                 new = self.of(member)
             node = put(node, key, new, key_place(node, key))
         return node
-
-    def _chapter(self, found: re.Match[str]) -> str:
-        before, word, number = found[1], found[2] or "", found[3]
-        if number in self.chapters:
-            self.used.add(number)
-        return f"{before}{word}{self.chapters.get(number, number)}"

@@ -13,6 +13,7 @@ from regscribe.model.map import (
     Given,
     GivenKind,
     Identity,
+    Library,
     Manual,
     Model,
     Notation,
@@ -27,6 +28,7 @@ from regscribe.model.map import (
 from regscribe.model.number import exact, show
 from regscribe.model.protocol import SILENCE, ExceptionCode, Faults, Latency, Later, Protocol, Serial
 from regscribe.model.register import Access, Array, Group, Inferred, Kind, Register, Writable
+from regscribe.model.section import chapters_of, renumbered
 from regscribe.model.value import (
     IDENTITY,
     BitField,
@@ -76,6 +78,7 @@ __all__ = [
     "Kind",
     "Latency",
     "Later",
+    "Library",
     "Limit",
     "Lookup",
     "Manual",
@@ -112,7 +115,9 @@ __all__ = [
     "WireType",
     "Writable",
     "always",
+    "chapters_of",
     "exact",
     "registers_of",
+    "renumbered",
     "show",
 ]

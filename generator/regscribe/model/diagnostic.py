@@ -25,6 +25,10 @@ class Span:
         return f"{self.file}:{self.line}:{self.column}"
 
 
+NOWHERE = Span("")
+"""The place of what was made by hand, in tests for instance."""
+
+
 @dataclass(frozen=True, slots=True)
 class Related:
     """The other party of a diagnostic: what it is and where it stands."""

@@ -5,9 +5,10 @@ from enum import StrEnum
 from fractions import Fraction
 
 from regscribe.model.condition import Condition
-from regscribe.model.diagnostic import Span
-from regscribe.model.protocol import Protocol
+from regscribe.model.diagnostic import NOWHERE, Span
+from regscribe.model.protocol import USUAL_PROTOCOL, Protocol
 from regscribe.model.register import Array, Group, Register
+from regscribe.model.value import Enum
 from regscribe.model.wire import Space
 
 
@@ -46,7 +47,7 @@ class Given:
     description: str
     reason: str
     register: str = ""
-    span: Span = Span("")
+    span: Span = NOWHERE
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +72,7 @@ class Command:
     section: str = ""
     danger: str = ""
     group: str = ""
-    span: Span = Span("")
+    span: Span = NOWHERE
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,7 +104,7 @@ class Model:
     commands: tuple[Command, ...] = ()
     unused: tuple[tuple[Space, int, int], ...] = ()
     by_path: dict[str, Register] = field(default_factory=dict, compare=False, hash=False, repr=False)
-    span: Span = Span("")
+    span: Span = NOWHERE
 
     def register(self, path: str) -> Register:
         """Find a register by its path; KeyError if this model has none of that name."""
@@ -149,7 +150,7 @@ class ValueExample:
     flags: tuple[str, ...] | None = None
     outcome: Outcome = Outcome.VALUE
     lossy: bool = False
-    span: Span = Span("")
+    span: Span = NOWHERE
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -173,7 +174,7 @@ class FrameExample:
     view: str = ""
     state: tuple[tuple[str, Fraction], ...] = ()
     command: str = ""
-    span: Span = Span("")
+    span: Span = NOWHERE
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -188,7 +189,7 @@ class TimingExample:
     gap: Fraction
     earliest: Fraction
     latest: Fraction
-    span: Span = Span("")
+    span: Span = NOWHERE
 
 
 Example = ValueExample | FrameExample | TimingExample
@@ -201,7 +202,7 @@ class Waiver:
     rule: str
     at: str
     reason: str
-    span: Span = Span("")
+    span: Span = NOWHERE
 
 
 @dataclass(frozen=True, slots=True)
@@ -216,7 +217,17 @@ class Override:
     id: str
     reason: str
     changed: tuple[str, ...] = ()
-    span: Span = Span("")
+    span: Span = NOWHERE
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Library:
+    """What a library declares that code is shared by: its named enums, without what depends on a map's models."""
+
+    id: str
+    title: str
+    content_hash: str
+    enums: tuple[Enum, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -224,6 +235,9 @@ class RegisterMap:
     """A device family, read from a YAML file and those that it builds on (`extends` one map, `uses` libraries).
 
     `content_hash` is the SHA-256 in hex of the file's bytes, or of the hashes of all files where there are several.
+    `base` is the map that it extends as that map stands alone, None if it extends none (or one with errors of its own);
+    `renumber` has the chapters of the base's manual that have another number here; `libraries` are those of `uses`.
+    These three let emitters share code. They are no facts about the devices, so exports leave them out.
     """
 
     id: str
@@ -234,7 +248,7 @@ class RegisterMap:
     content_hash: str
     manual: Manual
     models: tuple[Model, ...]
-    protocol: Protocol = Protocol()
+    protocol: Protocol = USUAL_PROTOCOL
     description: str = ""
     notations: tuple[Notation, ...] = ()
     givens: tuple[Given, ...] = ()
@@ -248,7 +262,10 @@ class RegisterMap:
     extends: str = ""
     uses: tuple[str, ...] = ()
     overrides: tuple[Override, ...] = ()
-    span: Span = Span("")
+    base: "RegisterMap | None" = field(default=None, compare=False, repr=False)
+    renumber: tuple[tuple[str, str], ...] = field(default=(), compare=False)
+    libraries: tuple[Library, ...] = field(default=(), compare=False, repr=False)
+    span: Span = NOWHERE
 
     def model(self, name: str) -> Model:
         """Find a model by its manual name; KeyError if the map has none."""

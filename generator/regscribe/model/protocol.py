@@ -100,3 +100,7 @@ class Protocol:
     serial: Serial = Serial()
     section: str = ""
     alike: tuple[tuple[int, ...], ...] = ()
+
+
+USUAL_PROTOCOL = Protocol()
+"""What counts where a map says nothing."""

@@ -5,7 +5,7 @@ from enum import StrEnum
 from fractions import Fraction
 
 from regscribe.model.condition import Cases, Condition, always
-from regscribe.model.diagnostic import Span
+from regscribe.model.diagnostic import NOWHERE, Span
 from regscribe.model.value import IDENTITY, BitField, Conversion, Enum, Range, Sentinel, Special
 from regscribe.model.wire import View
 
@@ -109,7 +109,7 @@ class Register:
     array: str = ""
     index: tuple[int, ...] = ()
     printed: str = ""
-    span: Span = Span("")
+    span: Span = NOWHERE
 
     @property
     def base(self) -> View:
@@ -143,7 +143,7 @@ class Array:
     members: tuple["Register | Array", ...]
     description: str = ""
     section: str = ""
-    span: Span = Span("")
+    span: Span = NOWHERE
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -159,4 +159,4 @@ class Group:
     description: str = ""
     section: str = ""
     order: int | None = None
-    span: Span = Span("")
+    span: Span = NOWHERE

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from regscribe.model.condition import Cases
-from regscribe.model.diagnostic import Span
+from regscribe.model.diagnostic import NOWHERE, Span
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +116,7 @@ class Enum:
     members: tuple[Member, ...]
     invalid: tuple[tuple[int, str], ...] = ()
     description: str = ""
-    span: Span = Span("")
+    span: Span = NOWHERE
     columns: tuple[str, ...] = ()
 
 
