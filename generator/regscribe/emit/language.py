@@ -33,8 +33,8 @@ _INTRODUCTION = """\
 
 # The map language, format 1
 
-A map is one YAML file for one device family. This page lists every key; the same text appears in an editor that knows
-YAML schemas, if the map starts with the line
+A map is one YAML file for one device family. The [tutorial](tutorial.md) writes one from a page of a manual; this page
+lists every key. The same text appears in an editor that knows YAML schemas, if the map starts with the line
 
 ```yaml
 # yaml-language-server: $schema=../../schema/map.schema.json
