@@ -6,6 +6,7 @@ from regscribe.emit.markdown.entries import commands, sections
 from regscribe.emit.markdown.escape import Md, code, escape, join, link, md, prose
 from regscribe.emit.markdown.examples import examples
 from regscribe.emit.markdown.line import exceptions, faults, latency, line
+from regscribe.emit.markdown.origins import base, overrides, unused
 from regscribe.emit.markdown.overview import overview
 from regscribe.emit.markdown.page import Page, Table, table
 from regscribe.emit.markdown.quickstart import quick_start
@@ -36,11 +37,14 @@ def page(register_map: RegisterMap) -> Page:
         units=units(found),
         overview=overview(found),
         reserved=reserved(found),
+        unused=unused(found),
         groups=groups,
         commands=commands(found),
         faults=faults(found),
         exceptions=exceptions(found),
         examples=examples(found),
+        base=base(found),
+        overrides=overrides(found),
         errata=_errata(found),
         notes=tuple(prose(note) for note in register_map.notes),
     )

@@ -81,7 +81,7 @@ def _register(context: Context, leaf: Leaf, seen: dict[Table, Leaf], marks: str)
 
 def _summary(context: Context, leaf: Leaf) -> Md:
     shared = leaf.register
-    symbols = dict.fromkeys(one_line(register.symbol) for _, register in shared.versions)
+    symbols = dict.fromkeys(_symbol(register) for _, register in shared.versions)
     sources = dict.fromkeys(one_line(register.section) for _, register in shared.versions)
     parts = (
         code(lettered(shared.first.path)),
@@ -90,6 +90,14 @@ def _summary(context: Context, leaf: Leaf) -> Md:
         _only(context, shared.models),
     )
     return join(DOT, parts)
+
+
+def _symbol(register: Register) -> str:
+    """Return the short code; where it is a cleaned reading, with the code as printed."""
+    symbol, printed = one_line(register.symbol), one_line(register.printed)
+    if not printed or printed == symbol:
+        return symbol
+    return f"{symbol} (printed {printed})" if symbol else f"printed {printed}"
 
 
 def _only(context: Context, models: Sequence[str]) -> Md:

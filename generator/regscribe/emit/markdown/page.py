@@ -101,10 +101,13 @@ class Page:
     units: Table
     overview: tuple[Titled, ...]
     reserved: Table
+    unused: Table
     groups: tuple[Section, ...]
     commands: tuple[Entry, ...]
     faults: Table
     exceptions: Table
     examples: tuple[Titled, ...]
+    base: Md
+    overrides: Table
     errata: Table
     notes: tuple[Md, ...]
