@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from regscribe.emit.python import render
 from regscribe.model import Diagnostic, RegisterMap
 from regscribe.pipeline import compile_map
 
@@ -195,3 +196,8 @@ def test_sets_in_sets_without_end_are_refused_soon(user: User) -> None:
     top = f"sets:{doubled}\n  s40: [{{at: 0, name: End, access: r}}]\n"
     found = compile_map(user("{set: s0}", top=top)).diagnostics
     assert "RS0331" in {one.rule for one in found}
+
+
+def test_cells_go_into_the_descriptions_of_the_driver(user: User, found: Found) -> None:
+    files = render(found(user(ALL)))
+    assert any('"launch: input; op3_status: OFF"' in text for text in files.values())

@@ -2,6 +2,8 @@
 
 from collections.abc import Callable
 
+import pytest
+
 from regscribe.model import Diagnostic
 
 Diagnose = Callable[[str], list[Diagnostic]]
@@ -129,3 +131,13 @@ def test_a_long_chain_of_needs_is_no_circle(diagnose: Diagnose, small: Small) ->
     registers = [f"at: {n}, id: r{n}, name: R {n}, kind: integer, decimals: d{n}" for n in range(count)]
     text = small(*registers, f"at: {count}, id: r{count}, name: Last, range: 0..3", top=f"decimals: {{{rules}}}")
     assert "RS0462" not in rules_of(diagnose(text))
+
+
+@pytest.mark.parametrize(("latest", "expected"), [("14.12", []), ("11.00", ["RS0449"])])
+def test_a_worked_time_counts_the_characters_of_a_latency(
+    diagnose: Diagnose, small: Small, latest: str, expected: list[str]
+) -> None:
+    top = "protocol: {serial: {gap_characters: 3.5}, latency: {3: {fixed: 5..6, characters: 4.3}}}"
+    times = f"gap: 3.65, earliest: 13.12, latest: {latest}"
+    example = "{source: '1', timing: {baud: 9600, format: 8N1, function: 3, words: 2}, " + times + "}"
+    assert rules_of(diagnose(small("at: 0, name: Setpoint", top=top, tail=f"examples: [{example}]\n"))) == expected

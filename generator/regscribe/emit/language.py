@@ -34,7 +34,8 @@ _INTRODUCTION = """\
 # The map language, format 1
 
 A map is one YAML file for one device family. The [tutorial](tutorial.md) writes one from a page of a manual; this page
-lists every key. The same text appears in an editor that knows YAML schemas, if the map starts with the line
+lists every key. A map may extend another one (`extends`) and use libraries of names (`uses`), which lie in the same
+`maps` folder. The same text appears in an editor that knows YAML schemas, if the map starts with the line
 
 ```yaml
 # yaml-language-server: $schema=../../schema/map.schema.json
