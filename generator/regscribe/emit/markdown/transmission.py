@@ -50,12 +50,12 @@ def _title(shape: Shape, count: int) -> str:
 
 def _shape(register: Register) -> Shape:
     return tuple(
-        (_formula(view, register.base), replace(view, address=0, preferred=view is register.preferred))
+        (view_formula(view, register.base), replace(view, address=0, preferred=view is register.preferred))
         for view in register.views
     )
 
 
-def _formula(view: View, base: View) -> str:
+def view_formula(view: View, base: View) -> str:
     """Return a view's address from the base address n: `n + 1000`, `8000 + 2*n`."""
     step = Fraction(view.stride, base.stride)
     offset = view.address - step * base.address
