@@ -108,6 +108,12 @@ def test_a_base_that_is_not_there_is_named_with_those_that_are(maps: Callable[..
     assert "did you mean `acme/series-c`?" in found.help
 
 
+def test_a_map_of_an_odd_file_name_looks_for_its_base_beside_itself(extension: Extension, mistakes: Mistakes) -> None:
+    path = extension()
+    hidden = path.rename(path.with_name(".yaml"))
+    assert places(mistakes(hidden)) == ["RS0501 .yaml:3:10"]
+
+
 def test_a_mistake_in_the_shape_of_a_base_is_told_in_the_base(extension: Extension, mistakes: Mistakes) -> None:
     path = extension()
     base = path.parents[1] / "acme" / "series-c.yaml"

@@ -178,6 +178,15 @@ def test_places_of_inherited_things_are_in_the_base(extension: Extension, found:
     assert map_.source == map_.span.file == str(path)
 
 
+def test_a_waiver_goes_with_the_register_that_it_is_about(extension: Extension, found: Found) -> None:
+    path = extension()
+    base = path.parents[1] / "acme" / "series-c.yaml"
+    text = base.read_text().replace("name: Watchdog,", "name: Watchdog, range: 0..1, default: 9,")
+    base.write_text(text + "waivers: [{rule: RS0423, at: watchdog, reason: printed so}]\n")
+    assert len(found(base).waivers) == 1
+    assert found(path).waivers == ()
+
+
 def test_an_extension_can_be_extended(maps: Callable[..., Path], extension: Extension, found: Found) -> None:
     extension("override: [{register: setpoint, reason: printed so, set: {default: 80}}]")
     head = "format: 1\nmap: {id: third/y, title: Y, maker: Third, class_prefix: Third}\nextends: omega/x\n"

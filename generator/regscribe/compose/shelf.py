@@ -1,6 +1,7 @@
 """The other files of a map: found by id in the same `maps` folder, read once, checked for their shape."""
 
 import hashlib
+import os
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -36,7 +37,7 @@ class Shelf:
     def find(self, node: Node, kind: str) -> File | None:
         """The map or library whose id stands at `node`; None, with the reason among the findings, if there is none."""
         path = self.folder / f"{node.value}{ENDINGS[kind]}"
-        if not path.is_file():
+        if not os.path.isfile(path):  # noqa: PTH113 - Path.is_file raises where a folder may not be read
             where = source.display_name(path)
             advice = meant(str(node.value), self._ids(kind))
             self.findings.add(NO_FILE, f"there is no {kind} `{node.value}`: no file {where}", node.place, advice)
@@ -89,9 +90,7 @@ def folder_of(path: Path, map_id: str) -> Path:
     """The folder that ids count from: the one above maker/family.yaml, else the folder of the file itself."""
     parts = Path(map_id).parts
     for place in (path, path.absolute()):
-        if (
-            place.with_name(place.name.partition(".")[0]).parts[-len(parts) :] == parts
-            and len(place.parents) > len(parts) - 1
-        ):
+        named = (*place.parts[:-1], place.name.removesuffix(ENDINGS[MAP]))
+        if named[-len(parts) :] == parts and len(place.parents) >= len(parts):
             return place.parents[len(parts) - 1]
     return path.parent
