@@ -32,7 +32,7 @@ FREE_TEXT = {
 }  # fmt: skip
 TAGS = {
     "h1", "h2", "h3", "h4", "h5", "p", "a", "table", "thead", "tbody", "tr", "th", "td", "ul", "li", "code", "pre",
-    "em", "strong", "blockquote", "br", "details", "summary",
+    "em", "strong", "blockquote", "br", "details", "summary", "img",
 }  # fmt: skip
 
 
@@ -107,7 +107,7 @@ def test_every_value_of_every_model_is_in_the_overview(any_map: RegisterMap, any
 def test_a_hostile_map_stays_text(oven: RegisterMap, markdown: MarkdownIt, parse: Callable[[str], Any]) -> None:
     page = parse(markdown.render(rendered(hostile(oven))))
     assert page.tags <= TAGS
-    assert page.attributes <= {"id", "href", "class", "style"}
+    assert page.attributes <= {"id", "href", "class", "style", "src", "alt"}
     assert all(link.startswith("#") for link in page.links)
     assert all(len(set(table)) == 1 for table in page.tables)
     assert {link for link in page.links if link[1:] not in page.anchors} == set()

@@ -5,7 +5,7 @@ from typing import Protocol, cast
 
 from regscribe.model import RegisterMap
 
-EMITTERS = ("python", "markdown", "vectors")
+EMITTERS = ("python", "markdown", "pictures", "vectors")
 """What `regscribe generate` writes: `regscribe.emit.<name>` for each name, imported when first needed."""
 
 

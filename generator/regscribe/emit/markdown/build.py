@@ -1,6 +1,7 @@
 """The page of a map and the list of all pages, ready for the templates."""
 
 from regscribe.emit.header import header
+from regscribe.emit.markdown.alt import address_map
 from regscribe.emit.markdown.context import Context, context
 from regscribe.emit.markdown.entries import commands, sections
 from regscribe.emit.markdown.escape import Md, code, escape, join, link, md, prose
@@ -35,6 +36,7 @@ def page(register_map: RegisterMap) -> Page:
         views=views(found),
         conditions=conditions(found),
         units=units(found),
+        address_map=address_map(found),
         overview=overview(found),
         reserved=reserved(found),
         unused=unused(found),

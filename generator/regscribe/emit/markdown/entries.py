@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 
+from regscribe.emit.markdown.alt import bit_fields, structure
 from regscribe.emit.markdown.context import Context, by_model
 from regscribe.emit.markdown.details import bits, by_condition, elements, values, views
 from regscribe.emit.markdown.escape import Md, code, escape, join, link, md, prose
@@ -73,6 +74,7 @@ def _register(context: Context, leaf: Leaf, seen: dict[Table, Leaf], marks: str)
             reference,
         ),
         danger=_paragraphs(by_model(shared, lambda _, item: prose(item.danger))),
+        pictures=bit_fields(context, leaf),
         facts=facts(context, leaf),
         tables=(*views(context, leaf), *by_condition(context, leaf), *known, *bits(leaf), *elements(context, leaf)),
         remarks=_remarks(shared),
@@ -142,6 +144,7 @@ def _array(context: Context, branch: Branch, marks: str) -> Entry:
         name=f"{one_line(array.name)} {array.first} to {array.first + array.count - 1}",
         summary=join(DOT, parts),
         paragraphs=_paragraphs(by_model(branch.array, lambda _, item: prose(item.description))),
+        pictures=structure(context, branch),
     )
 
 

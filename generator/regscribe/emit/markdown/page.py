@@ -54,6 +54,7 @@ class Entry:
     name: str
     summary: Md
     paragraphs: tuple[Md, ...] = ()
+    pictures: tuple[Md, ...] = ()
     danger: tuple[Md, ...] = ()
     facts: Table = Table()
     tables: tuple[Titled, ...] = ()
@@ -99,6 +100,7 @@ class Page:
     views: tuple[Titled, ...]
     conditions: Table
     units: Table
+    address_map: Md
     overview: tuple[Titled, ...]
     reserved: Table
     unused: Table
