@@ -8,7 +8,6 @@ from regscribe.runtime import (
     UINT16,
     AsyncDevice,
     AsyncPart,
-    Choice,
     Command,
     Conversion,
     Device,
@@ -29,6 +28,15 @@ from regscribe.runtime import (
     text,
     within,
     word,
+)
+from regscribe_devices.athena.platinum_common import (
+    BaudRate,
+    CommunicationsProtocol,
+    CurrentRange,
+    EngineeringUnits,
+    OffOn,
+    OffRun,
+    RangeState,
 )
 
 __all__ = [
@@ -74,27 +82,6 @@ _SCALE = (((), Conversion(multiply="0.1")),)
 _STRING = (View("base", UINT16, words=2, byte_order="little"),)
 
 
-class OffOn(Choice):
-    """Main output condition (7.1)."""
-
-    OFF = 0, "OFF"
-    ON = 1, "ON"
-
-
-class RangeState(Choice):
-    """Out of range (7.1)."""
-
-    NORMAL_OPERATION = 0, "Normal operation"
-    SAFETY = 1, "Safety"
-
-
-class OffRun(Choice):
-    """Auto-Tune (7.1)."""
-
-    OFF = 0, "OFF"
-    RUN = 1, "Run"
-
-
 class Status(Flags):
     """Read Status (7.2)."""
 
@@ -108,45 +95,6 @@ class Status(Flags):
     """Out of range. 0 = Normal operation, 1 = Safety"""
     AUTO_TUNE = 1 << 7
     """Auto-Tune. 0 = OFF, 1 = Run"""
-
-
-class EngineeringUnits(Choice):
-    """Engineering units (7.4)."""
-
-    CELSIUS = 0, "°C"
-    FAHRENHEIT = 1, "°F"
-    NONE = 2, "none"
-    MV = 3, "nU", "the display's spelling of mV"
-    V = 4, "U", "the display's spelling of V"
-    MA = 5, "nA", "the display's spelling of mA"
-    A = 6, "A"
-    BAR = 7, "bar"
-    PSI = 8, "PSI"
-    RH = 9, "rh", "relative humidity"
-    PH = 10, "Ph", "pH"
-
-
-class CommunicationsProtocol(Choice):
-    """Communications protocol (7.4)."""
-
-    MODBUS = 0, "Modbus"
-    JBUS = 1, "JbuS"
-
-
-class BaudRate(Choice):
-    """Baud rate (7.4)."""
-
-    BAUD_1200 = 0, "1200"
-    BAUD_2400 = 1, "2400"
-    BAUD_4800 = 2, "4800"
-    BAUD_9600 = 3, "9600"
-
-
-class CurrentRange(Choice):
-    """Retransmitted range (7.4)."""
-
-    FROM_0_TO_20_MA = 0, "0 .. 20 mA"
-    FROM_4_TO_20_MA = 1, "4 .. 20 mA"
 
 
 class _PlatinumC10M10:

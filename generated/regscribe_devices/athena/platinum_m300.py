@@ -8,7 +8,6 @@ from regscribe.runtime import (
     UINT16,
     AsyncDevice,
     AsyncPart,
-    Choice,
     Command,
     Conversion,
     Device,
@@ -29,6 +28,19 @@ from regscribe.runtime import (
     text,
     within,
     word,
+)
+from regscribe_devices.athena.platinum_common import (
+    BaudRate,
+    CommunicationsProtocol,
+    CurrentRange,
+    EngineeringUnits,
+    LockState,
+    OffOn,
+    OffRun,
+    RangeState,
+    RetransmittedVariable,
+    TimerAction,
+    TimerMode,
 )
 
 __all__ = [
@@ -76,34 +88,6 @@ _SCALE = (((), Conversion(multiply="0.1")),)
 _STRING = (View("base", UINT16, words=2, byte_order="little"),)
 
 
-class OffRun(Choice):
-    """Timer function status (8.1)."""
-
-    OFF = 0, "OFF"
-    RUN = 1, "Run"
-
-
-class OffOn(Choice):
-    """Main output condition (8.1)."""
-
-    OFF = 0, "OFF"
-    ON = 1, "ON"
-
-
-class RangeState(Choice):
-    """Out of range (8.1)."""
-
-    NORMAL_OPERATION = 0, "Normal operation"
-    SAFETY = 1, "Safety"
-
-
-class LockState(Choice):
-    """Keypad lock (8.1)."""
-
-    LOCKED = 0, "locked"
-    UNLOCKED = 1, "unlocked"
-
-
 class Status(Flags):
     """Read Status (8.2)."""
 
@@ -119,78 +103,6 @@ class Status(Flags):
     """Out of range. 0 = Normal operation, 1 = Safety"""
     AUTO_TUNE = 1 << 7
     """Auto-Tune. 0 = OFF, 1 = Run"""
-
-
-class EngineeringUnits(Choice):
-    """Engineering units (8.4)."""
-
-    CELSIUS = 0, "°C"
-    FAHRENHEIT = 1, "°F"
-    NONE = 2, "none"
-    MV = 3, "nU", "the display's spelling of mV"
-    V = 4, "U", "the display's spelling of V"
-    MA = 5, "nA", "the display's spelling of mA"
-    A = 6, "A"
-    BAR = 7, "bar"
-    PSI = 8, "PSI"
-    RH = 9, "rh", "relative humidity"
-    PH = 10, "Ph", "pH"
-
-
-class CommunicationsProtocol(Choice):
-    """Communication protocol (8.4)."""
-
-    MODBUS = 0, "Modbus"
-    JBUS = 1, "JbuS"
-
-
-class BaudRate(Choice):
-    """Baud rate (8.4)."""
-
-    BAUD_1200 = 0, "1200"
-    BAUD_2400 = 1, "2400"
-    BAUD_4800 = 2, "4800"
-    BAUD_9600 = 3, "9600"
-
-
-class CurrentRange(Choice):
-    """Retransmission range (8.4)."""
-
-    FROM_0_TO_20_MA = 0, "0 .. 20 mA"
-    FROM_4_TO_20_MA = 1, "4 .. 20 mA"
-
-
-class RetransmittedVariable(Choice):
-    """Retransmission signal selection (8.4)."""
-
-    PV = 0, "PV"
-    SP = 1, "SP"
-
-
-class TimerMode(Choice):
-    """Timer/Start-up operating mode (8.4)."""
-
-    DISABLED = 0, "Disabled"
-    START_UP = 1, "Start-up"
-    COUNTING_INSIDE_BAND = 2, "Counting inside band"
-    COUNTING_INSIDE_BAND_END_MODE_OFF = 3, "Counting inside band / End mode OFF"
-    COUNTING_WHEN_LAUNCHED = 4, "Counting when launched"
-    COUNTING_WHEN_LAUNCHED_END_MODE_OFF = 5, "Counting when launched / End mode OFF"
-    COUNTING_DISABLE_WHEN_LAUNCHED = 6, "Counting disable when launched"
-    STAND_BY_SETPOINT = 7, "Stand-by Setpoint"
-
-
-class TimerAction(Choice):
-    """Timer action (8.4)."""
-
-    BY_KEYPAD_OFF_SECOND = 0, "By Keypad, OFF, Second"
-    BY_KEYPAD_ON_SECOND = 1, "By Keypad, ON, Second"
-    KEY_AT_POWER_ON_OFF_SECOND = 2, "Key + at power on, OFF, Second"
-    KEY_AT_POWER_ON_ON_SECOND = 3, "Key + at power on, ON, Second"
-    BY_KEYPAD_OFF_MINUTE = 4, "By Keypad, OFF, Minute"
-    BY_KEYPAD_ON_MINUTE = 5, "By Keypad, ON, Minute"
-    KEY_AT_POWER_ON_OFF_MINUTE = 6, "Key + at power on, OFF, Minute"
-    KEY_AT_POWER_ON_ON_MINUTE = 7, "Key + at power on, ON, Minute"
 
 
 class _PlatinumM300:

@@ -31,6 +31,19 @@ from regscribe.runtime import (
     within,
     word,
 )
+from regscribe_devices.athena.platinum_common import (
+    AutoMan,
+    BaudRate,
+    CommunicationsProtocol,
+    CurrentRange,
+    EngineeringUnits,
+    LockState,
+    OffOn,
+    OffRun,
+    RangeState,
+    TimerAction,
+    TimerMode,
+)
 
 __all__ = [
     "AsyncAthenaM400",
@@ -82,41 +95,6 @@ _SCALE = (((), Conversion(multiply="0.1")),)
 _STRING = (View("base", UINT16, words=2, byte_order="little"),)
 
 
-class OffRun(Choice):
-    """Timer function status (9.1)."""
-
-    OFF = 0, "OFF"
-    RUN = 1, "Run"
-
-
-class AutoMan(Choice):
-    """Auto/Man (9.1)."""
-
-    AUTO = 0, "Auto"
-    MAN = 1, "Man"
-
-
-class OffOn(Choice):
-    """Control output status (9.1)."""
-
-    OFF = 0, "OFF"
-    ON = 1, "ON"
-
-
-class RangeState(Choice):
-    """Out of range (9.1)."""
-
-    NORMAL_OPERATION = 0, "Normal operation"
-    SAFETY = 1, "Safety"
-
-
-class LockState(Choice):
-    """Keypad lock (9.1)."""
-
-    LOCKED = 0, "locked"
-    UNLOCKED = 1, "unlocked"
-
-
 class LogicInput1(Choice):
     """Logic input #1 (9.1)."""
 
@@ -150,45 +128,6 @@ class OneShotTuning(Choice):
     RUN = 1, "Run"
 
 
-class EngineeringUnits(Choice):
-    """Engineering units (9.4)."""
-
-    CELSIUS = 0, "°C"
-    FAHRENHEIT = 1, "°F"
-    NONE = 2, "none"
-    MV = 3, "nU", "the display's spelling of mV"
-    V = 4, "U", "the display's spelling of V"
-    MA = 5, "nA", "the display's spelling of mA"
-    A = 6, "A"
-    BAR = 7, "bar"
-    PSI = 8, "PSI"
-    RH = 9, "rh", "relative humidity"
-    PH = 10, "Ph", "pH"
-
-
-class CommunicationsProtocol(Choice):
-    """Communications protocol (9.4)."""
-
-    MODBUS = 0, "Modbus"
-    JBUS = 1, "JbuS"
-
-
-class BaudRate(Choice):
-    """Baud rate (9.4)."""
-
-    BAUD_1200 = 0, "1200"
-    BAUD_2400 = 1, "2400"
-    BAUD_4800 = 2, "4800"
-    BAUD_9600 = 3, "9600"
-
-
-class CurrentRange(Choice):
-    """Retransmission range (9.4)."""
-
-    FROM_0_TO_20_MA = 0, "0 .. 20 mA"
-    FROM_4_TO_20_MA = 1, "4 .. 20 mA"
-
-
 class RetransmissionSignalSelection(Choice):
     """Retransmission signal selection (9.4)."""
 
@@ -196,32 +135,6 @@ class RetransmissionSignalSelection(Choice):
     SP = 1, "SP"
     MV_OP_HEAT = 2, "MV (OP Heat)"
     MVC_OP_COOL = 3, "MVC (OP Cool)"
-
-
-class TimerMode(Choice):
-    """Timer operating mode (9.4)."""
-
-    DISABLED = 0, "Disabled"
-    START_UP = 1, "Start-up"
-    COUNTING_INSIDE_BAND = 2, "Counting inside band"
-    COUNTING_INSIDE_BAND_END_MODE_OFF = 3, "Counting inside band / End mode OFF"
-    COUNTING_WHEN_LAUNCHED = 4, "Counting when launched"
-    COUNTING_WHEN_LAUNCHED_END_MODE_OFF = 5, "Counting when launched / End mode OFF"
-    COUNTING_DISABLE_WHEN_LAUNCHED = 6, "Counting disable when launched"
-    STAND_BY_SETPOINT = 7, "Stand-by Setpoint"
-
-
-class TimerAction(Choice):
-    """Timer action (9.4)."""
-
-    BY_KEYPAD_OFF_SECOND = 0, "By Keypad, OFF, Second"
-    BY_KEYPAD_ON_SECOND = 1, "By Keypad, ON, Second"
-    KEY_AT_POWER_ON_OFF_SECOND = 2, "Key + at power on, OFF, Second"
-    KEY_AT_POWER_ON_ON_SECOND = 3, "Key + at power on, ON, Second"
-    BY_KEYPAD_OFF_MINUTE = 4, "By Keypad, OFF, Minute"
-    BY_KEYPAD_ON_MINUTE = 5, "By Keypad, ON, Minute"
-    KEY_AT_POWER_ON_OFF_MINUTE = 6, "Key + at power on, OFF, Minute"
-    KEY_AT_POWER_ON_ON_MINUTE = 7, "Key + at power on, ON, Minute"
 
 
 class DigitalInputFunction(Choice):

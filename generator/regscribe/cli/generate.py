@@ -104,11 +104,15 @@ def _counts(register_map: RegisterMap) -> Counts:
 
 
 def _write(build: Build, out: Path, *, check: bool, whole: bool) -> Report:
-    """Write what was rendered, unless two maps claim one file; a run over the whole of maps/ owns all of `out`."""
+    """Write what was rendered, unless two maps claim one file; a run over the whole of maps/ owns all of `out`.
+
+    What maps share, such as the module of a library or of a base, each of them makes with the same content.
+    """
     makers: dict[str, Path] = {}
     for path, entry in build.entries.items():
-        for name in entry.files:
-            if makers.setdefault(name, path) != path:
+        for name, content in entry.files.items():
+            other = build.entries[makers.setdefault(name, path)]
+            if other is not entry and (other.id == entry.id or other.files[name] != content):
                 message = f"{makers[name]} and {path} both make {name}: give one of them another id"
                 raise WriteError(message)
     ids = {entry.id for entry in build.entries.values()}

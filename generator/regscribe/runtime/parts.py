@@ -2,7 +2,7 @@
 
 from collections.abc import Awaitable, Iterator, Mapping
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar, overload
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, Self, TypeVar, overload
 
 from regscribe.runtime import operations
 from regscribe.runtime.register import Register
@@ -22,7 +22,7 @@ class _Catalogue:
     def __get__(self, instance: object, owner: type) -> Mapping[str, Register[Any]]:
         cached: Mapping[str, Register[Any]] | None = vars(owner).get("_catalogue")
         if cached is None:
-            cached = MappingProxyType(dict(_registers(owner)))
+            cached = MappingProxyType({path: register.cited(owner) for path, register in _registers(owner)})
             owner._catalogue = cached  # type: ignore[attr-defined] # noqa: SLF001 (its own cache)
         return cached
 
@@ -53,19 +53,32 @@ def _declared(owner: type) -> dict[str, Any]:
     return found
 
 
+def _here(part: "Part | AsyncPart", register: Register[T]) -> Register[T]:
+    if part._prefix:  # noqa: SLF001 (parts are one family)
+        moved = register.shifted(part._steps, part._prefix)  # noqa: SLF001 (as above)
+        return moved.cited(type(part._device))  # noqa: SLF001 (as above)
+    return register.seen(type(part)) if part._sections else register  # noqa: SLF001 (as above)
+
+
 def _placed(part: "Part | AsyncPart") -> dict[str, Register[Any]]:
     steps, prefix = part._steps, part._prefix  # noqa: SLF001 (parts are one family)
+    device = type(part._device)  # noqa: SLF001 (as above)
     return {
-        path: _moved(register, steps, f"{prefix}.{path}") if prefix else register
+        path: _moved(register, steps, f"{prefix}.{path}").cited(device) if prefix else register
         for path, register in type(part).registers.items()
         if register.access != "w"
     }
 
 
 class Part:
-    """A place of registers in a synchronous driver: the device, an array element, its commands."""
+    """A place of registers in a synchronous driver: the device, an array element, its commands.
+
+    `_sections` has, for the module of a sibling's driver that registers are inherited from, the chapters of its manual
+    that have another number in the manual of this device.
+    """
 
     registers = _Catalogue()
+    _sections: ClassVar[Mapping[str, Mapping[str, str]]] = {}
     _device: "BareDevice"
     _steps = 0
     _prefix = ""
@@ -75,7 +88,7 @@ class Part:
 
     def bind(self, register: Register[T], sync: Any, _: object) -> Any:
         """Make a register an attribute of this part."""
-        return sync(register.shifted(self._steps, self._prefix) if self._prefix else register, self)
+        return sync(_here(self, register), self)
 
     def run(self, task: operations.Task[T]) -> T:
         """Run an operation on the device."""
@@ -94,6 +107,7 @@ class AsyncPart:
     """As `Part`, for asyncio."""
 
     registers = _Catalogue()
+    _sections: ClassVar[Mapping[str, Mapping[str, str]]] = {}
     _device: "AsyncBareDevice"
     _steps = 0
     _prefix = ""
@@ -103,7 +117,7 @@ class AsyncPart:
 
     def bind(self, register: Register[T], _: object, awaitable: Any) -> Any:
         """Make a register an attribute of this part."""
-        return awaitable(register.shifted(self._steps, self._prefix) if self._prefix else register, self)
+        return awaitable(_here(self, register), self)
 
     def run(self, task: operations.Task[T]) -> Awaitable[T]:
         """Run an operation on the device."""

@@ -8,6 +8,7 @@ from regscribe.runtime import codec
 from regscribe.runtime.bound import AsyncReadable, AsyncReadWritable, AsyncWritable, Readable, ReadWritable, Writable
 from regscribe.runtime.errors import ValueRefused
 from regscribe.runtime.kinds import Kind
+from regscribe.runtime.section import renumbered
 from regscribe.runtime.spec import SAME, Cases, Conversion, Givens, Limits, Ref, State, View, When, registers_of
 
 if TYPE_CHECKING:
@@ -50,10 +51,11 @@ class Register(Generic[T]):
         self.default, self.unit, self.section, self.aliases = default, unit, section, aliases
         self.writable, self.persistence = writable, persistence
         self.unlock, self.apply, self.danger = unlock, apply, danger
-        self.id = self.path = ""
+        self.id = self.path = self.home = ""
 
     def __set_name__(self, owner: type, name: str) -> None:
         self.id = self.path = name
+        self.home = owner.__module__
 
     def __set__(self, instance: object, value: Never) -> None:
         message = f"{self.path} is a register: use .write(...) to change it"
@@ -68,6 +70,22 @@ class Register(Generic[T]):
         other.at, other.path = self.at + steps, f"{prefix}.{self.id}"
         other.aliases = tuple(alias + steps for alias in self.aliases)
         return other
+
+    def cited(self, owner: type) -> Self:
+        """The same register for a device `owner` that inherits it: its section as the manual of `owner` numbers it."""
+        chapters = getattr(owner, "_sections", {}).get(self.home)
+        if not chapters:
+            return self
+        other = copy.copy(self)
+        other.section = renumbered(self.section, chapters)
+        return other
+
+    def seen(self, owner: type) -> Self:
+        """This register as an attribute of the class `owner`: always the one in its catalogue."""
+        if not getattr(owner, "_sections", None):
+            return self
+        found: Self = getattr(owner, "registers", {}).get(self.id, self)
+        return found
 
     @property
     def view_names(self) -> tuple[str, ...]:
@@ -136,7 +154,7 @@ class ReadOnly(Register[T]):
     def __get__(self, instance: "AsyncPart", owner: type) -> AsyncReadable[T]: ...
     def __get__(self, instance: "Part | AsyncPart | None", owner: type) -> "Self | Readable[T] | AsyncReadable[T]":
         if instance is None:
-            return self
+            return self.seen(owner)
         return cast("Readable[T]", instance.bind(self, Readable, AsyncReadable))
 
 
@@ -155,7 +173,7 @@ class ReadWrite(Register[T]):
         self, instance: "Part | AsyncPart | None", owner: type
     ) -> "Self | ReadWritable[T] | AsyncReadWritable[T]":
         if instance is None:
-            return self
+            return self.seen(owner)
         return cast("ReadWritable[T]", instance.bind(self, ReadWritable, AsyncReadWritable))
 
 
@@ -172,5 +190,5 @@ class WriteOnly(Register[T]):
     def __get__(self, instance: "AsyncPart", owner: type) -> AsyncWritable[T]: ...
     def __get__(self, instance: "Part | AsyncPart | None", owner: type) -> "Self | Writable[T] | AsyncWritable[T]":
         if instance is None:
-            return self
+            return self.seen(owner)
         return cast("Writable[T]", instance.bind(self, Writable, AsyncWritable))

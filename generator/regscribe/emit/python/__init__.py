@@ -4,72 +4,69 @@ The text is laid out as `ruff format` would lay it out (line length 120), so not
 """
 
 import re
+from collections.abc import Iterable
 from functools import cache
 
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 
 from regscribe.emit.header import header
-from regscribe.emit.python.classes import Classes
-from regscribe.emit.python.layout import Call, call, group, lay, mapping
-from regscribe.emit.python.literals import camel, docstring, literal
-from regscribe.emit.python.named import NamedClasses
-from regscribe.emit.python.names import RUNTIME, hidden
-from regscribe.emit.python.pool import Pool
+from regscribe.emit.python.classes import Classes, givens_key
+from regscribe.emit.python.layout import WIDTH, flat, lay, width
+from regscribe.emit.python.literals import docstring, literal
+from regscribe.emit.python.names import RUNTIME
+from regscribe.emit.python.offer import Origin
+from regscribe.emit.python.protocol import PROTOCOL, protocol_call, timeout
+from regscribe.emit.python.siblings import build, libraries, library_module, module_path, natural
 from regscribe.emit.text import one_line
-from regscribe.model import Array, GivenKind, Protocol, Register, RegisterMap
+from regscribe.model import GivenKind, RegisterMap
 
 NOT_CODE = re.compile(r'"""[\s\S]*?"""|"(?:[^"\\\n]|\\.)*"|\'(?:[^\'\\\n]|\\.)*\'|#[^\n]*')
-MARGIN_SECONDS = 0.5
-"""Added to the manual's longest latency for the frames themselves and for a gateway."""
-SHORTEST_TIMEOUT = 1.0
 
 
 def path_of(register_map: RegisterMap) -> str:
     """Where the driver of a map stands in the output tree."""
-    maker, family = register_map.id.replace("-", "_").split("/")
-    return f"regscribe_devices/{maker}/{family}.py"
+    return module_path(register_map.id)
 
 
 def render(register_map: RegisterMap) -> dict[str, str]:
-    """The driver module of a map, as {path: text}."""
-    stem = camel(register_map.id.split("/")[1])
-    named, pool = NamedClasses(register_map), Pool(hidden(register_map))
-    for model in register_map.models:
-        for register in _registers(model.members):
-            named.collect(register, model.name)
-    for model in register_map.models:
-        for register in _registers(model.members):
-            named.collect_words(register, model.name)
-    classes = Classes(register_map, named, pool, stem)
-    classes.build()
-    return {path_of(register_map): _module(register_map, classes)}
+    """The driver module of a map and those that it imports, of its base and its libraries, as {path: text}."""
+    return _files(build(register_map))
 
 
-def _registers(members: tuple[Register | Array, ...]) -> list[Register]:
-    return [
-        register
-        for member in members
-        for register in (_registers(member.members) if isinstance(member, Array) else [member])
-    ]
+def _files(classes: Classes) -> dict[str, str]:
+    below = _files(classes.below) if classes.below else {}
+    shared = {module_path(library.id): library_module(library) for library in libraries(classes.register_map)}
+    return {**below, **shared, path_of(classes.register_map): _module(classes.register_map, classes)}
 
 
 def _module(register_map: RegisterMap, classes: Classes) -> str:
     named = classes.named.lines()
-    names = [match[1] for line in named if (match := re.match(r"class (\w+)\(", line))]
+    own = [match[1] for line in named if (match := re.match(r"class (\w+)\(", line))]
+    protocol = protocol_call(register_map.protocol)
+    offered = classes.offer.constants.get(flat(protocol))
+    givens_elsewhere = givens_key(register_map) in classes.offer.devices
     body = _template().render(
         constants=classes.pool.lines,
-        protocol=lay(_protocol(register_map.protocol), head="_PROTOCOL = "),
+        protocol=[] if offered else lay(protocol, head=f"{PROTOCOL} = "),
         named=named,
         classes=classes.lines,
         stem=classes.stem,
         givens=[
             {"id": given.id, "type": "Collection[int]" if given.kind is GivenKind.CODES else "bool"}
-            for given in register_map.givens
+            for given in (() if givens_elsewhere else register_map.givens)
         ],
     )
+    imports = {
+        *classes.imports,
+        *classes.pool.imports,
+        *classes.named.imports.values(),
+        *([offered] if offered else []),
+    }
     used = set(re.findall(r"\w+", NOT_CODE.sub("", body)))
+    public = {*own, *classes.named.imported, *classes.public}
+    about = f"{one_line(register_map.title)}: drivers of {', '.join(model.name for model in register_map.models)}."
     head = [
-        *docstring(f"{one_line(register_map.title)}: drivers of {', '.join(m.name for m in register_map.models)}.", 0),
+        *docstring(about, 0, classes.cited(origin.module for origin in classes.imports)),
         "",
         header(register_map, prefix="# ", separator="\n# "),
         "",
@@ -77,8 +74,9 @@ def _module(register_map: RegisterMap, classes: Classes) -> str:
         *(["from typing import Self, Unpack"] if "Self" in used else []),
         *([""] if "Collection" in used or "Self" in used else []),
         *_import(used, classes.pool.hidden),
+        *_siblings(imports),
         "",
-        *_all(sorted({*names, *classes.public, f"{classes.stem}Groups"}, key=_natural)),
+        *_all(sorted(public, key=natural)),
     ]
     return "\n".join(head) + "\n" + body
 
@@ -87,49 +85,30 @@ def _import(used: set[str], hidden_names: frozenset[str]) -> list[str]:
     names = [name for name in RUNTIME if name in used and name not in hidden_names]
     aliases = [name for name in RUNTIME if f"_{name}" in used and name in hidden_names]
     return [
-        "from regscribe.runtime import (",
-        *(f"    {name}," for name in names),
-        ")",
+        *(["from regscribe.runtime import (", *(f"    {name}," for name in names), ")"] if names else []),
         *(f"from regscribe.runtime import {name} as _{name}" for name in aliases),
     ]
 
 
+def _siblings(imports: Iterable[Origin]) -> list[str]:
+    """Imports of what other generated modules have, each name on a line of its own."""
+    lines: list[str] = []
+    for module in sorted({origin.module for origin in imports}):
+        names = sorted({origin.name for origin in imports if origin.module == module}, key=_import_order)
+        whole = f"from {module} import {', '.join(names)}"
+        many = [f"from {module} import (", *(f"    {name}," for name in names), ")"]
+        lines += [whole] if width(whole) <= WIDTH else many
+    return lines
+
+
+def _import_order(name: str) -> tuple[object, ...]:
+    # the order that ruff asks of imported names: constants, classes, the rest, each without regard to case
+    kind = 0 if name.isupper() and len(name) > 1 else 1 if name[:1].isupper() else 2
+    return kind, natural(name.lower())[1], natural(name)[1]
+
+
 def _all(names: list[str]) -> list[str]:
     return ["__all__ = [", *(f"    {literal(name)}," for name in names), "]", ""]
-
-
-def _natural(name: str) -> tuple[bool, list[tuple[str, int]]]:
-    # the order that ruff asks of __all__: names in capitals first, and numbers inside names count as numbers
-    parts = re.findall(r"\d+|\D", name)
-    capitals = name.isupper() and len(name) > 1
-    return not capitals, [("", int(part)) if part.isdecimal() else (part, 0) for part in parts]
-
-
-def _protocol(protocol: Protocol) -> Call:
-    serial = protocol.serial
-    return call(
-        "Protocol",
-        functions=group([str(code) for code in protocol.functions]),
-        read_words=str(protocol.read_words),
-        write_words=str(protocol.write_words),
-        read_bits=str(protocol.read_bits),
-        read_holes=str(protocol.read_holes),
-        unit_ids=group([str(unit) for unit in protocol.unit_ids]),
-        exceptions=mapping(
-            [(str(one.code), group([literal(one.name), literal(one_line(one.meaning))])) for one in protocol.exceptions]
-        ),
-        timeout=str(timeout(protocol)),
-        baud=str(serial.default_baud) if serial.default_baud else None,
-        format=literal(serial.default_format) if serial.default_format else None,
-        modes=group([literal(mode) for mode in serial.modes]),
-    )
-
-
-def timeout(protocol: Protocol) -> float:
-    """Seconds after which no good answer can come: the longest latency of a full request and a margin."""
-    words = max(protocol.read_words, protocol.write_words)
-    longest = max((one.maximum + one.maximum_per_word * words for one in protocol.latencies), default=0)
-    return max(SHORTEST_TIMEOUT, float(longest) / 1000 + MARGIN_SECONDS)
 
 
 @cache

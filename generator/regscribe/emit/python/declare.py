@@ -1,17 +1,32 @@
 """One register as one declaration of a generated class."""
 
 from dataclasses import dataclass
+from typing import Protocol
 
-from regscribe.emit.python.layout import Expression, call, group, lay, mapping
+from regscribe.emit.python.layout import Call, Expression, call, group, lay, mapping
 from regscribe.emit.python.literals import docstring, exact, literal, plain
-from regscribe.emit.python.named import NamedClasses, enum_content, special_content, specials, word_content
+from regscribe.emit.python.named import Content, enum_content, special_content, specials, word_content
 from regscribe.emit.python.specs import Specs
 from regscribe.emit.text import ACCESS, cases_words, listed, one_line, range_words
-from regscribe.model import Access, Case, Kind, Register, show
+from regscribe.model import Access, Case, Command, Kind, Register, show
 
 SHOWN_CASES = 2
 """Ranges of more cases are left to the reference: a docstring is for a glance."""
 DESCRIPTORS = {Access.READ: "ReadOnly", Access.READ_WRITE: "ReadWrite", Access.WRITE: "WriteOnly"}
+
+
+NAMED = {Kind.ENUM: "choice", Kind.FLAGS: "flags", Kind.FIELDS: "word_of"}
+"""The kinds whose values are of a class of their own, and the function of the runtime that takes it."""
+TYPES = {Kind.NUMBER: "float", Kind.STRING: "str", Kind.VERSION: "str", Kind.BOOLEAN: "bool"}
+"""What the values of a kind are to a type checker, if not `int`."""
+
+
+class Names(Protocol):
+    """What gives named classes their names."""
+
+    def name(self, wanted: str, content: Content) -> str:
+        """The class name for `wanted` with this content."""
+        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,13 +34,20 @@ class Declarations:
     """Writes declarations of registers with the shared constants and classes of a module."""
 
     specs: Specs
-    named: NamedClasses
+    named: Names
 
     def lines(self, register: Register) -> list[str]:
         """The declaration and its docstring, indented for a class body."""
-        return [*lay(self._call(register), head=f"{register.id} = ", depth=1), *docstring(_about(register), 1)]
+        return [*lay(self.call(register), head=f"{register.id} = ", depth=1), *docstring(about(register), 1)]
 
-    def _call(self, register: Register) -> Expression:
+    def type(self, register: Register) -> str:
+        """The type of the declaration: that of the register and of its values."""
+        special = self._special(register) if specials(register) and not self._named(register) else ""
+        value = self._named(register) or TYPES.get(register.kind, "int")
+        return f"{DESCRIPTORS[register.access]}[{value}{special}]"
+
+    def call(self, register: Register) -> Call:
+        """The declaration itself."""
         specs = self.specs
         return call(
             DESCRIPTORS[register.access],
@@ -50,25 +72,32 @@ class Declarations:
 
     def _kind(self, register: Register) -> Expression:
         helper = self.specs.pool.helper
+        if named := self._named(register):
+            return f"{helper(NAMED[register.kind])}({named})"
         match register.kind:
-            case Kind.ENUM if register.enum:
-                return f"{helper('choice')}({self.named.name(register.enum.id, enum_content(register.enum))})"
-            case Kind.FLAGS:
-                return f"{helper('flags')}({self.named.name(register.id, word_content(register))})"
-            case Kind.FIELDS:
-                return f"{helper('word_of')}({self.named.name(register.id, word_content(register))})"
             case Kind.STRING:
                 return helper("text")
             case Kind.VERSION:
                 return f"{helper('version')}({register.version_digits}, {register.version_group})"
         return self._numeric(register) if register.specials else helper(register.kind)
 
+    def _named(self, register: Register) -> str:
+        """The class of the values, if they have one of their own."""
+        if register.kind is Kind.ENUM and register.enum:
+            return self.named.name(register.enum.id, enum_content(register.enum))
+        if register.kind in {Kind.FLAGS, Kind.FIELDS}:
+            return self.named.name(register.id, word_content(register))
+        return ""
+
+    def _special(self, register: Register) -> str:
+        return self.named.name(f"{register.id}_special", special_content(register))
+
     def _numeric(self, register: Register) -> Expression:
         helper = self.specs.pool.helper
         means = [(str(int(one.code)), exact(one.means)) for one in register.specials if one.means is not None]
         if not specials(register):
             return call(helper("number_with"), mapping(means))
-        special = self.named.name(f"{register.id}_special", special_content(register))
+        special = self._special(register)
         if means:
             return call(helper("number_or"), special, mapping(means))
         return f"{helper('number_or' if register.kind is Kind.NUMBER else 'integer_or')}({special})"
@@ -85,7 +114,8 @@ def _sentinels(register: Register) -> Expression | None:
     return group(rows) if rows else None
 
 
-def _about(register: Register) -> str:
+def about(register: Register) -> str:
+    """The docstring of a register: range, special values, unit, access, section."""
     symbol = f" ({one_line(register.symbol)})" if register.symbol else ""
     facts = [
         range_text(register) if len(register.range) <= SHOWN_CASES else "range by condition",
@@ -104,3 +134,21 @@ def range_text(register: Register) -> str:
     return (
         cases_words(tuple(Case(case.when, range_words(case.then)) for case in register.range)) if register.range else ""
     )
+
+
+def command_call(command: Command) -> Call:
+    """The declaration of a command."""
+    steps = []
+    for step in command.steps:
+        words = group([str(word) for word in step.words])
+        steps.append(
+            group(["0", str(step.wait), "()"] if step.wait else [str(step.function), str(step.address), words])
+        )
+    return call("Command", *steps, danger=literal(one_line(command.danger)) if command.danger else None)
+
+
+def command_text(command: Command) -> str:
+    """The docstring of a command."""
+    parts = [one_line(part) for part in (command.name, command.description, command.section) if part]
+    danger = f"; dangerous: {one_line(command.danger)}" if command.danger else ""
+    return f"{'; '.join(parts)}{danger}."

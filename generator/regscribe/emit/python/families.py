@@ -1,6 +1,6 @@
 """Sharing between the classes of several models: what some models have in common is declared once."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Generic, Protocol, TypeVar
 
@@ -27,8 +27,11 @@ def suffix(models: Sequence[str]) -> str:
     return "".join("".join(c for c in model if c.isascii() and c.isalnum()) for model in models)
 
 
-def partition(items: Mapping[str, Sequence[T]], stem: str) -> list[Shared[T]]:
-    """Split the items of all models into classes: each item stands in one, for exactly the models that have it."""
+def partition(items: Mapping[str, Sequence[T]], stem: str, free: Callable[[str], str] = str) -> list[Shared[T]]:
+    """Split the items of all models into classes: each item stands in one, for exactly the models that have it.
+
+    `free` changes a name that is taken.
+    """
     owners: dict[str, list[tuple[T, list[str]]]] = {}
     for model, own in items.items():
         for item in own:
@@ -44,11 +47,6 @@ def partition(items: Mapping[str, Sequence[T]], stem: str) -> list[Shared[T]]:
             groups.setdefault(tuple(models), []).append(item)
     everyone = tuple(items)
     return [
-        Shared(f"_{stem}" if models == everyone else f"_{stem}Of{suffix(models)}", models, tuple(own))
+        Shared(free(f"_{stem}" if models == everyone else f"_{stem}Of{suffix(models)}"), models, tuple(own))
         for models, own in groups.items()
     ]
-
-
-def bases(shared: Sequence[Shared[T]], model: str) -> list[str]:
-    """The classes that together declare what a model has."""
-    return [one.name for one in shared if model in one.models]

@@ -33,15 +33,20 @@ def camel(identifier: str) -> str:
     return "".join(part[:1].upper() + part[1:] for part in re.split(r"[^A-Za-z0-9]+", identifier))
 
 
-def docstring(text: str, depth: int) -> list[str]:
-    """The lines of a docstring of one paragraph, escaped and wrapped."""
-    printable = "".join(character if character.isprintable() else " " for character in text)
-    safe = " ".join(printable.split()).replace("\\", "/").replace('"', "'")
+def docstring(text: str, depth: int, more: str = "") -> list[str]:
+    """The lines of a docstring of one paragraph, escaped and wrapped; `more` is a second paragraph."""
     indent = INDENT * depth
     room = WIDTH - len(indent) - 3
+    safe = _safe(text)
     first, *rest = textwrap.wrap(safe, room, break_long_words=False, break_on_hyphens=False)
     if not rest and width(safe) > room - 3:  # nor do the closing quotes go alone on the second line
         first, *rest = textwrap.wrap(safe, min(room, len(safe)) - 3, break_long_words=False, break_on_hyphens=False)
-    if not rest:
+    if not rest and not more:
         return [f'{indent}"""{safe}"""']
-    return [f'{indent}"""{first}', *(f"{indent}{line}" for line in rest), f'{indent}"""']
+    below = [*rest, *(["", *textwrap.wrap(_safe(more), WIDTH - len(indent), break_long_words=False)] if more else [])]
+    return [f'{indent}"""{first}', *(f"{indent}{line}" if line else "" for line in below), f'{indent}"""']
+
+
+def _safe(text: str) -> str:
+    printable = "".join(character if character.isprintable() else " " for character in text)
+    return " ".join(printable.split()).replace("\\", "/").replace('"', "'")

@@ -1,12 +1,13 @@
 """Classes for values with names: enums, flags, words of bit fields and special values; equal ones are shared."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from regscribe.emit.python.families import suffix
 from regscribe.emit.python.layout import INDENT, WIDTH, Call, call, group, lay, width
 from regscribe.emit.python.literals import camel, docstring, literal
 from regscribe.emit.python.names import free, taken
+from regscribe.emit.python.offer import Origin
 from regscribe.emit.text import member_words, one_line
 from regscribe.model import BitField, Enum, Kind, Register, RegisterMap
 
@@ -18,12 +19,15 @@ class NamedClasses:
     """Class names by content.
 
     Of a name that models define differently, the definition that most models share keeps the plain name; the others
-    get their models' names behind it.
+    get their models' names behind it. What another module offers under the same key is imported from there.
     """
 
     register_map: RegisterMap
+    offered: Mapping[str, Origin] = field(default_factory=dict)
     wanted: dict[str, dict[Content, list[str]]] = field(default_factory=dict)
     bodies: dict[Content, list[str]] = field(default_factory=dict)
+    keys: dict[Content, str] = field(default_factory=dict)
+    imports: dict[Content, Origin] = field(default_factory=dict)
     taken: frozenset[str] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -31,14 +35,17 @@ class NamedClasses:
 
     def collect(self, register: Register, model: str) -> None:
         """Note the classes that a register of a model needs."""
-        if register.enum:
-            self._want(register.enum.id, enum_content(register.enum), model, _enum_body(register.enum, register))
-        for part in register.fields:
-            if part.enum:
-                self._want(part.enum.id, enum_content(part.enum), model, _enum_body(part.enum, register))
+        for enum in (register.enum, *(part.enum for part in register.fields)):
+            if enum:
+                content = enum_content(enum)
+                self._know(content, enum_key(enum))
+                self._want(enum.id, content, model, _enum_body(enum, register))
+        if register.kind in {Kind.FLAGS, Kind.FIELDS}:
+            self._know(word_content(register), self._word_key(register))
         if register.kind is Kind.FLAGS:
             self._want(register.id, word_content(register), model, _flags_body(register))
         if specials(register):
+            self._know(special_content(register), str(special_content(register)))
             self._want(f"{register.id}_special", special_content(register), model, _special_body(register))
 
     def collect_words(self, register: Register, model: str) -> None:
@@ -46,31 +53,54 @@ class NamedClasses:
         if register.kind is Kind.FIELDS:
             self._want(register.id, word_content(register), model, self._word_body(register))
 
+    def _know(self, content: Content, key: str) -> None:
+        if content in self.keys:
+            return
+        self.keys[content] = key
+        origin = self.offered.get(key)
+        if origin and origin.name not in self.taken | self.imported:
+            self.imports[content] = origin
+
     def _want(self, name: str, content: Content, model: str, body: list[str]) -> None:
         models = self.wanted.setdefault(camel(name), {}).setdefault(content, [])
         if model not in models:
             models.append(model)
         self.bodies.setdefault(content, body)
 
+    @property
+    def imported(self) -> frozenset[str]:
+        """The names of the classes that come from elsewhere."""
+        return frozenset(origin.name for origin in self.imports.values())
+
     def name(self, wanted: str, content: Content) -> str:
         """The class name for `wanted` with this content."""
-        variants = self.wanted[camel(wanted)]
+        if content in self.imports:
+            return self.imports[content].name
+        variants = {one: models for one, models in self.wanted[camel(wanted)].items() if one not in self.imports}
         plain = free(camel(wanted), self.taken, "Value")
         usual = max(variants, key=lambda one: len(variants[one]))
-        if content == usual:
+        if content == usual and plain not in self.imported:
             return plain
         own = suffix(variants[content])
         alike = [one for one in variants if one != usual and suffix(variants[one]) == own]
-        return f"{plain}{own}{alike.index(content) + 1 if content != alike[0] else ''}"
+        name = f"{plain}{own}{alike.index(content) + 1 if content in alike[1:] else ''}"
+        return free(name, self.imported, "Own")
 
     def lines(self) -> list[str]:
-        """All class definitions, enums before the words that use them."""
+        """The definitions of all own classes, enums before the words that use them."""
         found: list[str] = []
         for name, variants in self.wanted.items():
-            for content in variants:
+            for content in (one for one in variants if one not in self.imports):
                 opening, *body = self.bodies[content]
                 found += ["", "", f"class {self.name(name, content)}({opening}):", *body]
         return found
+
+    def _word_key(self, register: Register) -> str:
+        parts = [
+            (part.id, part.label, part.low, part.high, one_line(part.description), part.enum and enum_key(part.enum))
+            for part in register.fields
+        ]
+        return f"{register.kind} {register.id} {parts}"
 
     def _word_body(self, register: Register) -> list[str]:
         lines = ["Word", *docstring(f"{one_line(register.name)} ({one_line(register.section)}).", 1), ""]
@@ -88,6 +118,11 @@ class NamedClasses:
 def enum_content(enum: Enum) -> Content:
     """What makes two enums the same class."""
     return ("enum", enum.id, tuple((member.code, member.id, member.label, member.cells) for member in enum.members))
+
+
+def enum_key(enum: Enum) -> str:
+    """What makes two enums the same class in whichever module: their contents and what is said of each member."""
+    return f"enum {enum_content(enum)} {[member_words(member, enum) for member in enum.members]}"
 
 
 def word_content(register: Register) -> Content:
@@ -118,7 +153,12 @@ def _members(members: Sequence[tuple[int, str, str, str]]) -> list[str]:
 
 
 def _enum_body(enum: Enum, register: Register) -> list[str]:
-    about = one_line(enum.description) or f"{one_line(register.name)} ({one_line(register.section)})."
+    return enum_body(enum, f"{one_line(register.name)} ({one_line(register.section)}).")
+
+
+def enum_body(enum: Enum, about: str) -> list[str]:
+    """The base class of an enum, its docstring (`about` unless it has a description of its own) and members."""
+    about = one_line(enum.description) or about
     members = [(member.code, member.id, member.label, member_words(member, enum)) for member in enum.members]
     return ["Choice", *docstring(about, 1), "", *_members(members)]
 

@@ -25,7 +25,12 @@ OTHERS = frozenset({"Collection", "Self", "Unpack"})
 def taken(register_map: RegisterMap) -> frozenset[str]:
     """Return the class names that are not free: those of imports and of models."""
     models = {model.class_name for model in register_map.models}
-    return frozenset({*RUNTIME, *OTHERS, *models, *(f"Async{name}" for name in models)})
+    return reserved() | models | {f"Async{name}" for name in models}
+
+
+def reserved() -> frozenset[str]:
+    """Return the class names that no generated module may use."""
+    return frozenset({*RUNTIME, *OTHERS})
 
 
 def free(name: str, used: Iterable[str], ending: str) -> str:

@@ -1,10 +1,11 @@
 """Constants that several declarations share: each is emitted once, before its first use, under a readable name."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from regscribe.emit.python.layout import WIDTH, Call, Expression, flat, lay
+from regscribe.emit.python.offer import Origin
 
 SHORT = 40
 """An expression of at most this many characters stays where it is used."""
@@ -14,10 +15,13 @@ SHORT = 40
 class Pool:
     """Named constants by their text; `lines` are their definitions in the order of first use.
 
-    `hidden` are the functions of the runtime that go by another name in this module.
+    `hidden` are the functions of the runtime that go by another name in this module. What another module offers with
+    the same text is imported; no name of such a constant is used for another one, so equal texts mean the same.
     """
 
     hidden: frozenset[str] = frozenset()
+    offered: Mapping[str, Origin] = field(default_factory=dict)
+    imports: set[Origin] = field(default_factory=set)
     names: dict[str, str] = field(default_factory=dict)
     lines: list[str] = field(default_factory=list)
 
@@ -28,7 +32,10 @@ class Pool:
     def share(self, name: str, expression: Call, comment: str = "") -> str:
         """The name of a constant of this content, defined now if it is new."""
         text = flat(expression)
-        if text not in self.names:
+        if text not in self.names and text in self.offered:
+            self.names[text] = self.offered[text].name
+            self.imports.add(self.offered[text])
+        elif text not in self.names:
             self.names[text] = self._free(name)
             self.lines += [f"# {comment}"] if comment and len(comment) + 2 <= WIDTH else []
             self.lines += lay(expression, head=f"{self.names[text]} = ")
@@ -40,7 +47,7 @@ class Pool:
 
     def _free(self, name: str) -> str:
         name = "_" + re.sub(r"\W+", "_", name, flags=re.ASCII).strip("_").upper()
-        taken = set(self.names.values())
+        taken = {*self.names.values(), *(origin.name for origin in self.offered.values())}
         numbered = (f"{name}_{count}" for count in range(2, len(taken) + 3))
         return name if name not in taken else next(free for free in numbered if free not in taken)
 

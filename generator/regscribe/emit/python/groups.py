@@ -1,0 +1,39 @@
+"""The groups of a map as one class: each group has the members that any model has."""
+
+from collections.abc import Mapping
+
+from regscribe.emit.python.layout import call, lay
+from regscribe.emit.python.literals import literal
+from regscribe.emit.text import one_line
+from regscribe.model import RegisterMap
+
+Content = Mapping[str, tuple[str, tuple[str, ...]]]
+"""Title and members of each group by its id; members are ids of registers, or of arrays for all that is in them."""
+
+
+def groups_of(register_map: RegisterMap) -> Content:
+    """The groups of all models together."""
+    merged: dict[str, tuple[str, dict[str, None]]] = {}
+    for model in sorted(register_map.models, key=lambda model: -len(model.registers)):
+        for one in model.groups:
+            _, members = merged.setdefault(one.id, (one_line(one.name), {}))
+            members.update(dict.fromkeys(path.split("[")[0] for path in one.members))
+    return {name: (title, tuple(members)) for name, (title, members) in merged.items()}
+
+
+def same_groups(base: Content, own: Content, register_map: RegisterMap) -> set[str]:
+    """The groups of `base` that are good for a map as they stand: what it does not have of them does not count."""
+    present = {member.id for model in register_map.models for member in model.members}
+    return {
+        name
+        for name, (title, members) in base.items()
+        if own[name] == (title, tuple(member for member in members if member in present))
+    }
+
+
+def groups_body(groups: Content) -> list[str]:
+    """The declarations."""
+    body: list[str] = []
+    for name, (title, members) in groups.items():
+        body += lay(call("Group", literal(title), *map(literal, members)), head=f"{name} = ", depth=1)
+    return body
