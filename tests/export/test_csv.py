@@ -22,8 +22,10 @@ from regscribe.model import (
     RegisterMap,
     Sentinel,
     Special,
-    Test as Ask,
     always,
+)
+from regscribe.model import (
+    Test as Ask,
 )
 
 ISSUE_COLUMNS = (

@@ -8,8 +8,8 @@ from regscribe.emit.markdown.escape import Md, code, escape, md, prose
 from regscribe.emit.markdown.facts import transmission, view_type
 from regscribe.emit.markdown.outline import leaves
 from regscribe.emit.markdown.page import Table, Titled, table
-from regscribe.emit.text import condition_words, listed, one_line, when_words
-from regscribe.model import GivenKind, Kind, Register, View, show
+from regscribe.emit.text import Wording, condition_words, listed, one_line, when_words
+from regscribe.model import GivenKind, Identity, Kind, Register, View, show
 
 Shape = tuple[tuple[str, View], ...]
 """Address formula in n (the base view's address) and the rest of each view, its address left out."""
@@ -127,10 +127,16 @@ def identity(context: Context) -> Table:
     """Return which models answer how."""
     first = context.map.models[0]
     rows = (
-        (when_words(item.when, context.wording(first)), listed([one_line(name) for name in item.models]))
+        (_identity_words(item, context.wording(first)), listed([one_line(name) for name in item.models]))
         for item in context.map.identity
     )
     return table(("If", "The device is"), ((Md(when), names) for when, names in rows))
+
+
+def _identity_words(item: Identity, wording: Wording) -> str:
+    texts = [f"{wording.register(path)} begins with {wording.text(text)}" for path, text in item.texts]
+    asked = [] if item.when.always and texts else [when_words(item.when, wording)]
+    return " and ".join([*asked, *texts])
 
 
 def reserved(context: Context) -> Table:
