@@ -20,10 +20,15 @@ def addresses(register_map: RegisterMap) -> str:
         for view in register.views:
             found.setdefault(view.space, []).extend((view.address, view.last))
         found[register.base.space].extend(register.aliases)
-    spans = [f"{SPACES[space].lower()} {min(found[space])} to {max(found[space])}" for space in Space if space in found]
+    spans = [_span(space, found[space]) for space in Space if space in found]
     return (
         f"Address map of {one_line(register_map.title)}: {listed(spans, last='and')}, in the colours of their groups."
     )
+
+
+def _span(space: Space, taken: Sequence[int]) -> str:
+    low, high = min(taken), max(taken)
+    return f"{SPACES[space].lower()} {low}" if low == high else f"{SPACES[space].lower()} {low} to {high}"
 
 
 def bits(leaf: Leaf) -> str:
