@@ -140,7 +140,7 @@ def test_a_write_outside_limits_that_are_registers_is_refused_before_it_is_sent(
 
 
 def test_a_value_finer_than_a_view_can_carry_is_refused_unless_rounding_is_asked_for(controller: Any) -> None:
-    with pytest.raises(ValueRefused, match="finer"):
+    with pytest.raises(ValueRefused, match=r"120\.5 is finer than the base view can carry; nearest are 120 and 121"):
         controller.setpoint.write(120.5, view="base")
 
     controller.setpoint.write(120.5, view="base", rounded=True)

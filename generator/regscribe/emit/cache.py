@@ -1,9 +1,9 @@
 """What the last run wrote, so that an unchanged map need not be compiled again.
 
-A map counts as unchanged only if its own bytes, those of the files that it builds on, the whole generator and every file
-written from it are what they were; only maps without any finding are remembered, so that no warning goes unseen. The
-record lies in the user's cache directory, not in the output: the output stays reproducible, and losing the record costs
-one full build.
+A map counts as unchanged only if its own bytes, those of the files that it builds on, the whole generator and every
+file written from it are what they were; only maps without any finding are remembered, so that no warning goes unseen.
+The record lies in the user's cache directory, not in the output: the output stays reproducible, and losing the record
+costs one full build.
 """
 
 import hashlib

@@ -187,7 +187,10 @@ def encode(
     amount = _amount(register, value)
     if not register.kind.coded:
         _within_limits(register, amount, state, givens)
-        amount = _stored(register, amount, state, givens, rounded=rounded)
+        stored = _stored(register, amount, state, givens, rounded=rounded)
+        if not rounded:
+            _carried(register, view, amount, stored, state, givens)
+        amount = stored
     elif register.kind.name == "boolean" or view.space == "coil":
         return (int(amount),)
     return tuple(arrange(view, register.path, _wire_words(register, view, amount, rounded=rounded), state))
@@ -245,12 +248,26 @@ def _stored(register: "Register[Any]", amount: Fraction, state: State, givens: G
     return stored
 
 
+def _carried(
+    register: "Register[Any]", view: View, amount: Fraction, stored: Fraction, state: State, givens: Givens
+) -> None:
+    exactly = stored * Fraction(view.factor)
+    if view.type.is_float or exactly.denominator == 1:
+        return
+    conversion, divisor = _conversion(register, state, givens)
+    around = sorted(
+        (wire / Fraction(view.factor) * Fraction(conversion.multiply) + Fraction(conversion.add)) / divisor
+        for wire in (math.floor(exactly), math.ceil(exactly))
+    )
+    near = " and ".join(map(show, around))
+    message = f"{show(amount)} is finer than the {view.name} view can carry; nearest are {near} (rounded=True rounds)"
+    raise ValueRefused(register.path, message)
+
+
 def _wire_words(register: "Register[Any]", view: View, stored: Fraction, *, rounded: bool) -> tuple[int, ...]:
     exactly = stored * Fraction(view.factor)
     if view.type.is_float:
         return _float_words(register, view, exactly, rounded=rounded)
-    if exactly.denominator != 1 and not rounded:
-        raise ValueRefused(register.path, f"finer than the {view.name} view can carry (its step is 1/{view.factor})")
     wire = ROUNDINGS[view.rounding](exactly)
     if register.kind.name in PATTERNS and wire > view.type.maximum:
         wire -= 1 << 16 * view.words

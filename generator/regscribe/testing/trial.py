@@ -26,7 +26,10 @@ class Trial(NamedTuple):
 
     def encode(self, value: object, *, rounded: bool = False) -> tuple[int, ...]:
         """Encode with the driver under the state of this trial."""
-        return self.register.encode(value, view=self.view, state=self.state, givens=self.givens, rounded=rounded)
+        words: tuple[int, ...] = self.register.encode(
+            value, view=self.view, state=self.state, givens=self.givens, rounded=rounded
+        )
+        return words
 
     def __repr__(self) -> str:
         given = {name: codes for name, codes in self.givens.items() if name in self.case.get("givens", {})}
