@@ -56,7 +56,7 @@ def _declared(owner: type) -> dict[str, Any]:
 def _here(part: "Part | AsyncPart", register: Register[T]) -> Register[T]:
     if part._prefix:  # noqa: SLF001 (parts are one family)
         moved = register.shifted(part._steps, part._prefix)  # noqa: SLF001 (as above)
-        return moved  # noqa: SLF001 (as above)
+        return moved.cited(type(part._device))  # noqa: SLF001 (as above)
     return register.seen(type(part)) if part._sections else register  # noqa: SLF001 (as above)
 
 

@@ -74,7 +74,7 @@ def _module(register_map: RegisterMap, classes: Classes) -> str:
         *(["from typing import Self, Unpack"] if "Self" in used else []),
         *([""] if "Collection" in used or "Self" in used else []),
         *_import(used, classes.pool.hidden),
-        *_siblings(imports),
+        *_siblings(origin for origin in imports if origin.name in used | public),
         "",
         *_all(sorted(public, key=natural)),
     ]
@@ -90,9 +90,9 @@ def _import(used: set[str], hidden_names: frozenset[str]) -> list[str]:
     ]
 
 
-def _siblings(imports: Iterable[Origin]) -> list[str]:
+def _siblings(origins: Iterable[Origin]) -> list[str]:
     """Imports of what other generated modules have, each name on a line of its own."""
-    lines: list[str] = []
+    imports, lines = set(origins), list[str]()
     for module in sorted({origin.module for origin in imports}):
         names = sorted({origin.name for origin in imports if origin.module == module}, key=_import_order)
         whole = f"from {module} import {', '.join(names)}"

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from regscribe.emit.python.layout import call, lay
 from regscribe.emit.python.literals import literal
 from regscribe.emit.text import one_line
-from regscribe.model import RegisterMap
+from regscribe.model import Group, Model, RegisterMap
 
 Content = Mapping[str, tuple[str, tuple[str, ...]]]
 """Title and members of each group by its id; members are ids of registers, or of arrays for all that is in them."""
@@ -17,18 +17,30 @@ def groups_of(register_map: RegisterMap) -> Content:
     for model in sorted(register_map.models, key=lambda model: -len(model.registers)):
         for one in model.groups:
             _, members = merged.setdefault(one.id, (one_line(one.name), {}))
-            members.update(dict.fromkeys(path.split("[")[0] for path in one.members))
+            members.update(_first_parts(one))
     return {name: (title, tuple(members)) for name, (title, members) in merged.items()}
 
 
 def same_groups(base: Content, own: Content, register_map: RegisterMap) -> set[str]:
-    """The groups of `base` that are good for a map as they stand: what it does not have of them does not count."""
-    present = {member.id for model in register_map.models for member in model.members}
+    """The groups of `base` that are good for a map as they stand: each model finds its own members and no others.
+
+    Their order is that of the base, whose models also have one order between them.
+    """
     return {
         name
         for name, (title, members) in base.items()
-        if own[name] == (title, tuple(member for member in members if member in present))
+        if own[name][0] == title and all(_fits(name, members, model) for model in register_map.models)
     }
+
+
+def _fits(name: str, members: tuple[str, ...], model: Model) -> bool:
+    present = {member.id for member in model.members}
+    own = [_first_parts(group) for group in model.groups if group.id == name]
+    return present.intersection(members) == set(own[0] if own else ())
+
+
+def _first_parts(group: Group) -> dict[str, None]:
+    return dict.fromkeys(path.split("[")[0] for path in group.members)
 
 
 def groups_body(groups: Content) -> list[str]:
