@@ -48,7 +48,9 @@ def rows(registers: int, *, peers: bool) -> Iterator[Row]:
             what = f"{registers} registers: size of the driver (PeakRDL-python)"
             yield at_least(what, f"{sizes[0] // 1000} kB", f"{sizes[1] // 1000} kB", sizes[1] / sizes[0], 20)
         else:
-            yield Row(f"{registers} registers: compile and emit a driver", f"{ours:.2f} s", "-", float("nan"), "-", True)
+            yield Row(
+                f"{registers} registers: compile and emit a driver", f"{ours:.2f} s", "-", float("nan"), "-", kept=True
+            )
         yield from _imports(registers, folder / "ours")
 
 
@@ -102,4 +104,6 @@ def start_up() -> Iterator[Row]:
     """`regscribe --version` against an empty Python process that imports click."""
     ours = process("import sys; sys.argv = ['regscribe', '--version']; from regscribe.cli import main; main()")
     bare = process("import click")
-    yield at_most("regscribe --version (python -c 'import click')", milliseconds(ours), milliseconds(bare), ours / bare, 1.5)
+    yield at_most(
+        "regscribe --version (python -c 'import click')", milliseconds(ours), milliseconds(bare), ours / bare, 1.5
+    )

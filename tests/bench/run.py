@@ -28,7 +28,7 @@ def main() -> int:
     table = Table("measured (against)", "ours", "theirs", "ratio", "budget", "kept")
     found = list(rows())
     for row in found:
-        ratio = "-" if row.ratio != row.ratio else f"{row.ratio:.2f}"  # noqa: PLR0124 (a NaN has no ratio)
+        ratio = "-" if row.ratio != row.ratio else f"{row.ratio:.2f}"
         table.add_row(row.what, row.ours, row.theirs, ratio, row.budget, "yes" if row.kept else "NO")
     Console().print(table)
     return 0 if all(row.kept for row in found) else 1

@@ -1,6 +1,6 @@
 """The same made-up device as a map and as SystemRDL: every fifth register has an enum, every tenth bit fields."""
 
-ENUM = "{0: \"off\", 1: low, 2: high, 3: boost}"
+ENUM = '{0: "off", 1: low, 2: high, 3: boost}'
 FIELDS = "{mode: {bits: 4..7}, alarm: {bit: 0}, fault: {bit: 1}}"
 
 

@@ -65,7 +65,10 @@ def reading() -> Iterator[Row]:
     assert document is not None
     register_map, _ = lower.lower(document)
     assert register_map is not None
-    with simulate(register_map, "Unit", unit=1) as running, Bench.tcp(running.host, port=running.port, unit=1) as driver:
+    with (
+        simulate(register_map, "Unit", unit=1) as running,
+        Bench.tcp(running.host, port=running.port, unit=1) as driver,
+    ):
         client = ModbusTcpClient(running.host, port=running.port, retries=0)
         client.connect()
 

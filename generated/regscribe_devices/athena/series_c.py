@@ -112,7 +112,10 @@ _PROTOCOL = Protocol(
     modes=("rtu",),
 )
 _INT16 = word(INT16)
-_BASE_X10_IEEE = (
+_DANGER = "the controller answers at the new speed from now on"
+_DANGER_2 = "the controller answers with the new parity from now on"
+_DANGER_3 = "the controller converts all temperature values that it already holds"
+_VIEWS = (
     View("base", INT16, rounding="half_up"),
     View("x10", INT16, offset=1000, factor=10, rounding="half_up", saturates=True),
     View(
@@ -185,6 +188,8 @@ _RANGE_11 = (
     (_FAHRENHEIT_INPUT, Limits((Interval("0.1", 100),))),
     (_TEMPERATURE_INPUT, Limits((Interval("0.1", "55.6"),))),
 )
+_DANGER_4 = "a wrong calibration makes every measurement wrong"
+_SENTINELS = ((-32768, "LOW_ERROR", "Low Error"), (32767, "HIGH_ERROR", "High Error"))
 _RANGE_12 = within(Ref("setpoint_low_limit"), Ref("setpoint_high_limit"))
 # setpoint_low_limit to setpoint_high_limit or -1999 to 9999
 _RANGE_13 = (((), Limits((Interval(Ref("setpoint_low_limit"), Ref("setpoint_high_limit")), Interval(-1999, 9999)))),)
@@ -194,6 +199,7 @@ _RANGE_14 = (
     (_LINEAR_INPUT, Limits((Interval(1, None),), decimals="linear_decimal_position")),
     ((), Limits((Interval(1, None),))),
 )
+_DANGER_5 = "3.1415 disables the watchdog so that the controller resets"
 # display_unit_of_measure is 1: °F; display_unit_of_measure is 2: °C; otherwise: K
 _UNIT_2 = (
     ((Is("display_unit_of_measure", ((1, 1),)),), "°F"),
@@ -556,73 +562,45 @@ class _SeriesC:
     """Communication Protocol: read only; 4.2.2."""
     controller_id = ReadWrite(4081, _INT16, integer, range=within(1, 247), default=1, section="4.2.2")
     """Controller ID (Id.no): 1 to 247; read and write; 4.2.2."""
-    baud_rate = ReadWrite(
-        4082,
-        _INT16,
-        choice(BaudRate),
-        default=7,
-        section="4.2.2",
-        danger="the controller answers at the new speed from now on",
-    )
+    baud_rate = ReadWrite(4082, _INT16, choice(BaudRate), default=7, section="4.2.2", danger=_DANGER)
     """Baud Rate (bAud): read and write; 4.2.2."""
-    parity = ReadWrite(
-        4083,
-        _INT16,
-        choice(Parity),
-        default=0,
-        section="4.2.2",
-        danger="the controller answers with the new parity from now on",
-    )
+    parity = ReadWrite(4083, _INT16, choice(Parity), default=0, section="4.2.2", danger=_DANGER_2)
     """Parity (PAr): read and write; 4.2.2."""
     ieee_register_ordering = ReadWrite(4084, _INT16, choice(IeeeRegisterOrdering), default=1, section="4.2.2")
     """IEEE Register Ordering (nnOd): read and write; 4.2.2."""
     display_unit_of_measure = ReadWrite(
-        4070,
-        _INT16,
-        choice(DisplayUnitOfMeasure),
-        default=1,
-        section="4.4.2",
-        danger="the controller converts all temperature values that it already holds",
+        4070, _INT16, choice(DisplayUnitOfMeasure), default=1, section="4.4.2", danger=_DANGER_3
     )
     """Display Unit of Measure: read and write; 4.4.2."""
     input_type = ReadWrite(4049, _INT16, choice(InputType), default=3, section="4.3.2")
     """Input Type: read and write; 4.3.2."""
-    input_bias = ReadWrite(
-        25, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE, default=0, unit=_UNIT, section="4.3.2"
-    )
-    """Input Bias: range by condition; unit input_type is 0 to 12 and display_unit_of_measure is 1: °F; input_type is 0
-    to 12 and display_unit_of_measure is 2: °C; input_type is 0 to 12 and display_unit_of_measure is 3: K; read and
-    write; 4.3.2.
-    """
+    input_bias = ReadWrite(25, _VIEWS, number, scale=_SCALE, range=_RANGE, default=0, unit=_UNIT, section="4.3.2")
+    """Input Bias: range by condition; unit °F, °C or K; read and write; 4.3.2."""
     linear_input_scaling_low_limit = ReadWrite(
-        26, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE_2, default=-1999, section="4.3.2"
+        26, _VIEWS, number, scale=_SCALE, range=_RANGE_2, default=-1999, section="4.3.2"
     )
     """Linear Input Scaling Low Limit: linear_input: -1999/10^linear_decimal_position to
     9999/10^linear_decimal_position; otherwise: -1999 to 9999; read and write; 4.3.2.
     """
     linear_input_scaling_high_limit = ReadWrite(
-        27, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE_2, default=9999, section="4.3.2"
+        27, _VIEWS, number, scale=_SCALE, range=_RANGE_2, default=9999, section="4.3.2"
     )
     """Linear Input Scaling High Limit: linear_input: -1999/10^linear_decimal_position to
     9999/10^linear_decimal_position; otherwise: -1999 to 9999; read and write; 4.3.2.
     """
     setpoint_low_limit = ReadWrite(
-        28, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE_3, default=-328, unit=_UNIT, section="4.3.2"
+        28, _VIEWS, number, scale=_SCALE, range=_RANGE_3, default=-328, unit=_UNIT, section="4.3.2"
     )
     """Setpoint Low Limit: linear_input: linear_input_scaling_low_limit to linear_input_scaling_high_limit; otherwise:
-    open (sensor low limit) to open (sensor high limit); unit input_type is 0 to 12 and display_unit_of_measure is 1:
-    °F; input_type is 0 to 12 and display_unit_of_measure is 2: °C; input_type is 0 to 12 and display_unit_of_measure
-    is 3: K; read and write; 4.3.2.
+    open (sensor low limit) to open (sensor high limit); unit °F, °C or K; read and write; 4.3.2.
     """
     setpoint_high_limit = ReadWrite(
-        29, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE_3, default=1400, unit=_UNIT, section="4.3.2"
+        29, _VIEWS, number, scale=_SCALE, range=_RANGE_3, default=1400, unit=_UNIT, section="4.3.2"
     )
     """Setpoint High Limit: linear_input: linear_input_scaling_low_limit to linear_input_scaling_high_limit; otherwise:
-    open (sensor low limit) to open (sensor high limit); unit input_type is 0 to 12 and display_unit_of_measure is 1:
-    °F; input_type is 0 to 12 and display_unit_of_measure is 2: °C; input_type is 0 to 12 and display_unit_of_measure
-    is 3: K; read and write; 4.3.2.
+    open (sensor low limit) to open (sensor high limit); unit °F, °C or K; read and write; 4.3.2.
     """
-    input_filter = ReadWrite(30, _BASE_X10_IEEE, number, range=_RANGE_4, default=5, unit="0.1 s", section="4.3.2")
+    input_filter = ReadWrite(30, _VIEWS, number, range=_RANGE_4, default=5, unit="0.1 s", section="4.3.2")
     """Input Filter: linear_input: 1/10^linear_decimal_position to 100/10^linear_decimal_position; otherwise: 1 to 100;
     unit 0.1 s; read and write; 4.3.2.
     """
@@ -651,66 +629,60 @@ class _SeriesC:
     output_2_high_limit = ReadWrite(4067, _INT16, integer, range=within(0, 100), default=100, unit="%", section="4.5.2")
     """Output 2 High Limit: 0 to 100; unit %; read and write; 4.5.2."""
     output_1_proportional_band = ReadWrite(
-        9, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE_5, default=100, unit=_UNIT, section="4.6.2"
+        9, _VIEWS, number, scale=_SCALE, range=_RANGE_5, default=100, unit=_UNIT, section="4.6.2"
     )
     """PID Proportional Band for Output 1: linear_input: 1/10^linear_decimal_position to
-    9999/10^linear_decimal_position; temperature_input: 0.6 to open (span of sensor); unit input_type is 0 to 12 and
-    display_unit_of_measure is 1: °F; input_type is 0 to 12 and display_unit_of_measure is 2: °C; input_type is 0 to
-    12 and display_unit_of_measure is 3: K; read and write; 4.6.2.
+    9999/10^linear_decimal_position; temperature_input: 0.6 to open (span of sensor); unit °F, °C or K; read and
+    write; 4.6.2.
     """
     output_2_proportional_band = ReadWrite(
-        10, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE_5, default=100, unit=_UNIT, section="4.6.2"
+        10, _VIEWS, number, scale=_SCALE, range=_RANGE_5, default=100, unit=_UNIT, section="4.6.2"
     )
     """PID Proportional Band for Output 2: linear_input: 1/10^linear_decimal_position to
-    9999/10^linear_decimal_position; temperature_input: 0.6 to open (span of sensor); unit input_type is 0 to 12 and
-    display_unit_of_measure is 1: °F; input_type is 0 to 12 and display_unit_of_measure is 2: °C; input_type is 0 to
-    12 and display_unit_of_measure is 3: K; read and write; 4.6.2.
+    9999/10^linear_decimal_position; temperature_input: 0.6 to open (span of sensor); unit °F, °C or K; read and
+    write; 4.6.2.
     """
-    rate = ReadWrite(11, _BASE_X10_IEEE, number, range=_RANGE_6, default=0, section="4.6.2")
+    rate = ReadWrite(11, _VIEWS, number, range=_RANGE_6, default=0, section="4.6.2")
     """PID Derivative (Rate) Action: linear_input: 0 to 0.9/10^min(linear_decimal_position, 1) or
     1/10^min(linear_decimal_position, 1) to 2400/10^min(linear_decimal_position, 1); otherwise: 0 to 0.9 or 1 to
     2400; read and write; 4.6.2.
     """
-    auto_reset = ReadWrite(12, _BASE_X10_IEEE, number, range=_RANGE_7, default=0, section="4.6.2")
+    auto_reset = ReadWrite(12, _VIEWS, number, range=_RANGE_7, default=0, section="4.6.2")
     """PID Integral Action: Auto Reset: linear_input: 0 to 0.9/10^min(linear_decimal_position, 1) or
     1/10^min(linear_decimal_position, 1) to 9600/10^min(linear_decimal_position, 1); otherwise: 0 to 0.9 or 1 to
     9600; read and write; 4.6.2.
     """
-    manual_reset = ReadWrite(13, _BASE_X10_IEEE, number, range=_RANGE_8, default=0, section="4.6.2")
+    manual_reset = ReadWrite(13, _VIEWS, number, range=_RANGE_8, default=0, section="4.6.2")
     """PID Integral Action: Manual Reset: linear_input: -100/10^linear_decimal_position to
     100/10^linear_decimal_position; otherwise: -100 to 100; read and write; 4.6.2.
     """
     output_1_deadband = ReadWrite(
-        7, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE_9, default=1, unit=_UNIT, section="4.6.2"
+        7, _VIEWS, number, scale=_SCALE, range=_RANGE_9, default=1, unit=_UNIT, section="4.6.2"
     )
     """On/Off Control Deadband for Output 1: linear_input: -1999/10^linear_decimal_position to
-    9999/10^linear_decimal_position; otherwise: open (negative sensor span) to open (positive sensor span); unit
-    input_type is 0 to 12 and display_unit_of_measure is 1: °F; input_type is 0 to 12 and display_unit_of_measure is
-    2: °C; input_type is 0 to 12 and display_unit_of_measure is 3: K; read and write; 4.6.2.
+    9999/10^linear_decimal_position; otherwise: open (negative sensor span) to open (positive sensor span); unit °F,
+    °C or K; read and write; 4.6.2.
     """
     output_1_hysteresis = ReadWrite(
-        8, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE_10, default=1, unit=_UNIT, section="4.6.2"
+        8, _VIEWS, number, scale=_SCALE, range=_RANGE_10, default=1, unit=_UNIT, section="4.6.2"
     )
     """On/Off Control Hysteresis for Output 1: linear_input: 1/10^linear_decimal_position to
-    9999/10^linear_decimal_position; temperature_input: 1 to open (span of sensor); unit input_type is 0 to 12 and
-    display_unit_of_measure is 1: °F; input_type is 0 to 12 and display_unit_of_measure is 2: °C; input_type is 0 to
-    12 and display_unit_of_measure is 3: K; read and write; 4.6.2.
+    9999/10^linear_decimal_position; temperature_input: 1 to open (span of sensor); unit °F, °C or K; read and write;
+    4.6.2.
     """
     output_2_deadband = ReadWrite(
-        14, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE_9, default=1, unit=_UNIT, section="4.6.2"
+        14, _VIEWS, number, scale=_SCALE, range=_RANGE_9, default=1, unit=_UNIT, section="4.6.2"
     )
     """On/Off Control Deadband for Output 2: linear_input: -1999/10^linear_decimal_position to
-    9999/10^linear_decimal_position; otherwise: open (negative sensor span) to open (positive sensor span); unit
-    input_type is 0 to 12 and display_unit_of_measure is 1: °F; input_type is 0 to 12 and display_unit_of_measure is
-    2: °C; input_type is 0 to 12 and display_unit_of_measure is 3: K; read and write; 4.6.2.
+    9999/10^linear_decimal_position; otherwise: open (negative sensor span) to open (positive sensor span); unit °F,
+    °C or K; read and write; 4.6.2.
     """
     output_2_hysteresis = ReadWrite(
-        15, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE_10, default=1, unit=_UNIT, section="4.6.2"
+        15, _VIEWS, number, scale=_SCALE, range=_RANGE_10, default=1, unit=_UNIT, section="4.6.2"
     )
     """On/Off Control Hysteresis for Output 2: linear_input: 1/10^linear_decimal_position to
-    9999/10^linear_decimal_position; temperature_input: 1 to open (span of sensor); unit input_type is 0 to 12 and
-    display_unit_of_measure is 1: °F; input_type is 0 to 12 and display_unit_of_measure is 2: °C; input_type is 0 to
-    12 and display_unit_of_measure is 3: K; read and write; 4.6.2.
+    9999/10^linear_decimal_position; temperature_input: 1 to open (span of sensor); unit °F, °C or K; read and write;
+    4.6.2.
     """
     autotune_damping = ReadWrite(4011, _INT16, choice(AutotuneDamping), default=2, section="4.8.2")
     """Autotune Damping: read and write; 4.8.2."""
@@ -719,19 +691,9 @@ class _SeriesC:
     single_step_ramp_time = ReadWrite(4013, _INT16, integer, range=within(1, 9999), default=1, section="4.9.2")
     """Single-Step Ramp Time: 1 to 9999; read and write; 4.9.2."""
     holdback = ReadWrite(
-        24,
-        _BASE_X10_IEEE,
-        number_or(HoldbackSpecial),
-        scale=_SCALE,
-        range=_RANGE_11,
-        default=10,
-        unit=_UNIT,
-        section="4.9.2",
+        24, _VIEWS, number_or(HoldbackSpecial), scale=_SCALE, range=_RANGE_11, default=10, unit=_UNIT, section="4.9.2"
     )
-    """Holdback: range by condition; special: 0 = off; unit input_type is 0 to 12 and display_unit_of_measure is 1: °F;
-    input_type is 0 to 12 and display_unit_of_measure is 2: °C; input_type is 0 to 12 and display_unit_of_measure is
-    3: K; read and write; 4.9.2.
-    """
+    """Holdback: range by condition; special: 0 = off; unit °F, °C or K; read and write; 4.9.2."""
     termination_state = ReadWrite(4047, _INT16, choice(TerminationState), default=2, section="4.9.2")
     """Termination State: read and write; 4.9.2."""
     recycle_number = ReadWrite(
@@ -753,224 +715,96 @@ class _SeriesC:
     )
     """Loop Break Time: 4 to 9600; special: 3 = off; unit s; read and write; 4.11.2."""
     highest_reading = ReadWrite(
-        40, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE_3, default=-3566, unit=_UNIT, section="4.11.2"
+        40, _VIEWS, number, scale=_SCALE, range=_RANGE_3, default=-3566, unit=_UNIT, section="4.11.2"
     )
     """Highest Reading: linear_input: linear_input_scaling_low_limit to linear_input_scaling_high_limit; otherwise: open
-    (sensor low limit) to open (sensor high limit); unit input_type is 0 to 12 and display_unit_of_measure is 1: °F;
-    input_type is 0 to 12 and display_unit_of_measure is 2: °C; input_type is 0 to 12 and display_unit_of_measure is
-    3: K; read and write; 4.11.2.
+    (sensor low limit) to open (sensor high limit); unit °F, °C or K; read and write; 4.11.2.
     """
     lowest_reading = ReadWrite(
-        41, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE_3, default=18030, unit=_UNIT, section="4.11.2"
+        41, _VIEWS, number, scale=_SCALE, range=_RANGE_3, default=18030, unit=_UNIT, section="4.11.2"
     )
     """Lowest Reading: linear_input: linear_input_scaling_low_limit to linear_input_scaling_high_limit; otherwise: open
-    (sensor low limit) to open (sensor high limit); unit input_type is 0 to 12 and display_unit_of_measure is 1: °F;
-    input_type is 0 to 12 and display_unit_of_measure is 2: °C; input_type is 0 to 12 and display_unit_of_measure is
-    3: K; read and write; 4.11.2.
+    (sensor low limit) to open (sensor high limit); unit °F, °C or K; read and write; 4.11.2.
     """
     thermocouple_zero_offset = ReadWrite(
-        42,
-        _BASE_X10_IEEE,
-        number,
-        range=within(-25000, 25000),
-        default=2600,
-        section="4.12.2",
-        danger="a wrong calibration makes every measurement wrong",
+        42, _VIEWS, number, range=within(-25000, 25000), default=2600, section="4.12.2", danger=_DANGER_4
     )
     """Thermocouple Zero Offset: -25000 to 25000; read and write; 4.12.2."""
     thermocouple_span_adjustment = ReadWrite(
-        43,
-        _BASE_X10_IEEE,
-        number,
-        range=within("0.001", 2),
-        default=1,
-        section="4.12.2",
-        danger="a wrong calibration makes every measurement wrong",
+        43, _VIEWS, number, range=within("0.001", 2), default=1, section="4.12.2", danger=_DANGER_4
     )
     """Thermocouple Span Adjustment: 0.001 to 2; read and write; 4.12.2."""
     rtd_zero_offset = ReadWrite(
-        44,
-        _BASE_X10_IEEE,
-        number,
-        range=within(-25000, 25000),
-        default=9000,
-        section="4.12.2",
-        danger="a wrong calibration makes every measurement wrong",
+        44, _VIEWS, number, range=within(-25000, 25000), default=9000, section="4.12.2", danger=_DANGER_4
     )
     """RTD Zero Offset: -25000 to 25000; read and write; 4.12.2."""
     rtd_span_adjustment = ReadWrite(
-        45,
-        _BASE_X10_IEEE,
-        number,
-        range=within("0.001", 2),
-        default=1,
-        section="4.12.2",
-        danger="a wrong calibration makes every measurement wrong",
+        45, _VIEWS, number, range=within("0.001", 2), default=1, section="4.12.2", danger=_DANGER_4
     )
     """RTD Span Adjustment: 0.001 to 2; read and write; 4.12.2."""
     low_voltage_zero_offset = ReadWrite(
-        46,
-        _BASE_X10_IEEE,
-        number,
-        range=within(-25000, 25000),
-        default=0,
-        section="4.12.2",
-        danger="a wrong calibration makes every measurement wrong",
+        46, _VIEWS, number, range=within(-25000, 25000), default=0, section="4.12.2", danger=_DANGER_4
     )
     """Low-Voltage Zero Offset: -25000 to 25000; read and write; 4.12.2."""
     low_voltage_span_adjustment = ReadWrite(
-        47,
-        _BASE_X10_IEEE,
-        number,
-        range=within("0.001", 2),
-        default=1,
-        section="4.12.2",
-        danger="a wrong calibration makes every measurement wrong",
+        47, _VIEWS, number, range=within("0.001", 2), default=1, section="4.12.2", danger=_DANGER_4
     )
     """Low-Voltage Span Adjustment: 0.001 to 2; read and write; 4.12.2."""
     high_voltage_zero_offset = ReadWrite(
-        48,
-        _BASE_X10_IEEE,
-        number,
-        range=within(-25000, 25000),
-        default=0,
-        section="4.12.2",
-        danger="a wrong calibration makes every measurement wrong",
+        48, _VIEWS, number, range=within(-25000, 25000), default=0, section="4.12.2", danger=_DANGER_4
     )
     """High-Voltage Zero Offset: -25000 to 25000; read and write; 4.12.2."""
     high_voltage_span_adjustment = ReadWrite(
-        49,
-        _BASE_X10_IEEE,
-        number,
-        range=within("0.001", 2),
-        default=1,
-        section="4.12.2",
-        danger="a wrong calibration makes every measurement wrong",
+        49, _VIEWS, number, range=within("0.001", 2), default=1, section="4.12.2", danger=_DANGER_4
     )
     """High-Voltage Span Adjustment: 0.001 to 2; read and write; 4.12.2."""
     current_zero_offset = ReadWrite(
-        50,
-        _BASE_X10_IEEE,
-        number,
-        range=within(-25000, 25000),
-        default=0,
-        section="4.12.2",
-        danger="a wrong calibration makes every measurement wrong",
+        50, _VIEWS, number, range=within(-25000, 25000), default=0, section="4.12.2", danger=_DANGER_4
     )
     """Current (mA) Zero Offset: -25000 to 25000; read and write; 4.12.2."""
     current_span_adjustment = ReadWrite(
-        51,
-        _BASE_X10_IEEE,
-        number,
-        range=within("0.001", 2),
-        default=1,
-        section="4.12.2",
-        danger="a wrong calibration makes every measurement wrong",
+        51, _VIEWS, number, range=within("0.001", 2), default=1, section="4.12.2", danger=_DANGER_4
     )
     """Current (mA) Span Adjustment: 0.001 to 2; read and write; 4.12.2."""
     rtd_decimal_zero_offset = ReadWrite(
-        57,
-        _BASE_X10_IEEE,
-        number,
-        range=within(-25000, 25000),
-        default=9000,
-        section="4.12.2",
-        danger="a wrong calibration makes every measurement wrong",
+        57, _VIEWS, number, range=within(-25000, 25000), default=9000, section="4.12.2", danger=_DANGER_4
     )
     """RTD Decimal Zero Offset: -25000 to 25000; read and write; 4.12.2."""
     rtd_decimal_span_cal = ReadWrite(
-        58,
-        _BASE_X10_IEEE,
-        number,
-        range=within("0.001", 2),
-        default=1,
-        section="4.12.2",
-        danger="a wrong calibration makes every measurement wrong",
+        58, _VIEWS, number, range=within("0.001", 2), default=1, section="4.12.2", danger=_DANGER_4
     )
     """RTD Decimal Span Cal: 0.001 to 2; read and write; 4.12.2."""
     second_high_voltage_zero_cal = ReadWrite(
-        59,
-        _BASE_X10_IEEE,
-        number,
-        range=within(-25000, 25000),
-        default=0,
-        section="4.12.2",
-        danger="a wrong calibration makes every measurement wrong",
+        59, _VIEWS, number, range=within(-25000, 25000), default=0, section="4.12.2", danger=_DANGER_4
     )
     """2nd High-Voltage Zero Cal: -25000 to 25000; read and write; 4.12.2."""
     second_high_voltage_span_cal = ReadWrite(
-        60,
-        _BASE_X10_IEEE,
-        number,
-        range=within("0.001", 2),
-        default=1,
-        section="4.12.2",
-        danger="a wrong calibration makes every measurement wrong",
+        60, _VIEWS, number, range=within("0.001", 2), default=1, section="4.12.2", danger=_DANGER_4
     )
     """2nd High-Voltage Span Cal: 0.001 to 2; read and write; 4.12.2."""
     zero_100_mv = ReadWrite(
-        61,
-        _BASE_X10_IEEE,
-        number,
-        range=within(-25000, 25000),
-        default=0,
-        section="4.12.2",
-        danger="a wrong calibration makes every measurement wrong",
+        61, _VIEWS, number, range=within(-25000, 25000), default=0, section="4.12.2", danger=_DANGER_4
     )
     """0 to 100 mV Zero Cal: -25000 to 25000; read and write; 4.12.2."""
-    process_value = ReadOnly(
-        0,
-        _BASE_X10_IEEE,
-        number,
-        scale=_SCALE,
-        range=within(None, None),
-        unit=_UNIT,
-        section="4.14.2",
-        sentinels=((-32768, "LOW_ERROR", "Low Error"), (32767, "HIGH_ERROR", "High Error")),
-    )
-    """Process Value: open (low end of the sensor span) to open (high end of the sensor span); unit input_type is 0 to
-    12 and display_unit_of_measure is 1: °F; input_type is 0 to 12 and display_unit_of_measure is 2: °C; input_type
-    is 0 to 12 and display_unit_of_measure is 3: K; read only; 4.14.2.
+    process_value = ReadOnly(0, _VIEWS, number, scale=_SCALE, unit=_UNIT, section="4.14.2", sentinels=_SENTINELS)
+    """Process Value: open (low end of the sensor span) to open (high end of the sensor span); unit °F, °C or K; read
+    only; 4.14.2.
     """
     setpoint_eeprom_and_ram = ReadWrite(
-        1,
-        _BASE_X10_IEEE,
-        number,
-        scale=_SCALE,
-        range=_RANGE_12,
-        default=77,
-        unit=_UNIT,
-        section="4.14.2",
-        persistence="both",
+        1, _VIEWS, number, scale=_SCALE, range=_RANGE_12, default=77, unit=_UNIT, section="4.14.2", persistence="both"
     )
-    """Setpoint (EEPROM and RAM): setpoint_low_limit to setpoint_high_limit; unit input_type is 0 to 12 and
-    display_unit_of_measure is 1: °F; input_type is 0 to 12 and display_unit_of_measure is 2: °C; input_type is 0 to
-    12 and display_unit_of_measure is 3: K; read and write; 4.14.2.
+    """Setpoint (EEPROM and RAM): setpoint_low_limit to setpoint_high_limit; unit °F, °C or K; read and write;
+    4.14.2.
     """
     setpoint_ram = ReadWrite(
-        2,
-        _BASE_X10_IEEE,
-        number,
-        scale=_SCALE,
-        range=_RANGE_12,
-        default=77,
-        unit=_UNIT,
-        section="4.14.2",
-        persistence="ram",
+        2, _VIEWS, number, scale=_SCALE, range=_RANGE_12, default=77, unit=_UNIT, section="4.14.2", persistence="ram"
     )
-    """Setpoint (RAM): setpoint_low_limit to setpoint_high_limit; unit input_type is 0 to 12 and display_unit_of_measure
-    is 1: °F; input_type is 0 to 12 and display_unit_of_measure is 2: °C; input_type is 0 to 12 and
-    display_unit_of_measure is 3: K; read and write; 4.14.2.
-    """
-    recipe_setpoint = ReadOnly(6, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE_12, unit=_UNIT, section="4.14.2")
-    """Recipe Setpoint: setpoint_low_limit to setpoint_high_limit; unit input_type is 0 to 12 and
-    display_unit_of_measure is 1: °F; input_type is 0 to 12 and display_unit_of_measure is 2: °C; input_type is 0 to
-    12 and display_unit_of_measure is 3: K; read only; 4.14.2.
-    """
-    active_setpoint = ReadWrite(56, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE_13, unit=_UNIT, section="4.14.2")
-    """Active Setpoint: setpoint_low_limit to setpoint_high_limit or -1999 to 9999; unit input_type is 0 to 12 and
-    display_unit_of_measure is 1: °F; input_type is 0 to 12 and display_unit_of_measure is 2: °C; input_type is 0 to
-    12 and display_unit_of_measure is 3: K; read and write; 4.14.2.
+    """Setpoint (RAM): setpoint_low_limit to setpoint_high_limit; unit °F, °C or K; read and write; 4.14.2."""
+    recipe_setpoint = ReadOnly(6, _VIEWS, number, scale=_SCALE, range=_RANGE_12, unit=_UNIT, section="4.14.2")
+    """Recipe Setpoint: setpoint_low_limit to setpoint_high_limit; unit °F, °C or K; read only; 4.14.2."""
+    active_setpoint = ReadWrite(56, _VIEWS, number, scale=_SCALE, range=_RANGE_13, unit=_UNIT, section="4.14.2")
+    """Active Setpoint: setpoint_low_limit to setpoint_high_limit or -1999 to 9999; unit °F, °C or K; read and write;
+    4.14.2.
     """
     controller_type = ReadOnly(4000, _INT16, choice(ControllerType), section="4.15.2")
     """Controller Type: read only; 4.15.2."""
@@ -1016,20 +850,18 @@ class _SeriesCOf1ZC16C:
     )
     """Output 1 Alarm Inhibit: 0 to 9999; unit s; read and write; 4.5.2."""
     output_1_process_alarm_setpoint = ReadWrite(
-        31, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE_3, default=77, unit=_UNIT, section="4.5.2"
+        31, _VIEWS, number, scale=_SCALE, range=_RANGE_3, default=77, unit=_UNIT, section="4.5.2"
     )
     """Output 1 Process Alarm Setpoint (O1SP): linear_input: linear_input_scaling_low_limit to
-    linear_input_scaling_high_limit; otherwise: open (sensor low limit) to open (sensor high limit); unit input_type
-    is 0 to 12 and display_unit_of_measure is 1: °F; input_type is 0 to 12 and display_unit_of_measure is 2: °C;
-    input_type is 0 to 12 and display_unit_of_measure is 3: K; read and write; 4.5.2.
+    linear_input_scaling_high_limit; otherwise: open (sensor low limit) to open (sensor high limit); unit °F, °C or
+    K; read and write; 4.5.2.
     """
     output_1_deviation_alarm_setpoint = ReadWrite(
-        32, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE_14, default=1728, unit=_UNIT, section="4.5.2"
+        32, _VIEWS, number, scale=_SCALE, range=_RANGE_14, default=1728, unit=_UNIT, section="4.5.2"
     )
     """Output 1 Deviation, Normal Band, or Inverse Band Alarm Setpoint (O1SP): linear_input:
-    1/10^linear_decimal_position to open (span of sensor); otherwise: 1 to open (span of sensor); unit input_type is
-    0 to 12 and display_unit_of_measure is 1: °F; input_type is 0 to 12 and display_unit_of_measure is 2: °C;
-    input_type is 0 to 12 and display_unit_of_measure is 3: K; read and write; 4.5.2.
+    1/10^linear_decimal_position to open (span of sensor); otherwise: 1 to open (span of sensor); unit °F, °C or K;
+    read and write; 4.5.2.
     """
     output_2_type = ReadWrite(4059, _INT16, choice(OutputType), default=2, section="4.5.2")
     """Output 2 Type: read and write; 4.5.2."""
@@ -1044,20 +876,18 @@ class _SeriesCOf1ZC16C:
     )
     """Output 2 Alarm Inhibit: 0 to 9999; unit s; read and write; 4.5.2."""
     output_2_process_alarm_setpoint = ReadWrite(
-        33, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE_3, default=77, unit=_UNIT, section="4.5.2"
+        33, _VIEWS, number, scale=_SCALE, range=_RANGE_3, default=77, unit=_UNIT, section="4.5.2"
     )
     """Output 2 Process Alarm Setpoint (O2SP): linear_input: linear_input_scaling_low_limit to
-    linear_input_scaling_high_limit; otherwise: open (sensor low limit) to open (sensor high limit); unit input_type
-    is 0 to 12 and display_unit_of_measure is 1: °F; input_type is 0 to 12 and display_unit_of_measure is 2: °C;
-    input_type is 0 to 12 and display_unit_of_measure is 3: K; read and write; 4.5.2.
+    linear_input_scaling_high_limit; otherwise: open (sensor low limit) to open (sensor high limit); unit °F, °C or
+    K; read and write; 4.5.2.
     """
     output_2_deviation_alarm_setpoint = ReadWrite(
-        34, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE_14, default=1728, unit=_UNIT, section="4.5.2"
+        34, _VIEWS, number, scale=_SCALE, range=_RANGE_14, default=1728, unit=_UNIT, section="4.5.2"
     )
     """Output 2 Deviation, Normal Band, or Inverse Band Alarm Setpoint (O2SP): linear_input:
-    1/10^linear_decimal_position to open (span of sensor); otherwise: 1 to open (span of sensor); unit input_type is
-    0 to 12 and display_unit_of_measure is 1: °F; input_type is 0 to 12 and display_unit_of_measure is 2: °C;
-    input_type is 0 to 12 and display_unit_of_measure is 3: K; read and write; 4.5.2.
+    1/10^linear_decimal_position to open (span of sensor); otherwise: 1 to open (span of sensor); unit °F, °C or K;
+    read and write; 4.5.2.
     """
 
 
@@ -1079,13 +909,8 @@ class _Segment1ZC:
         4014, _INT16, integer_or(RampTimeSpecial), range=within(0, 9999), default=0, unit="min", section="4.9.2"
     )
     """Ramp Time: 0 to 9999; special: 0 = disabled; unit min; read and write; 4.9.2."""
-    soak_level = ReadWrite(
-        16, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE_12, default=77, unit=_UNIT, section="4.9.2"
-    )
-    """Soak Level: setpoint_low_limit to setpoint_high_limit; unit input_type is 0 to 12 and display_unit_of_measure is
-    1: °F; input_type is 0 to 12 and display_unit_of_measure is 2: °C; input_type is 0 to 12 and
-    display_unit_of_measure is 3: K; read and write; 4.9.2.
-    """
+    soak_level = ReadWrite(16, _VIEWS, number, scale=_SCALE, range=_RANGE_12, default=77, unit=_UNIT, section="4.9.2")
+    """Soak Level: setpoint_low_limit to setpoint_high_limit; unit °F, °C or K; read and write; 4.9.2."""
     soak_time = ReadWrite(
         4030, _INT16, integer_or(SoakTimeSpecial), range=within(0, 9999), default=0, unit="min", section="4.9.2"
     )
@@ -1105,30 +930,14 @@ class _SeriesCOf1ZC:
 
     segments = Array(Segment1ZC, AsyncSegment1ZC, first=1, count=8, stride=1)
     """Segment 1 to 8: 4.9.2."""
-    span_100_mv = ReadWrite(
-        62,
-        _BASE_X10_IEEE,
-        number,
-        range=within("0.001", 2),
-        default=1,
-        section="4.12.2",
-        danger="a wrong calibration makes every measurement wrong",
-    )
+    span_100_mv = ReadWrite(62, _VIEWS, number, range=within("0.001", 2), default=1, section="4.12.2", danger=_DANGER_4)
     """0 to 100 mV Span Cal: 0.001 to 2; read and write; 4.12.2."""
     led_status_indicator_byte = ReadOnly(4095, _INT16, flags(LedStatusIndicatorByte1ZC), section="4.15.2")
     """LED Status Indicator Byte: read only; 4.15.2."""
-    watchdog_disable = ReadWrite(
-        63,
-        _BASE_X10_IEEE,
-        number,
-        section="4.15.2",
-        danger="3.1415 disables the watchdog so that the controller resets",
-    )
+    watchdog_disable = ReadWrite(63, _VIEWS, number, section="4.15.2", danger=_DANGER_5)
     """Watchdog Disable: read and write; 4.15.2."""
-    controller_ambient_temperature = ReadOnly(64, _BASE_X10_IEEE, number, unit=_UNIT_2, section="4.15.2")
-    """Controller Ambient Temperature: unit display_unit_of_measure is 1: °F; display_unit_of_measure is 2: °C;
-    otherwise: K; read only; 4.15.2.
-    """
+    controller_ambient_temperature = ReadOnly(64, _VIEWS, number, unit=_UNIT_2, section="4.15.2")
+    """Controller Ambient Temperature: unit °F, °C or K; read only; 4.15.2."""
 
 
 class _Segment:
@@ -1140,13 +949,8 @@ class _Segment:
     """Ramp Time: 0 to 9999; special: 0 = disabled; unit min; read and write; 4.9.2."""
     ramp_event = ReadWrite(4022, _INT16, choice(RecipeEvent), default=0, section="4.9.2")
     """Ramp Event: read and write; 4.9.2."""
-    soak_level = ReadWrite(
-        16, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE_12, default=77, unit=_UNIT, section="4.9.2"
-    )
-    """Soak Level: setpoint_low_limit to setpoint_high_limit; unit input_type is 0 to 12 and display_unit_of_measure is
-    1: °F; input_type is 0 to 12 and display_unit_of_measure is 2: °C; input_type is 0 to 12 and
-    display_unit_of_measure is 3: K; read and write; 4.9.2.
-    """
+    soak_level = ReadWrite(16, _VIEWS, number, scale=_SCALE, range=_RANGE_12, default=77, unit=_UNIT, section="4.9.2")
+    """Soak Level: setpoint_low_limit to setpoint_high_limit; unit °F, °C or K; read and write; 4.9.2."""
     soak_time = ReadWrite(
         4030, _INT16, integer_or(SoakTimeSpecial), range=within(0, 9999), default=0, unit="min", section="4.9.2"
     )
@@ -1168,19 +972,11 @@ class _SeriesCOf16C18C25C:
 
     segments = Array(Segment, AsyncSegment, first=1, count=8, stride=1)
     """Segment 1 to 8: 4.9.2."""
-    span_100_mv = ReadWrite(
-        62,
-        _BASE_X10_IEEE,
-        number,
-        range=within("0.001", 2),
-        default=0,
-        section="4.12.2",
-        danger="a wrong calibration makes every measurement wrong",
-    )
+    span_100_mv = ReadWrite(62, _VIEWS, number, range=within("0.001", 2), default=0, section="4.12.2", danger=_DANGER_4)
     """0 to 100 mV Span Cal: 0.001 to 2; read and write; 4.12.2."""
     led_status_indicator_byte = ReadOnly(4095, _INT16, flags(LedStatusIndicatorByte), section="4.15.2")
     """LED Status Indicator Byte: read only; 4.15.2."""
-    display_filter = ReadWrite(35, _BASE_X10_IEEE, number, range=_RANGE_4, default=1, unit="0.1 s", section="4.4.2")
+    display_filter = ReadWrite(35, _VIEWS, number, range=_RANGE_4, default=1, unit="0.1 s", section="4.4.2")
     """Display Filter: linear_input: 1/10^linear_decimal_position to 100/10^linear_decimal_position; otherwise: 1 to
     100; unit 0.1 s; read and write; 4.4.2.
     """
@@ -1203,20 +999,17 @@ class _SeriesCOf16C18C25C:
     alarm_1_inhibit = ReadWrite(4075, _INT16, integer, range=within(0, 9999), default=0, unit="s", section="4.7.2")
     """Alarm 1 Inhibit: 0 to 9999; unit s; read and write; 4.7.2."""
     alarm_1_process_setpoint = ReadWrite(
-        36, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE_3, default=77, unit=_UNIT, section="4.7.2"
+        36, _VIEWS, number, scale=_SCALE, range=_RANGE_3, default=77, unit=_UNIT, section="4.7.2"
     )
     """Alarm 1 Process Setpoint (A1.SP): linear_input: linear_input_scaling_low_limit to
-    linear_input_scaling_high_limit; otherwise: open (sensor low limit) to open (sensor high limit); unit input_type
-    is 0 to 12 and display_unit_of_measure is 1: °F; input_type is 0 to 12 and display_unit_of_measure is 2: °C;
-    input_type is 0 to 12 and display_unit_of_measure is 3: K; read and write; 4.7.2.
+    linear_input_scaling_high_limit; otherwise: open (sensor low limit) to open (sensor high limit); unit °F, °C or
+    K; read and write; 4.7.2.
     """
     alarm_1_deviation_setpoint = ReadWrite(
-        37, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE_14, default=1728, unit=_UNIT, section="4.7.2"
+        37, _VIEWS, number, scale=_SCALE, range=_RANGE_14, default=1728, unit=_UNIT, section="4.7.2"
     )
     """Alarm 1 Deviation, Normal Band, or Inverse Band Setpoint (A1.SP): linear_input: 1/10^linear_decimal_position to
-    open (span of sensor); otherwise: 1 to open (span of sensor); unit input_type is 0 to 12 and
-    display_unit_of_measure is 1: °F; input_type is 0 to 12 and display_unit_of_measure is 2: °C; input_type is 0 to
-    12 and display_unit_of_measure is 3: K; read and write; 4.7.2.
+    open (span of sensor); otherwise: 1 to open (span of sensor); unit °F, °C or K; read and write; 4.7.2.
     """
     alarm_2_action = ReadWrite(4076, _INT16, choice(FrontAlarmAction), default=1, section="4.7.2")
     """Alarm 2 Action: read and write; 4.7.2."""
@@ -1227,97 +1020,63 @@ class _SeriesCOf16C18C25C:
     alarm_2_inhibit = ReadWrite(4079, _INT16, integer, range=within(0, 9999), default=0, unit="s", section="4.7.2")
     """Alarm 2 Inhibit: 0 to 9999; unit s; read and write; 4.7.2."""
     alarm_2_process_setpoint = ReadWrite(
-        38, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE_3, default=77, unit=_UNIT, section="4.7.2"
+        38, _VIEWS, number, scale=_SCALE, range=_RANGE_3, default=77, unit=_UNIT, section="4.7.2"
     )
     """Alarm 2 Process Setpoint (A2.SP): linear_input: linear_input_scaling_low_limit to
-    linear_input_scaling_high_limit; otherwise: open (sensor low limit) to open (sensor high limit); unit input_type
-    is 0 to 12 and display_unit_of_measure is 1: °F; input_type is 0 to 12 and display_unit_of_measure is 2: °C;
-    input_type is 0 to 12 and display_unit_of_measure is 3: K; read and write; 4.7.2.
+    linear_input_scaling_high_limit; otherwise: open (sensor low limit) to open (sensor high limit); unit °F, °C or
+    K; read and write; 4.7.2.
     """
     alarm_2_deviation_setpoint = ReadWrite(
-        39, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE_14, default=1728, unit=_UNIT, section="4.7.2"
+        39, _VIEWS, number, scale=_SCALE, range=_RANGE_14, default=1728, unit=_UNIT, section="4.7.2"
     )
     """Alarm 2 Deviation, Normal Band, or Inverse Band Setpoint (A2.SP): linear_input: 1/10^linear_decimal_position to
-    open (span of sensor); otherwise: 1 to open (span of sensor); unit input_type is 0 to 12 and
-    display_unit_of_measure is 1: °F; input_type is 0 to 12 and display_unit_of_measure is 2: °C; input_type is 0 to
-    12 and display_unit_of_measure is 3: K; read and write; 4.7.2.
+    open (span of sensor); otherwise: 1 to open (span of sensor); unit °F, °C or K; read and write; 4.7.2.
     """
     auxiliary_output_variable = ReadWrite(4089, _INT16, choice(AuxiliaryOutputVariable), default=1, section="4.10.2")
     """Auxiliary Output Variable: read and write; 4.10.2."""
     auxiliary_output_scale_low = ReadWrite(
-        52, _BASE_X10_IEEE, number, range=_RANGE_3, default=-328, unit=_UNIT, section="4.10.2"
+        52, _VIEWS, number, range=_RANGE_3, default=-328, unit=_UNIT, section="4.10.2"
     )
     """Auxiliary Output Scale Low: linear_input: linear_input_scaling_low_limit to linear_input_scaling_high_limit;
-    otherwise: open (sensor low limit) to open (sensor high limit); unit input_type is 0 to 12 and
-    display_unit_of_measure is 1: °F; input_type is 0 to 12 and display_unit_of_measure is 2: °C; input_type is 0 to
-    12 and display_unit_of_measure is 3: K; read and write; 4.10.2.
+    otherwise: open (sensor low limit) to open (sensor high limit); unit °F, °C or K; read and write; 4.10.2.
     """
     auxiliary_output_scale_high = ReadWrite(
-        53, _BASE_X10_IEEE, number, range=_RANGE_3, default=1400, unit=_UNIT, section="4.10.2"
+        53, _VIEWS, number, range=_RANGE_3, default=1400, unit=_UNIT, section="4.10.2"
     )
     """Auxiliary Output Scale High: linear_input: linear_input_scaling_low_limit to linear_input_scaling_high_limit;
-    otherwise: open (sensor low limit) to open (sensor high limit); unit input_type is 0 to 12 and
-    display_unit_of_measure is 1: °F; input_type is 0 to 12 and display_unit_of_measure is 2: °C; input_type is 0 to
-    12 and display_unit_of_measure is 3: K; read and write; 4.10.2.
+    otherwise: open (sensor low limit) to open (sensor high limit); unit °F, °C or K; read and write; 4.10.2.
     """
     contact_digital_input_function = ReadWrite(
         4090, _INT16, choice(ContactDigitalInputFunction), default=1, section="4.10.2"
     )
     """Contact/Digital Input Function: read and write; 4.10.2."""
     remote_analog_setpoint_scale_low = ReadWrite(
-        54, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE_2, default=-1999, unit=_UNIT, section="4.10.2"
+        54, _VIEWS, number, scale=_SCALE, range=_RANGE_2, default=-1999, unit=_UNIT, section="4.10.2"
     )
     """Remote Analog Setpoint Scale Low: linear_input: -1999/10^linear_decimal_position to
-    9999/10^linear_decimal_position; otherwise: -1999 to 9999; unit input_type is 0 to 12 and display_unit_of_measure
-    is 1: °F; input_type is 0 to 12 and display_unit_of_measure is 2: °C; input_type is 0 to 12 and
-    display_unit_of_measure is 3: K; read and write; 4.10.2.
+    9999/10^linear_decimal_position; otherwise: -1999 to 9999; unit °F, °C or K; read and write; 4.10.2.
     """
     remote_analog_setpoint_high = ReadWrite(
-        55, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE_2, default=9999, unit=_UNIT, section="4.10.2"
+        55, _VIEWS, number, scale=_SCALE, range=_RANGE_2, default=9999, unit=_UNIT, section="4.10.2"
     )
     """Remote Analog Setpoint High: linear_input: -1999/10^linear_decimal_position to 9999/10^linear_decimal_position;
-    otherwise: -1999 to 9999; unit input_type is 0 to 12 and display_unit_of_measure is 1: °F; input_type is 0 to 12
-    and display_unit_of_measure is 2: °C; input_type is 0 to 12 and display_unit_of_measure is 3: K; read and write;
-    4.10.2.
+    otherwise: -1999 to 9999; unit °F, °C or K; read and write; 4.10.2.
     """
     access_level = ReadWrite(4005, _INT16, choice(AccessLevel), default=6, section="4.13.2")
     """Access Level: read and write; 4.13.2."""
     second_setpoint_eeprom_and_ram = ReadWrite(
-        3,
-        _BASE_X10_IEEE,
-        number,
-        scale=_SCALE,
-        range=_RANGE_12,
-        default=77,
-        unit=_UNIT,
-        section="4.14.2",
-        persistence="both",
+        3, _VIEWS, number, scale=_SCALE, range=_RANGE_12, default=77, unit=_UNIT, section="4.14.2", persistence="both"
     )
-    """Second Setpoint (EEPROM and RAM): setpoint_low_limit to setpoint_high_limit; unit input_type is 0 to 12 and
-    display_unit_of_measure is 1: °F; input_type is 0 to 12 and display_unit_of_measure is 2: °C; input_type is 0 to
-    12 and display_unit_of_measure is 3: K; read and write; 4.14.2.
+    """Second Setpoint (EEPROM and RAM): setpoint_low_limit to setpoint_high_limit; unit °F, °C or K; read and write;
+    4.14.2.
     """
     second_setpoint_ram = ReadWrite(
-        4,
-        _BASE_X10_IEEE,
-        number,
-        scale=_SCALE,
-        range=_RANGE_12,
-        default=77,
-        unit=_UNIT,
-        section="4.14.2",
-        persistence="ram",
+        4, _VIEWS, number, scale=_SCALE, range=_RANGE_12, default=77, unit=_UNIT, section="4.14.2", persistence="ram"
     )
-    """Second Setpoint (RAM): setpoint_low_limit to setpoint_high_limit; unit input_type is 0 to 12 and
-    display_unit_of_measure is 1: °F; input_type is 0 to 12 and display_unit_of_measure is 2: °C; input_type is 0 to
-    12 and display_unit_of_measure is 3: K; read and write; 4.14.2.
-    """
-    remote_analog_setpoint = ReadOnly(
-        5, _BASE_X10_IEEE, number, scale=_SCALE, range=_RANGE_15, unit=_UNIT, section="4.14.2"
-    )
-    """Remote Analog Setpoint: remote_analog_setpoint_scale_low to remote_analog_setpoint_high; unit input_type is 0 to
-    12 and display_unit_of_measure is 1: °F; input_type is 0 to 12 and display_unit_of_measure is 2: °C; input_type
-    is 0 to 12 and display_unit_of_measure is 3: K; read only; 4.14.2.
+    """Second Setpoint (RAM): setpoint_low_limit to setpoint_high_limit; unit °F, °C or K; read and write; 4.14.2."""
+    remote_analog_setpoint = ReadOnly(5, _VIEWS, number, scale=_SCALE, range=_RANGE_15, unit=_UNIT, section="4.14.2")
+    """Remote Analog Setpoint: remote_analog_setpoint_scale_low to remote_analog_setpoint_high; unit °F, °C or K; read
+    only; 4.14.2.
     """
     contact_digital_input_state = ReadOnly(4006, _INT16, choice(ContactDigitalInputState), section="4.15.2")
     """Contact/Digital Input State: read only; 4.15.2."""

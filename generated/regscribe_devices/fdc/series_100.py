@@ -130,6 +130,7 @@ _RANGE_3 = (
 _SCALE_4 = (((), Conversion(multiply="0.1")),)
 # value of the stored x: x/10 - 1999.9
 _SCALE_5 = (((), Conversion(multiply="0.1", add="-1999.9")),)
+_DANGER = "a wrong coefficient makes every measurement wrong"
 # value of the stored x: x/100 - 199.99
 _SCALE_6 = (((), Conversion(multiply="0.01", add="-199.99")),)
 # value of the stored x: x/100
@@ -137,6 +138,7 @@ _SCALE_7 = (((), Conversion(multiply="0.01")),)
 # value of the stored x: x/1000
 _SCALE_8 = (((), Conversion(multiply="0.001")),)
 _MANUAL_CONTROL = (Is("mode", ((3, 3),), bits=(8, 11)),)
+_WRITABLE = (_MANUAL_CONTROL, "the output can be written in manual control mode only")
 _SCALE_9 = (
     ((Is("out2", ((1, 1),)),), Conversion(multiply="0.1", add="-1999.9")),
     (_NON_LINEAR, Conversion(multiply="0.1", add="-1999.9")),
@@ -406,7 +408,7 @@ class _Series100:
         range=within("-1999.9", "4553.6"),
         section="7-3",
         unlock="unlock_calibration",
-        danger="a wrong coefficient makes every measurement wrong",
+        danger=_DANGER,
     )
     """mV calibration low coefficient (ADLO): -1999.9 to 4553.6; read and write; 7-3."""
     adhi = ReadWrite(
@@ -417,7 +419,7 @@ class _Series100:
         range=within("-1999.9", "4553.6"),
         section="7-3",
         unlock="unlock_calibration",
-        danger="a wrong coefficient makes every measurement wrong",
+        danger=_DANGER,
     )
     """mV calibration high coefficient (ADHI): -1999.9 to 4553.6; read and write; 7-3."""
     rtdl = ReadWrite(
@@ -428,7 +430,7 @@ class _Series100:
         range=within("-1999.9", "4553.6"),
         section="7-3",
         unlock="unlock_calibration",
-        danger="a wrong coefficient makes every measurement wrong",
+        danger=_DANGER,
     )
     """RTD calibration low coefficient (RTDL): -1999.9 to 4553.6; read and write; 7-3."""
     rtdh = ReadWrite(
@@ -439,7 +441,7 @@ class _Series100:
         range=within("-1999.9", "4553.6"),
         section="7-3",
         unlock="unlock_calibration",
-        danger="a wrong coefficient makes every measurement wrong",
+        danger=_DANGER,
     )
     """RTD calibration high coefficient (RTDH): -1999.9 to 4553.6; read and write; 7-3."""
     cjlo = ReadWrite(
@@ -450,7 +452,7 @@ class _Series100:
         range=within("-199.99", "455.36"),
         section="7-3",
         unlock="unlock_calibration",
-        danger="a wrong coefficient makes every measurement wrong",
+        danger=_DANGER,
     )
     """Cold junction calibration low coefficient (CJLO): -199.99 to 455.36; read and write; 7-3."""
     cjhi = ReadWrite(
@@ -461,7 +463,7 @@ class _Series100:
         range=within("-1999.9", "4553.6"),
         section="7-3",
         unlock="unlock_calibration",
-        danger="a wrong coefficient makes every measurement wrong",
+        danger=_DANGER,
     )
     """Cold junction calibration high coefficient (CJHI): -1999.9 to 4553.6; read and write; 7-3."""
     date = ReadWrite(58, _UINT16, integer, range=within(0, 65535), section="7-3")
@@ -488,7 +490,7 @@ class _Series100:
         range=within(0, "655.35"),
         section="7-3",
         aliases=(130,),
-        writable=(_MANUAL_CONTROL, "the output can be written in manual control mode only"),
+        writable=_WRITABLE,
     )
     """OP1 control output value (MV1): 0 to 655.35; read and write; 7-3."""
     timer = ReadOnly(68, _UINT16, number, scale=_SCALE_5, range=within("-1999.9", "4553.6"), section="7-3")
@@ -522,7 +524,7 @@ class _Series100OfBTC9100BTC8100BTC4100BTC7100:
         range=within(0, "655.35"),
         section="7-3",
         aliases=(131,),
-        writable=(_MANUAL_CONTROL, "the output can be written in manual control mode only"),
+        writable=_WRITABLE,
     )
     """OP2 control output value (MV2): 0 to 655.35; read and write; 7-3."""
     mode = ReadOnly(70, _UINT16, word_of(Mode), section="7-3")
@@ -542,7 +544,7 @@ class _Series100OfC21C91:
         range=within(0, "655.35"),
         section="7-3",
         aliases=(131,),
-        writable=(_MANUAL_CONTROL, "the output can be written in manual control mode only"),
+        writable=_WRITABLE,
     )
     """OP2 control output value (MV2): 0 to 655.35; read and write; 7-3."""
     mode = ReadOnly(70, _UINT16, word_of(ModeC21C91), section="7-3")

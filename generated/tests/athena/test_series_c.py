@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from regscribe_devices.athena import series_c as driver
 
 from regscribe.testing import Bench, load
 from regscribe.testing import properties as hold
+from regscribe_devices.athena import series_c as driver
 
 VECTORS = load(Path(__file__).parents[2] / "vectors" / "athena" / "series-c.json")
 CLASSES = (

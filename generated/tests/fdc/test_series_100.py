@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from regscribe_devices.fdc import series_100 as driver
 
 from regscribe.testing import Bench, load
 from regscribe.testing import properties as hold
+from regscribe_devices.fdc import series_100 as driver
 
 VECTORS = load(Path(__file__).parents[2] / "vectors" / "fdc" / "series-100.json")
 CLASSES = (

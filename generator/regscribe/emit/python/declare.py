@@ -59,16 +59,24 @@ class Declarations:
             default=_default(register),
             unit=specs.unit(register.unit),
             section=literal(register.section) if register.section else None,
-            sentinels=_sentinels(register),
+            sentinels=self._sentinels(register),
             aliases=group([str(alias) for alias in register.aliases]) if register.aliases else None,
-            writable=group([specs.when(register.writable.when), literal(one_line(register.writable.reason))])
-            if register.writable
-            else None,
+            writable=self._writable(register),
             persistence=literal(register.persistence) if register.persistence else None,
             unlock=literal(register.unlock) if register.unlock else None,
             apply=literal(register.apply) if register.apply else None,
-            danger=literal(one_line(register.danger)) if register.danger else None,
+            danger=specs.pool.maybe("danger", literal(one_line(register.danger))) if register.danger else None,
         )
+
+    def _sentinels(self, register: Register) -> str | None:
+        rows = [group([exact(one.stored), literal(one.id), literal(one.label)]) for one in register.sentinels]
+        return self.specs.pool.share("sentinels", group(rows)) if rows else None
+
+    def _writable(self, register: Register) -> str | None:
+        if register.writable is None:
+            return None
+        told = [self.specs.when(register.writable.when), literal(one_line(register.writable.reason))]
+        return self.specs.pool.share("writable", group(told))
 
     def _kind(self, register: Register) -> Expression:
         helper = self.specs.pool.helper
@@ -109,11 +117,6 @@ def _default(register: Register) -> str | None:
     return literal(register.default) if isinstance(register.default, str) else plain(register.default)
 
 
-def _sentinels(register: Register) -> Expression | None:
-    rows = [group([exact(one.stored), literal(one.id), literal(one.label)]) for one in register.sentinels]
-    return group(rows) if rows else None
-
-
 def about(register: Register) -> str:
     """The docstring of a register: range, special values, unit, access, section."""
     symbol = f" ({one_line(register.symbol)})" if register.symbol else ""
@@ -122,7 +125,7 @@ def about(register: Register) -> str:
         f"special: {listed([f'{show(one.code)} = {one_line(one.label)}' for one in register.specials])}"
         if register.specials
         else "",
-        f"unit {cases_words(register.unit)}" if cases_words(register.unit) else "",
+        f"unit {units}" if (units := listed([case.then for case in register.unit if case.then])) else "",
         ACCESS[register.access],
         register.section,
     ]

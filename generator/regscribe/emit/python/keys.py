@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from regscribe.emit.python.declare import Declarations, about, command_call, command_text
-from regscribe.emit.python.layout import Call, flat
+from regscribe.emit.python.layout import Expression, flat
 from regscribe.emit.python.named import Content, NamedClasses
 from regscribe.emit.python.offer import Declared, marked
 from regscribe.emit.python.pool import Pool
@@ -15,7 +15,7 @@ from regscribe.model import Array, Command, Model, Register
 class _Inline(Pool):
     """A pool that defines nothing: every constant stays where it is used."""
 
-    def share(self, name: str, expression: Call, comment: str = "") -> str:  # noqa: ARG002 (nothing gets a name)
+    def share(self, name: str, expression: Expression, comment: str = "") -> str:  # noqa: ARG002 (nothing gets a name)
         return flat(expression)
 
 
@@ -25,7 +25,7 @@ class _ByContent:
 
     named: NamedClasses
 
-    def name(self, _: str, content: Content) -> str:
+    def name(self, wanted: str, content: Content) -> str:  # noqa: ARG002 (content alone counts)
         return f"<{self.named.keys[content]}>"
 
 

@@ -1,13 +1,13 @@
 """Constants that several declarations share: each is emitted once, before its first use, under a readable name."""
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from regscribe.emit.python.layout import WIDTH, Call, Expression, flat, lay
+from regscribe.emit.python.layout import WIDTH, Expression, flat, lay
 from regscribe.emit.python.offer import Origin
 
-SHORT = 40
+SHORT = 30
 """An expression of at most this many characters stays where it is used."""
 
 
@@ -29,7 +29,7 @@ class Pool:
         """The name under which this module calls a function of the runtime."""
         return f"_{name}" if name in self.hidden else name
 
-    def share(self, name: str, expression: Call, comment: str = "") -> str:
+    def share(self, name: str, expression: Expression, comment: str = "") -> str:
         """The name of a constant of this content, defined now if it is new."""
         text = flat(expression)
         if text not in self.names and text in self.offered:
@@ -41,7 +41,7 @@ class Pool:
             self.lines += lay(expression, head=f"{self.names[text]} = ")
         return self.names[text]
 
-    def maybe(self, name: str, expression: Call, comment: str = "") -> Expression:
+    def maybe(self, name: str, expression: Expression, comment: str = "") -> Expression:
         """The expression itself if it is short, else its constant."""
         return expression if len(flat(expression)) <= SHORT else self.share(name, expression, comment)
 
@@ -50,8 +50,3 @@ class Pool:
         taken = {*self.names.values(), *(origin.name for origin in self.offered.values())}
         numbered = (f"{name}_{count}" for count in range(2, len(taken) + 3))
         return name if name not in taken else next(free for free in numbered if free not in taken)
-
-
-def joined(words: Sequence[str]) -> str:
-    """Words as one constant's name."""
-    return "_".join(word for word in words if word)

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from regscribe.emit.python.layout import Call, Expression, call, group, mapping
 from regscribe.emit.python.literals import exact, literal
-from regscribe.emit.python.pool import Pool, joined
+from regscribe.emit.python.pool import Pool
 from regscribe.emit.text import cases_words, conversion_words, range_words
 from regscribe.model import (
     IDENTITY,
@@ -81,8 +81,8 @@ class Specs:
     def range(self, register: Register) -> Expression | None:
         """The cases of a range; None where the manual gives none."""
         cases = register.range
-        if not cases:
-            return None
+        if all(isinstance(end, Open) for case in cases for one in case.then.intervals for end in (one.low, one.high)):
+            return None  # nothing could be checked
         if len(cases) == 1 and cases[0].when.always and self._simple(cases[0].then):
             (interval,) = cases[0].then.intervals
             return self.pool.maybe(
@@ -119,7 +119,7 @@ class Specs:
         base = register.base
         templates = group([_view(view, base) for view in register.views])
         if len(register.views) > 1:
-            return self.pool.share(joined([view.name for view in register.views]), templates)
+            return self.pool.share("views", templates)
         if base == _plain(base):
             return self.pool.share(base.type, call(self.pool.helper("word"), base.type.upper()))
         kind = base.type if base.space is Space.HOLDING else f"{base.space}_{base.type}"

@@ -12,15 +12,13 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from regscribe_devices.{maker} import {module} as driver
 
 from regscribe.testing import Bench, load
 from regscribe.testing import properties as hold
+from regscribe_devices.{maker} import {module} as driver
 
 VECTORS = load(Path(__file__).parents[2] / "vectors" / {maker_text} / {file_text})
-CLASSES = (
-{classes}
-)
+CLASSES = {classes}
 BENCHES = [Bench(cls, VECTORS) for cls in CLASSES]
 
 every_model = pytest.mark.parametrize("bench", BENCHES, ids=[bench.model for bench in BENCHES])
@@ -117,7 +115,7 @@ def test_module(register_map: RegisterMap) -> str:
         module=family.replace("-", "_"),
         maker_text=_quoted(maker),
         file_text=_quoted(f"{family}.json"),
-        classes="\n".join(f"    driver.{model.class_name}," for model in register_map.models),
+        classes=_classes([f"driver.{model.class_name}" for model in register_map.models]),
     ) + (MIRRORED if several else "")
 
 
@@ -127,3 +125,8 @@ def _quoted(text: str) -> str:
 
 
 test_module.__test__ = False  # type: ignore[attr-defined]  # pytest must not take it for a test
+
+
+def _classes(names: list[str]) -> str:
+    # as `ruff format` has it: a tuple of one stays on its line
+    return f"({names[0]},)" if len(names) == 1 else "\n".join(["(", *(f"    {name}," for name in names), ")"])
