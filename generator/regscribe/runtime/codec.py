@@ -269,7 +269,7 @@ def _wire_words(register: "Register[Any]", view: View, stored: Fraction, *, roun
     if view.type.is_float:
         return _float_words(register, view, exactly, rounded=rounded)
     wire = ROUNDINGS[view.rounding](exactly)
-    if register.kind.name in PATTERNS and wire > view.type.maximum:
+    if register.kind.name in PATTERNS and view.type.maximum < wire < 1 << 16 * view.words:
         wire -= 1 << 16 * view.words
     low, high = view.type.minimum + view.saturates, view.type.maximum - view.saturates
     if not low <= wire <= high:
