@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from threading import RLock
 
 from regscribe.model import Model, Protocol, RegisterMap, Space
+from regscribe.simulate.addressing import AddressError, first_address, shifted
 from regscribe.simulate.answers import EXCEPTION_BIT, Refusal, exception_answer, pack_bits, unpack_bits
 from regscribe.simulate.commands import Commands
 from regscribe.simulate.errors import SimulatorError
@@ -25,7 +26,8 @@ class SimulatedDevice:
     `handle` is pure but for the state: no I/O, no clock. All methods may be called from any thread. Registers whose
     write needs an `unlock` refuse it (as an unmet condition) until that command was run; effects of commands beyond
     the registers that they write, and the delay until an `apply` command, are not simulated. `seed` decides the
-    garbage that some devices send for addresses that they do not have.
+    garbage that some devices send for addresses that they do not have. `addressing` is modbus, or jbus for a device
+    that counts its addresses from 1.
     """
 
     def __init__(
@@ -36,7 +38,9 @@ class SimulatedDevice:
         unit: int | None = None,
         givens: Mapping[str, GivenValue] | None = None,
         seed: int = 0,
+        addressing: str = "modbus",
     ) -> None:
+        self._first = first_address(addressing)
         self.register_map = register_map
         self.model = _model(register_map, model)
         self.unit = _unit(register_map.protocol, unit)
@@ -88,7 +92,9 @@ class SimulatedDevice:
             return None
         with self._lock:
             try:
-                answer = self._act(pdu)
+                answer = shifted(self._act(shifted(pdu, -self._first)), self._first, echoes=True)
+            except AddressError:
+                answer = exception_answer(pdu[0], self._protocol.faults.address)
             except Refusal as refusal:
                 answer = exception_answer(pdu[0], refusal.code)
         return None if broadcast else answer

@@ -115,7 +115,7 @@ class Running:
 
 
 @contextmanager
-def simulate(
+def simulate(  # noqa: PLR0913 (all but two are keywords for tests)
     register_map: RegisterMap,
     model: str,
     *,
@@ -123,6 +123,7 @@ def simulate(
     transport: str = Transport.TCP,
     givens: Mapping[str, GivenValue] | None = None,
     seed: int = 0,
+    addressing: str = "modbus",
     foreign: Foreign | None = None,
     delivery: Delivery | None = None,
 ) -> Iterator[Running]:
@@ -130,7 +131,7 @@ def simulate(
 
     `transport` is tcp, rtu-tcp, ascii-tcp or pty. Raises SimulatorError as `SimulatedDevice` and `start` do.
     """
-    device = SimulatedDevice(register_map, model, unit=unit, givens=givens, seed=seed)
+    device = SimulatedDevice(register_map, model, unit=unit, givens=givens, seed=seed, addressing=addressing)
     requests: list[bytes] = []
 
     def record(request: Request) -> None:

@@ -40,8 +40,9 @@ class Writer:
         """
         most = self.protocol.write_bits if space.is_bits else self.protocol.write_words
         check_request(self.protocol, self.layout, space, function, address, len(words), most=most)
-        is_register = self.layout.place(space, address) is not None
-        if space is Space.HOLDING and not is_register and self.commands.is_step(function, address, words):
+        place = self.layout.place(space, address)
+        holds = place is not None and place.register.access.writable  # a read-only register may still take a command
+        if space is Space.HOLDING and not holds and self.commands.is_step(function, address, words):
             self.commands.saw(address, words)
             return len(words)
         return self._write_values(space, function, address, words)
