@@ -57,6 +57,13 @@ def test_the_overview_shows_all_notations_and_views(text: str) -> None:
     assert "| 4200 to 4209 | 44201 to 44210 |" in text
 
 
+def test_the_overview_is_ordered_by_address_and_not_by_group(text: str) -> None:
+    overview = text[text.index('<a id="overview">') : text.index('<a id="registers">')]
+    rows = [overview.index(f"| {address} | ") for address in ("1", "2", "4000", "4001", "4004")]
+
+    assert rows == sorted(rows)
+
+
 def test_scale_by_condition_names_the_condition_and_the_register(section: Section, text: str) -> None:
     assert "| [linear](#condition-linear) | `x/10^dp` |" in section("register-setpoint")
     assert (
