@@ -3,6 +3,7 @@
 import unicodedata
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 
 WIDTH = 120
 INDENT = "    "
@@ -22,9 +23,12 @@ Expression = str | Call
 
 def width(text: str) -> int:
     """The columns of a text as `ruff format` counts them: two for a wide character, none for a combining one."""
-    return len(text) if text.isascii() else sum(map(_columns, text))
+    if text.isascii():
+        return len(text)
+    return len(text) + sum(_columns(character) - 1 for character in text if not character.isascii())
 
 
+@cache
 def _columns(character: str) -> int:
     if unicodedata.category(character) in {"Mn", "Me", "Cf"}:
         return 0

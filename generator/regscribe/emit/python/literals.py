@@ -38,6 +38,8 @@ def docstring(text: str, depth: int, more: str = "") -> list[str]:
     indent = INDENT * depth
     room = WIDTH - len(indent) - 3
     safe = _safe(text)
+    if width(safe) <= room - 3 and not more:
+        return [f'{indent}"""{safe}"""']
     first, *rest = textwrap.wrap(safe, room, break_long_words=False, break_on_hyphens=False)
     if not rest and width(safe) > room - 3:  # nor do the closing quotes go alone on the second line
         first, *rest = textwrap.wrap(safe, min(room, len(safe)) - 3, break_long_words=False, break_on_hyphens=False)
@@ -48,5 +50,7 @@ def docstring(text: str, depth: int, more: str = "") -> list[str]:
 
 
 def _safe(text: str) -> str:
-    printable = "".join(character if character.isprintable() else " " for character in text)
+    printable = text
+    if not text.isprintable():
+        printable = "".join(character if character.isprintable() else " " for character in text)
     return " ".join(printable.split()).replace("\\", "/").replace('"', "'")
