@@ -3,6 +3,9 @@
 An operation is created with a register and run by a part of a driver, which sends the session in first.
 """
 
+# an annotation of an inner function is evaluated at every call otherwise, which costs a read a hundredth of its time
+from __future__ import annotations
+
 from collections.abc import Callable, Generator, Iterable, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -36,7 +39,7 @@ MAX_DEPTH = 8
 """Dependencies of dependencies; the compiler refuses cycles, this bounds what it let through."""
 
 
-def _item(register: "Register[Any]", view: View) -> Item:
+def _item(register: Register[Any], view: View) -> Item:
     return Item(view.space, view.address(register.at), view.words)
 
 
@@ -73,7 +76,7 @@ def know(session: Session, paths: Iterable[str], *, fresh: bool = False, depth: 
     return session.memory | values if fresh else session.memory
 
 
-def read(register: "Register[T]", view_name: str | None) -> Task[T]:
+def read(register: Register[T], view_name: str | None) -> Task[T]:
     """Read one register and decode it."""
 
     def task(session: Session) -> Operation[T]:
@@ -90,11 +93,11 @@ def read(register: "Register[T]", view_name: str | None) -> Task[T]:
     return task
 
 
-def _read_request(register: "Register[Any]", view: View) -> Request:
+def _read_request(register: Register[Any], view: View) -> Request:
     return Request(READ_FUNCTIONS[view.space], view.address(register.at), view.words)
 
 
-def read_raw(register: "Register[Any]", view_name: str | None) -> Task[tuple[int, ...]]:
+def read_raw(register: Register[Any], view_name: str | None) -> Task[tuple[int, ...]]:
     """Read the words of one register."""
 
     def task(session: Session) -> Operation[tuple[int, ...]]:
@@ -103,7 +106,7 @@ def read_raw(register: "Register[Any]", view_name: str | None) -> Task[tuple[int
     return task
 
 
-def read_unit(register: "Register[Any]") -> Task[str]:
+def read_unit(register: Register[Any]) -> Task[str]:
     """The engineering unit under the present configuration."""
 
     def task(session: Session) -> Operation[str]:
@@ -115,7 +118,7 @@ def read_unit(register: "Register[Any]") -> Task[str]:
     return task
 
 
-def read_many(registers: Sequence["Register[Any]"]) -> Task[Snapshot]:
+def read_many(registers: Sequence[Register[Any]]) -> Task[Snapshot]:
     """Read several registers in few requests: one snapshot with a value or an error for each."""
 
     def task(session: Session) -> Operation[Snapshot]:
@@ -133,7 +136,7 @@ def read_many(registers: Sequence["Register[Any]"]) -> Task[Snapshot]:
     return task
 
 
-def write(register: "Register[Any]", value: object, *, view: str | None, rounded: bool, confirm: bool) -> Task[None]:
+def write(register: Register[Any], value: object, *, view: str | None, rounded: bool, confirm: bool) -> Task[None]:
     """Check, encode and write one register; unlock before and apply after, where the map says so."""
 
     def task(session: Session) -> Operation[None]:
@@ -155,7 +158,7 @@ def write(register: "Register[Any]", value: object, *, view: str | None, rounded
     return task
 
 
-def _permitted(session: Session, register: "Register[Any]") -> Operation[None]:
+def _permitted(session: Session, register: Register[Any]) -> Operation[None]:
     if register.writable is None:
         return
     when, reason = register.writable
@@ -166,7 +169,7 @@ def _permitted(session: Session, register: "Register[Any]") -> Operation[None]:
         raise ValueRefused(register.path, f"{reason}; now {now}")
 
 
-def _send(session: Session, register: "Register[Any]", view: View, words: tuple[int, ...]) -> Operation[None]:
+def _send(session: Session, register: Register[Any], view: View, words: tuple[int, ...]) -> Operation[None]:
     address = view.address(register.at)
     yield from session.exchange(Request(_write_function(session, view, words), address, len(words), words))
     session.forget([register.path])
@@ -178,7 +181,7 @@ def _write_function(session: Session, view: View, words: tuple[int, ...]) -> int
     return single if len(words) == 1 and single in allowed else several
 
 
-def write_raw(register: "Register[Any]", words: tuple[int, ...], view_name: str | None) -> Task[None]:
+def write_raw(register: Register[Any], words: tuple[int, ...], view_name: str | None) -> Task[None]:
     """Write words as they are."""
 
     def task(session: Session) -> Operation[None]:
@@ -190,7 +193,7 @@ def write_raw(register: "Register[Any]", words: tuple[int, ...], view_name: str 
     return task
 
 
-def change(register: "Register[T]", how: Callable[[T], T], *, confirm: bool) -> Task[T]:
+def change(register: Register[T], how: Callable[[T], T], *, confirm: bool) -> Task[T]:
     """Read, modify, write."""
 
     def task(session: Session) -> Operation[T]:
@@ -206,7 +209,7 @@ def _command(session: Session, name: str) -> Generator[Any, Any, None]:
         yield from run(session.commands[name], confirm=True)(session)
 
 
-def run(command: "Command", *, confirm: bool) -> Task[None]:
+def run(command: Command, *, confirm: bool) -> Task[None]:
     """Send the steps of a command; afterwards nothing remembered counts."""
 
     def task(session: Session) -> Operation[None]:
