@@ -14,7 +14,7 @@ from regscribe.runtime.session import Protocol, Session
 from regscribe.simulate import simulate
 
 COUNT = 1000
-READS = 300
+READS = 100
 
 
 def decoding() -> Iterator[Row]:
@@ -80,7 +80,7 @@ def reading() -> Iterator[Row]:
             for _ in range(READS):
                 client.read_holding_registers(2, count=1, device_id=1)
 
-        mine, bare = paired(ours, theirs, runs=9)
+        mine, bare = paired(ours, theirs, runs=60)
         client.close()
     what = "read one register over TCP (bare pymodbus client)"
     yield at_most(what, milliseconds(mine / READS), milliseconds(bare / READS), mine / bare, 1.15)
