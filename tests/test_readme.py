@@ -13,15 +13,16 @@ from regscribe.simulate import simulate
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
-SERIES_C, SERIES_100 = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
+SERIES_C, SERIES_100, X5000 = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
 COMMANDS = re.findall(r"^regscribe [^#\n]+", README, re.MULTILINE)
 
 
 @pytest.mark.parametrize(
     ("code", "map_id", "model", "where", "givens"),
     [
-        (SERIES_C, "athena/series-c", "16C", '.rtu("/dev/ttyUSB0"', {}),
-        (SERIES_100, "fdc/series-100", "BTC-9100", '.tcp("10.0.0.7"', {"linear_inputs": {16, 17}}),
+        (SERIES_C, "athena/series-c", "16C", 'rtu("/dev/ttyUSB0"', {}),
+        (SERIES_100, "fdc/series-100", "BTC-9100", 'tcp("10.0.0.7"', {"linear_inputs": {16, 17}}),
+        (X5000, "athena/platinum-x5000", "X5000", 'tcp("10.0.0.8"', {}),
     ],
 )
 def test_the_python_of_the_readme_runs(
@@ -31,7 +32,7 @@ def test_the_python_of_the_readme_runs(
     assert register_map is not None
     assert where in code
     with simulate(register_map, model, unit=1, givens=givens) as running:
-        exec(code.replace(where, f'.tcp("127.0.0.1", port={running.port}'), {})  # noqa: S102 - our own README
+        exec(code.replace(where, f'tcp("127.0.0.1", port={running.port}'), {})  # noqa: S102 - our own README
         assert running.requests
 
 
