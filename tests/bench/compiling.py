@@ -44,7 +44,7 @@ def rows(registers: int, *, peers: bool) -> Iterator[Row]:
         ours, theirs = (_seconds(code, registers, folder / out) for code, out in _sides(peers=peers))
         few, their_few = (_seconds(code, FEW, folder / f"few {out}") for code, out in _sides(peers=peers))
         what = f"{registers} registers: compile and emit a driver (PeakRDL-python), start-up included"
-        yield Row(what, f"{ours:.2f} s", f"{theirs:.2f} s", theirs / ours, "-", kept=True)
+        yield Row(what, f"{ours:.2f} s", f"{theirs:.2f} s" if peers else "-", theirs / ours, "-", kept=True)
         if peers:
             more = registers - FEW
             each, their_each = (ours - few) / more, (theirs - their_few) / more
