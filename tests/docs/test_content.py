@@ -83,8 +83,8 @@ def test_special_values_and_sentinels_are_told_apart(section: Section) -> None:
 
 def test_bits_name_the_models_that_have_them(section: Section) -> None:
     found = section("register-status")
-    assert "| 0 | alarm | `alarm` |  |" in found
-    assert "| 3 | door open | `door_open` | A2 |" in found
+    assert "| 0 | alarm | `ALARM` |  |" in found
+    assert "| 3 | door open | `DOOR_OPEN` | A2 |" in found
 
 
 def test_dangers_stand_above_the_facts(section: Section) -> None:

@@ -9,7 +9,7 @@ from regscribe.emit.markdown.merge import Shared, Stated
 from regscribe.emit.markdown.outline import Leaf, formula
 from regscribe.emit.markdown.page import Titled, table
 from regscribe.emit.text import bits_words, conversion_words, one_line, range_words, when_words
-from regscribe.model import Enum, Member, Model, Register
+from regscribe.model import Enum, Kind, Member, Model, Register
 
 Rows = tuple[tuple[Md, ...], ...]
 
@@ -122,7 +122,7 @@ def _bit_rows(register: Register) -> Rows:
         (
             escape(bits_words(field)),
             escape(one_line(field.label)),
-            code(field.id),
+            code(field.id.upper() if register.kind is Kind.FLAGS else field.id),  # a flag is an enum's member
             escape(_codes(field.enum)),
             prose(field.description),
         )
