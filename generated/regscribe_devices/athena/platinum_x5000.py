@@ -16,6 +16,7 @@ from regscribe.runtime import (
     Group,
     Identity,
     Is,
+    Latency,
     Part,
     Protocol,
     ReadOnly,
@@ -93,6 +94,20 @@ _PROTOCOL = Protocol(
     },
     timeout=6.76,
     modes=("rtu",),
+    bauds=(1200, 2400, 4800, 9600, 19200),
+    formats=("8N1",),
+    latencies={
+        1: Latency(maximum=10, characters=3),
+        2: Latency(maximum=10, characters=3),
+        3: Latency(maximum=10, characters=3),
+        4: Latency(maximum=10, characters=3),
+        5: Latency(maximum=110, characters=3),
+        6: Latency(maximum=10, maximum_per_word=50, characters=3),
+        7: Latency(maximum=10, characters=3),
+        15: Latency(maximum=110, characters=3),
+        16: Latency(maximum=10, maximum_per_word=50, characters=3),
+    },
+    broadcast=(5, 6, 15, 16),
 )
 _COIL_BIT = (View("base", UINT16, space="coil"),)
 _STATUS_UINT8 = (View("base", UINT16, space="status"),)

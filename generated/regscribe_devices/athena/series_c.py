@@ -19,6 +19,7 @@ from regscribe.runtime import (
     Identity,
     Interval,
     Is,
+    Latency,
     Limits,
     OrderFrom,
     Part,
@@ -110,6 +111,16 @@ _PROTOCOL = Protocol(
     baud=9600,
     format="8N1",
     modes=("rtu",),
+    bauds=(300, 600, 1200, 2400, 4800, 9600),
+    formats=("8N1", "8E1", "8O1"),
+    gap=4,
+    latencies={
+        3: Latency(minimum_per_word=5, maximum_per_word=100),
+        6: Latency(minimum=25, maximum=180),
+        8: Latency(maximum=100),
+        16: Latency(minimum_per_word=25, maximum_per_word=180),
+    },
+    broadcast=(6, 16),
 )
 _INT16 = word(INT16)
 _DANGER = "the controller answers at the new speed from now on"

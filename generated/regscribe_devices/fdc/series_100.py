@@ -79,6 +79,8 @@ _PROTOCOL = Protocol(
     baud=9600,
     format="8E1",
     modes=("rtu",),
+    bauds=(2400, 4800, 9600, 14400, 19200, 28800, 38400),
+    formats=("8N1", "8E1", "8O1"),
 )
 _UINT16 = word(UINT16)
 _NON_LINEAR = (Is("inpt", given="linear_inputs", negated=True),)

@@ -26,7 +26,7 @@ from regscribe.model.map import (
     Waiver,
 )
 from regscribe.model.number import exact, show
-from regscribe.model.protocol import SILENCE, ExceptionCode, Faults, Latency, Later, Protocol, Serial
+from regscribe.model.protocol import SILENCE, USUAL_PROTOCOL, ExceptionCode, Faults, Latency, Later, Protocol, Serial
 from regscribe.model.register import Access, Array, Group, Inferred, Kind, Register, Writable
 from regscribe.model.section import chapters_of, renumbered
 from regscribe.model.value import (
@@ -52,6 +52,7 @@ __all__ = [
     "ALWAYS",
     "IDENTITY",
     "SILENCE",
+    "USUAL_PROTOCOL",
     "Access",
     "Array",
     "BitField",

@@ -45,7 +45,7 @@ from regscribe.runtime.kinds import (
 from regscribe.runtime.link import AsyncLink, Link, async_tcp, tcp
 from regscribe.runtime.parts import Array, AsyncPart, Command, Group, Part, Section
 from regscribe.runtime.register import ReadOnly, ReadWrite, Register, WriteOnly
-from regscribe.runtime.session import Protocol
+from regscribe.runtime.session import Latency, Protocol
 from regscribe.runtime.snapshot import Snapshot
 from regscribe.runtime.spec import Conversion, Identity, Interval, Is, Limits, OrderFrom, Ref, View, within, word
 from regscribe.runtime.wire import FLOAT32, FLOAT64, INT16, INT32, INT64, UINT16, UINT32, UINT64
@@ -78,6 +78,7 @@ __all__ = [
     "Identity",
     "Interval",
     "Is",
+    "Latency",
     "Limits",
     "Link",
     "LinkLost",

@@ -1,6 +1,6 @@
 """What a driver knows between requests: the device's protocol, the givens and the remembered registers. No I/O."""
 
-from collections.abc import Generator, Iterable, Mapping
+from collections.abc import Callable, Generator, Iterable, Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar
 
@@ -19,16 +19,32 @@ class Pause(NamedTuple):
     seconds: float
 
 
-class Protocol(NamedTuple):
-    """What the device accepts: function codes, limits, unit ids, its meanings of exception codes, response timeout.
+class Latency(NamedTuple):
+    """Milliseconds from the end of a request to the start of its answer: a part that is fixed, and one for each word.
 
-    `timeout` is the longest time in seconds that a good answer may take, from the manual's latencies.
+    `characters` character times at the speed of the line come on top.
+    """
+
+    minimum: float = 0
+    maximum: float = 0
+    minimum_per_word: float = 0
+    maximum_per_word: float = 0
+    characters: float = 0
+
+
+class Protocol(NamedTuple):
+    """What the device accepts: function codes, limits, unit ids, its meanings of exception codes, and its times.
+
+    `timeout` is the longest time in seconds that a good answer may take at any speed, from the manual's latencies,
+    which `latencies` has by function code; `gap` is the silence between frames in characters. `broadcast` are the
+    functions that may be sent to all units at once, `bauds` and `formats` (8N1) what the serial line can be set to.
     """
 
     functions: tuple[int, ...] = (3, 6, 16)
     read_words: int = 125
     write_words: int = 123
     read_bits: int = 2000
+    write_bits: int = 1968
     read_holes: bool = False
     unit_ids: tuple[int, int] = (1, 247)
     exceptions: Meanings = MappingProxyType({})
@@ -36,6 +52,11 @@ class Protocol(NamedTuple):
     baud: int = 9600
     format: str = "8N1"
     modes: tuple[str, ...] = ("rtu",)
+    bauds: tuple[int, ...] = ()
+    formats: tuple[str, ...] = ()
+    gap: float = 3.5
+    latencies: Mapping[int, Latency] = MappingProxyType({})
+    broadcast: tuple[int, ...] = ()
 
     @property
     def read_limits(self) -> Limits:
@@ -95,3 +116,7 @@ class Session:
         reply = yield request
         assert reply is not None, "an executor answers a request with a reply"  # noqa: S101 (the executors' contract)
         return verify(request, reply, unit=self.unit, meanings=self.protocol.exceptions)
+
+
+Task = Callable[[Session], Operation[T]]
+"""An operation before it knows its device."""
