@@ -23,9 +23,11 @@ ROOMS = {
     "evidence": {"model", "emit"},
     "simulate": {"model"},
     "runtime": set[str](),
+    "live": {"model", "source", "schema", "runtime"},
     "testing": {"runtime"},
     "pipeline": {"model", "source", "schema", "compose", "lower", "checks"},
-    "cli": {"model", "source", "schema", "compose", "lower", "checks", "emit", "evidence", "simulate", "pipeline"},
+    "cli": {"model", "source", "schema", "compose", "lower", "checks", "emit", "evidence", "simulate", "pipeline"}
+    | {"runtime", "live"},
 }
 """Which other rooms a room may import."""
 

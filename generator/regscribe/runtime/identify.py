@@ -8,12 +8,12 @@ from typing import Any, NamedTuple
 
 from regscribe.runtime import codec
 from regscribe.runtime.device import AsyncBareDevice, BareDevice
-from regscribe.runtime.errors import RegscribeError
+from regscribe.runtime.errors import LinkLost, RegscribeError
 from regscribe.runtime.execute import carry_out, carry_out_async
 from regscribe.runtime.link import AsyncLink, Link
 from regscribe.runtime.register import Register
 from regscribe.runtime.request import READ_FUNCTIONS, Request, verify
-from regscribe.runtime.session import Operation
+from regscribe.runtime.session import Operation, Task
 
 
 class Known(NamedTuple):
@@ -78,6 +78,11 @@ async def identify_async(link: AsyncLink, *, unit: int, packages: tuple[ModuleTy
         return await carry_out_async(_identify(known_models(*packages), unit), link, unit)
 
 
+def identity_of(*models: Known) -> Task[Identification]:
+    """The question whether a device shows to be one of `models`, as an operation."""
+    return lambda session: _identify(models, session.unit)
+
+
 def _identify(models: tuple[Known, ...], unit: int) -> Operation[Identification]:
     answers: dict[Request, tuple[int, ...] | RegscribeError] = {}
     evidence: dict[tuple[Request, str], Evidence] = {}
@@ -109,6 +114,8 @@ def _ask(request: Request, unit: int, known: Known) -> Operation[tuple[int, ...]
     try:
         reply = yield request
         return verify(request, reply, unit=unit, meanings=known.driver.protocol.exceptions) if reply else ()
+    except LinkLost:
+        raise  # there is nobody left to ask
     except RegscribeError as error:
         return error
 

@@ -1,6 +1,7 @@
 """Plain values to shape errors: whether this is a map at all, key by key.
 
-`validate` checks a document against the JSON Schema of the map language (`schema_json`), which editors use too.
+`validate` checks a document against the JSON Schema of the map language (`schema_json`), which editors use too;
+`language` names another schema of the folder schema/, for the other files that people write.
 """
 
 from regscribe.schema.loading import schema_json

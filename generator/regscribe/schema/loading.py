@@ -1,4 +1,4 @@
-"""The JSON Schema of the map language: where it lies, and the validator that is built from it once."""
+"""The JSON Schemas of the files that people write: where they lie, and the validators, each built once."""
 
 import json
 from collections.abc import Iterator, Mapping
@@ -12,32 +12,35 @@ from jsonschema.validators import extend
 
 import regscribe
 
-FILE = "map.schema.json"
+MAP = "map"
+"""The language of maps; `schema/map.schema.json`."""
+
 _BRANCHES = frozenset({"allOf", "then", "else"})
 
 
-def schema_path() -> Path:
-    """Return where the schema lies: in the wheel, else in the source checkout."""
+def schema_path(language: str = MAP) -> Path:
+    """Return where the schema of a language lies: in the wheel, else in the source checkout."""
     package = Path(regscribe.__file__).parent
-    wheel = package / "data" / "schema" / FILE
-    return wheel if wheel.is_file() else package.parents[1] / "schema" / FILE
+    file = f"{language}.schema.json"
+    wheel = package / "data" / "schema" / file
+    return wheel if wheel.is_file() else package.parents[1] / "schema" / file
 
 
 @cache
-def schema_json() -> dict[str, Any]:
-    """Return the JSON Schema (2020-12) of the map language; the caller must not change it."""
-    schema: dict[str, Any] = json.loads(schema_path().read_text(encoding="utf-8"))
+def schema_json(language: str = MAP) -> dict[str, Any]:
+    """Return the JSON Schema (2020-12) of a language; the caller must not change it."""
+    schema: dict[str, Any] = json.loads(schema_path(language).read_text(encoding="utf-8"))
     return schema
 
 
 @cache
-def validator() -> Validator:
-    """Return the validator of the map language, built at the first call."""
-    schema = schema_json()
+def validator(language: str = MAP) -> Validator:
+    """Return the validator of a language, built at the first call."""
+    schema = schema_json(language)
     checks: type[Validator] = extend(  # type: ignore[no-untyped-call]  # types-jsonschema leaves it untyped
         Draft202012Validator, {"uniqueItems": _unique_items}
     )
-    return checks(_inline(schema, schema["$defs"], {}))
+    return checks(_inline(schema, schema.get("$defs", {}), {}))
 
 
 def _inline(node: Any, definitions: Mapping[str, Any], done: dict[tuple[int, str], Any], title: str = "") -> Any:  # noqa: ANN401  JSON is any

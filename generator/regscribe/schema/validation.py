@@ -3,7 +3,7 @@
 from itertools import islice
 
 from regscribe.model import Diagnostic, Span
-from regscribe.schema.loading import validator
+from regscribe.schema.loading import MAP, validator
 from regscribe.schema.messages import Complaint, complaints, violation
 from regscribe.schema.rules import MISSING_KEY, TOO_MANY_ERRORS, WRONG_TYPE
 from regscribe.source import Document
@@ -11,9 +11,12 @@ from regscribe.source import Document
 MAX_ERRORS = 300
 
 
-def validate(document: Document) -> list[Diagnostic]:
-    """Check the shape of a map; the diagnostics are sorted by place and are all errors."""
-    errors = list(islice(validator().iter_errors(document.data), MAX_ERRORS))
+def validate(document: Document, *, language: str = MAP) -> list[Diagnostic]:
+    """Check the shape of a map, or of another file that `schema/<language>.schema.json` describes.
+
+    The diagnostics are sorted by place and are all errors.
+    """
+    errors = list(islice(validator(language).iter_errors(document.data), MAX_ERRORS))
     errors.sort(
         key=lambda error: len(error.absolute_schema_path)
     )  # the outermost says most: it knows all types allowed

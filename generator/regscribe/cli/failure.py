@@ -1,0 +1,66 @@
+"""What becomes of an error of a live command: one clear message, an exit code for scripts, JSON where it was asked for.
+
+Exit codes: 0 done, 1 the device refuses or something differs, 2 the command line or a name in it is wrong,
+3 nobody answers (or the link was lost, or the port cannot be opened), 4 a write broke off and what the device holds is
+not known, 130 Ctrl-C.
+"""
+
+import json
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import IO, Any
+
+import click
+
+from regscribe.live.errors import TargetError
+from regscribe.runtime import LinkLost, NoAnswer, PartialWrite, RegscribeError
+
+REFUSED, USAGE, SILENT, UNKNOWN_STATE = 1, 2, 3, 4
+
+
+class Failure(click.ClickException):
+    """An error of a live command; `kind` is the word for it in JSON (`no-answer`)."""
+
+    def __init__(self, message: str, *, kind: str, code: int) -> None:
+        super().__init__(message)
+        self.kind = kind
+        self.exit_code = code  # type: ignore[misc]  # click's usual code is one of the class
+        context = click.get_current_context(silent=True)
+        self.as_json = bool(context and context.params.get("as_json"))
+
+    def show(self, file: IO[Any] | None = None) -> None:
+        """Print the message to standard error; with --json an object to standard output, too."""
+        if self.as_json:
+            said = {"format": 1, "error": {"kind": self.kind, "message": self.message, "exit_code": self.exit_code}}
+            sys.stdout.write(json.dumps(said, ensure_ascii=False) + "\n")
+        super().show(file)
+
+
+@contextmanager
+def told() -> Iterator[None]:
+    """Turn errors of targets and of drivers into a `Failure`; others pass."""
+    try:
+        yield
+    except TargetError as error:
+        raise Failure(str(error), kind="target", code=USAGE) from None
+    except RegscribeError as error:
+        raise failure(error) from None
+
+
+def failure(error: RegscribeError) -> Failure:
+    """The failure that an error of a driver is to a command line."""
+    return Failure(str(error), kind=kind_of(error), code=code_of(error))
+
+
+def code_of(error: RegscribeError) -> int:
+    """The exit code of an error of a driver."""
+    if isinstance(error, PartialWrite):
+        return UNKNOWN_STATE
+    return SILENT if isinstance(error, (LinkLost, NoAnswer)) else REFUSED
+
+
+def kind_of(error: RegscribeError) -> str:
+    """The class of an error in words: `no-answer`, `exception-answer`, `value-refused`, `sensor-fault`."""
+    name = type(error).__name__
+    return "".join(f"-{letter.lower()}" if letter.isupper() else letter for letter in name).lstrip("-")

@@ -1,0 +1,34 @@
+"""What can be wrong with a name that a person gave: of a link, a device, a model, a register, a configuration."""
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+MOST_NAMED = 12
+"""Names that a message lists before it says how many more there are."""
+
+MOST_SHOWN = 100
+"""Characters of a person's own text that a message repeats."""
+
+
+class TargetError(Exception):
+    """A device that cannot be reached because its name, or something in it, is not understood; nothing was sent."""
+
+
+def unknown(what: str, name: str, known: Iterable[str], *, where: str = "") -> str:
+    """A message: `what` of that name does not exist, which one was probably meant, or which there are."""
+    names = list(dict.fromkeys(known))
+    shown = f"{name[:MOST_SHOWN]}…" if len(name) > MOST_SHOWN else name
+    return f"there is no {what} `{shown}`{f' {where}' if where else ''}{meant(name, names)}"
+
+
+def meant(name: str, known: Iterable[str]) -> str:
+    """The end of a message: `; did you mean `x`?`, else the names there are, else nothing."""
+    names = list(known)
+    folded = {one.casefold(): one for one in reversed(names)}
+    near = get_close_matches(name[:MOST_SHOWN].casefold(), folded, n=1)
+    if near:
+        return f"; did you mean `{folded[near[0]]}`?"
+    if not names:
+        return ""
+    more = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
+    return f"; there are {', '.join(names[:MOST_NAMED])}{more}"
