@@ -10,7 +10,6 @@ from regscribe.simulate.answers import EXCEPTION_BIT, Refusal, exception_answer,
 from regscribe.simulate.commands import Commands
 from regscribe.simulate.errors import SimulatorError
 from regscribe.simulate.givens import GivenValue
-from regscribe.simulate.layout import Layout
 from regscribe.simulate.reading import Reader
 from regscribe.simulate.state import State, Value
 from regscribe.simulate.values import Plain
@@ -44,10 +43,10 @@ class SimulatedDevice:
         self.register_map = register_map
         self.model = _model(register_map, model)
         self.unit = _unit(register_map.protocol, unit)
-        self.state = State(register_map, self.model, givens or {})
+        self.state = State.of(register_map, self.model, givens or {})
         self._protocol = register_map.protocol
         self._commands = Commands(self.model.commands)
-        self._layout = layout = Layout(self.model, register_map.reserved)
+        self._layout = layout = self.state.blueprint.layout
         self._reader = Reader(self._protocol, layout, self.state, seed, self.unit)
         self._writer = Writer(self._protocol, layout, self.state, self._commands)
         self._lock = RLock()

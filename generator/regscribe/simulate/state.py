@@ -13,7 +13,6 @@ from regscribe.model import (
     Kind,
     Model,
     Order,
-    OrderFromRegister,
     Register,
     RegisterMap,
     Rounding,
@@ -23,63 +22,78 @@ from regscribe.model import (
 )
 from regscribe.model.reference import version_text
 from regscribe.simulate import codec
+from regscribe.simulate.blueprint import Blueprint, Image, Shelf, Stored, draw
 from regscribe.simulate.errors import SimulatorError
-from regscribe.simulate.givens import Givens, GivenValue, T
+from regscribe.simulate.givens import GivenValue, T
 from regscribe.simulate.initial import initial_value
-from regscribe.simulate.layout import places_of
 from regscribe.simulate.values import Plain, field_value, number_of, with_field
-
-Stored = Fraction | str
-"""What the device holds for a register: a number (an enum's code, a word's bits), or a text."""
 
 Value = Fraction | str
 """A value of use: what a person would say the register is."""
 
+_SHELF = Shelf()
+
 
 class State:
-    """Stored values of one model, and the image of words that they show.
+    """Stored values of one device, and the image of words that they show.
 
     The image is kept up to date at every change, so a read is a look-up. A write through any view sets the stored
-    value, from which every other view and alias follows.
+    value, from which every other view and alias follows. What is as on a new device is kept once for all of its model.
     """
 
-    __slots__ = ("_image", "_initial", "_model", "_ordered_by", "_register_map", "_stored", "givens")
+    __slots__ = ("_image", "_initial", "_model", "_stored", "blueprint", "givens")
 
-    def __init__(self, register_map: RegisterMap, model: Model, givens: Mapping[str, GivenValue]) -> None:
-        self._register_map = register_map
-        self._model = model
-        self.givens = Givens(register_map, model, givens)
+    def __init__(self, blueprint: Blueprint) -> None:
+        self.blueprint = blueprint
+        self.givens = blueprint.givens
+        self._model = blueprint.model
         self._stored: dict[str, Stored] = {}
         self._initial: set[str] = set()
-        self._image: dict[Space, dict[int, int]] = {space: {} for space in Space}
-        self._ordered_by: dict[str, list[Register]] = {}
-        for register in model.registers:
-            for view in register.views:
-                if isinstance(view.word_order, OrderFromRegister):
-                    self._ordered_by.setdefault(view.word_order.register, []).append(register)
-        for register in model.registers:
-            self._show(register)
+        self._image: Image = {}
+
+    @classmethod
+    def of(cls, register_map: RegisterMap, model: Model, givens: Mapping[str, GivenValue]) -> "State":
+        """The state of a new device. SimulatorError where the model needs givens that are not there."""
+        givens = {name: value if isinstance(value, bool | str) else tuple(value) for name, value in givens.items()}
+        blueprint = _SHELF.find(register_map, model, givens)
+        if blueprint is None:
+            blueprint = draw(register_map, model, givens)
+            cls(blueprint)._begin()  # noqa: SLF001 - its own
+            _SHELF.put(blueprint, givens)
+        return cls(blueprint)
+
+    def _begin(self) -> None:
+        """Fill the blueprint with what a new device holds and shows."""
+        for register in self._model.registers:
+            self.blueprint.stored[register.path] = self.stored(register.path)
+        for register in self._model.registers:
+            self._show(register, self.blueprint.image)
 
     # -- the wire side ------------------------------------------------------------------------------------------
 
     def words(self, space: Space, address: int, count: int) -> list[int | None]:
         """Return what a read shows at each address; None where no readable register stands."""
-        image = self._image[space]
-        return [image.get(each) for each in range(address, address + count)]
+        base = self.blueprint.image[space].get
+        own = self._image.get(space)
+        if own is None:
+            return [base(each) for each in range(address, address + count)]
+        return [own.get(each, base(each)) for each in range(address, address + count)]
 
     def stored(self, path: str) -> Stored:
-        """Return what the device holds for the register `path`; its initial value until it is set."""
-        if path not in self._stored:
-            self._stored[path] = self._first(self._model.register(path))
-        return self._stored[path]
+        """Return what the device holds for the register `path`."""
+        for kept in (self._stored, self.blueprint.stored):
+            if path in kept:
+                return kept[path]
+        self._stored[path] = first = self._first(self._model.register(path))
+        return first
 
     def store(self, path: str, stored: Stored) -> None:
         """Set what the device holds for the register `path`, and with it all words that depend on it."""
         register = self._model.register(path)
         self._stored[path] = stored if isinstance(stored, str) else self.quantise(register, stored)
-        self._show(register)
-        for dependent in self._ordered_by.get(path, ()):
-            self._show(dependent)
+        self._show(register, self._image)
+        for dependent in self.blueprint.ordered_by.get(path, ()):
+            self._show(dependent, self._image)
 
     def order(self, view: View) -> Order:
         """Return the word order of `view` now; where a register sets it to a code without meaning, the map's first."""
@@ -186,7 +200,7 @@ class State:
         if register.path in self._initial:  # a circle of dependencies: one of them must begin
             return Fraction(0)
         self._initial.add(register.path)
-        value = initial_value(self._register_map, self._model, register, self)
+        value = initial_value(self.blueprint.register_map, self._model, register, self)
         stored = self._to_stored(register, value)
         return stored if isinstance(stored, str) else self.quantise(register, stored)
 
@@ -216,10 +230,10 @@ class State:
                 return exact(value.replace(".", ""))
         return self.from_value(register, number_of(register, None, value))
 
-    def _show(self, register: Register) -> None:
+    def _show(self, register: Register, image: Image) -> None:
         if not register.access.readable:
             return
         stored = self.stored(register.path)
-        for place in places_of(register):
+        for place in self.blueprint.places[register.path]:
             words = codec.encode(place.view, stored, self.order(place.view))
-            self._image[place.view.space].update(zip(place.covers(), words, strict=True))
+            image.setdefault(place.view.space, {}).update(zip(place.covers(), words, strict=True))

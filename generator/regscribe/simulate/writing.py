@@ -7,11 +7,12 @@ from fractions import Fraction
 from regscribe.model import Later, Protocol, Register, Space
 from regscribe.simulate import codec
 from regscribe.simulate.answers import Refusal
+from regscribe.simulate.blueprint import Stored
 from regscribe.simulate.commands import Commands
 from regscribe.simulate.layout import Layout, Place
 from regscribe.simulate.limits import accepts
 from regscribe.simulate.reading import check_request
-from regscribe.simulate.state import State, Stored
+from regscribe.simulate.state import State
 
 WRITE_ONE = 6
 

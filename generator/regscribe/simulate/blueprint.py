@@ -1,0 +1,93 @@
+"""What all devices of one model share: where values stand, what they begin with, and what depends on what."""
+
+from collections import OrderedDict
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from threading import Lock
+
+from regscribe.model import Model, OrderFromRegister, Register, RegisterMap, Space
+from regscribe.simulate.givens import Givens, GivenValue
+from regscribe.simulate.layout import Layout, Place, places_of
+
+Stored = Fraction | str
+"""What the device holds for a register: a number (an enum's code, a word's bits), or a text."""
+
+Image = dict[Space, dict[int, int]]
+"""What a read shows at each address."""
+
+_KEPT = 64
+
+
+@dataclass(frozen=True, slots=True)
+class Blueprint:
+    """The immutable part of a device: of 1,000 devices of one model there is one.
+
+    `stored` and `image` are the state of a new device, of which each device keeps only what is different; they are
+    filled once, by `State`. `places` are where a register is transmitted, `ordered_by` the registers whose word order
+    a register sets.
+    """
+
+    register_map: RegisterMap
+    model: Model
+    givens: Givens
+    layout: Layout
+    places: Mapping[str, tuple[Place, ...]]
+    ordered_by: Mapping[str, tuple[Register, ...]]
+    stored: dict[str, Stored] = field(default_factory=dict)
+    image: Image = field(default_factory=lambda: {space: {} for space in Space})
+
+
+def draw(register_map: RegisterMap, model: Model, givens: Mapping[str, GivenValue]) -> Blueprint:
+    """Return a new blueprint, its state still empty. SimulatorError as `Givens` does."""
+    return Blueprint(
+        register_map,
+        model,
+        Givens(register_map, model, givens),
+        Layout(model, register_map.reserved),
+        {register.path: places_of(register) for register in model.registers},
+        _ordered_by(model.registers),
+    )
+
+
+def _ordered_by(registers: Iterable[Register]) -> dict[str, tuple[Register, ...]]:
+    found: dict[str, tuple[Register, ...]] = {}
+    for register in registers:
+        orders = (view.word_order for view in register.views)
+        for path in {order.register for order in orders if isinstance(order, OrderFromRegister)}:
+            found[path] = (*found.get(path, ()), register)
+    return found
+
+
+_Key = tuple[int, str, frozenset[tuple[str, bool | frozenset[int]]]]
+
+
+class Shelf:
+    """The last blueprints by map (the object, not its contents), model and givens."""
+
+    def __init__(self) -> None:
+        self._kept: OrderedDict[_Key, Blueprint] = OrderedDict()
+        self._lock = Lock()
+
+    def find(self, register_map: RegisterMap, model: Model, givens: Mapping[str, GivenValue]) -> Blueprint | None:
+        """Return the blueprint of an earlier device; None if there is none or the givens are of no known sort."""
+        key = _key(register_map, model, givens)
+        return None if key is None else self._kept.get(key)
+
+    def put(self, blueprint: Blueprint, givens: Mapping[str, GivenValue]) -> None:
+        """Keep a blueprint; it keeps its map alive, so that no other map can take the place of that object."""
+        key = _key(blueprint.register_map, blueprint.model, givens)
+        if key is None:
+            return
+        with self._lock:
+            self._kept[key] = blueprint
+            while len(self._kept) > _KEPT:
+                self._kept.popitem(last=False)
+
+
+def _key(register_map: RegisterMap, model: Model, givens: Mapping[str, GivenValue]) -> _Key | None:
+    try:
+        plain = ((name, value if isinstance(value, bool) else frozenset(value)) for name, value in givens.items())
+        return id(register_map), model.name, frozenset(plain)
+    except TypeError:
+        return None
