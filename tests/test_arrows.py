@@ -37,6 +37,7 @@ OWNERS = {
     "jinja2": {"emit"},
     "click": {"cli"},
     "rich": {"cli"},
+    "plotille": {"cli"},
     "pymodbus": {"runtime", "simulate"},
     "serial": {"runtime", "simulate"},
     "hypothesis": {"testing"},

@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 
 import click
 
-from regscribe.cli.completion import complete_model, complete_target
+from regscribe.cli.completing import complete_model, complete_target
 from regscribe.cli.failure import REFUSED, Failure, told
 from regscribe.live import config as configuration
 from regscribe.live import target as targets
