@@ -1,6 +1,7 @@
 """The `regscribe` command: its table of commands, and what becomes of every exception.
 
-Exit codes: 0 clean, 1 findings (or a device, port or directory that does not play along), 2 usage, 130 Ctrl-C.
+Exit codes: 0 clean, 1 findings (or a device, port or directory that does not play along), 2 usage, 3 nobody answers,
+4 a write broke off and what the device holds is unknown (see `failure`), 130 Ctrl-C.
 """
 
 import os
@@ -13,6 +14,7 @@ from pathlib import Path
 from typing import NoReturn
 
 import click
+from click.shell_completion import CompletionItem
 
 from regscribe import __version__
 
@@ -25,6 +27,13 @@ COMMANDS = {
     "compare": "Hold a map against a second transcription in CSV, or against another map.",
     "coverage": "Count what maps cover; list what is inferred and open.",
     "simulate": "Serve one model of a map as a Modbus device.",
+    "devices": "List the models that drivers exist for.",
+    "identify": "Ask a device what it is.",
+    "read": "Read registers of a device, by name and with units.",
+    "write": "Write one register of a device.",
+    "dump": "Read everything that a device holds.",
+    "command": "Make a device act, or list what it can be told to do.",
+    "completion": "Let a shell complete commands, devices and registers.",
 }
 """Name and help of each command; `regscribe.cli.<name>` holds it and is imported when it is called for."""
 
@@ -54,6 +63,11 @@ class LazyCommands(click.Group):
         """List the commands from the table, without importing them."""
         with formatter.section("Commands"):
             formatter.write_dl(list(COMMANDS.items()))
+
+    def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
+        """Complete the commands from the table, without importing them."""
+        found = [CompletionItem(name, help=said) for name, said in COMMANDS.items() if name.startswith(incomplete)]
+        return found or click.Command.shell_complete(self, ctx, incomplete)
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]

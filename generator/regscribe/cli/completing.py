@@ -27,6 +27,11 @@ def complete_command(context: click.Context, _: click.Parameter, typed: str) -> 
     return _completed(lambda: _commands(context), typed)
 
 
+def complete_value(context: click.Context, _: click.Parameter, typed: str) -> list[CompletionItem]:
+    """The members or flags of the register that a write names."""
+    return _completed(lambda: _values(context), typed)
+
+
 def _completed(find: Callable[[], Iterable[tuple[str, str]]], typed: str) -> list[CompletionItem]:
     with suppress(Exception):  # a shell shows what a completion prints: it is better to complete nothing
         return [CompletionItem(name, help=said) for name, said in find() if name.startswith(typed)]
@@ -58,6 +63,12 @@ def _commands(context: click.Context) -> Iterable[tuple[str, str]]:
     from regscribe.live import names  # noqa: PLC0415 - as above
 
     return [(name, command.danger) for name, command in names.commands_of(_driver(context)).items()]
+
+
+def _values(context: click.Context) -> Iterable[tuple[str, str]]:
+    from regscribe.live import names, values  # noqa: PLC0415 - as above
+
+    return [(one, "") for one in values.choices(names.register_named(_driver(context), context.params["name"]))]
 
 
 def _driver(context: click.Context) -> type:

@@ -1,5 +1,6 @@
 """What every live command takes: TARGET and the options that describe it; and the open device that they lead to."""
 
+import logging
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import wraps
@@ -45,6 +46,14 @@ _OPTIONS = (
     CONFIG,
     JSON,
 )
+
+checked_identity = click.option(
+    "--check-identity/--no-check-identity",
+    "identity",
+    default=True,
+    help="Refuse a device that shows to be of another model, before anything is written (on unless switched off).",
+)
+"""The option of commands that write: `identity: bool` for `opened`."""
 
 HELP = """TARGET is a link (tcp:10.0.0.7:502?unit=1&model=16C, rtu:/dev/ttyUSB0?baud=9600&parity=E) or a name of the
 configuration. Without a model the device is asked what it is."""
@@ -92,12 +101,18 @@ def opened(target: Target, *, identity: bool = False) -> Iterator[BareDevice]:
     The device is asked for its model if the target has none. With `identity`, a device that shows another model than
     the target's is refused before anything else is sent.
     """
+    quiet()
     with told():
         found = targets.identified(target)
         with targets.connect(found) as device:
             if identity:
                 same_device(device, found)
             yield device
+
+
+def quiet() -> None:
+    """Keep what libraries log off the terminal: every error of the line is told here, once."""
+    logging.getLogger().addHandler(logging.NullHandler())
 
 
 def same_device(device: BareDevice, target: Target) -> None:

@@ -126,7 +126,7 @@ def identified(target: Target) -> Target:
     found = identification(target)
     if found.certain:
         return replace(target, model=catalogue.full_name(found.models[0]))
-    _answered(found)
+    answered(found)
     if not found.models:
         seen = "; ".join(dict.fromkeys(str(one.error) for one in found.evidence if one.error)) or "no answer fits"
         message = f"{target}: the device is none that drivers exist for ({seen}): name its model with ?model=..."
@@ -150,7 +150,7 @@ def check_identity(device: BareDevice, target: Target) -> None:
     if not known.driver.identity:
         return
     found = device.run(identity_of(known))
-    _answered(found)
+    answered(found)
     if found.certain:
         return
     seen = [f"{one.register} is {one.value if one.error is None else one.error}" for one in found.evidence]
@@ -158,7 +158,7 @@ def check_identity(device: BareDevice, target: Target) -> None:
     raise TargetError(message)
 
 
-def _answered(found: Identification) -> None:
+def answered(found: Identification) -> None:
     """Raise the link's own error if nothing at all was answered."""
     silent = [one.error for one in found.evidence if isinstance(one.error, (NoAnswer, LinkLost))]
     if silent and len(silent) == len(found.evidence):

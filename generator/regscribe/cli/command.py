@@ -1,0 +1,62 @@
+"""`regscribe command`: make a device act, or list what it can be told to do."""
+
+import click
+
+from regscribe.cli.completing import complete_command
+from regscribe.cli.failure import told
+from regscribe.cli.output import print_json, remark, show_table
+from regscribe.cli.read import heading
+from regscribe.cli.requests import show_requests
+from regscribe.cli.target import HELP, checked_identity, opened, target_options
+from regscribe.live import names
+from regscribe.live import target as targets
+from regscribe.live.dry import DryLink
+from regscribe.live.target import Target
+from regscribe.runtime import BareDevice, operations
+
+
+@click.command(
+    name="command",
+    help=f"Send a command of the map; without NAME list them (nothing is sent then).\n\n{HELP}",
+    epilog="Example: regscribe command oven clear_latched_alarms\n\n"
+    "Exit code 0: done, 1: refused (also for want of --confirm), 2: wrong usage, 3: nobody answers.",
+)
+@target_options
+@click.argument("name", required=False, shell_complete=complete_command)
+@click.option("--confirm", is_flag=True, help="Send a dangerous command, too.")
+@click.option("--dry-run", is_flag=True, help="Show the requests, send none that writes.")
+@checked_identity
+def command(*, target: Target, as_json: bool, name: str | None, confirm: bool, dry_run: bool, identity: bool) -> int:
+    """Send a command of the map, or list them."""
+    if name is None:
+        with told():
+            _list(targets.identified(target), as_json=as_json)
+        return 0
+    with opened(target, identity=identity) as device:
+        found = names.command_named(type(device), name)
+        dry = DryLink(device.link)
+        if dry_run:
+            device.link = dry
+        device.run(operations.run(found, confirm=confirm))
+    if as_json:
+        print_json(**heading(device, target), command=name, sent=not dry_run)
+    elif dry_run:
+        show_requests(dry.written)
+    else:
+        remark(f"{name}: done")
+    return 0
+
+
+def _list(target: Target, *, as_json: bool) -> None:
+    driver: type[BareDevice] = target.known().driver
+    commands = names.commands_of(driver)
+    if as_json:
+        print_json(
+            model=driver.model,
+            map=driver.map_id,
+            commands={key: {"danger": one.danger} for key, one in commands.items()},
+        )
+    else:
+        show_table(("COMMAND", "NEEDS --confirm, FOR"), [(key, one.danger) for key, one in commands.items()])
+    if not commands:
+        remark(f"the manual of {driver.model} has no commands")

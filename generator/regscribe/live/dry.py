@@ -1,0 +1,70 @@
+"""A link that reads but does not write: what would be written is kept, and reads back as if it had been."""
+
+from typing import NamedTuple
+
+from regscribe.runtime.link import Link
+from regscribe.runtime.request import (
+    READ_FUNCTIONS,
+    WRITE_COIL,
+    WRITE_COILS,
+    WRITE_REGISTER,
+    WRITE_REGISTERS,
+    Reply,
+    Request,
+)
+
+WRITES = frozenset({WRITE_COIL, WRITE_REGISTER, WRITE_COILS, WRITE_REGISTERS})
+_COUNTED = frozenset({WRITE_COILS, WRITE_REGISTERS})
+_BITS = frozenset({WRITE_COIL, WRITE_COILS})
+
+
+class Written(NamedTuple):
+    """A request that was not sent, and the unit that it would have gone to."""
+
+    unit: int
+    request: Request
+
+
+class DryLink:
+    """Passes reads to a link and answers writes itself, as a device that takes everything."""
+
+    def __init__(self, link: Link) -> None:
+        self.link, self.lock = link, link.lock
+        self.written: list[Written] = []
+        self._held: dict[tuple[int, str, int], int] = {}
+
+    @property
+    def epoch(self) -> int:
+        """How often the link was opened."""
+        return self.link.epoch
+
+    @epoch.setter
+    def epoch(self, value: int) -> None:
+        self.link.epoch = value
+
+    def open(self) -> None:
+        """Open the link; LinkLost if that fails."""
+        self.link.open()
+
+    def close(self) -> None:
+        """Close the link."""
+        self.link.close()
+
+    def call(self, unit: int, request: Request) -> Reply:
+        """Answer a write with its echo; send anything else."""
+        if request.function not in WRITES:
+            return self._overlaid(unit, request, self.link.call(unit, request))
+        self.written.append(Written(unit, request))
+        space = "coil" if request.function in _BITS else "holding"
+        for offset, word in enumerate(request.words):
+            self._held[unit, space, request.address + offset] = word
+        words = () if request.function in _COUNTED else request.words
+        return Reply(request.function, words, request.address, len(request.words))
+
+    def _overlaid(self, unit: int, request: Request, reply: Reply) -> Reply:
+        spaces = {function: space for space, function in READ_FUNCTIONS.items()}
+        space = spaces.get(request.function)
+        if space is None or reply.exception:
+            return reply
+        held = (self._held.get((unit, space, request.address + at), word) for at, word in enumerate(reply.words))
+        return reply._replace(words=tuple(held))

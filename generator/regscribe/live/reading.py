@@ -1,0 +1,86 @@
+"""Several registers at once, as plain values with the unit that each stands in; one consistent reading."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+from regscribe.live.values import Plain, as_text, show
+from regscribe.runtime import Register, RegscribeError, Snapshot, operations
+from regscribe.runtime.session import Operation, Session, Task
+from regscribe.runtime.spec import choose, registers_of
+
+
+class Reading(NamedTuple):
+    """What a register held: `value` plain and as `text` for people, in `unit`; or the `error` in place of it."""
+
+    name: str
+    value: Plain | None
+    text: str
+    unit: str
+    error: RegscribeError | None
+
+    @property
+    def spelled(self) -> str:
+        """For people: the value with its unit, or why there is none."""
+        if self.error is not None:
+            return f"({reason(self.error, self.name)})"
+        return f"{self.text} {self.unit}".rstrip()
+
+
+def readings(registers: Sequence[Register[Any]]) -> Task[tuple[Reading, ...]]:
+    """Read registers in few requests, and with them those that decide their units."""
+
+    def task(session: Session) -> Operation[tuple[Reading, ...]]:
+        wanted = {register.path: register for register in registers}
+        for register in registers:
+            wanted.update((path, session.registers[path]) for path in unit_needs(register))
+        snapshot = yield from operations.read_many(list(wanted.values()))(session)
+        state = _values(snapshot)
+        return tuple(_reading(register, snapshot, state, session.givens) for register in registers)
+
+    return task
+
+
+def unit_needs(register: Register[Any]) -> tuple[str, ...]:
+    """The registers that decide the unit of a register."""
+    return () if isinstance(register.unit, str) else registers_of(register.unit)
+
+
+def unit_of(register: Register[Any], state: Mapping[str, Any], givens: Mapping[str, Any]) -> str:
+    """The unit under the values in `state`; "" where it has none, or where they do not decide it."""
+    if isinstance(register.unit, str):
+        return register.unit
+    if not set(unit_needs(register)) <= set(state):
+        return ""
+    return str(choose(register.unit, state, givens) or "")
+
+
+def reason(error: RegscribeError, name: str) -> str:
+    """What an error says, without the name that stands beside it already."""
+    return str(error).removeprefix(f"{name}: ")
+
+
+def _values(snapshot: Snapshot) -> dict[str, Any]:
+    found = {}
+    for path in snapshot:
+        try:
+            found[path] = snapshot[path]
+        except RegscribeError:
+            continue
+    return found
+
+
+def _reading(
+    register: Register[Any], snapshot: Snapshot, state: Mapping[str, Any], givens: Mapping[str, Any]
+) -> Reading:
+    path, unit = register.path, unit_of(register, state, givens)
+    try:
+        value = snapshot[path]
+    except RegscribeError as error:
+        return Reading(path, None, "", unit, error)
+    plain = show(register, value)
+    return Reading(path, plain, as_text(register, value), unit if _carries_unit(plain, value) else "", None)
+
+
+def _carries_unit(plain: Plain, value: object) -> bool:
+    """A number does; a special value (off, disabled) does not."""
+    return isinstance(plain, (int, float)) and not isinstance(value, bool)
