@@ -1,19 +1,20 @@
 """One connection: bytes in, requests to the station, answers out, in the order of the requests."""
 
 import asyncio
-import contextlib
-import time
+from collections import deque
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, field
+from typing import Protocol
 
 from regscribe.simulate.framing import Framer, Request
+from regscribe.simulate.latency import Pace
 from regscribe.simulate.station import Station
 
 CHUNK = 4096
 """Bytes that are taken from one client before the others have their turn."""
 
-_FAREWELL = 0.5
-"""Seconds that a client has to take the last answers when its connection is closed."""
+MOST_WAITING = 64
+"""Requests of one client that wait for their turn before no more are read from it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,12 +29,15 @@ class Exchange:
 Delivery = Callable[[Exchange], Awaitable[bytes]]
 """Stands between the device and the line: awaited for each exchange, it returns the bytes to send.
 
-The place for latency, and for faults: waiting, changing, dropping or doubling frames. Exchanges of one connection pass
-one after the other.
+The place for faults: waiting, changing, dropping or doubling frames. Exchanges of one connection pass one after the
+other; the device's own latency has passed before.
 """
 
 Recorder = Callable[[Request], None]
 """Told of each request that concerns a device here, before it is handled."""
+
+Watcher = Callable[[Exchange], None]
+"""Told of each exchange, requests to foreign units among them, before its frame is sent."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -46,70 +50,145 @@ class Patience:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Manners:
-    """How a connection treats its client: patience, and who stands between the device and the line."""
+    """How a connection treats its client: patience, pace, and who stands between the device and the line."""
 
     patience: Patience = field(default_factory=Patience)
+    pace: Pace | None = None
     delivery: Delivery | None = None
     recorder: Recorder | None = None
+    watcher: Watcher | None = None
+
+    @property
+    def immediate(self) -> bool:
+        """Whether each answer is sent as soon as it is known."""
+        return self.pace is None and self.delivery is None
+
+
+class Outlet(Protocol):
+    """Where frames go: what a connection needs of an asyncio transport."""
+
+    def write(self, data: bytes) -> None:
+        """Send, sooner or later."""
+
+    def pause_reading(self) -> None:
+        """Let the client wait."""
+
+    def resume_reading(self) -> None:
+        """Let it go on."""
+
+    def close(self) -> None:
+        """Send what is left, and close."""
+
+    def abort(self) -> None:
+        """Close at once."""
 
 
 class Connection:
-    """Serves one client (or one serial line) until it leaves, stays silent too long, or stops reading."""
+    """Serves one client (or one serial line): `received` is called with its bytes, all else follows.
 
-    __slots__ = ("_framer", "_manners", "_reader", "_station", "_writer", "heard")
+    What it keeps is bounded: half a frame, `MOST_WAITING` requests and a chunk's, and what `outlet` has buffered when
+    it says `paused`; then the client is not read from until `resumed`.
+    """
 
-    def __init__(
-        self,
-        reader: asyncio.StreamReader,
-        writer: asyncio.StreamWriter,
-        framer: Framer,
-        station: Station,
-        manners: Manners,
-    ) -> None:
-        self.heard = time.monotonic()
-        self._reader = reader
-        self._writer = writer
+    __slots__ = (
+        *("_expiry", "_framer", "_leaving", "_loop", "_manners", "_outlet"),
+        *("_room", "_station", "_task", "_waiting", "heard"),
+    )
+
+    def __init__(self, framer: Framer, station: Station, manners: Manners, outlet: Outlet) -> None:
+        self._loop = asyncio.get_running_loop()
+        self.heard = self._loop.time()
         self._framer = framer
         self._station = station
         self._manners = manners
+        self._outlet = outlet
+        self._waiting: deque[Request] = deque()
+        self._task: asyncio.Task[None] | None = None
+        self._expiry: asyncio.TimerHandle | None = None
+        self._leaving = False
+        self._room = asyncio.Event()
+        self._room.set()
 
-    async def serve(self) -> None:
-        """Answer until the client is gone; raises TimeoutError when it was idle too long, OSError when it broke."""
-        while (data := await self._receive()) != b"":
-            self.heard = time.monotonic()
-            requests = self._framer.expire() if data is None else self._framer.feed(data)
-            for request in requests:
-                await self._exchange(request)
-            async with asyncio.timeout(self._manners.patience.idle):
-                await self._writer.drain()
-            if data is not None and len(data) == CHUNK:
-                await asyncio.sleep(0)
+    def received(self, data: bytes) -> None:
+        """Act on bytes of the client."""
+        self.heard = self._loop.time()
+        self._take(self._framer.feed(data))
+        if self._expiry is not None:
+            self._expiry.cancel()
+            self._expiry = None
+        if self._framer.pending:
+            self._expiry = self._loop.call_later(self._manners.patience.gap, self._expire)
 
-    async def close(self) -> None:
-        """Send what is left, without waiting for a client that does not read, and close."""
-        self._writer.close()
-        with contextlib.suppress(OSError, TimeoutError):
-            async with asyncio.timeout(_FAREWELL):
-                await self._writer.wait_closed()
-        self._writer.transport.abort()
+    def finish(self) -> None:
+        """Close once all that was asked is answered."""
+        self._leaving = True
+        if self._task is None:
+            self._outlet.close()
 
-    async def _receive(self) -> bytes | None:
-        """Return the next bytes, b"" at the end, None when the rest of a frame did not come."""
-        patience, waits_for_rest = self._manners.patience, self._framer.pending
-        try:
-            async with asyncio.timeout(patience.gap if waits_for_rest else patience.idle):
-                return await self._reader.read(CHUNK)
-        except TimeoutError:
-            if waits_for_rest:
-                return None
-            raise
+    def paused(self) -> None:
+        """The client does not read: ask no more of it."""
+        self._room.clear()
+        self._outlet.pause_reading()
 
-    async def _exchange(self, request: Request) -> None:
-        if self._manners.recorder is not None and self._station.has(request.unit):
-            self._manners.recorder(request)
+    def resumed(self) -> None:
+        """It reads again."""
+        self._room.set()
+        if len(self._waiting) < MOST_WAITING:
+            self._outlet.resume_reading()
+
+    def end(self) -> None:
+        """Forget what is still to be done: the client is gone."""
+        if self._expiry is not None:
+            self._expiry.cancel()
+        if self._task is not None:
+            self._task.cancel()
+
+    def _expire(self) -> None:
+        self._expiry = None
+        self._take(self._framer.expire())
+
+    def _take(self, requests: list[Request]) -> None:
+        if not requests:
+            return
+        if self._manners.immediate:
+            frames = [self._exchange(request).frame for request in requests]
+            self._outlet.write(b"".join(frames))
+            return
+        self._waiting.extend(requests)
+        if len(self._waiting) >= MOST_WAITING:
+            self._outlet.pause_reading()
+        if self._task is None:
+            self._task = self._loop.create_task(self._work_off())
+
+    def _exchange(self, request: Request) -> Exchange:
+        manners = self._manners
+        if manners.recorder is not None and self._station.has(request.unit):
+            manners.recorder(request)
         answer = self._station.answer(request.unit, request.pdu)
-        frame = b"" if answer is None else self._framer.answer(request, answer)
-        if self._manners.delivery is not None:
-            frame = await self._manners.delivery(Exchange(request, answer, frame))
+        exchange = Exchange(request, answer, b"" if answer is None else self._framer.answer(request, answer))
+        if manners.watcher is not None:
+            manners.watcher(exchange)
+        return exchange
+
+    async def _work_off(self) -> None:
+        try:
+            while self._waiting:
+                await self._deliver(self._exchange(self._waiting.popleft()))
+                await self._room.wait()
+                if len(self._waiting) == MOST_WAITING - 1:
+                    self._outlet.resume_reading()
+        except BaseException:
+            self._outlet.abort()
+            raise
+        finally:
+            self._task = None
+        if self._leaving:
+            self._outlet.close()
+
+    async def _deliver(self, exchange: Exchange) -> None:
+        pace, delivery = self._manners.pace, self._manners.delivery
+        if pace is not None and exchange.answer is not None:
+            await asyncio.sleep(pace.seconds(exchange.request))
+        frame = exchange.frame if delivery is None else await delivery(exchange)
         if frame:
-            self._writer.write(frame)
+            self._outlet.write(frame)

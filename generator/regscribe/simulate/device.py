@@ -43,6 +43,7 @@ class SimulatedDevice:
         self.register_map = register_map
         self.model = _model(register_map, model)
         self.unit = _unit(register_map.protocol, unit)
+        self.seed = seed
         self.state = State.of(register_map, self.model, givens or {})
         self._protocol = register_map.protocol
         self._commands = Commands(self.model.commands)

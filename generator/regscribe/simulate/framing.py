@@ -215,6 +215,21 @@ class RtuFramer(_Buffered):
         return size is None or 0 < size <= len(data) - at
 
 
+class SilenceFramer(RtuFramer):
+    """Requests whose end is marked by silence: what is fed is one frame, and bad if it is not one request."""
+
+    __slots__ = ()
+
+    def feed(self, data: bytes) -> list[Request]:
+        """Return the request that `data` is, if it is one."""
+        found = self._take_all(data)
+        return found if len(found) == 1 and len(data) == len(found[0].pdu) + 3 else []
+
+    def _take_all(self, data: bytes) -> list[Request]:
+        self._buffer[:] = data
+        return self.expire()
+
+
 class AsciiFramer(_Buffered):
     """Requests in hexadecimal text between a colon and a line end, with an LRC."""
 

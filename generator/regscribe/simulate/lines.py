@@ -18,6 +18,12 @@ class Line:
     baud: int = 9600
     format: str = "8N1"
 
+    @property
+    def character(self) -> float:
+        """Seconds that one character takes: a start bit, the data bits, perhaps a parity bit, the stop bits."""
+        data, parity, stop = _characters(self.format)
+        return (1 + data + (parity != "N") + stop) / self.baud
+
 
 class OpenLine:
     """An open serial line: `fd` to read and write raw bytes (not blocking), `path` for the other side to open."""

@@ -1,15 +1,21 @@
 """Servers on asyncio: a station of simulated devices on a TCP port, or on a serial line."""
 
 import asyncio
-import contextlib
-import os
-from typing import Protocol
+from collections.abc import Callable
+from typing import Protocol, cast
 
-from regscribe.simulate.connection import Connection, Manners
+from regscribe.simulate.connection import CHUNK, Connection, Manners
 from regscribe.simulate.errors import SimulatorError
-from regscribe.simulate.framing import Framing, framer_for
+from regscribe.simulate.framing import Framer, Framing, RtuFramer, framer_for
 from regscribe.simulate.lines import OpenLine
 from regscribe.simulate.station import Station
+from regscribe.simulate.transport import Events, LineTransport
+
+FAREWELL = 0.5
+"""Seconds that a client has to take the last answers when its connection is closed."""
+
+LOOKS = 4
+"""How often in the time of an idle client it is looked for."""
 
 
 class Server(Protocol):
@@ -36,23 +42,26 @@ class TcpServer:
         self.host = ""
         self.port = 0
         self.path = ""
+        self.manners = manners
+        self.buffer = memoryview(bytearray(CHUNK))
         self._station = station
         self._framing = framing
-        self._manners = manners
         self._most = most
-        self._clients: dict[Connection, asyncio.Task[None]] = {}
-        self._leaving: set[asyncio.Task[None]] = set()
+        self._clients: set[TcpClient] = set()
+        self._looking: asyncio.TimerHandle | None = None
         self._listener: asyncio.Server | None = None
         self._stopped = asyncio.Event()
 
     async def listen(self, host: str, port: int) -> None:
         """Bind and accept; `host` and `port` are then the bound ones. SimulatorError where that is not possible."""
+        loop = asyncio.get_running_loop()
         try:
-            self._listener = await asyncio.start_server(self._accept, host, port)
+            self._listener = await loop.create_server(lambda: TcpClient(self), host, port)
         except (OSError, OverflowError, UnicodeError) as problem:
             message = f"cannot listen on {host} port {port}: {problem}. Choose another port, or 0 for any free one"
             raise SimulatorError(message) from problem
         self.host, self.port = self._listener.sockets[0].getsockname()[:2]
+        self._look()
 
     async def wait(self) -> None:
         """Return when the server was stopped."""
@@ -62,31 +71,92 @@ class TcpServer:
         """Stop accepting, then end the clients."""
         if self._listener is not None:
             self._listener.close()
-        for client in tuple(self._clients):
-            self._dismiss(client)
-        await asyncio.gather(*self._leaving, return_exceptions=True)
+        if self._looking is not None:
+            self._looking.cancel()
+        leaving = [client.dismiss() for client in tuple(self._clients)]
+        await asyncio.gather(*(gone.wait() for gone in leaving))
         self._stopped.set()
 
-    def _accept(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+    def admit(self, client: "TcpClient", transport: asyncio.Transport) -> Connection:
+        """Take a client in, at the cost of the most silent one if there are too many."""
         if len(self._clients) >= self._most:
-            self._dismiss(min(self._clients, key=lambda client: client.heard))
-        client = Connection(reader, writer, framer_for(self._framing), self._station, self._manners)
-        self._clients[client] = asyncio.create_task(self._attend(client))
+            self.dismiss(min(self._clients, key=lambda each: each.heard))
+        self._clients.add(client)
+        return Connection(framer_for(self._framing), self._station, self.manners, transport)
 
-    def _dismiss(self, client: Connection) -> None:
-        task = self._clients.pop(client)
-        self._leaving.add(task)
-        task.add_done_callback(self._leaving.discard)
-        task.cancel()
+    def dismiss(self, client: "TcpClient") -> None:
+        """Disconnect a client."""
+        self._clients.discard(client)
+        client.dismiss()
 
-    async def _attend(self, client: Connection) -> None:
-        try:
-            # A client that leaves, breaks or idles is its own affair.
-            with contextlib.suppress(OSError, TimeoutError):
-                await client.serve()
-        finally:
-            self._clients.pop(client, None)
-            await client.close()
+    def left(self, client: "TcpClient") -> None:
+        """A client is gone."""
+        self._clients.discard(client)
+
+    def _look(self) -> None:
+        """Disconnect who was silent too long, now and then."""
+        idle = self.manners.patience.idle
+        if idle is None:
+            return
+        loop = asyncio.get_running_loop()
+        for client in [each for each in self._clients if loop.time() - each.heard > idle]:
+            self.dismiss(client)
+        self._looking = loop.call_later(idle / LOOKS, self._look)
+
+
+class TcpClient(asyncio.BufferedProtocol):
+    """One client of a TCP server, as asyncio sees it; all clients of a server share the buffer of one chunk."""
+
+    def __init__(self, server: TcpServer) -> None:
+        self._server = server
+        self._gone = asyncio.Event()
+
+    @property
+    def heard(self) -> float:
+        """When it sent something last, on the clock of the loop."""
+        return self._connection.heard
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        """The client is there."""
+        self._transport = cast("asyncio.Transport", transport)
+        self._connection = self._server.admit(self, self._transport)
+
+    def get_buffer(self, sizehint: int) -> memoryview:  # noqa: ARG002 - asyncio's signature
+        """Where its bytes go; they are out of it before the next client's come."""
+        return self._server.buffer
+
+    def buffer_updated(self, nbytes: int) -> None:
+        """Its bytes are there."""
+        self._connection.received(bytes(self._server.buffer[:nbytes]))
+
+    def eof_received(self) -> bool:
+        """It sends no more, but still gets its answers."""
+        self._connection.finish()
+        return True
+
+    def pause_writing(self) -> None:
+        """It does not read."""
+        self._connection.paused()
+
+    def resume_writing(self) -> None:
+        """It reads."""
+        self._connection.resumed()
+
+    def connection_lost(self, exc: Exception | None) -> None:  # noqa: ARG002 - how a client ends is its own affair
+        """It is gone."""
+        self._connection.end()
+        self._server.left(self)
+        self._gone.set()
+
+    def dismiss(self) -> asyncio.Event:
+        """Let it take its last answers for a moment, and disconnect it; the event is set when it is gone."""
+        self._transport.close()
+        asyncio.get_running_loop().call_later(FAREWELL, self._transport.abort)
+        return self._gone
+
+
+Wiring = Callable[[int, Events], LineTransport]
+"""Makes the transport of an open line: as it is, or at the pace of a speed."""
 
 
 class LineServer:
@@ -99,45 +169,42 @@ class LineServer:
         self._line = line
         self._station = station
         self._manners = manners
-        self._task: asyncio.Task[None] | None = None
+        self._ended = asyncio.Event()
+        self._loss = ""
+        self._transport: LineTransport | None = None
+        self._connection: Connection | None = None
 
-    async def listen(self) -> None:
+    def begin(self, wiring: Wiring = LineTransport, framer: Callable[[], Framer] = RtuFramer) -> None:
         """Begin to answer."""
-        reader, writer = await _streams(self._line.fd)
-        client = Connection(reader, writer, framer_for(Framing.RTU), self._station, self._manners)
-        self._task = asyncio.create_task(_attend_line(client))
+        self._transport = wiring(self._line.fd, Events(self._received, self._lost, self._paused, self._resumed))
+        self._connection = Connection(framer(), self._station, self._manners, self._transport)
 
     async def wait(self) -> None:
         """Return when the server was stopped; SimulatorError if the line broke, as when an adapter is unplugged."""
-        if self._task is None:
-            return
-        await asyncio.wait((self._task,))
-        if not self._task.cancelled():
-            message = f"serial device {self.path} is gone: {self._task.exception() or 'end of data'}"
-            raise SimulatorError(message)
+        await self._ended.wait()
+        if self._loss:
+            raise SimulatorError(self._loss)
 
     async def stop(self) -> None:
         """Stop answering and close the line."""
-        if self._task is not None:
-            self._task.cancel()
-            await asyncio.gather(self._task, return_exceptions=True)
+        if self._connection is not None and self._transport is not None:
+            self._connection.end()
+            self._transport.abort()
         self._line.close()
+        self._ended.set()
 
+    def _received(self, data: bytes) -> None:
+        if self._connection is not None:
+            self._connection.received(data)
 
-async def _attend_line(client: Connection) -> None:
-    try:
-        await client.serve()
-    finally:
-        await client.close()
+    def _lost(self, problem: OSError | None) -> None:
+        self._loss = f"serial device {self.path} is gone: {problem or 'end of data'}"
+        self._ended.set()
 
+    def _paused(self) -> None:
+        if self._connection is not None:
+            self._connection.paused()
 
-async def _streams(fd: int) -> tuple[asyncio.StreamReader, asyncio.StreamWriter]:
-    loop = asyncio.get_running_loop()
-    reader = asyncio.StreamReader()
-    await loop.connect_read_pipe(lambda: asyncio.StreamReaderProtocol(reader), os.fdopen(os.dup(fd), "rb", buffering=0))
-    transport, protocol = await loop.connect_write_pipe(
-        # Only the protocol's flow control is used; its reader stays empty.
-        lambda: asyncio.StreamReaderProtocol(asyncio.StreamReader()),
-        os.fdopen(os.dup(fd), "wb", buffering=0),
-    )
-    return reader, asyncio.StreamWriter(transport, protocol, reader, loop)
+    def _resumed(self) -> None:
+        if self._connection is not None:
+            self._connection.resumed()

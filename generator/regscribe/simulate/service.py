@@ -4,18 +4,21 @@ import asyncio
 import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import StrEnum
+from functools import partial
 
-from regscribe.model import RegisterMap
-from regscribe.simulate.connection import Delivery, Manners, Patience, Recorder
+from regscribe.model import RegisterMap, Serial
+from regscribe.simulate.connection import Delivery, Manners, Patience, Recorder, Watcher
 from regscribe.simulate.device import SimulatedDevice
 from regscribe.simulate.errors import SimulatorError
-from regscribe.simulate.framing import Framing, Request
+from regscribe.simulate.framing import Framing, Request, RtuFramer, SilenceFramer
 from regscribe.simulate.givens import GivenValue
+from regscribe.simulate.latency import Pace, factor_of
 from regscribe.simulate.lines import Line, OpenLine, open_pseudo_terminal, open_serial
 from regscribe.simulate.servers import LineServer, Server, TcpServer
 from regscribe.simulate.station import Foreign, Station
+from regscribe.simulate.transport import PacedTransport
 
 LOOPBACK = "127.0.0.1"
 MOST_CONNECTIONS = 64
@@ -44,40 +47,74 @@ _FRAMINGS = {
 class Service:
     """Where and how to serve.
 
-    `host` and `port` (0: any free one) are for TCP, `path` and `line` for a serial device. `foreign` is what a unit
-    that is not there gets (None: over MBAP a gateway's exception, elsewhere silence). `delivery` stands between device
-    and line, `recorder` is told of each request to a device here. `connections`: how many clients at once.
-    `patience` None: 1 s for half a frame and 10 minutes for an idle client on TCP, 0.1 s and for ever on a line.
+    `host` and `port` (0: any free one) are for TCP, `path` for a serial device. `line` is its speed and format, and
+    that of the line which a pty or TCP stands for: character times count with it (None: the first device's default).
+    `latency` is `off`, `real` (the map's times by function and word), or a factor. `paced` lets the bytes on a pty
+    take their time at the speed of the line, frames end by silence; with `strict_gaps`, a request that comes too soon
+    after an answer is lost, too. `foreign` is what a unit that is not there gets (None: over MBAP a gateway's
+    exception, elsewhere silence). `delivery` stands between device and line, `recorder` is told of each request to a
+    device here, `watcher` of each exchange. `connections`: how many clients at once. `patience` None: 1 s for half a
+    frame and 10 minutes for an idle client on TCP, 0.1 s and for ever on a line.
     """
 
     transport: Transport = Transport.TCP
     host: str = LOOPBACK
     port: int = 0
     path: str = ""
-    line: Line = field(default_factory=Line)
+    line: Line | None = None
+    latency: float | str = "off"
+    paced: bool = False
+    strict_gaps: bool = False
     foreign: Foreign | None = None
     connections: int = MOST_CONNECTIONS
     patience: Patience | None = None
     delivery: Delivery | None = None
     recorder: Recorder | None = None
+    watcher: Watcher | None = None
 
 
 async def start(devices: Sequence[SimulatedDevice], service: Service) -> Server:
     """Serve `devices` until the returned server is stopped.
 
-    Raises SimulatorError where the port is taken, the serial device cannot be opened, or two devices share a unit.
+    Raises SimulatorError where the port is taken, the serial device cannot be opened, two devices share a unit, or the
+    service asks for something impossible.
     """
     transport = Transport(service.transport)
     usual = Foreign.GATEWAY if transport is Transport.TCP else Foreign.SILENCE
     station = Station(devices, foreign=service.foreign or usual)
+    if service.paced and transport is not Transport.PTY:
+        message = f"only a pty can be paced, not {transport}: a serial device has its own speed, TCP has none"
+        raise SimulatorError(message)
     if transport in _FRAMINGS:
-        manners = _manners(service, Patience())
+        manners = _manners(devices, service, Patience())
         tcp = TcpServer(station, _FRAMINGS[transport], manners, most=service.connections)
         await tcp.listen(service.host, service.port)
         return tcp
-    line = LineServer(_open(transport, service), station, _manners(service, Patience(idle=None, gap=SERIAL_GAP)))
-    await line.listen()
-    return line
+    manners = _manners(devices, service, Patience(idle=None, gap=SERIAL_GAP))
+    server = LineServer(_open(transport, devices, service), station, manners)
+    _begin(server, devices, service)
+    return server
+
+
+def _begin(server: LineServer, devices: Sequence[SimulatedDevice], service: Service) -> None:
+    if not service.paced:
+        server.begin(framer=RtuFramer)
+        return
+    line = service.line or line_of(devices)
+    gap = _gap(devices, line)
+    server.begin(partial(PacedTransport, line=line, gap=gap, strict=service.strict_gaps), framer=SilenceFramer)
+
+
+def line_of(devices: Sequence[SimulatedDevice]) -> Line:
+    """The line that the first device has as delivered, as far as its map says."""
+    serial = devices[0].register_map.protocol.serial if devices else Serial()
+    return Line(baud=serial.default_baud or Line().baud, format=serial.default_format or Line().format)
+
+
+def _gap(devices: Sequence[SimulatedDevice], line: Line) -> float:
+    """Seconds of silence that separate frames: what the most demanding device here needs."""
+    characters = (device.register_map.protocol.serial.gap_characters for device in devices)
+    return float(max(characters, default=Serial().gap_characters)) * line.character
 
 
 async def serve(
@@ -124,6 +161,10 @@ def simulate(  # noqa: PLR0913 (all but two are keywords for tests)
     givens: Mapping[str, GivenValue] | None = None,
     seed: int = 0,
     addressing: str = "modbus",
+    latency: float | str = "off",
+    line: Line | None = None,
+    paced: bool = False,
+    strict_gaps: bool = False,
     foreign: Foreign | None = None,
     delivery: Delivery | None = None,
 ) -> Iterator[Running]:
@@ -137,7 +178,16 @@ def simulate(  # noqa: PLR0913 (all but two are keywords for tests)
     def record(request: Request) -> None:
         requests.append(request.pdu)
 
-    service = Service(transport=Transport(transport), foreign=foreign, delivery=delivery, recorder=record)
+    service = Service(
+        transport=Transport(transport),
+        line=line,
+        latency=latency,
+        paced=paced,
+        strict_gaps=strict_gaps,
+        foreign=foreign,
+        delivery=delivery,
+        recorder=record,
+    )
     with _in_thread(device, service) as server:
         yield Running(device=device, host=server.host, port=server.port, path=server.path, requests=requests)
 
@@ -159,14 +209,21 @@ def _in_thread(device: SimulatedDevice, service: Service) -> Iterator[Server]:
         loop.close()
 
 
-def _manners(service: Service, usual: Patience) -> Manners:
-    return Manners(patience=service.patience or usual, delivery=service.delivery, recorder=service.recorder)
+def _manners(devices: Sequence[SimulatedDevice], service: Service, usual: Patience) -> Manners:
+    factor, line = factor_of(service.latency), service.line or line_of(devices)
+    return Manners(
+        patience=service.patience or usual,
+        pace=Pace(devices, line, factor=factor) if factor else None,
+        delivery=service.delivery,
+        recorder=service.recorder,
+        watcher=service.watcher,
+    )
 
 
-def _open(transport: Transport, service: Service) -> OpenLine:
+def _open(transport: Transport, devices: Sequence[SimulatedDevice], service: Service) -> OpenLine:
     if transport is Transport.PTY:
         return open_pseudo_terminal()
     if not service.path:
         message = "no serial device is named: give its path, such as /dev/ttyUSB0"
         raise SimulatorError(message)
-    return open_serial(service.path, service.line)
+    return open_serial(service.path, service.line or line_of(devices))
