@@ -91,6 +91,9 @@ def write_facts_of_read_only(register: Register, _: Scope) -> Iterator[Finding]:
         "apply": bool(register.apply),
         "rescales": bool(register.rescales),
         "endurance": register.endurance is not None,
+        "stays": bool(register.stays),
+        "governs": register.governs is not None,
+        "settle": bool(register.settle),
     }
     keys = [key for key, is_told in told.items() if is_told]
     if keys:

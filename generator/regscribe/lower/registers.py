@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from regscribe.lower.conditions import condition
 from regscribe.lower.enums import enum_of, fields_of
+from regscribe.lower.governs import governs_of
 from regscribe.lower.limits import range_of
 from regscribe.lower.node import Node, text_of
 from regscribe.lower.rules import NO_ACCESS, UNKNOWN_COMMAND
@@ -57,6 +58,9 @@ def register_of(entry: Entry, everywhere: Scope) -> Register:
         unlock=_command(settings.get("unlock"), scope),
         apply=_command(settings.get("apply"), scope),
         danger=_text(entry, "danger"),
+        stays=_text(entry, "stays"),
+        governs=governs_of(settings.get("governs")),
+        settle=settings["settle"].whole() if "settle" in settings else 0,
         inferred=_inferred(settings.get("inferred")),
         version_digits=digits,
         version_group=group,

@@ -5,6 +5,7 @@ Nothing here knows YAML, templates or a device; every number that scales is a `F
 
 from regscribe.model.condition import ALWAYS, Case, Cases, CodeRange, Condition, Lookup, Test, always, registers_of
 from regscribe.model.diagnostic import Diagnostic, Related, Rule, Severity, Span
+from regscribe.model.governs import Governs, Setting
 from regscribe.model.map import (
     Command,
     Erratum,
@@ -26,6 +27,18 @@ from regscribe.model.map import (
     Waiver,
 )
 from regscribe.model.number import exact, show
+from regscribe.model.program import (
+    ProgramAction,
+    ProgramCounts,
+    ProgramFinal,
+    ProgramPart,
+    ProgramSegments,
+    ProgramStatus,
+    ProgramTimeUnit,
+    SetpointProgram,
+    WhileRunning,
+    numbered,
+)
 from regscribe.model.protocol import SILENCE, USUAL_PROTOCOL, ExceptionCode, Faults, Latency, Later, Protocol, Serial
 from regscribe.model.register import Access, Array, Group, Inferred, Kind, Register, Writable
 from regscribe.model.section import chapters_of, renumbered
@@ -72,6 +85,7 @@ __all__ = [
     "FrameExample",
     "Given",
     "GivenKind",
+    "Governs",
     "Group",
     "Identity",
     "Inferred",
@@ -92,6 +106,13 @@ __all__ = [
     "OrderFromRegister",
     "Outcome",
     "Override",
+    "ProgramAction",
+    "ProgramCounts",
+    "ProgramFinal",
+    "ProgramPart",
+    "ProgramSegments",
+    "ProgramStatus",
+    "ProgramTimeUnit",
     "Protocol",
     "Range",
     "Reference",
@@ -102,6 +123,8 @@ __all__ = [
     "Rule",
     "Sentinel",
     "Serial",
+    "SetpointProgram",
+    "Setting",
     "Severity",
     "Space",
     "Span",
@@ -113,11 +136,13 @@ __all__ = [
     "ValueExample",
     "View",
     "Waiver",
+    "WhileRunning",
     "WireType",
     "Writable",
     "always",
     "chapters_of",
     "exact",
+    "numbered",
     "registers_of",
     "renumbered",
     "show",

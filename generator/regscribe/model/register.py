@@ -6,6 +6,7 @@ from fractions import Fraction
 
 from regscribe.model.condition import Cases, Condition, always
 from regscribe.model.diagnostic import NOWHERE, Span
+from regscribe.model.governs import Governs
 from regscribe.model.value import IDENTITY, BitField, Conversion, Enum, Range, Sentinel, Special
 from regscribe.model.wire import View
 
@@ -72,6 +73,8 @@ class Register:
     word's bits), a text, or None where the manual gives none. `section` is where the manual describes it.
     `rescales` names the unit (of the map's units) whose registers the device converts when this one is written.
     `unlock` and `apply` name commands that must precede and follow a write.
+    `stays` is why the value must not be copied to another device (`address`, `line`, `calibration`, `identity`,
+    `counter`, `operation`; empty: it may be). `settle` is in milliseconds: before that, a read-back says nothing.
     `symbol` is a clean reading of the manual's short code, `printed` the code as it is printed (empty: the same).
     `version_digits` is how many decimal digits a `VERSION` packs, `version_groups` how many digits stand in a group.
     """
@@ -103,6 +106,9 @@ class Register:
     unlock: str = ""
     apply: str = ""
     danger: str = ""
+    stays: str = ""
+    governs: Governs | None = None
+    settle: int = 0
     inferred: tuple[Inferred, ...] = ()
     version_digits: int = 0
     version_group: int = 0

@@ -44,10 +44,24 @@ from regscribe.runtime.kinds import (
 )
 from regscribe.runtime.link import AsyncLink, Link, async_tcp, tcp
 from regscribe.runtime.parts import Array, AsyncPart, Command, Group, Part, Section
+from regscribe.runtime.program import ProgramAction, ProgramFinal, ProgramSegments, ProgramStates, SetpointProgram
 from regscribe.runtime.register import ReadOnly, ReadWrite, Register, WriteOnly
 from regscribe.runtime.session import Latency, Protocol
+from regscribe.runtime.sets import RegisterSet
 from regscribe.runtime.snapshot import Snapshot
-from regscribe.runtime.spec import Conversion, Identity, Interval, Is, Limits, OrderFrom, Ref, View, within, word
+from regscribe.runtime.spec import (
+    Conversion,
+    Governs,
+    Identity,
+    Interval,
+    Is,
+    Limits,
+    OrderFrom,
+    Ref,
+    View,
+    within,
+    word,
+)
 from regscribe.runtime.wire import FLOAT32, FLOAT64, INT16, INT32, INT64, UINT16, UINT32, UINT64
 
 __all__ = [
@@ -73,6 +87,7 @@ __all__ = [
     "ExceptionAnswer",
     "Field",
     "Flags",
+    "Governs",
     "Group",
     "Identification",
     "Identity",
@@ -87,16 +102,22 @@ __all__ = [
     "OrderFrom",
     "Part",
     "PartialWrite",
+    "ProgramAction",
+    "ProgramFinal",
+    "ProgramSegments",
+    "ProgramStates",
     "Protocol",
     "ReadOnly",
     "ReadWrite",
     "Ref",
     "Register",
+    "RegisterSet",
     "RegscribeError",
     "Saturated",
     "Section",
     "SensorFault",
     "SerialSettings",
+    "SetpointProgram",
     "Snapshot",
     "TcpSettings",
     "ValueNotDecodable",

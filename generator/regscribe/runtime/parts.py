@@ -1,6 +1,6 @@
 """The parts of a driver: the device itself, its array elements, commands and groups, for both kinds of I/O."""
 
-from collections.abc import Awaitable, Iterator, Mapping
+from collections.abc import Awaitable, Callable, Iterator, Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, Self, TypeVar, overload
 
@@ -17,18 +17,30 @@ A = TypeVar("A", bound="AsyncPart")
 
 
 class _Catalogue:
-    """A class attribute: every register of a part by path, array elements included, in the order of declaration."""
+    """A class attribute: every register of a part by path, array elements included.
+
+    They stand in the order of the manual, which is that of a driver's groups; without groups, in that of declaration.
+    """
 
     def __get__(self, instance: object, owner: type) -> Mapping[str, Register[Any]]:
         cached: Mapping[str, Register[Any]] | None = vars(owner).get("_catalogue")
         if cached is None:
-            cached = MappingProxyType({path: register.cited(owner) for path, register in _registers(owner)})
+            found = sorted(_registers(owner), key=_place(owner))
+            cached = MappingProxyType({path: register.cited(owner) for path, register in found})
             owner._catalogue = cached  # type: ignore[attr-defined] # noqa: SLF001 (its own cache)
         return cached
 
 
+def _place(owner: type) -> Callable[[tuple[str, object]], int]:
+    """What says where in the manual's order a register stands, by its path."""
+    groups = getattr(owner, "groups", object)
+    members = [member for group in _declared(groups, Group).values() for member in group.members]
+    places = {member: place for place, member in reversed(list(enumerate(members)))}
+    return lambda found: places.get(found[0].partition("[")[0], len(members))
+
+
 def _registers(owner: type) -> Iterator[tuple[str, Register[Any]]]:
-    for name, declared in _declared(owner).items():
+    for name, declared in _declared(owner, Register, Array).items():
         if isinstance(declared, Register):
             yield name, declared
         elif isinstance(declared, Array):
@@ -44,12 +56,10 @@ def _moved(register: Register[Any], steps: int, path: str) -> Register[Any]:
     return moved
 
 
-def _declared(owner: type) -> dict[str, Any]:
+def _declared(owner: type, *kinds: type) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for base in reversed(owner.__mro__):
-        found.update(
-            {name: value for name, value in vars(base).items() if isinstance(value, (Register, Array, Command))}
-        )
+        found.update({name: value for name, value in vars(base).items() if isinstance(value, kinds)})
     return found
 
 
@@ -250,14 +260,21 @@ class Section(Generic[P, A]):
 
     def commands(self) -> dict[str, Command]:
         """The commands declared here, by id."""
-        return {name: found for name, found in _declared(self.part).items() if isinstance(found, Command)}
+        return _declared(self.part, Command)
 
 
 class Group:
-    """A named, ordered set of registers: ids, or ids of arrays for all that is in them."""
+    """A named, ordered set of registers: ids, or ids of arrays for all that is in them.
 
-    def __init__(self, name: str, *members: str) -> None:
-        self.name, self.members = name, members
+    `order` is its place when a whole configuration is written (None: the manual gives none).
+    """
+
+    def __init__(self, name: str, *members: str, order: int | None = None) -> None:
+        self.name, self.members, self.order = name, members, order
+        self.id = ""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.id = name
 
     def registers(self, present: Mapping[str, Register[Any]]) -> list[Register[Any]]:
         """The readable registers of this group among those that a model has."""

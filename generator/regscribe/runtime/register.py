@@ -1,6 +1,5 @@
 """The declaration of a register: one descriptor that serves synchronous and asynchronous drivers."""
 
-import copy
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Generic, Never, Self, TypeVar, cast, overload
 
@@ -9,7 +8,19 @@ from regscribe.runtime.bound import AsyncReadable, AsyncReadWritable, AsyncWrita
 from regscribe.runtime.errors import ValueRefused
 from regscribe.runtime.kinds import Kind
 from regscribe.runtime.section import renumbered
-from regscribe.runtime.spec import SAME, Cases, Conversion, Givens, Limits, Ref, State, View, When, registers_of
+from regscribe.runtime.spec import (
+    SAME,
+    Cases,
+    Conversion,
+    Givens,
+    Governs,
+    Limits,
+    Ref,
+    State,
+    View,
+    When,
+    registers_of,
+)
 
 if TYPE_CHECKING:
     from regscribe.runtime.parts import AsyncPart, Part
@@ -22,7 +33,11 @@ class Register(Generic[T]):
     """What a device's register is: where it stands, what its words mean and when it may be written.
 
     `at` is the n of its views' address formulas. `default` is the manual's, in values of use. `unit` is an engineering
-    unit, or cases of them. `decode` and `encode` need no device: `state` holds the values of the registers in `needs`.
+    unit, or cases of them. `stays` is why the value must not be copied to another device (address, line, calibration,
+    identity, counter, operation; "": it may be), `governs` what it sets of the line, `settle` for how many milliseconds
+    after a write reading it back says nothing.
+
+    `decode` and `encode` need no device: `state` holds the values of the registers in `needs`.
     """
 
     access = "r"
@@ -45,12 +60,16 @@ class Register(Generic[T]):
         unlock: str = "",
         apply: str = "",
         danger: str = "",
+        stays: str = "",
+        governs: Governs | None = None,
+        settle: int = 0,
     ) -> None:
         self.at, self.views, self.kind = at, views, kind
         self.scale, self.range, self.sentinels = scale, range, sentinels
         self.default, self.unit, self.section, self.aliases = default, unit, section, aliases
         self.writable, self.persistence = writable, persistence
         self.unlock, self.apply, self.danger = unlock, apply, danger
+        self.stays, self.governs, self.settle = stays, governs, settle
         self.id = self.path = self.home = ""
 
     def __set_name__(self, owner: type, name: str) -> None:
@@ -64,9 +83,23 @@ class Register(Generic[T]):
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.path} at {self.at}: {self.kind.name}>"
 
+    def told(self, home: str, *, section: str | None, persistence: str | None) -> Self:
+        """The same register in the module `home`, which tells of it what is given here."""
+        other = self._copy()
+        other.home = home
+        other.section = self.section if section is None else section
+        other.persistence = self.persistence if persistence is None else persistence
+        return other
+
+    def _copy(self) -> Self:
+        # copy.copy goes through the protocol of pickle, which takes five times as long
+        other = object.__new__(type(self))
+        other.__dict__.update(self.__dict__)
+        return other
+
     def shifted(self, steps: int, prefix: str) -> Self:
         """The same register of another array element: `steps` further on, its path below `prefix`."""
-        other = copy.copy(self)
+        other = self._copy()
         other.at, other.path = self.at + steps, f"{prefix}.{self.id}"
         other.aliases = tuple(alias + steps for alias in self.aliases)
         return other
@@ -76,7 +109,7 @@ class Register(Generic[T]):
         chapters = getattr(owner, "_sections", {}).get(self.home)
         if not chapters:
             return self
-        other = copy.copy(self)
+        other = self._copy()
         other.section = renumbered(self.section, chapters)
         return other
 
@@ -86,6 +119,11 @@ class Register(Generic[T]):
             return self
         found: Self = getattr(owner, "registers", {}).get(self.id, self)
         return found
+
+    @property
+    def is_configuration(self) -> bool:
+        """Whether it is a setting that the device keeps: no passing operation, no counter, not in RAM alone."""
+        return self.access == "rw" and self.persistence != "ram" and self.stays not in {"operation", "counter"}
 
     @property
     def view_names(self) -> tuple[str, ...]:

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from functools import cache
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from regscribe.runtime.errors import NotDecodable
@@ -139,7 +140,8 @@ class OrderFrom(NamedTuple):
 class View(NamedTuple):
     """One way to transmit a value: wire address = `offset` + `stride` x at; wire number = stored x `factor`.
 
-    `space` is holding, input, coil, discrete or status; `functions` limits the function codes (empty: no limit).
+    `space` is holding, input, coil, discrete or status; `functions` limits the function codes (empty: no limit);
+    addresses and counts of requests where the view stands must be multiples of `align`.
     """
 
     name: str
@@ -155,6 +157,7 @@ class View(NamedTuple):
     functions: tuple[int, ...] = ()
     space: str = "holding"
     preferred: bool = False
+    align: int = 1
 
     def address(self, at: int) -> int:
         """The wire address of the first word for a register at `at`."""
@@ -172,6 +175,19 @@ class View(NamedTuple):
         if code not in self.order.codes:
             raise NotDecodable(register, f"{self.order.register} is {code}, which sets no word order")
         return self.order.codes[code]
+
+
+class Governs(NamedTuple):
+    """What a register sets of the line: address, baud, parity, data_bits, stop_bits, format or addressing.
+
+    `codes` has what each code of the register sets, as text ("9600", "E", "8N1", "jbus"); of an address the value
+    itself counts. Empty where the manual does not print them. `since` is at_once (the answer to the write is lost),
+    after_answer, apply, restart, or empty where the manual does not say.
+    """
+
+    setting: str
+    codes: Mapping[int, str] = MappingProxyType({})
+    since: str = ""
 
 
 def word(view_type: WireType, **more: Any) -> tuple[View, ...]:

@@ -20,7 +20,7 @@ from regscribe.emit.text import (
     sentinel_words,
     special_words,
 )
-from regscribe.model import IDENTITY, Array, Kind, Model, Order, Register, View, show
+from regscribe.model import IDENTITY, Array, Kind, Model, Order, Register, Setting, View, show
 
 KINDS = {
     Kind.NUMBER: "number",
@@ -32,6 +32,30 @@ KINDS = {
     Kind.STRING: "text",
     Kind.VERSION: "version, packed decimal digits",
     Kind.BOOLEAN: "yes (1) or no (0)",
+}
+SETTINGS = {
+    Setting.ADDRESS: "unit id",
+    Setting.BAUD: "speed",
+    Setting.PARITY: "parity",
+    Setting.DATA_BITS: "data bits",
+    Setting.STOP_BITS: "stop bits",
+    Setting.FORMAT: "character format",
+    Setting.ADDRESSING: "first address",
+}
+SINCE = {
+    "": "from when it holds is not stated",
+    "at_once": "at once, so that the answer to the write is lost",
+    "after_answer": "after the answer to the write",
+    "apply": "when it is applied",
+    "restart": "when the device is powered up next",
+}
+STAYS = {
+    "address": "the address of the device",
+    "line": "belongs to the line of the device",
+    "calibration": "calibrates the device",
+    "identity": "identifies the device",
+    "counter": "what the device counted or measured",
+    "operation": "what the device does at the moment, no setting",
 }
 PERSISTENCE = {"ram": "RAM", "eeprom": "EEPROM", "both": "RAM and EEPROM"}
 
@@ -180,6 +204,24 @@ def _apply(context: Context, _model: Model, register: Register) -> Md:
     return md("takes effect with ", context.command(register.apply)) if register.apply else Md()
 
 
+def _governs(_context: Context, _model: Model, register: Register) -> Md:
+    found = register.governs
+    if found is None:
+        return Md()
+    codes = ", ".join(f"{code} = {value}" for code, value in found.codes)
+    if not codes and found.setting is not Setting.ADDRESS:
+        codes = "the codes are not in this manual"
+    return join("; ", (md(SETTINGS[found.setting], " of the line"), escape(codes), md(SINCE[found.since])))
+
+
+def _settle(_context: Context, _model: Model, register: Register) -> Md:
+    return md(f"{register.settle} ms after the write at the earliest") if register.settle else Md()
+
+
+def _stays(_context: Context, _model: Model, register: Register) -> Md:
+    return md(STAYS[register.stays]) if register.stays else Md()
+
+
 FACTS: dict[str, Fact] = {
     "Transmitted as": _transmitted,
     "Access": _access,
@@ -195,5 +237,8 @@ FACTS: dict[str, Fact] = {
     "Changing it": _rescales,
     "Before a write": _unlock,
     "After a write": _apply,
+    "Governs": _governs,
+    "Read back": _settle,
+    "Not for another device": _stays,
 }
 """The properties in the order of the table; one that is empty for every model is left out."""

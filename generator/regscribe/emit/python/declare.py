@@ -66,6 +66,9 @@ class Declarations:
             unlock=literal(register.unlock) if register.unlock else None,
             apply=literal(register.apply) if register.apply else None,
             danger=specs.pool.maybe("danger", literal(one_line(register.danger))) if register.danger else None,
+            stays=literal(register.stays) if register.stays else None,
+            governs=specs.governs(register),
+            settle=str(register.settle) if register.settle else None,
         )
 
     def _sentinels(self, register: Register) -> str | None:

@@ -7,18 +7,21 @@ from regscribe.emit.python.literals import literal
 from regscribe.emit.text import one_line
 from regscribe.model import Group, Model, RegisterMap
 
-Content = Mapping[str, tuple[str, tuple[str, ...]]]
-"""Title and members of each group by its id; members are ids of registers, or of arrays for all that is in them."""
+Content = Mapping[str, tuple[str, tuple[str, ...], int | None]]
+"""Title, members and place in the write order of each group by its id.
+
+Members are ids of registers, or of arrays for all that is in them.
+"""
 
 
 def groups_of(register_map: RegisterMap) -> Content:
     """The groups of all models together."""
-    merged: dict[str, tuple[str, dict[str, None]]] = {}
+    merged: dict[str, tuple[str, dict[str, None], int | None]] = {}
     for model in sorted(register_map.models, key=lambda model: -len(model.registers)):
         for one in model.groups:
-            _, members = merged.setdefault(one.id, (one_line(one.name), {}))
+            _, members, _ = merged.setdefault(one.id, (one_line(one.name), {}, one.order))
             members.update(_first_parts(one))
-    return {name: (title, tuple(members)) for name, (title, members) in merged.items()}
+    return {name: (title, tuple(members), order) for name, (title, members, order) in merged.items()}
 
 
 def same_groups(base: Content, own: Content, register_map: RegisterMap) -> set[str]:
@@ -28,8 +31,9 @@ def same_groups(base: Content, own: Content, register_map: RegisterMap) -> set[s
     """
     return {
         name
-        for name, (title, members) in base.items()
-        if own[name][0] == title and all(_fits(name, members, model) for model in register_map.models)
+        for name, (title, members, order) in base.items()
+        if (own[name][0], own[name][2]) == (title, order)
+        and all(_fits(name, members, model) for model in register_map.models)
     }
 
 
@@ -46,6 +50,7 @@ def _first_parts(group: Group) -> dict[str, None]:
 def groups_body(groups: Content) -> list[str]:
     """The declarations."""
     body: list[str] = []
-    for name, (title, members) in groups.items():
-        body += lay(call("Group", literal(title), *map(literal, members)), head=f"{name} = ", depth=1)
+    for name, (title, members, order) in groups.items():
+        place = None if order is None else str(order)
+        body += lay(call("Group", literal(title), *map(literal, members), order=place), head=f"{name} = ", depth=1)
     return body

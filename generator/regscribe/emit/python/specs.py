@@ -114,6 +114,15 @@ class Specs:
         built = group([group([self.when(case.when), literal(case.then)]) for case in cases])
         return self.pool.share("unit", built, cases_words(cases))
 
+    def governs(self, register: Register) -> Expression | None:
+        """What a register sets of the line; None if it sets nothing of it."""
+        found = register.governs
+        if found is None:
+            return None
+        codes = mapping([(str(code), literal(value)) for code, value in found.codes]) if found.codes else None
+        since = literal(found.since) if found.since else None
+        return self.pool.maybe("governs", call("Governs", literal(found.setting), codes=codes, since=since))
+
     def views(self, register: Register) -> str:
         """The name of the constant that holds a register's view set."""
         base = register.base

@@ -39,6 +39,7 @@ def _bare(register: Register) -> Register:
     """Return the register without what makes no difference to its words and values."""
     blank = replace(register, id="", path="", name="", symbol="", description="", section="", group="", aliases=())
     blank = replace(blank, persistence="", rescales="", unlock="", apply="", danger="", inferred=())
+    blank = replace(blank, stays="", governs=None, settle=0)
     return replace(
         blank,
         unit_id="",

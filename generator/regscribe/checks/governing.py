@@ -1,0 +1,81 @@
+"""Registers that set the line they are written over: what their codes mean, and that they are not copied."""
+
+from collections.abc import Iterator
+from itertools import product
+
+from regscribe.checks.registry import Finding, Scope, register_rule
+from regscribe.model import Governs, Register, Rule, Serial, Setting
+
+ADDRESSINGS = ("modbus", "jbus")
+PARITIES = ("N", "E", "O")
+DATA_BITS = ("5", "6", "7", "8")
+STOP_BITS = ("1", "2")
+FORMATS = tuple("".join(parts) for parts in product(DATA_BITS, PARITIES, STOP_BITS))
+
+
+def _possible(setting: Setting, serial: Serial | None) -> tuple[str, ...]:
+    """What the line can be set to, as far as the map says it; nothing: whatever is given."""
+    bauds = tuple(str(baud) for baud in serial.baud_rates) if serial else ()
+    formats = serial.formats if serial and serial.formats else FORMATS
+    return {
+        Setting.BAUD: bauds,
+        Setting.PARITY: PARITIES,
+        Setting.DATA_BITS: DATA_BITS,
+        Setting.STOP_BITS: STOP_BITS,
+        Setting.FORMAT: formats,
+        Setting.ADDRESSING: ADDRESSINGS,
+        Setting.ADDRESS: (),
+    }[setting]
+
+
+@register_rule(
+    Rule("RS0474", "Setting that the line cannot have", "The driver follows the device to what the code stands for.")
+)
+def impossible_setting(register: Register, scope: Scope) -> Iterator[Finding]:
+    """Compare the codes of `governs` with the serial line, and with the values that the register can have."""
+    governs = register.governs
+    if governs is None:
+        return
+    if governs.setting is Setting.ADDRESS and governs.codes:
+        yield Finding.at(register, "governs the address with codes", "remove them: the value itself is the address")
+        return
+    possible = _possible(governs.setting, scope.register_map.protocol.serial)
+    known = {member.code for member in register.enum.members} if register.enum else None
+    for code, value in governs.codes:
+        if (possible and value not in possible) or (governs.setting is Setting.BAUD and not value.isdecimal()):
+            shown = ", ".join(possible) or "a number"
+            yield Finding.at(register, f"sets {governs.setting} to {value} by code {code}", f"possible are: {shown}")
+        elif known is not None and code not in known:
+            codes = ", ".join(str(one) for one in sorted(known))
+            yield Finding.at(
+                register, f"governs by code {code}, which is none of its values", f"its codes are: {codes}"
+            )
+
+
+@register_rule(
+    Rule(
+        "RS0487",
+        "Setting of the line that would be copied",
+        "A copy of it to another device cuts that device off, or puts two at one address.",
+    )
+)
+def copied_setting(register: Register, _: Scope) -> Iterator[Finding]:
+    """A register with `governs` needs `stays: address` or `stays: line`."""
+    if register.governs is None:
+        return
+    wanted = "address" if register.governs.setting is Setting.ADDRESS else "line"
+    if register.stays != wanted:
+        now = f"`stays: {register.stays}`" if register.stays else "no `stays`"
+        message = f"governs the {register.governs.setting} and has {now}"
+        yield Finding.at(register, message, f"give it `stays: {wanted}`")
+
+
+@register_rule(
+    Rule("RS0493", "Applied without a command", "What holds from its application on needs the command that applies it.")
+)
+def applied_without_command(register: Register, _: Scope) -> Iterator[Finding]:
+    """`from: apply` needs `apply`."""
+    governs: Governs | None = register.governs
+    if governs is not None and governs.since == "apply" and not register.apply:
+        message = f"governs the {governs.setting} from its application on, but has no `apply`"
+        yield Finding.at(register, message, "name the command under `apply`, or correct `from`")
