@@ -33,6 +33,7 @@ COMMANDS = {
     "write": "Write one register of a device.",
     "dump": "Read everything that a device holds.",
     "command": "Make a device act, or list what it can be told to do.",
+    "decode": "Say in names what captured frames mean.",
     "completion": "Let a shell complete commands, devices and registers.",
 }
 """Name and help of each command; `regscribe.cli.<name>` holds it and is imported when it is called for."""
