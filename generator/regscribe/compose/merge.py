@@ -17,6 +17,7 @@ TABLES = {
     "scales": "scale",
     "sets": "set",
     "commands": "command",
+    "programs": "program",
 }
 """Top-level mappings from a name to a thing, and what the thing is called."""
 

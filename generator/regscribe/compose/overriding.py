@@ -23,9 +23,9 @@ from regscribe.compose.tree import (
 from regscribe.model import Override
 from regscribe.source import Node, Place
 
-_KINDS = ("register", "group", "command", "enum")
-_TABLES = {"command": "commands", "enum": "enums"}
-_DROPPED = {"registers": "register", "groups": "group", "commands": "command"}
+_KINDS = ("register", "group", "command", "program", "enum")
+_TABLES = {"command": "commands", "program": "programs", "enum": "enums"}
+_DROPPED = {"registers": "register", "groups": "group", "commands": "command", "programs": "program"}
 _PLACES = {"errata": "where", "examples": "source"}
 _WHOLE = ("notes", "waivers")
 

@@ -11,6 +11,7 @@ from regscribe.lower.groups import Bundle, bundles_of, groups_of
 from regscribe.lower.names import letters_and_digits
 from regscribe.lower.node import Node, elements_of, items_of, text_of, texts_of
 from regscribe.lower.presence import Models, named_models
+from regscribe.lower.programs import programs_of
 from regscribe.lower.protocol import protocol_of
 from regscribe.lower.scope import Scope, path_of
 from regscribe.lower.subject import subject_of
@@ -68,7 +69,8 @@ def _product(root: Node, scope: Scope, bundles: list[Bundle], protocol: Protocol
     items = tuple(item for bundle in bundles for item in bundle.items)
     members, registers = members_of(items, scope)
     by_path = {register.path: register for register in registers}
-    commands = commands_of(root, Device(scope, by_path, protocol))
+    device = Device(scope, by_path, protocol)
+    commands = commands_of(root, device)
     node = next(node for name, node in items_of(root, "models") if name == scope.model)
     model = Model(
         name=scope.model,
@@ -78,6 +80,7 @@ def _product(root: Node, scope: Scope, bundles: list[Bundle], protocol: Protocol
         registers=registers,
         groups=groups_of(bundles, root),
         commands=commands,
+        programs=programs_of(root, device),
         unused=unused_of(root, scope.model, scope.models),
         span=node.key_span,
     )

@@ -9,6 +9,7 @@ from regscribe.runtime.bound import _AsyncBound, _Bound
 from regscribe.runtime.execute import carry_out, carry_out_async
 from regscribe.runtime.link import AsyncLink, Link
 from regscribe.runtime.parts import AsyncPart, Command, Group, Part, Section
+from regscribe.runtime.program import SetpointProgram
 from regscribe.runtime.register import Register
 from regscribe.runtime.session import Protocol, Session
 from regscribe.runtime.snapshot import Snapshot
@@ -47,6 +48,7 @@ class _Common:
     map_id: ClassVar[str] = ""
     protocol: ClassVar[Protocol] = Protocol()
     identity: ClassVar[tuple[Identity, ...]] = ()
+    setpoint_programs: ClassVar[tuple[SetpointProgram, ...]] = ()
     registers: ClassVar[Mapping[str, Register[Any]]]
     session: Session
 
