@@ -6,6 +6,7 @@ from fractions import Fraction
 
 from regscribe.model.condition import Condition
 from regscribe.model.diagnostic import NOWHERE, Span
+from regscribe.model.program import SetpointProgram
 from regscribe.model.protocol import USUAL_PROTOCOL, Protocol
 from regscribe.model.register import Array, Group, Register
 from regscribe.model.value import Enum
@@ -102,6 +103,7 @@ class Model:
     registers: tuple[Register, ...] = ()
     groups: tuple[Group, ...] = ()
     commands: tuple[Command, ...] = ()
+    programs: tuple[SetpointProgram, ...] = ()
     unused: tuple[tuple[Space, int, int], ...] = ()
     by_path: dict[str, Register] = field(default_factory=dict, compare=False, hash=False, repr=False)
     span: Span = NOWHERE
@@ -209,8 +211,8 @@ class Waiver:
 class Override:
     """What a map changes of the one that it extends, and why.
 
-    `what` is `register`, `group`, `command`, `enum`, `errata`, `examples`, `notes` or `waivers`; `changed` says key by
-    key what was and what is (`default: 77 -> 100`). Nothing in `changed`: the thing is dropped.
+    `what` is `register`, `group`, `command`, `program`, `enum`, `errata`, `examples`, `notes` or `waivers`; `changed`
+    says key by key what was and what is (`default: 77 -> 100`). Nothing in `changed`: the thing is dropped.
     """
 
     what: str

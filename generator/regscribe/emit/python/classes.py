@@ -14,6 +14,7 @@ from regscribe.emit.python.named import NamedClasses
 from regscribe.emit.python.names import free
 from regscribe.emit.python.offer import Declared, Groups, Offer, Origin, Part, chosen
 from regscribe.emit.python.pool import Pool
+from regscribe.emit.python.programs import programs
 from regscribe.emit.python.specs import Specs
 from regscribe.emit.text import one_line
 from regscribe.model import Array, Command, Model, Register, RegisterMap
@@ -239,6 +240,7 @@ class Classes:
                 *self._identity(model),
                 f"{INDENT}groups = {groups}",
                 *([f"{INDENT}commands = Section({commands}, Async{commands})"] if commands else []),
+                *([f"{INDENT}setpoint_programs = {self._programs(model)}"] if model.programs else []),
                 *([f"{INDENT}_sections = {self._sections(sections)}"] if sections else []),
             ]
             kind = "asyncio driver" if prefix else "synchronous driver"
@@ -266,6 +268,9 @@ class Classes:
         return self.pool.share(
             "sections", mapping(rows), "chapters of manuals of siblings, as this manual numbers them"
         )
+
+    def _programs(self, model: Model) -> str:
+        return self.pool.share("programs", programs(model, Specs(model, self.pool)), "setpoint programs")
 
     def _device(self, prefix: str) -> str:
         """The class that a model's class stands on: that of the runtime, or one that takes the map's givens."""
