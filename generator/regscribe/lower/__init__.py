@@ -4,13 +4,12 @@
 place of each value, so a step that merges the raw data of several maps can stand in front of it.
 """
 
-from regscribe.lower.enums import enum_at
+from regscribe.lower.library import library_of
 from regscribe.lower.maps import map_of
-from regscribe.lower.node import Context, Node, items_of, text_of
+from regscribe.lower.node import Context, Node
 from regscribe.lower.rules import RULES
-from regscribe.lower.scope import Scope
 from regscribe.lower.units import KNOWN as KNOWN_UNITS
-from regscribe.model import Diagnostic, Library, RegisterMap, Severity
+from regscribe.model import Diagnostic, RegisterMap, Severity
 from regscribe.source import Document
 
 __all__ = ["KNOWN_UNITS", "RULES", "library_of", "lower"]
@@ -22,16 +21,3 @@ def lower(document: Document) -> tuple[RegisterMap | None, list[Diagnostic]]:
     found = map_of(Node(context, (), document.data))
     errors = any(diagnostic.severity is Severity.ERROR for diagnostic in context.diagnostics)
     return (None if errors else found), context.diagnostics
-
-
-def library_of(document: Document) -> Library:
-    """What a library declares for every map; members that only some models of a map have are not among it."""
-    root = Node(Context(document), (), document.data)
-    about = root.child("library") or root
-    scope = Scope(root, "", ("",), {}, {})  # the one model of a library has no name, so none can be meant
-    return Library(
-        id=text_of(about, "id"),
-        title=text_of(about, "title"),
-        content_hash=document.content_hash,
-        enums=tuple(enum_at(table, scope, name) for name, table in items_of(root, "enums")),
-    )

@@ -224,12 +224,19 @@ class Override:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Library:
-    """What a library declares that code is shared by: its named enums, without what depends on a map's models."""
+    """What a library declares that code is shared by, without what depends on the map that uses it.
+
+    `enums` have the members that no model alone has. `sets` are those that mean the same wherever they are used: each
+    is a model of the set's id that has nothing but its registers. `protocol` is None if the library says nothing of it.
+    """
 
     id: str
     title: str
     content_hash: str
     enums: tuple[Enum, ...] = ()
+    sets: tuple[Model, ...] = ()
+    commands: tuple[Command, ...] = ()
+    protocol: Protocol | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -9,16 +9,16 @@ from functools import cache
 
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 
-from regscribe.emit.header import header
+from regscribe.emit.header import header_of
 from regscribe.emit.python.classes import Classes, givens_key
 from regscribe.emit.python.layout import WIDTH, flat, lay, width
 from regscribe.emit.python.literals import docstring, literal
 from regscribe.emit.python.names import RUNTIME
 from regscribe.emit.python.offer import Origin
 from regscribe.emit.python.protocol import PROTOCOL, protocol_call, timeout
-from regscribe.emit.python.siblings import build, libraries, library_module, module_path, natural
+from regscribe.emit.python.siblings import build, build_library, libraries, module_path
 from regscribe.emit.text import one_line
-from regscribe.model import GivenKind, RegisterMap
+from regscribe.model import GivenKind, Library, RegisterMap
 
 NOT_CODE = re.compile(r'"""[\s\S]*?"""|"(?:[^"\\\n]|\\.)*"|\'(?:[^\'\\\n]|\\.)*\'|#[^\n]*')
 
@@ -34,20 +34,28 @@ def render(register_map: RegisterMap) -> dict[str, str]:
 
 
 def _files(classes: Classes) -> dict[str, str]:
+    register_map = classes.register_map
     below = _files(classes.below) if classes.below else {}
-    shared = {module_path(library.id): library_module(library) for library in libraries(classes.register_map)}
-    return {**below, **shared, path_of(classes.register_map): _module(classes.register_map, classes)}
+    shared = {module_path(library.id): _library(library) for library in libraries(register_map)}
+    about = f"{one_line(register_map.title)}: drivers of {', '.join(model.name for model in register_map.models)}."
+    return {**below, **shared, path_of(register_map): _module(classes, about, register_map.id)}
 
 
-def _module(register_map: RegisterMap, classes: Classes) -> str:
+def _library(library: Library) -> str:
+    about = f"{one_line(library.title)}: what the drivers of several maps share."
+    return _module(build_library(library), about, f"{library.id}.library", protocol=library.protocol is not None)
+
+
+def _module(classes: Classes, about: str, source: str, *, protocol: bool = True) -> str:
+    register_map = classes.register_map
     named = classes.named.lines()
     own = [match[1] for line in named if (match := re.match(r"class (\w+)\(", line))]
-    protocol = protocol_call(register_map.protocol)
-    offered = classes.offer.constants.get(flat(protocol))
+    line = protocol_call(register_map.protocol)
+    offered = classes.offer.constants.get(flat(line))
     givens_elsewhere = givens_key(register_map) in classes.offer.devices
     body = _template().render(
         constants=classes.pool.lines,
-        protocol=[] if offered else lay(protocol, head=f"{PROTOCOL} = "),
+        protocol=lay(line, head=f"{PROTOCOL} = ") if protocol and not offered else [],
         named=named,
         classes=classes.lines,
         stem=classes.stem,
@@ -64,11 +72,10 @@ def _module(register_map: RegisterMap, classes: Classes) -> str:
     }
     used = set(re.findall(r"\w+", NOT_CODE.sub("", body)))
     public = {*own, *classes.named.imported, *classes.public}
-    about = f"{one_line(register_map.title)}: drivers of {', '.join(model.name for model in register_map.models)}."
     head = [
         *docstring(about, 0, classes.cited(origin.module for origin in classes.imports)),
         "",
-        header(register_map, prefix="# ", separator="\n# "),
+        header_of(source, register_map.content_hash, prefix="# ", separator="\n# "),
         "",
         *(["from collections.abc import Collection"] if "Collection" in used else []),
         *(["from typing import Self, Unpack"] if "Self" in used else []),
@@ -77,6 +84,7 @@ def _module(register_map: RegisterMap, classes: Classes) -> str:
         *_siblings(origin for origin in imports if origin.name in used | public),
         "",
         *_all(sorted(public, key=natural)),
+        *([] if body.startswith("\n") else [""]),
     ]
     return "\n".join(head) + "\n" + body
 
@@ -107,8 +115,15 @@ def _import_order(name: str) -> tuple[object, ...]:
     return kind, natural(name.lower())[1], natural(name)[1]
 
 
+def natural(name: str) -> tuple[bool, list[tuple[str, int]]]:
+    """The order that ruff asks of `__all__`: names in capitals first, and numbers inside names count as numbers."""
+    parts = re.findall(r"\d+|\D", name)
+    capitals = name.isupper() and len(name) > 1
+    return not capitals, [("", int(part)) if part.isdecimal() else (part, 0) for part in parts]
+
+
 def _all(names: list[str]) -> list[str]:
-    return ["__all__ = [", *(f"    {literal(name)}," for name in names), "]", ""]
+    return ["__all__ = [", *(f"    {literal(name)}," for name in names), "]"]
 
 
 @cache

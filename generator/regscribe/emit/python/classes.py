@@ -1,9 +1,10 @@
 """The classes of a generated module: shared parts, array elements, commands, groups and models."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
+from regscribe.emit.python import sets
 from regscribe.emit.python.declare import Declarations, command_call, command_text
 from regscribe.emit.python.families import Shared, partition, suffix
 from regscribe.emit.python.groups import groups_body, groups_of, same_groups
@@ -44,8 +45,9 @@ class Parents:
 class Classes:
     """Builds the class definitions of a map; `lines` grows in the order in which the module needs them.
 
-    `below` are those of the base, `offer` is what other modules have, `imports` what was taken of it. `built`,
-    `elements` and `commands` are what others may take of this one.
+    `below` are those of the base, `offer` is what other modules have, `imports` what was taken of it. `built` and
+    `told` (sets as this map uses them) by what they are parts of, `elements` and `commands` are what others may take of
+    this one. `given` are the private names.
     """
 
     register_map: RegisterMap
@@ -58,8 +60,10 @@ class Classes:
     lines: list[str] = field(default_factory=list)
     public: list[str] = field(default_factory=list)
     imports: set[Origin] = field(default_factory=set)
+    given: set[str] = field(default_factory=set)
     built: dict[str, list[Shared[Register | Array]]] = field(default_factory=dict)
     built_commands: list[Shared[Command]] = field(default_factory=list)
+    told: dict[str, list[Part]] = field(default_factory=dict)
     elements: list[tuple[Array, str, Origin]] = field(default_factory=list)
     commands: dict[tuple[Origin, ...], Origin] = field(default_factory=dict)
     groups: Groups | None = None
@@ -73,6 +77,15 @@ class Classes:
         groups = self._groups()
         for model in models:
             self._model(model, parents[model.name], commands.get(model.name), groups)
+
+    def build_library(self) -> None:
+        """Emit the sets of a library, which stand for models here, and its commands."""
+        declared = {model.name: model.members for model in self.register_map.models if model.members}
+        for one in partition(declared, lambda names: self._free(f"_{suffix(names)}")):
+            self._declare(
+                one, "", ["RegisterSet"], f"Registers of {', '.join(one.models)}; each map tells their section."
+            )
+        self._commands()
 
     def keys(self, model: str) -> Keys:
         """The keys of what a model has."""
@@ -92,19 +105,44 @@ class Classes:
     def _family(self, stem: str, owner: str, members: Members) -> dict[str, Parents]:
         declared = {model: self._declared(owner, model, own) for model, own in members.items()}
         left, inherited, clashes = self._inherited(owner, members, declared)
-        shared = partition(left, stem, self._free)
+        shared = partition(left, self._namer(stem, members))
         for one in shared:
-            declarations = Declarations(Specs(self.register_map.model(one.models[0]), self.pool), self.named)
-            body: list[str] = []
-            for item in one.items:
-                body += self._array(item, one.models, owner) if isinstance(item, Array) else declarations.lines(item)
-            self._class(one.name, [], f"Registers of {', '.join(one.models)}.", body)
-        self.built.setdefault(owner, []).extend(shared)
-        return self._parents(shared, inherited, clashes)
+            self._declare(one, owner, [], f"Registers of {', '.join(one.models)}.")
+        return self._parents(shared, self._told(stem, owner, inherited), clashes)
+
+    def _namer(self, stem: str, every: Iterable[str]) -> Callable[[Sequence[str]], str]:
+        """What names the class of some of the models `every`."""
+        everyone = tuple(every)
+        return lambda models: self._free(f"_{stem}" if tuple(models) == everyone else f"_{stem}Of{suffix(models)}")
+
+    def _declare(self, one: Shared[Register | Array], owner: str, parents: Sequence[str], about: str) -> None:
+        """Emit the class that declares what some models share."""
+        declarations = Declarations(Specs(self.register_map.model(one.models[0]), self.pool), self.named)
+        body: list[str] = []
+        for item in one.items:
+            body += self._array(item, one.models, owner) if isinstance(item, Array) else declarations.lines(item)
+        self._class(one.name, parents, about, body)
+        self.built.setdefault(owner, []).append(one)
+
+    def _told(self, stem: str, owner: str, inherited: Mapping[str, list[Part]]) -> dict[str, list[Part]]:
+        """Emit the classes that tell of sets what this map says, and let them stand for the sets."""
+        kept = {model: [part for part in parts if part.telling is None] for model, parts in inherited.items()}
+        for telling in dict.fromkeys(part.telling for parts in inherited.values() for part in parts if part.telling):
+            same = {model: [part for part in parts if part.telling == telling] for model, parts in inherited.items()}
+            for one in partition(same, self._namer(f"{stem}{sets.name_of(telling)}", inherited)):
+                names = [part.origin.name for part in one.items]
+                self._class(one.name, names, sets.about(telling, one.models), [], told=sets.words(telling))
+                items = {name: declared for part in one.items for name, declared in part.items.items()}
+                part = Part(Origin(self.module, one.name), items)
+                self.told.setdefault(owner, []).append(part)
+                for model in one.models:
+                    kept[model].append(part)
+        return kept
 
     def _declared(self, owner: str, model: str, members: Sequence[Register | Array]) -> dict[str, Declared]:
         """Keys of a model's items, where there is something that they could be the same as."""
-        return {item.id: self.keys(model).of(item) for item in members} if owner in self.offer.parts else {}
+        offered = self.offer.sets or owner in self.offer.parts
+        return {item.id: self.keys(model).of(item) for item in members} if offered else {}
 
     def _inherited(
         self, owner: str, members: Mapping[str, Sequence[T]], declared: Mapping[str, Mapping[str, Declared]]
@@ -115,9 +153,10 @@ class Classes:
         clashes = set()
         for model, own in members.items():
             found = declared[model]
-            parts = chosen(self.offer.parts.get(owner, ()), {name: one.key for name, one in found.items()})
+            used: list[Part] = sets.told(self.offer.sets, found, own)
+            parts = chosen([*self.offer.parts.get(owner, ()), *used], found)
             base = {name: one for part in parts for name, one in part.items.items()}
-            changed = {name for name, one in base.items() if one.key != found[name].key}
+            changed = {name for name, one in base.items() if one != found[name]}
             left[model] = [item for item in own if item.id not in base or item.id in changed]
             inherited[model] = parts
             if any(base[name].type != found[name].type for name in changed):
@@ -140,12 +179,23 @@ class Classes:
         }
 
     def _free(self, name: str) -> str:
-        return free(name, self.offer.names(), "Own")
+        found = free(name, self.offer.names() | self.given, "Own")
+        self.given.add(found)
+        return found
 
     def _class(
-        self, name: str, parents: Sequence[str], about: str, body: Sequence[str], *, more: str = "", clash: bool = False
+        self,
+        name: str,
+        parents: Sequence[str],
+        about: str,
+        body: Sequence[str],
+        *,
+        more: str = "",
+        clash: bool = False,
+        told: Mapping[str, str] | None = None,
     ) -> None:
-        head = lay(call(name, *parents), head="class ", tail=":") if parents else [f"class {name}:"]
+        keywords = {key: literal(text) for key, text in (told or {}).items()}
+        head = lay(call(name, *parents, **keywords), head="class ", tail=":") if parents else [f"class {name}:"]
         head[0] += IGNORED if clash else ""
         blank = [""] if body else []
         self.lines += ["", "", *head, *docstring(about, 1, more), *blank, *body]
@@ -182,7 +232,7 @@ class Classes:
         owned = {model.name: model.commands for model in self.register_map.models if model.commands}
         declared = {model: {command.id: command_key(command) for command in own} for model, own in owned.items()}
         left, inherited, clashes = self._inherited(COMMANDS, owned, declared)
-        shared = partition(left, f"{self.stem}Commands", self._free)
+        shared = partition(left, self._namer(f"{self.stem}Commands", owned))
         for one in shared:
             body: list[str] = []
             for command in one.items:

@@ -27,10 +27,10 @@ def suffix(models: Sequence[str]) -> str:
     return "".join("".join(c for c in model if c.isascii() and c.isalnum()) for model in models)
 
 
-def partition(items: Mapping[str, Sequence[T]], stem: str, free: Callable[[str], str] = str) -> list[Shared[T]]:
+def partition(items: Mapping[str, Sequence[T]], name: Callable[[Sequence[str]], str]) -> list[Shared[T]]:
     """Split the items of all models into classes: each item stands in one, for exactly the models that have it.
 
-    `free` changes a name that is taken.
+    `name` gives the class of some models its name.
     """
     owners: dict[str, list[tuple[T, list[str]]]] = {}
     for model, own in items.items():
@@ -45,8 +45,4 @@ def partition(items: Mapping[str, Sequence[T]], stem: str, free: Callable[[str],
     for same_id in owners.values():
         for item, models in same_id:
             groups.setdefault(tuple(models), []).append(item)
-    everyone = tuple(items)
-    return [
-        Shared(free(f"_{stem}" if models == everyone else f"_{stem}Of{suffix(models)}"), models, tuple(own))
-        for models, own in groups.items()
-    ]
+    return [Shared(name(models), models, tuple(own)) for models, own in groups.items()]

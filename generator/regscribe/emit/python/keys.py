@@ -41,14 +41,14 @@ class Keys:
         return self._array(item) if isinstance(item, Array) else self._register(item)
 
     def _register(self, register: Register) -> Declared:
-        bare = replace(register, section="")
+        bare = replace(register, section="", persistence="")
         declarations = Declarations(Specs(self.model, _Inline()), _ByContent(self.named))
-        key = f"{flat(declarations.call(bare))} {about(bare)} {marked(register.section)}"
-        return Declared(key, declarations.type(bare))
+        key = f"{flat(declarations.call(bare))} {about(bare)}"
+        return Declared(key, declarations.type(bare), register.section, register.persistence)
 
     def element(self, array: Array) -> str:
         """The key of an array's element class."""
-        members = " ".join(f"{member.id}={self.of(member).key}" for member in array.members)
+        members = " ".join(f"{member.id}={self.of(member).whole}" for member in array.members)
         return f"{array.id} {array.name} {marked(array.section)} {members}"
 
     def _array(self, array: Array) -> Declared:

@@ -33,13 +33,19 @@ class NamedClasses:
     def __post_init__(self) -> None:
         self.taken = taken(self.register_map)
 
+    def declare(self, enum: Enum, owner: str) -> None:
+        """Note an enum that stands for itself."""
+        self._know(enum_content(enum), enum_key(enum))
+        about = f"{enum.id.replace('_', ' ').capitalize()}."
+        self._want(enum.id, enum_content(enum), owner, _enum_body(enum, about))
+
     def collect(self, register: Register, model: str) -> None:
         """Note the classes that a register of a model needs."""
         for enum in (register.enum, *(part.enum for part in register.fields)):
             if enum:
                 content = enum_content(enum)
                 self._know(content, enum_key(enum))
-                self._want(enum.id, content, model, _enum_body(enum, register))
+                self._want(enum.id, content, model, _enum_body(enum, _about(register)))
         if register.kind in {Kind.FLAGS, Kind.FIELDS}:
             self._know(word_content(register), self._word_key(register))
         if register.kind is Kind.FLAGS:
@@ -103,7 +109,7 @@ class NamedClasses:
         return f"{register.kind} {register.id} {parts}"
 
     def _word_body(self, register: Register) -> list[str]:
-        lines = ["Word", *docstring(f"{one_line(register.name)} ({one_line(register.section)}).", 1), ""]
+        lines = ["Word", *docstring(_about(register), 1), ""]
         for part in register.fields:
             lines += lay(self._part(part), head=f"{part.id} = ", depth=1)
         return lines
@@ -152,11 +158,12 @@ def _members(members: Sequence[tuple[int, str, str, str]]) -> list[str]:
     return lines
 
 
-def _enum_body(enum: Enum, register: Register) -> list[str]:
-    return enum_body(enum, f"{one_line(register.name)} ({one_line(register.section)}).")
+def _about(register: Register) -> str:
+    section = one_line(register.section)
+    return f"{one_line(register.name)} ({section})." if section else f"{one_line(register.name)}."
 
 
-def enum_body(enum: Enum, about: str) -> list[str]:
+def _enum_body(enum: Enum, about: str) -> list[str]:
     """The base class of an enum, its docstring (`about` unless it has a description of its own) and members."""
     about = one_line(enum.description) or about
     members = [(member.code, member.id, member.label, member_words(member, enum)) for member in enum.members]
@@ -164,13 +171,13 @@ def enum_body(enum: Enum, about: str) -> list[str]:
 
 
 def _special_body(register: Register) -> list[str]:
-    about = f"Special values of {one_line(register.name)} ({one_line(register.section)})."
+    about = f"Special values of {_about(register)}"
     members = [(code, name, label, "") for code, name, label in specials(register)]
     return ["Choice", *docstring(about, 1), "", *_members(members)]
 
 
 def _flags_body(register: Register) -> list[str]:
-    lines = ["Flags", *docstring(f"{one_line(register.name)} ({one_line(register.section)}).", 1), ""]
+    lines = ["Flags", *docstring(_about(register), 1), ""]
     for part in register.fields:
         lines.append(f"{INDENT}{part.id.upper()} = 1 << {part.low}")
         lines += docstring(". ".join(filter(None, [one_line(part.label), one_line(part.description)])), 1)

@@ -1,20 +1,17 @@
 """A module as others see it: what the driver of a base and the modules of libraries have to offer."""
 
-import re
 from dataclasses import replace
 
-from regscribe.emit.header import header_of
 from regscribe.emit.python.classes import COMMANDS, Classes, givens_key
 from regscribe.emit.python.keys import command_key
 from regscribe.emit.python.layout import flat
-from regscribe.emit.python.literals import camel, docstring, literal
-from regscribe.emit.python.named import NamedClasses, enum_body, enum_key
-from regscribe.emit.python.names import free, hidden, reserved
+from regscribe.emit.python.literals import camel
+from regscribe.emit.python.named import NamedClasses
+from regscribe.emit.python.names import hidden
 from regscribe.emit.python.offer import Offer, Origin, Part
 from regscribe.emit.python.pool import Pool
 from regscribe.emit.python.protocol import PROTOCOL, protocol_call
-from regscribe.emit.text import one_line
-from regscribe.model import Array, Library, Register, RegisterMap
+from regscribe.model import USUAL_PROTOCOL, Array, Library, Manual, Model, Register, RegisterMap
 
 
 def module_path(map_id: str) -> str:
@@ -32,16 +29,55 @@ def build(register_map: RegisterMap) -> Classes:
     below = build(register_map.base) if register_map.base else None
     stem, offer = camel(register_map.id.split("/")[1]), _below(register_map, below)
     named = NamedClasses(register_map, offer.named)
-    for model in register_map.models:
-        for register in _registers(model.members):
-            named.collect(register, model.name)
-    for model in register_map.models:
-        for register in _registers(model.members):
-            named.collect_words(register, model.name)
+    _collect(named)
     pool = Pool(hidden(register_map), offer.constants)
     classes = Classes(register_map, named, pool, stem, module_name(register_map.id), offer, below)
     classes.build()
     return classes
+
+
+def build_library(library: Library) -> Classes:
+    """The classes of a library's module: a class for each set, as if the sets were the models of a map."""
+    register_map = _as_map(library)
+    named = NamedClasses(register_map)
+    for enum in library.enums:
+        if enum.members:
+            named.declare(enum, library.id)
+    _collect(named)
+    stem, module = camel(library.id.split("/")[1]), module_name(library.id)
+    classes = Classes(register_map, named, Pool(hidden(register_map)), stem, module, Offer())
+    classes.build_library()
+    return classes
+
+
+def _as_map(library: Library) -> RegisterMap:
+    commands = Model(name=library.id, class_name="", commands=library.commands)
+    return RegisterMap(
+        id=library.id,
+        title=library.title,
+        maker="",
+        class_prefix="",
+        source="",
+        content_hash=library.content_hash,
+        manual=Manual(""),
+        models=(commands, *map(_set, library.sets)),
+        protocol=library.protocol or USUAL_PROTOCOL,
+    )
+
+
+def _set(model: Model) -> Model:
+    """A set without its arrays: their elements would need the section that each map tells of them."""
+    registers = tuple(member for member in model.members if isinstance(member, Register))
+    return replace(model, name=camel(model.name), members=registers, registers=registers)
+
+
+def _collect(named: NamedClasses) -> None:
+    """Note all classes of values that a map needs."""
+    found = [(register, model.name) for model in named.register_map.models for register in _registers(model.members)]
+    for register, model in found:
+        named.collect(register, model)
+    for register, model in found:
+        named.collect_words(register, model)
 
 
 def _registers(members: tuple[Register | Array, ...]) -> list[Register]:
@@ -59,59 +95,36 @@ def libraries(register_map: RegisterMap) -> list[Library]:
     while base:
         chain.add(module_path(base.id))
         base = base.base
-    return [library for library in register_map.libraries if library.enums and module_path(library.id) not in chain]
+    return [library for library in register_map.libraries if _shares(library) and module_path(library.id) not in chain]
 
 
-def library_module(library: Library) -> str:
-    """The module of a library: its enums."""
-    lines: list[str] = []
-    names = _library_names(library)
-    for enum in library.enums:
-        if enum.id in names:
-            opening, *body = enum_body(enum, f"{enum.id.replace('_', ' ').capitalize()}.")
-            lines += ["", "", f"class {names[enum.id]}({opening}):", *body]
-    head = [
-        *docstring(f"{one_line(library.title)}: what the drivers of several maps share.", 0),
-        "",
-        header_of(f"{library.id}.library", library.content_hash, prefix="# ", separator="\n# "),
-        "",
-        "from regscribe.runtime import Choice",
-        "",
-        "__all__ = [",
-        *(f"    {literal(name)}," for name in sorted(names.values(), key=natural)),
-        "]",
-    ]
-    return "\n".join([*head, *lines]) + "\n"
-
-
-def _library_names(library: Library) -> dict[str, str]:
-    """The class of each enum; of two ids with one name, only the first has one."""
-    names: dict[str, str] = {}
-    for enum in library.enums:
-        name = free(camel(enum.id), reserved(), "Value")
-        if enum.members and name not in names.values():
-            names[enum.id] = name
-    return names
-
-
-def natural(name: str) -> tuple[bool, list[tuple[str, int]]]:
-    """The order that ruff asks of `__all__`: names in capitals first, and numbers inside names count as numbers."""
-    parts = re.findall(r"\d+|\D", name)
-    capitals = name.isupper() and len(name) > 1
-    return not capitals, [("", int(part)) if part.isdecimal() else (part, 0) for part in parts]
+def _shares(library: Library) -> bool:
+    return bool(library.enums or library.sets or library.commands or library.protocol)
 
 
 def _below(register_map: RegisterMap, base: Classes | None) -> Offer:
     """All that a map's module may import, from its base and its libraries."""
-    named: dict[str, Origin] = {}
+    found = offer_of(base).renumbered(dict(register_map.renumber)) if base else Offer()
     for library in libraries(register_map):
-        names = _library_names(library)
-        module = module_name(library.id)
-        named |= {enum_key(enum): Origin(module, names[enum.id]) for enum in library.enums if enum.id in names}
-    if base is None:
-        return Offer(named=named)
-    offer = offer_of(base).renumbered(dict(register_map.renumber))
-    return replace(offer, named=named | dict(offer.named))
+        found = _with_library(found, offer_of(build_library(library)), library)
+    return found
+
+
+def _with_library(offer: Offer, own: Offer, library: Library) -> Offer:
+    """What there is with a library, too; what the base has comes first."""
+    parts = dict(offer.parts)
+    parts[COMMANDS] = (*parts.get(COMMANDS, ()), *own.parts.get(COMMANDS, ()))
+    constants = dict(own.constants)
+    if library.protocol is None:
+        constants = {text: origin for text, origin in constants.items() if origin.name != PROTOCOL}
+    return replace(
+        offer,
+        named={**own.named, **offer.named},
+        parts=parts,
+        sets=(*offer.sets, *own.parts.get("", ())),
+        commands={**own.commands, **offer.commands},
+        constants={**constants, **offer.constants},
+    )
 
 
 def offer_of(classes: Classes) -> Offer:
@@ -144,9 +157,11 @@ def _parts(classes: Classes) -> dict[str, tuple[Part, ...]]:
         for one in shared:
             items = {item.id: classes.keys(one.models[0]).of(item) for item in one.items}
             found.setdefault(owner, []).append(Part(Origin(classes.module, one.name), items))
+    for owner, told in classes.told.items():
+        found.setdefault(owner, []).extend(told)
     for commands in classes.built_commands:
-        items = {command.id: command_key(command) for command in commands.items}
-        found.setdefault(COMMANDS, []).append(Part(Origin(classes.module, commands.name), items))
+        keys = {command.id: command_key(command) for command in commands.items}
+        found.setdefault(COMMANDS, []).append(Part(Origin(classes.module, commands.name), keys))
     for owner, parts in classes.offer.parts.items():
         found.setdefault(owner, []).extend(part for part in parts if part.origin in classes.imports)
     return {owner: tuple(parts) for owner, parts in found.items()}

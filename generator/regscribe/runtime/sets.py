@@ -1,0 +1,20 @@
+"""Registers that a library declares for several maps."""
+
+from regscribe.runtime.register import Register
+
+
+class RegisterSet:
+    """Registers of a library. A subclass tells of all of them what the map that uses them says.
+
+    `section` is where the map's own manual describes them, `persistence` where its devices keep them; what is left out
+    stays as the library has it. A subclass that tells nothing changes nothing.
+    """
+
+    def __init_subclass__(cls, *, section: str | None = None, persistence: str | None = None) -> None:
+        super().__init_subclass__()
+        if section is None and persistence is None:
+            return
+        for base in reversed(cls.__mro__):
+            for name, register in list(vars(base).items()):
+                if isinstance(register, Register):
+                    setattr(cls, name, register.told(cls.__module__, section=section, persistence=persistence))
