@@ -3,6 +3,7 @@
 Nothing here knows YAML, templates or a device; every number that scales is a `Fraction`.
 """
 
+from regscribe.model.behaviour import Alarm, Effect, OnOff, Output, Pid, Process, Ramp, Trip, TripKind
 from regscribe.model.condition import ALWAYS, Case, Cases, CodeRange, Condition, Lookup, Test, always, registers_of
 from regscribe.model.diagnostic import Diagnostic, Related, Rule, Severity, Span
 from regscribe.model.governs import Governs, Setting
@@ -67,6 +68,7 @@ __all__ = [
     "SILENCE",
     "USUAL_PROTOCOL",
     "Access",
+    "Alarm",
     "Array",
     "BitField",
     "Case",
@@ -77,6 +79,7 @@ __all__ = [
     "Conversion",
     "Decimals",
     "Diagnostic",
+    "Effect",
     "Enum",
     "Erratum",
     "Example",
@@ -101,11 +104,15 @@ __all__ = [
     "Model",
     "Notation",
     "Number",
+    "OnOff",
     "Open",
     "Order",
     "OrderFromRegister",
     "Outcome",
+    "Output",
     "Override",
+    "Pid",
+    "Process",
     "ProgramAction",
     "ProgramCounts",
     "ProgramFinal",
@@ -114,6 +121,7 @@ __all__ = [
     "ProgramStatus",
     "ProgramTimeUnit",
     "Protocol",
+    "Ramp",
     "Range",
     "Reference",
     "Register",
@@ -132,6 +140,8 @@ __all__ = [
     "Step",
     "Test",
     "TimingExample",
+    "Trip",
+    "TripKind",
     "Units",
     "ValueExample",
     "View",

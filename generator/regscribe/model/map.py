@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from fractions import Fraction
 
+from regscribe.model.behaviour import Effect, Process
 from regscribe.model.condition import Condition
 from regscribe.model.diagnostic import NOWHERE, Span
 from regscribe.model.program import SetpointProgram
@@ -64,7 +65,10 @@ class Step:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Command:
-    """A value or a sequence that makes the device act; `danger` says what may be lost (empty: harmless)."""
+    """A value or a sequence that makes the device act; `danger` says what may be lost (empty: harmless).
+
+    `effects` are what it changes besides the words that it writes, one after the other.
+    """
 
     id: str
     name: str
@@ -73,6 +77,7 @@ class Command:
     section: str = ""
     danger: str = ""
     group: str = ""
+    effects: tuple[Effect, ...] = ()
     span: Span = NOWHERE
 
 
@@ -104,6 +109,7 @@ class Model:
     groups: tuple[Group, ...] = ()
     commands: tuple[Command, ...] = ()
     programs: tuple[SetpointProgram, ...] = ()
+    process: Process | None = None
     unused: tuple[tuple[Space, int, int], ...] = ()
     by_path: dict[str, Register] = field(default_factory=dict, compare=False, hash=False, repr=False)
     span: Span = NOWHERE

@@ -75,6 +75,9 @@ class Register:
     `unlock` and `apply` name commands that must precede and follow a write.
     `stays` is why the value must not be copied to another device (`address`, `line`, `calibration`, `identity`,
     `counter`, `operation`; empty: it may be). `settle` is in milliseconds: before that, a read-back says nothing.
+    `shadows` is the register from which it takes its value when power comes, `follows` by case the register whose
+    value it always has (none holding: its own). `difference`: it counts a distance in its unit, whose zero point does
+    not matter, as a proportional band does.
     `symbol` is a clean reading of the manual's short code, `printed` the code as it is printed (empty: the same).
     `version_digits` is how many decimal digits a `VERSION` packs, `version_groups` how many digits stand in a group.
     """
@@ -109,6 +112,9 @@ class Register:
     stays: str = ""
     governs: Governs | None = None
     settle: int = 0
+    shadows: str = ""
+    follows: Cases[str] = ()
+    difference: bool = False
     inferred: tuple[Inferred, ...] = ()
     version_digits: int = 0
     version_group: int = 0

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from fractions import Fraction
 
-from regscribe.model.condition import Cases
+from regscribe.model.condition import Cases, Condition
 from regscribe.model.diagnostic import NOWHERE, Span
 
 
@@ -122,7 +122,10 @@ class Enum:
 
 @dataclass(frozen=True, slots=True)
 class BitField:
-    """Bits `low` to `high` (0 is the least significant) of a word: one flag, a number or an enum."""
+    """Bits `low` to `high` (0 is the least significant) of a word: one flag, a number or an enum.
+
+    `follows`: the device sets a flag where this holds, and clears it where not (None: it does neither by itself).
+    """
 
     id: str
     label: str
@@ -130,6 +133,7 @@ class BitField:
     high: int
     enum: Enum | None = None
     description: str = ""
+    follows: Condition | None = None
 
     @property
     def width(self) -> int:
