@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from regscribe.runtime import codec
 from regscribe.runtime.errors import ValueNotDecodable
-from regscribe.runtime.plan import Block, Item, plan
+from regscribe.runtime.ground import Item
+from regscribe.runtime.plan import Block, blocks
 from regscribe.runtime.request import Request
 from regscribe.runtime.spec import View
 from regscribe.runtime.wire import LITTLE
@@ -69,7 +70,7 @@ def prepare(registers: Sequence["Register[Any]"], session: "Session") -> list[Pr
             [(register, view, item.address - block.address) for item in block.items for register, view in wanted[item]],
             session,
         )
-        for block in plan(wanted, session.protocol.read_limits)
+        for block in blocks([(item,) for item in wanted], session.terms())[0]
     ]
 
 

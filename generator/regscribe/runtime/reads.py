@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from regscribe.runtime import codec
 from regscribe.runtime.block import prepare
-from regscribe.runtime.plan import Item, plan
+from regscribe.runtime.ground import Item
+from regscribe.runtime.plan import blocks
 from regscribe.runtime.request import READ_FUNCTIONS, Request
 from regscribe.runtime.snapshot import Snapshot
 from regscribe.runtime.spec import View, choose, registers_of
@@ -33,7 +34,8 @@ def _item(register: Register[Any], view: View) -> Item:
 
 def _fetch(session: Session, items: Iterable[Item]) -> Operation[dict[Item, tuple[int, ...]]]:
     found = {}
-    for block in plan(items, session.protocol.read_limits):
+    made, _ = blocks([(item,) for item in items], session.terms())
+    for block in made:
         words = yield from session.exchange(Request(block.function, block.address, block.quantity))
         for item in block.items:
             start = item.address - block.address

@@ -4,13 +4,23 @@ from collections.abc import Callable, Generator, Iterable, Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar
 
-from regscribe.runtime.plan import Limits
+from regscribe.runtime.cost import Cost
+from regscribe.runtime.errors import ExceptionAnswer, LinkLost, NoAnswer, RegscribeError, WrongAnswer
+from regscribe.runtime.ground import ground_of
+from regscribe.runtime.line import Line
+from regscribe.runtime.plan import Limits, Terms
+from regscribe.runtime.policy import Retry
 from regscribe.runtime.request import Meanings, Reply, Request, verify
+from regscribe.runtime.timing import response_seconds
 
 T = TypeVar("T")
 
 Operation = Generator["Request | Pause", "Reply | None", T]
 """Protocol logic without I/O: yields requests (or pauses), receives replies, returns a value."""
+
+
+GATEWAY_GOT_NO_ANSWER = 0x0B
+"""The exception of a gateway whose serial side stayed silent, unless a device's manual gives it another meaning."""
 
 
 class Pause(NamedTuple):
@@ -64,14 +74,23 @@ class Protocol(NamedTuple):
         return Limits(words=self.read_words, bits=self.read_bits, holes=self.read_holes)
 
 
+TERMS = object()
+"""The key of the terms among what is prepared."""
+
+
 class Session:
     """One device behind one link: `memory` holds the registers that the meaning of others depends on.
 
     It is forgotten when one of them is written, when a command ran, and when the link was opened anew (`epoch`).
-    `prepared` caches requests and decoders made under that memory, so it goes whenever the memory changes.
+    `prepared` caches requests and decoders made under that memory, so it goes whenever the memory changes. `line` is the
+    link's serial line (None over TCP), `retry` what is tried again (None: as the link has it), `wrote` whether the
+    operation under way has sent anything but reads.
     """
 
-    __slots__ = ("commands", "epoch", "givens", "memory", "prepared", "protocol", "registers", "unit")
+    __slots__ = (
+        "_seconds", "_tries", "commands", "epoch", "givens", "line", "memory", "prepared", "protocol", "registers",
+        "retry", "unit", "wrote",
+    )  # fmt: skip # one name a line says no more
 
     def __init__(
         self,
@@ -91,6 +110,11 @@ class Session:
         self.memory: dict[str, Any] = {}
         self.prepared: dict[Any, Any] = {}
         self.epoch = 0
+        self.line: Line | None = None
+        self.retry: Retry | None = None
+        self.wrote = False
+        self._tries = Retry()
+        self._seconds: dict[tuple[int, int, Line | None], float] = {}
 
     def remember(self, path: str, value: object) -> None:
         """Keep the value of a register that others depend on."""
@@ -111,11 +135,52 @@ class Session:
             self.epoch = epoch
             self.forget()
 
+    def terms(self) -> Terms:
+        """What a read plan must keep to, and what requests cost on this line."""
+        if TERMS not in self.prepared:
+            ground = ground_of(self.registers.values(), holes=self.protocol.read_holes)
+            self.prepared[TERMS] = Terms(self.protocol.read_limits, ground, Cost.serial(self.protocol))
+        found: Terms = self.prepared[TERMS]
+        return found
+
+    def begin(self, *, epoch: int, line: Line | None, retry: Retry) -> None:
+        """Before an operation: what its link is like now."""
+        self.at_epoch(epoch)
+        self._tries = self.retry or retry
+        self.wrote = False
+        if line != self.line:
+            self.line = line
+            self.prepared.clear()
+
+    def doubt(self) -> None:
+        """The device fell silent: it may be another one when it speaks again, so nothing remembered will count."""
+        self.epoch = -1
+
+    def seconds(self, request: Request) -> float:
+        """The response timeout of a request, from the manual's latencies and the line."""
+        key = request.function, request.quantity, self.line
+        if key not in self._seconds:
+            self._seconds[key] = response_seconds(self.protocol, request, self.line)
+        return self._seconds[key]
+
     def exchange(self, request: Request) -> Operation[tuple[int, ...]]:
-        """Send one request and verify its answer."""
-        reply = yield request
-        assert reply is not None, "an executor answers a request with a reply"  # noqa: S101 (the executors' contract)
-        return verify(request, reply, unit=self.unit, meanings=self.protocol.exceptions)
+        """Send one request and verify its answer; a read is sent again as `retry` says, a write never."""
+        left = self._tries.reads if request.reads else 0
+        while True:
+            try:
+                reply = yield request
+                assert reply is not None, "an executor answers a request with a reply"  # noqa: S101 (their contract)
+                return verify(request, reply, unit=self.unit, meanings=self.protocol.exceptions)
+            except (NoAnswer, WrongAnswer, LinkLost, ExceptionAnswer) as error:
+                if not left or not _passing(error):
+                    raise
+                left = 0 if isinstance(error, LinkLost) else left - 1  # the second time, nobody is there
+            yield Pause(self._tries.pause)
+
+
+def _passing(error: RegscribeError) -> bool:
+    """Whether an error may be gone at the next try; of a device's refusals, only that of a gateway before it."""
+    return not isinstance(error, ExceptionAnswer) or (error.code == GATEWAY_GOT_NO_ANSWER and not error.name)
 
 
 Task = Callable[[Session], Operation[T]]

@@ -1,0 +1,192 @@
+"""Where a read may run: the stretches of addresses that one request can cover without being refused.
+
+What is no register is a hole, crossed only where the device lets holes be read or the map calls it unused. What can
+only be written, what the read function may not address, and what this unit turned out not to have is never read along.
+A view whose requests must be aligned has a stretch of its own.
+"""
+
+from bisect import bisect_right
+from collections.abc import Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from regscribe.runtime.request import READ_FUNCTIONS
+from regscribe.runtime.spec import View
+
+if TYPE_CHECKING:
+    from regscribe.runtime.register import Register
+
+ADDRESSES = 1 << 16
+Range = tuple[int, int]
+"""First address, and the first behind."""
+
+
+class Item(NamedTuple):
+    """Addresses that are wanted together: one view of one register."""
+
+    space: str
+    address: int
+    words: int
+
+    @property
+    def end(self) -> int:
+        """The first address behind it."""
+        return self.address + self.words
+
+
+class Stretch(NamedTuple):
+    """Addresses that one request may cover; its address and count must be multiples of `align`."""
+
+    first: int
+    end: int
+    align: int = 1
+
+
+class Ground:
+    """The stretches of every space of one device, and why they end."""
+
+    __slots__ = ("_known", "_refused", "_starts", "_stretches", "_unreadable", "holes")
+
+    def __init__(
+        self,
+        readable: Mapping[str, list[Range]],
+        *,
+        unreadable: Mapping[str, list[Range]] | None = None,
+        aligned: Mapping[str, list[Stretch]] | None = None,
+        refused: Mapping[str, list[Range]] | None = None,
+        holes: bool = False,
+    ) -> None:
+        self.holes = holes
+        self._known = {space: merged(found) for space, found in readable.items()}
+        self._unreadable = {
+            space: without(merged(found), self._known.get(space, ())) for space, found in (unreadable or {}).items()
+        }
+        self._refused = {space: merged(found) for space, found in (refused or {}).items()}
+        self._stretches = {
+            space: tuple(self._cut(space, (aligned or {}).get(space, [])))
+            for space in {*self._known, *self._unreadable, *self._refused}
+        }
+        self._starts = {space: [one.first for one in found] for space, found in self._stretches.items()}
+
+    def _cut(self, space: str, aligned: list[Stretch]) -> Iterator[Stretch]:
+        allowed = [(0, ADDRESSES)] if self.holes else self._known.get(space, [])
+        barred = merged([*self._unreadable.get(space, ()), *self._refused.get(space, ())])
+        for first, end in without(allowed, barred):
+            place = first
+            for region in aligned:
+                low, high = max(place, region.first), min(end, region.end)
+                if low < high:
+                    if place < low:
+                        yield Stretch(place, low)
+                    yield Stretch(low, high, region.align)
+                    place = high
+            if place < end:
+                yield Stretch(place, end)
+
+    def stretch(self, item: Item) -> Stretch | None:
+        """The stretch that holds an item; None for one that cannot be read."""
+        place = bisect_right(self._starts.get(item.space, []), item.address) - 1
+        if place < 0:
+            return None
+        found = self._stretches[item.space][place]
+        return found if item.end <= found.end else None
+
+    def widened(self, item: Item) -> Item:
+        """The addresses that must be asked for to read an item: whole steps of the alignment there."""
+        found = self.stretch(item)
+        if found is None or found.align == 1:
+            return item
+        first = item.address // found.align * found.align
+        return Item(item.space, first, -(-(item.end - first) // found.align) * found.align)
+
+    def between(self, before: Item, after: Item) -> str:
+        """Why no request reads from `before` to `after`: unreadable, refused, hole or alignment; "" if one may."""
+        if self.stretch(before) == self.stretch(after):
+            return ""
+        space, gap = before.space, (before.end, after.address)
+        if _touches(self._refused.get(space, ()), gap):
+            return "refused"
+        if _touches(self._unreadable.get(space, ()), gap):
+            return "unreadable"
+        if not self.holes and without([gap], self._known.get(space, ())):
+            return "hole"
+        return "alignment"
+
+
+def ground_of(
+    registers: Iterable["Register[Any]"],
+    *,
+    unused: Iterable[tuple[str, int, int]] = (),
+    refused: Iterable[Item] = (),
+    holes: bool = False,
+) -> Ground:
+    """The ground of a device with these registers; `unused` (first, last address) reads as 0, `refused` not at all."""
+    readable: dict[str, list[Range]] = {}
+    unreadable: dict[str, list[Range]] = {}
+    aligned: dict[tuple[str, str], Stretch] = {}
+    for register in registers:
+        for view, address in places(register):
+            may = register.access != "w" and may_read(view)
+            (readable if may else unreadable).setdefault(view.space, []).append((address, address + view.words))
+            if view.align > 1:
+                key = view.space, view.name
+                known = aligned.get(key, Stretch(address, address, view.align))
+                first, end = min(known.first, address), max(known.end, address + view.words)
+                aligned[key] = Stretch(first, end, view.align)
+    for space, first, last in unused:
+        readable.setdefault(space, []).append((first, last + 1))
+    gone: dict[str, list[Range]] = {}
+    for item in refused:
+        gone.setdefault(item.space, []).append((item.address, item.end))
+    regions: dict[str, list[Stretch]] = {}
+    for (space, _), stretch in sorted(aligned.items(), key=lambda one: one[1]):
+        regions.setdefault(space, []).append(stretch)
+    return Ground(readable, unreadable=unreadable, aligned=regions, refused=gone, holes=holes)
+
+
+def places(register: "Register[Any]") -> Iterator[tuple[View, int]]:
+    """Every place where a register is transmitted: its views, then the aliases of the base view."""
+    for view in register.views:
+        yield view, view.address(register.at)
+    base = register.views[0]
+    for alias in register.aliases:
+        yield base, alias
+
+
+def may_read(view: View) -> bool:
+    """Whether the read function of a view's space may address it."""
+    return not view.functions or READ_FUNCTIONS[view.space] in view.functions
+
+
+def merged(ranges: Iterable[Range]) -> list[Range]:
+    """The same addresses in few ranges, in order."""
+    found: list[Range] = []
+    for first, end in sorted(ranges):
+        if found and first <= found[-1][1]:
+            found[-1] = (found[-1][0], max(end, found[-1][1]))
+        else:
+            found.append((first, end))
+    return found
+
+
+def without(ranges: Iterable[Range], barred: Iterable[Range]) -> list[Range]:
+    """What is left of `ranges` outside `barred`; both merged."""
+    found: list[Range] = []
+    gone = list(barred)
+    place = 0
+    for first, end in ranges:
+        start = first
+        while place < len(gone) and gone[place][1] <= start:
+            place += 1
+        at = place
+        while at < len(gone) and gone[at][0] < end:
+            if start < gone[at][0]:
+                found.append((start, gone[at][0]))
+            start = max(start, gone[at][1])
+            at += 1
+        if start < end:
+            found.append((start, end))
+    return found
+
+
+def _touches(ranges: Iterable[Range], gap: Range) -> bool:
+    return any(first < gap[1] and gap[0] < end for first, end in ranges)
