@@ -10,7 +10,7 @@ from regscribe.cli.requests import show_requests
 from regscribe.cli.target import HELP, checked_identity, opened, target_options
 from regscribe.live import names
 from regscribe.live import target as targets
-from regscribe.live.dry import DryLink
+from regscribe.live.dry import dry
 from regscribe.live.target import Target
 from regscribe.runtime import BareDevice, operations
 
@@ -34,14 +34,12 @@ def command(*, target: Target, as_json: bool, name: str | None, confirm: bool, d
         return 0
     with opened(target, identity=identity) as device:
         found = names.command_named(type(device), name)
-        dry = DryLink(device.link)
-        if dry_run:
-            device.link = dry
+        unsent = dry(device).written if dry_run else []
         device.run(operations.run(found, confirm=confirm))
     if as_json:
         print_json(**heading(device, target), command=name, sent=not dry_run)
     elif dry_run:
-        show_requests(dry.written)
+        show_requests(unsent)
     else:
         remark(f"{name}: done")
     return 0

@@ -10,7 +10,7 @@ from regscribe.cli.read import heading
 from regscribe.cli.requests import plain_requests, show_requests
 from regscribe.cli.target import HELP, checked_identity, opened, target_options
 from regscribe.live import names, values
-from regscribe.live.dry import DryLink
+from regscribe.live.dry import dry
 from regscribe.live.errors import TargetError, unknown
 from regscribe.live.target import Target
 from regscribe.runtime import Register, operations
@@ -49,17 +49,15 @@ def command(  # noqa: PLR0913 - the options of the command
     with opened(target, identity=identity) as device:
         register = names.register_named(type(device), name)
         _known_view(register, view)
-        dry = DryLink(device.link)
-        if dry_run:
-            device.link = dry
+        unsent = dry(device).written if dry_run else []
         unit = device.run(operations.read_unit(register))
         meant = values.parse(register, value, current_unit=unit)
         device.run(operations.write(register, meant, view=view, rounded=rounded, confirm=confirm))
     said = {"register": name, "value": values.show(register, meant), "unit": unit, "written": not dry_run}
     if as_json:
-        print_json(**heading(device, target), **said, **({"requests": plain_requests(dry.written)} if dry_run else {}))
+        print_json(**heading(device, target), **said, **({"requests": plain_requests(unsent)} if dry_run else {}))
     elif dry_run:
-        show_requests(dry.written)
+        show_requests(unsent)
     else:
         show_table(("REGISTER", "VALUE"), [(name, f"{values.as_text(register, meant)} {unit}".rstrip())])
     return 0

@@ -24,7 +24,7 @@ def models(packages: tuple[str, ...] = ()) -> tuple[Known, ...]:
     """
     found: dict[tuple[str, str], Known] = {}
     for name in (*packages, SHIPPED):
-        for module in _modules(_package(name)):
+        for module in _modules(package(name)):
             for known in _declared(module):
                 found.setdefault((known.map_id, known.model), known)
     return tuple(found[key] for key in sorted(found))
@@ -62,7 +62,8 @@ def _names(known: Known) -> set[str]:
     return {text.casefold() for text in (known.model, full_name(known), known.driver.__name__)}
 
 
-def _package(name: str) -> ModuleType:
+def package(name: str) -> ModuleType:
+    """The package of that name, or in that folder; TargetError if it cannot be imported."""
     path = Path(name)
     if path.is_dir() and ("/" in name or path.is_absolute()):
         sys.path.insert(0, str(path.resolve().parent))

@@ -1,8 +1,8 @@
 """A link that reads but does not write: what would be written is kept, and reads back as if it had been."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple, cast
 
-from regscribe.runtime.link import Link
+from regscribe.runtime import BareDevice, Link
 from regscribe.runtime.request import (
     READ_FUNCTIONS,
     WRITE_COIL,
@@ -25,35 +25,28 @@ class Written(NamedTuple):
     request: Request
 
 
+def dry(device: BareDevice) -> "DryLink":
+    """Let a driver write nothing any more; the link tells what it would have written."""
+    link = DryLink(device.link)
+    device.link = cast("Link", link)
+    return link
+
+
 class DryLink:
     """Passes reads to a link and answers writes itself, as a device that takes everything."""
 
     def __init__(self, link: Link) -> None:
-        self.link, self.lock = link, link.lock
+        self._link = link
         self.written: list[Written] = []
         self._held: dict[tuple[int, str, int], int] = {}
 
-    @property
-    def epoch(self) -> int:
-        """How often the link was opened."""
-        return self.link.epoch
-
-    @epoch.setter
-    def epoch(self, value: int) -> None:
-        self.link.epoch = value
-
-    def open(self) -> None:
-        """Open the link; LinkLost if that fails."""
-        self.link.open()
-
-    def close(self) -> None:
-        """Close the link."""
-        self.link.close()
+    def __getattr__(self, name: str) -> Any:  # noqa: ANN401 - whatever else the link has
+        return getattr(self._link, name)
 
     def call(self, unit: int, request: Request) -> Reply:
         """Answer a write with its echo; send anything else."""
         if request.function not in WRITES:
-            return self._overlaid(unit, request, self.link.call(unit, request))
+            return self._overlaid(unit, request, self._link.call(unit, request))
         self.written.append(Written(unit, request))
         space = "coil" if request.function in _BITS else "holding"
         for offset, word in enumerate(request.words):

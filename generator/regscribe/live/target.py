@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from types import ModuleType
 from typing import Any
 from urllib.parse import urlencode
 
@@ -108,13 +109,17 @@ def link_of(target: Target) -> Link:
     return serial(link.device, timeout=seconds, **{"baud": USUAL_BAUD, **link.settings()})
 
 
+def packages_of(target: Target) -> tuple[ModuleType, ...]:
+    """The packages whose models the target may be; TargetError if one cannot be imported."""
+    return tuple(catalogue.package(name) for name in (*target.packages, catalogue.SHIPPED))
+
+
 def identification(target: Target) -> Identification:
     """Ask the device what it is; RegscribeError for the link, else what fits (perhaps nothing) with the evidence."""
-    packages = [catalogue._package(name) for name in (*target.packages, catalogue.SHIPPED)]  # noqa: SLF001 - one room
     link = link_of(target)
     link.open()
     try:
-        return identify(link, unit=target.unit, packages=tuple(packages))
+        return identify(link, unit=target.unit, packages=packages_of(target))
     finally:
         link.close()
 

@@ -1,0 +1,31 @@
+"""A curve in the terminal."""
+
+from collections.abc import Sequence
+
+HEIGHT = 12
+LEAST_WIDTH, MARGIN = 20, 16
+"""Columns that a curve has at least, and those of the scale beside it."""
+
+
+def chart(title: str, seconds: Sequence[float], values: Sequence[float], *, unit: str, width: int) -> str:
+    """The curve of `values` over `seconds` as text of at most `width` columns; "" without values."""
+    if not values:
+        return ""
+    import plotille  # type: ignore[import-untyped]  # noqa: PLC0415 - it ships no types; only a chart needs it
+
+    figure = plotille.Figure()
+    figure.width, figure.height = max(width - MARGIN, LEAST_WIDTH), HEIGHT
+    figure.color_mode, figure.with_colors = "names", False
+    low, high = min(values), max(values)
+    room = (high - low) * 0.05 or max(abs(high) * 0.05, 1.0)
+    figure.set_y_limits(low - room, high + room)
+    figure.set_x_limits(min(seconds), max(*seconds, min(seconds) + 1))
+    figure.x_label, figure.y_label = "s", unit
+    figure.register_label_formatter(float, _label)
+    figure.plot(seconds, values)
+    return f"{title}\n{figure.show()}\n"
+
+
+def _label(value: float, chars: int, delta: float, left: bool = False) -> str:  # noqa: ARG001, FBT001, FBT002 - as plotille calls it
+    text = f"{value:.4g}"
+    return text.ljust(chars) if left else text.rjust(chars)
