@@ -24,10 +24,11 @@ ROOMS = {
     "simulate": {"model"},
     "runtime": set[str](),
     "live": {"model", "source", "schema", "runtime"},
+    "programs": {"model", "source", "schema", "runtime", "live", "emit"},
     "testing": {"runtime"},
     "pipeline": {"model", "source", "schema", "compose", "lower", "checks"},
     "cli": {"model", "source", "schema", "compose", "lower", "checks", "emit", "evidence", "simulate", "pipeline"}
-    | {"runtime", "live"},
+    | {"runtime", "live", "programs"},
 }
 """Which other rooms a room may import."""
 

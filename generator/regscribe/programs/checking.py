@@ -1,0 +1,77 @@
+"""A program held against a device: every mistake at once, each with its place, its numbers and what to do."""
+
+from typing import Any, NamedTuple
+
+from regscribe.programs.model import Program
+from regscribe.programs.place import Place
+from regscribe.programs.structure import Problem, Where, label, wanted
+from regscribe.programs.values import Bench, needs, readable
+from regscribe.runtime import Register, RegscribeError, ValueRefused, operations
+from regscribe.runtime.session import Operation, Session, Task
+
+
+class Planned(NamedTuple):
+    """A register of a program and the value that it is to have; `part` says when it is written."""
+
+    part: str
+    register: Register[Any]
+    value: Any
+    where: Where
+
+
+class Checked(NamedTuple):
+    """What is to be written, in the order of writing, and what is wrong: with a problem nothing is written."""
+
+    planned: tuple[Planned, ...]
+    problems: tuple[Problem, ...]
+
+
+class ProgramRefused(RegscribeError, ValueError):  # noqa: N818 (as the errors of drivers)
+    """A program that the device does not take; nothing was written."""
+
+    def __init__(self, place: Place, problems: tuple[Problem, ...]) -> None:
+        self.problems = problems
+        count = f"{len(problems)} mistakes" if len(problems) > 1 else "a mistake"
+        super().__init__("\n".join([f"{place.name} of the {place.model}: {count}", *(f"  {one}" for one in problems)]))
+
+
+def check(place: Place, program: Program, *, beyond_limits: bool = False) -> Task[Checked]:
+    """Hold a program against a device as it is configured now; with `beyond_limits` inferred limits do not count."""
+
+    def task(session: Session) -> Operation[Checked]:
+        asked, problems = wanted(place, program)
+        paths = {path for one in asked for path in needs(one.register)} | set(place.spec.setpoint_limits or ())
+        snapshot = yield from operations.read_many([session.registers[path] for path in sorted(paths)])(session)
+        bench = Bench(place, readable(snapshot), session.givens, program.time_unit or "")
+        planned = []
+        for one in asked:
+            try:
+                value = bench.value(one.register, one.setting, time=one.time)
+                if one.limited and not beyond_limits:
+                    _within(place, bench, one.register, value)
+                bench.words(one.register, value)
+            except ValueRefused as error:
+                problems.append(Problem(one.where, label(place, one.where), error.reason))
+            except RegscribeError as error:
+                problems.append(Problem(one.where, label(place, one.where), str(error)))
+            else:
+                planned.append(Planned(one.part, one.register, value, one.where))
+        order = {part: number for number, part in enumerate(place.spec.order)}
+        return Checked(tuple(sorted(planned, key=lambda one: order[one.part])), tuple(_sorted(problems)))
+
+    return task
+
+
+def _sorted(problems: list[Problem]) -> list[Problem]:
+    return sorted(
+        problems, key=lambda one: (one.where[:1] == ("segments",), [str(part).zfill(3) for part in one.where])
+    )
+
+
+def _within(place: Place, bench: Bench, register: Register[Any], value: Any) -> None:  # noqa: ANN401 - a value of any register
+    """ValueRefused for a setpoint beyond the controller's present setpoint limits."""
+    low, high = (bench.state.get(path) for path in place.spec.setpoint_limits or ("", ""))
+    if low is not None and high is not None and not low <= value <= high:
+        names = " and ".join(place.spec.setpoint_limits or ())
+        message = f"{value} lies outside {low} to {high}, the present {names}: change one of them"
+        raise ValueRefused(register.path, message)

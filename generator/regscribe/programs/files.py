@@ -1,0 +1,123 @@
+"""Programs as YAML files: read with line and column of each mistake, written to be read and edited by people."""
+
+import json
+import re
+from collections.abc import Mapping
+from decimal import Decimal
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from regscribe import schema, source
+from regscribe.live.errors import TargetError
+from regscribe.programs.model import Amount, Final, Program, Segment, Setting, setting
+from regscribe.programs.structure import Where
+from regscribe.source import Document
+
+LANGUAGE = "program"
+MOST_ERRORS = 20
+PLAIN = re.compile(r"[A-Za-z][A-Za-z0-9_./-]*(?: [A-Za-z0-9_./-]+)*")
+QUIET = re.compile(r"-?[0-9.]+(?: [A-Za-z°%µΩ/]+[0-9]?)?")
+"""Texts and amounts that need no quotes in YAML."""
+
+WORDS = frozenset({"true", "false", "null"})
+"""Texts that would be something else without quotes."""
+
+
+class File(NamedTuple):
+    """A program and the file it was read from."""
+
+    program: Program
+    document: Document
+
+    def place(self, where: Where) -> str:
+        """`anneal.yaml:12:9` for a place in the program."""
+        return str(self.document.span(("program", *where)))
+
+
+def load(path: str | Path) -> File:
+    """Read a file; TargetError for one that cannot be read, and for its mistakes with their places."""
+    if not Path(path).is_file():
+        message = f"there is no file {path}"
+        raise TargetError(message)
+    document, found = source.load(Path(path))
+    if document is not None:
+        found = schema.validate(document, language=LANGUAGE)
+    if document is None or found:
+        lines = [f"{one.span}: {one.message}{f' ({one.help})' if one.help else ''}" for one in found[:MOST_ERRORS]]
+        raise TargetError("\n".join(lines))
+    return File(_program(document.data["program"]), document)
+
+
+def _program(data: Mapping[str, Any]) -> Program:
+    final = data.get("final")
+    return Program(
+        name=data.get("name", ""),
+        segments=tuple(_segment(one) for one in data["segments"]),
+        final=Final(to=_setting(final["to"]), outputs=_outputs(final)) if final else None,
+        number_of_segments=data.get("number_of_segments"),
+        cycles=data.get("cycles"),
+        time_unit=data.get("time_unit"),
+        holdback=_maybe(data.get("holdback")),
+        power_failure=data.get("power_failure"),
+        end=data.get("end"),
+        map_id=data.get("map", ""),
+        model=str(data.get("model", "")),
+    )
+
+
+def _segment(data: Mapping[str, Any]) -> Segment:
+    return Segment(
+        to=_setting(data["to"]), ramp=_setting(data["ramp"]), soak=_maybe(data.get("soak")), outputs=_outputs(data)
+    )
+
+
+def _outputs(data: Mapping[str, Any]) -> dict[str, str]:
+    return {name: str(state) for name, state in data.get("outputs", {}).items()}
+
+
+def _maybe(value: Any) -> Setting | None:  # noqa: ANN401 - checked against the schema
+    return None if value is None else _setting(value)
+
+
+def _setting(value: Any) -> Setting:  # noqa: ANN401 - as above
+    return setting(value) if isinstance(value, str) else Amount(Decimal(str(value)))
+
+
+def dump(program: Program, *, remarks: tuple[str, ...] = ()) -> str:
+    """A program as a YAML file that `load` reads back; `remarks` become comments at the top."""
+    facts = {
+        "name": program.name or None,
+        "map": program.map_id or None,
+        "model": program.model or None,
+        "cycles": program.cycles,
+        "time_unit": program.time_unit,
+        "holdback": program.holdback,
+        "power_failure": program.power_failure,
+        "end": program.end,
+        "number_of_segments": program.number_of_segments,
+    }
+    lines = [f"# {remark}" for remark in remarks]
+    lines += ["format: 1", "program:"]
+    lines += [f"  {key}: {_text(value)}" for key, value in facts.items() if value is not None]
+    lines.append("  segments:" if program.segments else "  segments: []")
+    for one in program.segments:
+        soak = {} if one.soak is None else {"soak": one.soak}
+        lines.append(f"    - {_flow({'to': one.to, 'ramp': one.ramp, **soak, 'outputs': one.outputs or None})}")
+    if program.final:
+        lines.append(f"  final: {_flow({'to': program.final.to, 'outputs': program.final.outputs or None})}")
+    return "\n".join(lines) + "\n"
+
+
+def _flow(items: Mapping[str, Any]) -> str:
+    return f"{{{', '.join(f'{key}: {_text(value)}' for key, value in items.items() if value is not None)}}}"
+
+
+def _text(value: Any) -> str:  # noqa: ANN401 - a setting, a number or outputs
+    if isinstance(value, Mapping):
+        return _flow(value)
+    text = str(value)
+    if isinstance(value, int) or (PLAIN.fullmatch(text) and text.lower() not in WORDS):
+        return text
+    if isinstance(value, Amount) and QUIET.fullmatch(text):
+        return text
+    return json.dumps(text, ensure_ascii=False)  # a text in quotes is the same in YAML

@@ -1,0 +1,104 @@
+"""Values of registers as settings of a program, and settings as values: units of time converted, others compared."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from decimal import Decimal
+from fractions import Fraction
+from typing import Any
+
+from regscribe.live import values
+from regscribe.live.reading import unit_needs, unit_of
+from regscribe.programs.model import RAW, SECONDS, Amount, Setting
+from regscribe.programs.place import Place
+from regscribe.runtime import Register, RegscribeError, Snapshot, ValueRefused
+from regscribe.runtime.spec import Givens
+
+NO_UNIT = "the number has no unit"
+
+
+def is_raw(register: Register[Any]) -> bool:
+    """Whether the manual leaves the scale of the register open."""
+    return register.kind.name == "raw"
+
+
+def needs(register: Register[Any]) -> set[str]:
+    """The registers that decide the unit, the scale and the limits of a register."""
+    return {*unit_needs(register), *register.needs(register.view()), *register.limit_needs}
+
+
+def readable(snapshot: Snapshot) -> dict[str, Any]:
+    """The values of a snapshot, without what could not be decoded."""
+    found = {}
+    for path in snapshot:
+        try:
+            found[path] = snapshot[path]
+        except RegscribeError:
+            continue
+    return found
+
+
+@dataclass(frozen=True, slots=True)
+class Bench:
+    """What the settings of a program mean on a device as it is configured: `state` has the registers that decide."""
+
+    place: Place
+    state: Mapping[str, Any]
+    givens: Givens
+    time_unit: str = ""
+
+    def unit(self, register: Register[Any], *, time: bool = False) -> str:
+        """The unit in which a register is given."""
+        if is_raw(register):
+            return RAW
+        return (self.time_unit if time else "") or unit_of(register, self.state, self.givens)
+
+    def setting(self, register: Register[Any], value: Any, *, time: bool = False) -> Setting:  # noqa: ANN401 - a value of any register
+        """A value of use as a setting."""
+        shown = values.show(register, value)
+        if isinstance(shown, bool) or not isinstance(shown, int | float):
+            return str(shown).lower() if isinstance(shown, bool) else str(shown)
+        number = int(shown) if shown == int(shown) else shown
+        return Amount(Decimal(repr(number)), self.unit(register, time=time))
+
+    def value(self, register: Register[Any], setting: Setting, *, time: bool = False) -> Any:  # noqa: ANN401 - as above
+        """The value of use of a setting; ValueRefused for another unit, and for what the register does not know."""
+        if isinstance(setting, str):
+            return values.parse(register, setting)
+        unit = self.unit(register, time=time)
+        if is_raw(register):
+            return values.parse(register, str(_raw(register, setting, self.time_unit if time else "").number))
+        if setting.unit == RAW:
+            message = f"`{setting}`: the scale is known here: write it in {unit or 'the plain number'}"
+            raise ValueRefused(register.path, message)
+        if time:
+            return values.parse(register, _converted(register, setting, unit))
+        return values.parse(register, str(setting), current_unit=unit)
+
+    def words(self, register: Register[Any], value: Any) -> tuple[int, ...]:  # noqa: ANN401 - as above
+        """The words of a value; ValueRefused for one that the device does not take as it is configured now."""
+        return register.encode(value, state=self.state, givens=self.givens)
+
+
+def _raw(register: Register[Any], setting: Amount, unit: str) -> Amount:
+    if setting.unit != RAW and setting.number:  # nought is nought at any scale
+        counted = f" (the device counts in {unit})" if unit else ""
+        message = (
+            f"`{setting}`: the manual does not state the decimals of this number, so it is given as the register "
+            f"holds it{counted}: write `{str(setting).split()[0]} raw` if that is what the register is to hold"
+        )
+        raise ValueRefused(register.path, message)
+    return setting
+
+
+def _converted(register: Register[Any], setting: Amount, unit: str) -> str:
+    """The number of a time in the unit of the device."""
+    if setting.unit not in SECONDS:
+        said = NO_UNIT if not setting.unit else f"{setting.unit} is no unit of time"
+        message = f"`{setting}`: {said}: write {', '.join(SECONDS)} behind it, as in `30 {unit}`"
+        raise ValueRefused(register.path, message)
+    number = Fraction(setting.number) * Fraction(SECONDS[setting.unit]) / Fraction(SECONDS[unit])
+    decimals = Decimal(number.numerator) / Decimal(number.denominator)
+    if Fraction(decimals) != number or (register.kind.name == "integer" and number.denominator != 1):
+        message = f"`{setting}`: the device counts whole {unit}, and this is {float(number):.6g} {unit}"
+        raise ValueRefused(register.path, message)
+    return f"{decimals:f}"
