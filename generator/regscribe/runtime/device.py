@@ -1,13 +1,14 @@
 """Drivers: a device behind a link, synchronous and asyncio, running the same operations."""
 
 from collections.abc import Mapping
-from typing import Any, ClassVar, Self, TypedDict, TypeVar, Unpack
+from typing import Any, ClassVar, Self, TypeVar, Unpack
 
 from regscribe.runtime import link as links
 from regscribe.runtime import operations
 from regscribe.runtime.bound import _AsyncBound, _Bound
-from regscribe.runtime.execute import carry_out, carry_out_async
-from regscribe.runtime.link import AsyncLink, Link
+from regscribe.runtime.execute import run, run_async
+from regscribe.runtime.line import Line
+from regscribe.runtime.link import AsyncLink, LineSettings, Link, LinkSettings
 from regscribe.runtime.parts import AsyncPart, Command, Group, Part, Section
 from regscribe.runtime.program import SetpointProgram
 from regscribe.runtime.register import Register
@@ -19,26 +20,16 @@ T = TypeVar("T")
 What = Group | Register[Any] | _Bound[Any] | _AsyncBound[Any]
 
 
-class SerialSettings(TypedDict, total=False):
-    """Settings of a serial line: baud, data bits, parity (N, E or O), stop bits, framing (rtu or ascii), addressing.
-
-    `addressing` is modbus, or jbus for a unit that counts its addresses from 1.
-    """
+class SerialSettings(LineSettings, total=False):
+    """Settings of a serial line: `baud` and what `LineSettings` has, by default what the manual gives."""
 
     baud: int
-    data_bits: int
-    parity: str
-    stop_bits: int
-    framing: str
-    addressing: str
 
 
-class TcpSettings(TypedDict, total=False):
-    """Settings of a TCP link: port, framing (tcp, rtu or ascii), addressing (modbus, or jbus: counted from 1)."""
+class TcpSettings(LinkSettings, total=False):
+    """Settings of a TCP link: `port` and what `LinkSettings` has."""
 
     port: int
-    framing: str
-    addressing: str
 
 
 class _Common:
@@ -49,6 +40,7 @@ class _Common:
     protocol: ClassVar[Protocol] = Protocol()
     identity: ClassVar[tuple[Identity, ...]] = ()
     setpoint_programs: ClassVar[tuple[SetpointProgram, ...]] = ()
+    _unused: ClassVar[tuple[tuple[str, int, int], ...]] = ()
     registers: ClassVar[Mapping[str, Register[Any]]]
     session: Session
 
@@ -59,6 +51,7 @@ class _Common:
             registers=type(self).registers,
             commands=self._declared_commands(),
             givens=givens,
+            unused=self._unused,
         )
 
     def _declared_commands(self) -> dict[str, Command]:
@@ -102,10 +95,8 @@ class BareDevice(_Common, Part):
         self.close()
 
     def run(self, task: operations.Task[T]) -> T:
-        """Carry out an operation: its requests one after the other, under the link's lock."""
-        with self.link.lock:
-            self.session.at_epoch(self.link.epoch)
-            return carry_out(task(self.session), self.link, self.session.unit)
+        """Carry out an operation, alone among those of this unit; other units may talk between its requests."""
+        return run(task, self.session, self.link)
 
     def read(self, *what: What) -> Snapshot:
         """Read groups and registers (all without arguments) in few requests; see `Snapshot`."""
@@ -131,17 +122,14 @@ class Device(BareDevice):
     """A synchronous driver of a device without givens."""
 
     @classmethod
-    def tcp(cls, host: str, *, unit: int, timeout: float | None = None, **settings: Unpack[TcpSettings]) -> Self:
-        """A driver over TCP; `settings`: port, framing (tcp, rtu, ascii), addressing (modbus, jbus).
-
-        `timeout` is in seconds, by default the longest that the manual's latencies allow.
-        """
-        return cls(links.tcp(host, timeout=timeout or cls.protocol.timeout, **settings), unit=unit)
+    def tcp(cls, host: str, *, unit: int, **settings: Unpack[TcpSettings]) -> Self:
+        """A driver over TCP; see `TcpSettings`."""
+        return cls(links.tcp(host, **settings), unit=unit)
 
     @classmethod
-    def rtu(cls, port: str, *, unit: int, timeout: float | None = None, **line: Unpack[SerialSettings]) -> Self:
-        """A driver over a serial line; `line`: baud, data_bits, parity (N, E, O), stop_bits, framing, addressing."""
-        return cls(serial_link(cls.protocol, port, timeout=timeout, **line), unit=unit)
+    def rtu(cls, port: str, *, unit: int, **line: Unpack[SerialSettings]) -> Self:
+        """A driver over a serial line; see `SerialSettings`."""
+        return cls(serial_link(cls.protocol, port, **line), unit=unit)
 
 
 class AsyncBareDevice(_Common, AsyncPart):
@@ -168,10 +156,8 @@ class AsyncBareDevice(_Common, AsyncPart):
         await self.close()
 
     async def run(self, task: operations.Task[T]) -> T:
-        """Carry out an operation: its requests one after the other, under the link's lock."""
-        async with self.link.lock:
-            self.session.at_epoch(self.link.epoch)
-            return await carry_out_async(task(self.session), self.link, self.session.unit)
+        """As `BareDevice.run`."""
+        return await run_async(task, self.session, self.link)
 
     async def read(self, *what: What) -> Snapshot:
         """As `BareDevice.read`."""
@@ -197,33 +183,26 @@ class AsyncDevice(AsyncBareDevice):
     """An asyncio driver of a device without givens."""
 
     @classmethod
-    def tcp(cls, host: str, *, unit: int, timeout: float | None = None, **settings: Unpack[TcpSettings]) -> Self:
+    def tcp(cls, host: str, *, unit: int, **settings: Unpack[TcpSettings]) -> Self:
         """As `Device.tcp`."""
-        return cls(links.async_tcp(host, timeout=timeout or cls.protocol.timeout, **settings), unit=unit)
+        return cls(links.async_tcp(host, **settings), unit=unit)
 
     @classmethod
-    def rtu(cls, port: str, *, unit: int, timeout: float | None = None, **line: Unpack[SerialSettings]) -> Self:
+    def rtu(cls, port: str, *, unit: int, **line: Unpack[SerialSettings]) -> Self:
         """As `Device.rtu`."""
-        return cls(async_serial_link(cls.protocol, port, timeout=timeout, **line), unit=unit)
+        return cls(async_serial_link(cls.protocol, port, **line), unit=unit)
 
 
-def _line(protocol: Protocol, timeout: float | None, line: SerialSettings) -> dict[str, Any]:
-    data_bits, parity, stop_bits = tuple(protocol.format)  # "8N1"
-    usual = {"baud": protocol.baud, "data_bits": int(data_bits), "parity": parity, "stop_bits": int(stop_bits)}
-    return {**usual, "timeout": timeout or protocol.timeout, **line}
+def _usual(protocol: Protocol, line: SerialSettings) -> dict[str, Any]:
+    usual = Line.of("", protocol.baud, protocol.format)
+    return {**usual._asdict(), "gap": protocol.gap, **line}
 
 
-def serial_link(protocol: Protocol, port: str, *, timeout: float | None, **line: Unpack[SerialSettings]) -> Link:
+def serial_link(protocol: Protocol, port: str, **line: Unpack[SerialSettings]) -> Link:
     """A serial link with the settings that the manual gives as default, unless `line` says otherwise."""
-    return links.serial(port, **_line(protocol, timeout, line))
+    return links.serial(**{**_usual(protocol, line), "port": port})
 
 
-def async_serial_link(
-    protocol: Protocol,
-    port: str,
-    *,
-    timeout: float | None,
-    **line: Unpack[SerialSettings],
-) -> AsyncLink:
+def async_serial_link(protocol: Protocol, port: str, **line: Unpack[SerialSettings]) -> AsyncLink:
     """As `serial_link`, for asyncio."""
-    return links.async_serial(port, **_line(protocol, timeout, line))
+    return links.async_serial(**{**_usual(protocol, line), "port": port})

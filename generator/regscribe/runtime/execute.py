@@ -4,15 +4,19 @@ import asyncio
 import time
 from typing import TypeVar, cast
 
-from regscribe.runtime.errors import RegscribeError
+from regscribe.runtime.errors import NoAnswer, RegscribeError
 from regscribe.runtime.link import AsyncLink, Link
-from regscribe.runtime.session import Operation, Pause
+from regscribe.runtime.request import Request
+from regscribe.runtime.session import Operation, Pause, Session, Task
 
 T = TypeVar("T")
 
 
-def carry_out(operation: Operation[T], link: Link, unit: int) -> T:
-    """Run an operation to its end; errors of the link are raised inside it first, so that it may act on them."""
+def carry_out(operation: Operation[T], link: Link, unit: int, session: Session | None = None) -> T:
+    """Run an operation to its end; errors of the link are raised inside it first, so that it may act on them.
+
+    `session` gives its requests their response timeouts; without one they are left to the link.
+    """
     try:
         asked = next(operation)
         while True:
@@ -21,16 +25,18 @@ def carry_out(operation: Operation[T], link: Link, unit: int) -> T:
                 if isinstance(asked, Pause):
                     time.sleep(asked.seconds)
                 else:
-                    reply = link.call(unit, asked)
+                    reply = link.call(unit, _timed(asked, session, link))
             except RegscribeError as error:
                 asked = operation.throw(error)
             else:
                 asked = operation.send(reply)
     except StopIteration as done:
         return cast("T", done.value)
+    finally:
+        operation.close()
 
 
-async def carry_out_async(operation: Operation[T], link: AsyncLink, unit: int) -> T:
+async def carry_out_async(operation: Operation[T], link: AsyncLink, unit: int, session: Session | None = None) -> T:
     """As `carry_out`, for asyncio."""
     try:
         asked = next(operation)
@@ -40,10 +46,52 @@ async def carry_out_async(operation: Operation[T], link: AsyncLink, unit: int) -
                 if isinstance(asked, Pause):
                     await asyncio.sleep(asked.seconds)
                 else:
-                    reply = await link.call(unit, asked)
+                    reply = await link.call(unit, _timed(asked, session, link))
             except RegscribeError as error:
                 asked = operation.throw(error)
             else:
                 asked = operation.send(reply)
     except StopIteration as done:
         return cast("T", done.value)
+    finally:
+        operation.close()
+
+
+def _timed(asked: Request, session: Session | None, link: Link | AsyncLink) -> Request:
+    if session is None:
+        return asked
+    session.wrote |= not asked.reads
+    if asked.seconds or link.timeout:
+        return asked
+    return asked._replace(seconds=session.seconds(asked))
+
+
+def run(task: Task[T], session: Session, link: Link) -> T:
+    """Carry out the operation of a device, alone among those of its unit.
+
+    If the link was opened anew under an operation that only read, the device may be another one: it is run again.
+    """
+    with link.lock.of(session.unit):
+        while True:
+            session.begin(epoch=link.epoch, line=link.line, retry=link.retry)
+            try:
+                value = carry_out(task(session), link, session.unit, session)
+            except NoAnswer:
+                session.doubt()
+                raise
+            if session.wrote or session.epoch == link.epoch:
+                return value
+
+
+async def run_async(task: Task[T], session: Session, link: AsyncLink) -> T:
+    """As `run`, for asyncio."""
+    async with link.lock.of(session.unit):
+        while True:
+            session.begin(epoch=link.epoch, line=link.line, retry=link.retry)
+            try:
+                value = await carry_out_async(task(session), link, session.unit, session)
+            except NoAnswer:
+                session.doubt()
+                raise
+            if session.wrote or session.epoch == link.epoch:
+                return value

@@ -68,13 +68,13 @@ def _modules(packages: Iterable[ModuleType]) -> Iterator[ModuleType]:
 
 def identify(link: Link, *, unit: int, packages: tuple[ModuleType, ...] = ()) -> Identification:
     """Ask the unit on an open link what it is; only reads are sent."""
-    with link.lock:
+    with link.lock.of(unit):
         return carry_out(_identify(known_models(*packages), unit), link, unit)
 
 
 async def identify_async(link: AsyncLink, *, unit: int, packages: tuple[ModuleType, ...] = ()) -> Identification:
     """As `identify`, for asyncio."""
-    async with link.lock:
+    async with link.lock.of(unit):
         return await carry_out_async(_identify(known_models(*packages), unit), link, unit)
 
 

@@ -1,97 +1,138 @@
 """Links: what carries requests to a unit and answers back. The drivers know these protocols, not pymodbus."""
 
-import asyncio
-import threading
-from typing import Protocol
+from typing import Protocol, TypedDict, Unpack
 
+from regscribe.runtime.line import Line
+from regscribe.runtime.policy import Retry
 from regscribe.runtime.request import Reply, Request
+from regscribe.runtime.trace import Tracer
+from regscribe.runtime.turns import AsyncTurns, Turns
 
 MODBUS_TCP_PORT = 502
 
 
+class LinkSettings(TypedDict, total=False):
+    """How to talk over a link.
+
+    `framing` is tcp (MBAP), rtu or ascii, `addressing` modbus or jbus (for a unit that counts its addresses from 1).
+    `timeout` in seconds overrides the response timeouts that follow from the manual; `retry` says what is tried again.
+    `trace` is called with every frame. On a serial line `gap` is the silence between frames in characters, and `echo`
+    whether the adapter gives back what is sent (None: find out).
+    """
+
+    framing: str
+    addressing: str
+    timeout: float | None
+    retry: Retry | None
+    trace: Tracer | None
+    gap: float
+    echo: bool | None
+
+
+class LineSettings(LinkSettings, total=False):
+    """As `LinkSettings`, with the character format of a serial line: `parity` is N, E or O."""
+
+    data_bits: int
+    parity: str
+    stop_bits: int
+
+
 class Link(Protocol):
-    """A synchronous link. `epoch` counts how often it was opened; `lock` is held for a whole operation."""
+    """A synchronous link, for any number of threads.
+
+    `epoch` counts how often it was opened. Requests go out one after the other, first come, first served; the lock of a
+    unit (`link.lock.of(unit)`) is held for a whole operation. `line` is the serial line (None over TCP), `timeout` the
+    response timeout that overrides all others, `retry` what is tried again.
+    """
 
     epoch: int
-    lock: threading.RLock
+    lock: Turns
+    timeout: float | None
+    retry: Retry
+
+    @property
+    def line(self) -> Line | None:
+        """The serial line, None over TCP."""
 
     def open(self) -> None:
-        """Open it; LinkLost if that fails."""
+        """Open it, if it is not open; LinkLost if that fails."""
 
     def close(self) -> None:
         """Close it; harmless if it is closed."""
 
     def call(self, unit: int, request: Request) -> Reply:
-        """Send one request once and wait for its answer; NoAnswer or LinkLost."""
+        """Send one request once and wait for its answer; NoAnswer, WrongAnswer or LinkLost.
+
+        A link that was lost is opened again first. A write to unit 0 is a broadcast: it returns after the request's
+        `seconds`, which the units have to carry it out, with an answer that nobody gave.
+        """
         raise NotImplementedError
 
 
 class AsyncLink(Protocol):
-    """An asyncio link; otherwise as `Link`."""
+    """An asyncio link, for any number of tasks of one event loop; otherwise as `Link`."""
 
     epoch: int
-    lock: asyncio.Lock
+    lock: AsyncTurns
+    timeout: float | None
+    retry: Retry
+
+    @property
+    def line(self) -> Line | None:
+        """The serial line, None over TCP."""
 
     async def open(self) -> None:
-        """Open it; LinkLost if that fails."""
+        """Open it, if it is not open; LinkLost if that fails."""
 
     async def close(self) -> None:
         """Close it; harmless if it is closed."""
 
     async def call(self, unit: int, request: Request) -> Reply:
-        """Send one request once and wait for its answer; NoAnswer or LinkLost."""
+        """As `Link.call`; a task that is cancelled here leaves the link in order."""
         raise NotImplementedError
 
 
-def tcp(
-    host: str, *, port: int = MODBUS_TCP_PORT, framing: str = "tcp", timeout: float = 1.0, addressing: str = "modbus"
-) -> Link:
-    """A TCP link; `framing`: tcp (MBAP), rtu, ascii; `timeout` in seconds; `addressing`: modbus, jbus (one higher)."""
+def _tcp_settings(settings: LinkSettings) -> LinkSettings:
+    return {"framing": "tcp", **settings}
+
+
+def _serial_settings(settings: LineSettings) -> LinkSettings:
+    framing = settings.get("framing", "rtu")
+    if framing == "tcp":
+        message = "framing 'tcp' is not for a serial line: rtu or ascii"
+        raise ValueError(message)
+    kept = {key: value for key, value in settings.items() if key in LinkSettings.__annotations__}
+    return {**kept, "framing": framing}  # type: ignore[typeddict-item] # the keys are those of LinkSettings
+
+
+def _line(port: str, baud: int, settings: LineSettings) -> Line:
+    data_bits, stop_bits = settings.get("data_bits", 8), settings.get("stop_bits", 1)
+    return Line(port, baud, data_bits, settings.get("parity", "N"), stop_bits)
+
+
+def tcp(host: str, *, port: int = MODBUS_TCP_PORT, **settings: Unpack[LinkSettings]) -> Link:
+    """A TCP link; see `LinkSettings`."""
     from regscribe.runtime import transport  # noqa: PLC0415 (pymodbus loads slowly; a driver's import must not wait)
 
-    return transport.SyncTransport.tcp(host, port=port, framing=framing, timeout=timeout, addressing=addressing)
+    return transport.SyncTransport((host, port), **_tcp_settings(settings))
 
 
-def serial(
-    port: str,
-    *,
-    baud: int,
-    data_bits: int = 8,
-    parity: str = "N",
-    stop_bits: int = 1,
-    framing: str = "rtu",
-    timeout: float,
-    addressing: str = "modbus",
-) -> Link:
-    """A serial link; `parity` is N, E or O; `framing` rtu or ascii; `timeout` in seconds."""
+def serial(port: str, *, baud: int, **settings: Unpack[LineSettings]) -> Link:
+    """A serial link, 8N1 unless said otherwise; see `LineSettings`."""
     from regscribe.runtime import transport  # noqa: PLC0415 (as above)
 
-    line = transport.Line(port, baud, data_bits, parity, stop_bits)
-    return transport.SyncTransport.serial(line, framing=framing, timeout=timeout, addressing=addressing)
+    return transport.SyncTransport(_line(port, baud, settings), **_serial_settings(settings))
 
 
-def async_tcp(
-    host: str, *, port: int = MODBUS_TCP_PORT, framing: str = "tcp", timeout: float = 1.0, addressing: str = "modbus"
-) -> AsyncLink:
+def async_tcp(host: str, *, port: int = MODBUS_TCP_PORT, **settings: Unpack[LinkSettings]) -> AsyncLink:
     """As `tcp`, for asyncio."""
     from regscribe.runtime import transport  # noqa: PLC0415 (as above)
 
-    return transport.AsyncTransport.tcp(host, port=port, framing=framing, timeout=timeout, addressing=addressing)
+    return transport.AsyncTransport((host, port), **_tcp_settings(settings))
 
 
-def async_serial(
-    port: str,
-    *,
-    baud: int,
-    data_bits: int = 8,
-    parity: str = "N",
-    stop_bits: int = 1,
-    framing: str = "rtu",
-    timeout: float,
-    addressing: str = "modbus",
-) -> AsyncLink:
+def async_serial(port: str, *, baud: int, **settings: Unpack[LineSettings]) -> AsyncLink:
     """As `serial`, for asyncio."""
     from regscribe.runtime import transport  # noqa: PLC0415 (as above)
 
-    line = transport.Line(port, baud, data_bits, parity, stop_bits)
-    return transport.AsyncTransport.serial(line, framing=framing, timeout=timeout, addressing=addressing)
+    return transport.AsyncTransport(_line(port, baud, settings), **_serial_settings(settings))

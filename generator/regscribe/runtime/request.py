@@ -22,12 +22,21 @@ READS = frozenset(READ_FUNCTIONS.values())
 
 
 class Request(NamedTuple):
-    """One request: `quantity` addresses from `address`; `words` are what a write sends (bits as 0 and 1)."""
+    """One request: `quantity` addresses from `address`; `words` are what a write sends (bits as 0 and 1).
+
+    `seconds` is its response timeout, set on the way to the link; 0 leaves it to the link.
+    """
 
     function: int
     address: int
     quantity: int = 1
     words: tuple[int, ...] = ()
+    seconds: float = 0.0
+
+    @property
+    def reads(self) -> bool:
+        """Whether it only reads, so that it may be sent again."""
+        return self.function in READS
 
 
 class Reply(NamedTuple):
@@ -42,6 +51,15 @@ class Reply(NamedTuple):
 
 Meanings = Mapping[int, tuple[str, str]]
 """Exception code -> (name, meaning), as the device's manual has them."""
+
+
+def fits(request: Request, reply: Reply) -> bool:
+    """Whether an answer may be the one to a request, as far as its function, length and address tell."""
+    if reply.function != request.function:
+        return False
+    if reply.exception:
+        return True
+    return len(reply.words) == request.quantity if request.reads else reply.address == request.address
 
 
 def verify(request: Request, reply: Reply, *, unit: int, meanings: Meanings) -> tuple[int, ...]:

@@ -1,263 +1,226 @@
-"""The only module that imports pymodbus (3.16): it frames and transports, nothing else.
+"""Links over TCP and over serial ports, for threads and for asyncio: they open, close, wait and open again.
 
-Its clients never retry here (`retries=0`): a timed-out write that is sent again would be carried out twice. Arguments
-are checked before, answers after, by `request.verify`.
+What is said and understood is in `conversation`. After silence, noise or a cancelled call a TCP connection is closed
+and the next request opens a new one, so that nothing late can reach it; a serial port stays open, and the conversation
+sees to it (opening a port costs time and resets some devices).
 """
 
-import asyncio
-import threading
-from typing import Any, NamedTuple, Self
+from typing import Unpack
 
-from pymodbus import FramerType
-from pymodbus.client import AsyncModbusSerialClient, AsyncModbusTcpClient, ModbusSerialClient, ModbusTcpClient
-from pymodbus.exceptions import ConnectionException, ModbusException
-
-from regscribe.runtime import request as functions
-from regscribe.runtime.errors import LinkLost, NoAnswer
+from regscribe.runtime.asked import Steps
+from regscribe.runtime.conversation import Conversation
+from regscribe.runtime.errors import LinkLost, RegscribeError
+from regscribe.runtime.line import Line
+from regscribe.runtime.link import LinkSettings
+from regscribe.runtime.policy import Retry
 from regscribe.runtime.request import Reply, Request
+from regscribe.runtime.trace import Tracer
+from regscribe.runtime.turns import AsyncTurns, Turns
+from regscribe.runtime.wires import Wire, open_serial, open_tcp, open_tcp_async, wait, wait_async
 
-FRAMERS = {"tcp": FramerType.SOCKET, "rtu": FramerType.RTU, "ascii": FramerType.ASCII}
-ADDRESSINGS = {"modbus": 0, "jbus": 1}
-"""The number of a device's first address: JBUS counts from 1 what Modbus counts from 0."""
+USUAL_GAP = 3.5
+"""Characters of silence between frames, by the standard."""
 
-UNADDRESSED = frozenset({functions.READ_STATUS, functions.LOOPBACK})
-
-RECONNECT_SECONDS = 5.0
-"""Upper bound of pymodbus' growing reconnect delay, which it lets grow to 300 s."""
-BITS_IN_BYTE = 8
-
-
-class Line(NamedTuple):
-    """A serial line: device, speed in baud, character format."""
-
-    port: str
-    baud: int
-    data_bits: int
-    parity: str
-    stop_bits: int
-
-    def settings(self) -> dict[str, Any]:
-        """The keyword arguments of pymodbus' serial clients."""
-        return {"baudrate": self.baud, "bytesize": self.data_bits, "parity": self.parity, "stopbits": self.stop_bits}
-
-
-def _framer(framing: str) -> FramerType:
-    if framing not in FRAMERS:
-        message = f"framing {framing!r} is none of {', '.join(FRAMERS)}"
-        raise ValueError(message)
-    return FRAMERS[framing]
-
-
-def _send(client: Any, unit: int, asked: Request) -> Any:  # noqa: PLR0911 (a row for each function code)
-    match asked.function:
-        case functions.READ_COILS:
-            return client.read_coils(asked.address, count=asked.quantity, device_id=unit)
-        case functions.READ_DISCRETE_INPUTS:
-            return client.read_discrete_inputs(asked.address, count=asked.quantity, device_id=unit)
-        case functions.READ_HOLDING:
-            return client.read_holding_registers(asked.address, count=asked.quantity, device_id=unit)
-        case functions.READ_INPUT:
-            return client.read_input_registers(asked.address, count=asked.quantity, device_id=unit)
-        case functions.WRITE_COIL:
-            return client.write_coil(asked.address, bool(asked.words[0]), device_id=unit)
-        case functions.WRITE_REGISTER:
-            return client.write_register(asked.address, asked.words[0], device_id=unit)
-        case functions.READ_STATUS:
-            return client.read_exception_status(device_id=unit)
-        case functions.LOOPBACK:
-            return client.diag_query_data(asked.words[0].to_bytes(2, "big"), device_id=unit)
-        case functions.WRITE_COILS:
-            return client.write_coils(asked.address, [bool(bit) for bit in asked.words], device_id=unit)
-        case _:
-            return client.write_registers(asked.address, list(asked.words), device_id=unit)
-
-
-def _reply(asked: Request, answer: Any) -> Reply:  # noqa: PLR0911 (as above)
-    code = answer.function_code
-    if answer.isError():
-        return Reply(code & 0x7F, exception=answer.exception_code or 0xFF)
-    if code in (functions.READ_HOLDING, functions.READ_INPUT):
-        return Reply(code, tuple(answer.registers))
-    if code in (functions.READ_COILS, functions.READ_DISCRETE_INPUTS):
-        return Reply(code, _bits(answer.bits, asked.quantity))
-    if code == functions.WRITE_REGISTER:
-        return Reply(code, tuple(answer.registers), answer.address)
-    if code == functions.WRITE_COIL:
-        return Reply(code, (int(answer.bits[0]),), answer.address)
-    if code in (functions.WRITE_COILS, functions.WRITE_REGISTERS):
-        return Reply(code, (), answer.address, answer.count)
-    if code == functions.READ_STATUS:
-        return Reply(code, (answer.status,))
-    return Reply(code, _echo(answer))
-
-
-def _bits(bits: list[bool], count: int) -> tuple[int, ...]:
-    # bits come in whole bytes: more or fewer bytes than asked for must not look like a good answer
-    whole = -(-count // BITS_IN_BYTE) * BITS_IN_BYTE
-    return tuple(map(int, bits[:count] if len(bits) == whole else bits))
-
-
-def _echo(answer: Any) -> tuple[int, ...]:
-    message = getattr(answer, "message", b"")
-    if isinstance(message, bytes):
-        return tuple(int.from_bytes(message[i : i + 2], "big") for i in range(0, len(message), 2))
-    return (message,) if isinstance(message, int) else tuple(message or ())
+Place = tuple[str, int] | Line
+"""Host and port, or a serial line."""
 
 
 class _Base:
-    def __init__(self, client: Any, name: str, seconds: float, addressing: str) -> None:
-        if addressing not in ADDRESSINGS:
-            message = f"addressing {addressing!r} is none of {', '.join(ADDRESSINGS)}"
+    """What both kinds of link have; see `Link` for the attributes."""
+
+    def __init__(self, place: Place, **settings: Unpack[LinkSettings]) -> None:
+        self.timeout = settings.get("timeout")
+        if self.timeout is not None and self.timeout <= 0:
+            message = f"a timeout of {self.timeout} s lets nobody answer"
             raise ValueError(message)
-        self.client, self.name, self.seconds = client, name, seconds
-        self.first = ADDRESSINGS[addressing]
+        self.retry = settings.get("retry") or Retry()
+        self.framing = settings.get("framing", "tcp")
         self.epoch = 0
         self.opened = False
+        line = place.checked() if isinstance(place, Line) else None
+        self._place, self._tuned = place, line
+        self._echo, gap = settings.get("echo"), settings.get("gap", USUAL_GAP)
+        addressing = settings.get("addressing", "modbus")
+        self._talk = Conversation(self.framing, addressing=addressing, line=line, gap=gap, echo=self._echo)
+        self._talk.trace = settings.get("trace")
+        self._wire: Wire | None = None
+        self._renewing = False
 
-    def _outward(self, asked: Request) -> Request:
-        if not self.first or asked.function in UNADDRESSED:
-            return asked
-        return asked._replace(address=asked.address + self.first)
+    @property
+    def name(self) -> str:
+        """The port, or host and port as tcp://host:port."""
+        return self._place.port if isinstance(self._place, Line) else f"tcp://{self._place[0]}:{self._place[1]}"
 
-    def _inward(self, asked: Request, answer: Any) -> Reply:
-        reply = _reply(asked, answer)
-        return reply._replace(address=reply.address - self.first) if self.first else reply
+    @property
+    def line(self) -> Line | None:
+        """The serial line; None over TCP. Setting it makes the next request use the other speed or format."""
+        return self._place if isinstance(self._place, Line) else None
 
-    def _closed(self) -> LinkLost:
-        return LinkLost(f"{self.name} is not open: use the driver in a `with` statement, or call open()")
+    @line.setter
+    def line(self, line: Line) -> None:
+        if not isinstance(self._place, Line):
+            message = f"{self.name} has no serial line whose settings could change"
+            raise ValueError(message)  # noqa: TRY004 (a value that this link cannot have)
+        self._place = line.checked()
 
-    def _lost(self, error: Exception) -> LinkLost:
-        return LinkLost(f"{self.name}: the link was lost ({error})")
+    @property
+    def trace(self) -> Tracer | None:
+        """Called with every frame; None for nobody."""
+        return self._talk.trace
 
-    def _silent(self, unit: int, asked: Request) -> NoAnswer:
-        return NoAnswer(unit=unit, function=asked.function, address=asked.address, seconds=self.seconds)
+    @trace.setter
+    def trace(self, trace: Tracer | None) -> None:
+        self._talk.trace = trace
+
+    def _drop(self, *, renew: bool = False) -> None:
+        """Close the wire; `renew` if it was in order, so that opening it anew tells nothing of the devices."""
+        self._renewing = renew
+        if self._wire is not None:
+            self._wire.close()
+            self._wire = None
+
+    def _opened(self, wire: Wire) -> Wire:
+        self._wire = wire
+        self._talk.tainted = False
+        if self._talk.manners is not None and self.line is not None:
+            self._talk.manners.tune(self.line, echo=self._echo)
+            self._tuned = self.line
+        self.epoch += not self._renewing
+        self._renewing = False
+        return wire
+
+    def _usable(self) -> Wire | None:
+        """The open wire; None if there is none, it broke, or unasked bytes came since the last request."""
+        if not self.opened:
+            message = f"{self.name} is not open: use the driver in a `with` statement, or call open()"
+            raise LinkLost(message)
+        if self._wire is None:
+            return None
+        if self._tuned != self.line:
+            self._drop(renew=True)
+        elif self._tuned is None:
+            try:
+                if self._wire.read():
+                    self._drop(renew=True)
+            except OSError:
+                self._drop()
+        return self._wire
+
+    def _timed(self, request: Request) -> Request:
+        return request._replace(seconds=self.timeout) if self.timeout else request
+
+    def _failed(self, error: BaseException) -> LinkLost | None:
+        """Tidy up after an exchange that did not end well; the error to raise in place of one of the system."""
+        if isinstance(error, OSError) and not isinstance(error, RegscribeError):
+            self._drop()
+            message = f"{self.name}: the link was lost ({error}). The next request tries to open it again"
+            return LinkLost(message)
+        if self._tuned is None:
+            self._drop(renew=True)
+        return None
+
+    def _finished(self) -> None:
+        if not self.opened:  # closed by another one meanwhile
+            self._drop()
+        elif self._talk.tainted and self._tuned is None:
+            self._drop(renew=True)
 
 
 class SyncTransport(_Base):
-    """A pymodbus synchronous client as a `Link`."""
+    """A `Link` for threads."""
 
-    def __init__(self, client: Any, name: str, seconds: float, addressing: str) -> None:
-        super().__init__(client, name, seconds, addressing)
-        self.lock = threading.RLock()
-
-    @classmethod
-    def tcp(cls, host: str, *, port: int, framing: str, timeout: float, addressing: str) -> Self:
-        """Over TCP; nothing is sent before `open`."""
-        client = ModbusTcpClient(host, port=port, framer=_framer(framing), timeout=timeout, retries=0)
-        return cls(client, f"tcp://{host}:{port}", timeout, addressing)
-
-    @classmethod
-    def serial(cls, line: Line, *, framing: str, timeout: float, addressing: str) -> Self:
-        """Over a serial line."""
-        client = ModbusSerialClient(line.port, framer=_framer(framing), timeout=timeout, retries=0, **line.settings())
-        return cls(client, line.port, timeout, addressing)
+    def __init__(self, place: Place, **settings: Unpack[LinkSettings]) -> None:
+        super().__init__(place, **settings)
+        self.lock = Turns()
 
     def open(self) -> None:
-        """Open it; LinkLost if the other end does not take the connection."""
-        self.opened = True
-        if not self._connect():
-            self.opened = False
-            message = f"cannot open {self.name}: nobody answers there"
-            raise LinkLost(message)
+        """Open it, if it is not open; LinkLost with what to do."""
+        with self.lock.line:
+            if self._wire is None:
+                self._connect()
+            self.opened = True
 
-    def _connect(self) -> bool:
-        try:
-            connected = bool(self.client.connect())
-        except OSError as error:
-            raise self._lost(error) from error
-        self.epoch += connected
-        return connected
+    def _connect(self) -> Wire:
+        place = self._place
+        return self._opened(open_serial(place) if isinstance(place, Line) else open_tcp(*place))
 
     def close(self) -> None:
-        """Close it."""
+        """Close it, after the request that is under way; harmless if it is closed."""
         self.opened = False
-        self.client.close()
+        with self.lock.line:
+            self._drop()
 
     def call(self, unit: int, request: Request) -> Reply:
         """Send one request once; see `Link.call`."""
-        if not self.opened:
-            raise self._closed()
-        try:
-            if not self.client.connected and not self._connect():
-                message = f"{self.name}: nobody answers there any more"
-                raise LinkLost(message)
-            return self._inward(request, _send(self.client, unit, self._outward(request)))
-        except ConnectionException as error:
-            raise self._lost(error) from error
-        except ModbusException as error:
-            self.client.close()  # a late answer must not be taken for the answer to the next request
-            raise self._silent(unit, request) from error
-        except OSError as error:
-            self.client.close()
-            raise self._lost(error) from error
+        with self.lock.line:
+            wire = self._usable() or self._connect()
+            steps = self._talk.exchange(wire, unit, self._timed(request))
+            try:
+                return _carried(steps, wire)
+            except BaseException as error:
+                steps.close()
+                if lost := self._failed(error):
+                    raise lost from error
+                raise
+            finally:
+                self._finished()
+
+
+def _carried(steps: Steps[Reply], wire: Wire) -> Reply:
+    try:
+        seconds = next(steps)
+        while True:
+            seconds = steps.send(wait(wire, seconds))
+    except StopIteration as done:
+        reply: Reply = done.value
+        return reply
 
 
 class AsyncTransport(_Base):
-    """A pymodbus asyncio client as an `AsyncLink`."""
+    """An `AsyncLink`, for the tasks of one event loop."""
 
-    lock: asyncio.Lock
-
-    @classmethod
-    def tcp(cls, host: str, *, port: int, framing: str, timeout: float, addressing: str) -> Self:
-        """Over TCP; nothing is sent before `open`."""
-        client = AsyncModbusTcpClient(
-            host,
-            port=port,
-            framer=_framer(framing),
-            timeout=timeout,
-            retries=0,
-            reconnect_delay_max=RECONNECT_SECONDS,
-        )
-        return cls(client, f"tcp://{host}:{port}", timeout, addressing)
-
-    @classmethod
-    def serial(cls, line: Line, *, framing: str, timeout: float, addressing: str) -> Self:
-        """Over a serial line."""
-        client = AsyncModbusSerialClient(
-            line.port,
-            framer=_framer(framing),
-            timeout=timeout,
-            retries=0,
-            reconnect_delay_max=RECONNECT_SECONDS,
-            **line.settings(),
-        )
-        return cls(client, line.port, timeout, addressing)
-
-    def __init__(self, client: Any, name: str, seconds: float, addressing: str) -> None:
-        super().__init__(client, name, seconds, addressing)
-        self.lock = asyncio.Lock()
-        client.ctx.trace_connect = self._traced
-
-    def _traced(self, connected: bool) -> None:  # noqa: FBT001 (pymodbus calls it so)
-        self.epoch += connected
+    def __init__(self, place: Place, **settings: Unpack[LinkSettings]) -> None:
+        super().__init__(place, **settings)
+        self.lock = AsyncTurns()
 
     async def open(self) -> None:
-        """Open it; LinkLost if the other end does not take the connection."""
-        if not await self.client.connect():
-            self.client.close()
-            message = f"cannot open {self.name}: nobody answers there"
-            raise LinkLost(message)
-        self.opened = True
+        """Open it, if it is not open; LinkLost with what to do."""
+        async with self.lock.line:
+            if self._wire is None:
+                await self._connect()
+            self.opened = True
+
+    async def _connect(self) -> Wire:
+        place = self._place
+        return self._opened(open_serial(place) if isinstance(place, Line) else await open_tcp_async(*place))
 
     async def close(self) -> None:
-        """Close it."""
+        """Close it, after the request that is under way; harmless if it is closed."""
         self.opened = False
-        self.client.close()
+        async with self.lock.line:
+            self._drop()
 
     async def call(self, unit: int, request: Request) -> Reply:
         """Send one request once; see `Link.call`."""
-        if not self.opened:
-            raise self._closed()
-        try:
-            if not self.client.connected and not await self.client.connect():
-                message = f"{self.name}: nobody answers there any more"
-                raise LinkLost(message)
-            return self._inward(request, await _send(self.client, unit, self._outward(request)))
-        except ConnectionException as error:
-            raise self._lost(error) from error
-        except ModbusException as error:
-            self.client.close()  # a late answer must not be taken for the answer to the next request
-            raise self._silent(unit, request) from error
-        except OSError as error:
-            self.client.close()
-            raise self._lost(error) from error
+        async with self.lock.line:
+            wire = self._usable() or await self._connect()
+            steps = self._talk.exchange(wire, unit, self._timed(request))
+            try:
+                return await _carried_async(steps, wire)
+            except BaseException as error:
+                steps.close()
+                if lost := self._failed(error):
+                    raise lost from error
+                raise
+            finally:
+                self._finished()
+
+
+async def _carried_async(steps: Steps[Reply], wire: Wire) -> Reply:
+    try:
+        seconds = next(steps)
+        while True:
+            seconds = steps.send(await wait_async(wire, seconds))
+    except StopIteration as done:
+        reply: Reply = done.value
+        return reply
