@@ -50,7 +50,12 @@ def told() -> Iterator[None]:
 
 def failure(error: RegscribeError) -> Failure:
     """The failure that an error of a driver is to a command line."""
-    return Failure(str(error), kind=kind_of(error), code=code_of(error))
+    return Failure(_in_options(str(error)), kind=kind_of(error), code=code_of(error))
+
+
+def _in_options(message: str) -> str:
+    """What a driver calls an argument is an option here."""
+    return message.replace("pass confirm=True", "add --confirm").replace("rounded=True rounds", "--rounded rounds")
 
 
 def code_of(error: RegscribeError) -> int:

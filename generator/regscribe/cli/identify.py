@@ -27,7 +27,7 @@ def command(*, target: Target, as_json: bool) -> int:
         targets.answered(found)
     if as_json:
         print_json(
-            target=target.text,
+            device=str(target),
             certain=found.certain,
             models=[_model(known) for known in found.models],
             evidence=[_evidence(one) for one in found.evidence],

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from regscribe.live.errors import TargetError, meant
+from regscribe.live.reading import Reading
 from regscribe.live.watch import Round
 
 COLUMNS = ("time", "device", "register", "value", "unit", "error")
@@ -181,13 +182,13 @@ def _rows(one: Round, device: str) -> list[tuple[Any, ...]]:
     if one.error is not None:
         return [(moment(one), device, "", None, "", str(one.error))]
     return [
-        (moment(one), device, each.name, _cell(each.value), each.unit, "" if each.error is None else str(each.error))
+        (moment(one), device, each.name, _cell(each), each.unit, "" if each.error is None else str(each.error))
         for each in one.readings
     ]
 
 
-def _cell(value: Any) -> Any:  # noqa: ANN401 - a plain value
-    return ", ".join(value) if isinstance(value, list) else value
+def _cell(one: Reading) -> Any:  # noqa: ANN401 - a plain value
+    return one.text if isinstance(one.value, list) else one.value
 
 
 def _unwritten(path: Path, what: str, error: Exception) -> LogError:

@@ -162,7 +162,8 @@ def _member(register: Register[Any], members: type[IntEnum], plain: Plain) -> An
     by_name = [one for one in known if one.name.casefold() == text.casefold()]
     by_label = [one for one in known if one.label.casefold() == text.casefold()]
     by_code = [one for one in known if _WHOLE.fullmatch(text) and one.value == _whole(text)]
-    found = by_name or list(dict.fromkeys(by_label + by_code))
+    first_word = [one for one in known if one.label.casefold().split()[:1] == [text.casefold()]]
+    found = by_name or list(dict.fromkeys(by_label + by_code)) or first_word
     if len(found) == 1:
         return found[0]
     if found:
