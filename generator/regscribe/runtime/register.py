@@ -94,7 +94,7 @@ class Register(Generic[T]):
     def _copy(self) -> Self:
         # copy.copy goes through the protocol of pickle, which takes five times as long
         other = object.__new__(type(self))
-        other.__dict__.update(self.__dict__)
+        other.__dict__ = self.__dict__.copy()
         return other
 
     def shifted(self, steps: int, prefix: str) -> Self:

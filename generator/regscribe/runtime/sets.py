@@ -11,10 +11,9 @@ class RegisterSet:
     """
 
     def __init_subclass__(cls, *, section: str | None = None, persistence: str | None = None) -> None:
-        super().__init_subclass__()
         if section is None and persistence is None:
             return
-        for base in reversed(cls.__mro__):
-            for name, register in list(vars(base).items()):
+        for base in reversed(cls.__mro__[1:]):
+            for name, register in vars(base).items():
                 if isinstance(register, Register):
                     setattr(cls, name, register.told(cls.__module__, section=section, persistence=persistence))
