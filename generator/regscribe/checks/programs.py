@@ -19,7 +19,7 @@ from regscribe.model import (
 NUMBERS = frozenset({Kind.NUMBER, Kind.INTEGER, Kind.RAW})
 WHOLE = frozenset({Kind.INTEGER, Kind.RAW})
 CHOICES = frozenset({Kind.ENUM, Kind.BOOLEAN})
-ANY_CHOICE = CHOICES | NUMBERS
+ANY = CHOICES | NUMBERS
 ENUM = frozenset({Kind.ENUM})
 
 Role = tuple[str, str, frozenset[Kind]]
@@ -32,9 +32,9 @@ def _written(program: SetpointProgram) -> Iterator[Role]:
     yield "segments.setpoint", segments.setpoint, NUMBERS
     yield "segments.ramp", segments.ramp, NUMBERS
     yield "segments.soak", segments.soak, NUMBERS
-    yield from ((f"segments.outputs.{name}", path, ANY_CHOICE) for name, path in segments.outputs)
+    yield from ((f"segments.outputs.{name}", path, CHOICES) for name, path in segments.outputs)
     yield "final.setpoint", final.setpoint if final else "", NUMBERS
-    yield from ((f"final.outputs.{name}", path, ANY_CHOICE) for name, path in (final.outputs if final else ()))
+    yield from ((f"final.outputs.{name}", path, CHOICES) for name, path in (final.outputs if final else ()))
     yield "count", program.count, WHOLE
     yield "cycles", program.cycles, WHOLE
     yield "time_unit", program.time_unit.register if program.time_unit else "", ENUM
@@ -45,9 +45,9 @@ def _written(program: SetpointProgram) -> Iterator[Role]:
 
 def _acting(program: SetpointProgram) -> Iterator[Role]:
     """The registers that are written to make a program run."""
-    yield from (("enable", path, ANY_CHOICE) for path, _ in program.enable)
+    yield from (("enable", path, ANY) for path, _ in program.enable)
     for name in ("start", "hold", "resume", "reset"):
-        yield from ((name, path, ANY_CHOICE) for path, _ in getattr(program, name).writes)
+        yield from ((name, path, ANY) for path, _ in getattr(program, name).writes)
 
 
 def _watched(program: SetpointProgram) -> Iterator[Role]:

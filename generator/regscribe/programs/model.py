@@ -38,8 +38,6 @@ Setting = Amount | str
 Outputs = Mapping[str, str]
 """The states of outputs and events by the names that the map gives them: names of members."""
 
-NONE: Outputs = MappingProxyType({})
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Segment:
@@ -48,7 +46,7 @@ class Segment:
     to: Setting
     ramp: Setting
     soak: Setting | None = None
-    outputs: Outputs = NONE
+    outputs: Outputs = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,7 +54,7 @@ class Final:
     """What stays behind the last segment."""
 
     to: Setting
-    outputs: Outputs = NONE
+    outputs: Outputs = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

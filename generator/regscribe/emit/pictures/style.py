@@ -70,6 +70,8 @@ PAINTS = {
     "dim": {"fill": DIM},
     "empty": {"fill": PAPER, "stroke": FAINT},
     "line": {"stroke": DIM},
+    "grid": {"stroke": FAINT},
+    "curve": {"stroke": EDGES[0]},
     "hatch": {"stroke": HATCH},
     "unused": {"stroke": HATCH},
     "reserved": {"stroke": HATCH},
@@ -80,6 +82,9 @@ PAINTS = {
 
 SHAPES = {
     "line": "fill:none;stroke-width:1",
+    "grid": "fill:none;stroke-width:1",
+    "curve": "fill:none;stroke-width:2.5;stroke-linejoin:round",
+    "dashed": "stroke-dasharray:6 5",
     "hatch": "fill:none;stroke-width:1",
     "unused": "fill:url(#unused)",
     "reserved": "fill:url(#reserved)",
