@@ -22,7 +22,7 @@ from regscribe.compose.tree import (
 from regscribe.model import Override
 from regscribe.source import Node, Place
 
-_REPLACED = ("format", "map", "manual", "description", "identify", "write_order")
+_REPLACED = ("format", "map", "manual", "description", "process", "identify", "write_order")
 _CLASH = "what differs from the base stands under `override`; else give it another name"
 
 

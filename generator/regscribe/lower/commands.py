@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from regscribe.lower.effects import effects_of
 from regscribe.lower.encoding import words_of_value
 from regscribe.lower.names import identifier, unknown
 from regscribe.lower.node import Node, elements_of, items_of, text_of, whole_of, wholes_of
@@ -40,6 +41,7 @@ def _command(name: str, node: Node, device: Device) -> Command:
         description=text_of(node, "description"),
         section=text_of(node, "source"),
         danger=text_of(node, "danger"),
+        effects=effects_of(node, device.scope, device.registers),
         span=node.key_span,
     )
 

@@ -11,6 +11,7 @@ from regscribe.lower.groups import Bundle, bundles_of, groups_of
 from regscribe.lower.names import letters_and_digits
 from regscribe.lower.node import Node, elements_of, items_of, text_of, texts_of
 from regscribe.lower.presence import Models, named_models
+from regscribe.lower.process import process_of
 from regscribe.lower.programs import programs_of
 from regscribe.lower.protocol import protocol_of
 from regscribe.lower.scope import Scope, path_of
@@ -81,6 +82,7 @@ def _product(root: Node, scope: Scope, bundles: list[Bundle], protocol: Protocol
         groups=groups_of(bundles, root),
         commands=commands,
         programs=programs_of(root, device),
+        process=process_of(root.child("process"), scope),
         unused=unused_of(root, scope.model, scope.models),
         span=node.key_span,
     )

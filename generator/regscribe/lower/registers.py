@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from regscribe.lower.conditions import condition
 from regscribe.lower.enums import enum_of, fields_of
+from regscribe.lower.following import followed_fields, follows_of, shadowed
 from regscribe.lower.governs import governs_of
 from regscribe.lower.limits import range_of
 from regscribe.lower.node import Node, text_of
@@ -50,7 +51,7 @@ def register_of(entry: Entry, everywhere: Scope) -> Register:
         sentinels=sentinels_of(entry),
         default=default_of(entry, kind, enum),
         enum=enum,
-        fields=fields_of(entry, scope),
+        fields=followed_fields(fields_of(entry, scope), entry, scope),
         writable=_writable(settings.get("writable"), scope),
         persistence=_text(entry, "persistence"),
         endurance=settings["endurance"].whole() if "endurance" in settings else None,
@@ -61,6 +62,9 @@ def register_of(entry: Entry, everywhere: Scope) -> Register:
         stays=_text(entry, "stays"),
         governs=governs_of(settings.get("governs")),
         settle=settings["settle"].whole() if "settle" in settings else 0,
+        shadows=shadowed(settings.get("shadows"), scope),
+        follows=follows_of(settings.get("follows"), scope),
+        difference="difference" in settings and settings["difference"].truth(),
         inferred=_inferred(settings.get("inferred")),
         version_digits=digits,
         version_group=group,
