@@ -2,6 +2,7 @@
 
 from regscribe.emit.header import header
 from regscribe.emit.markdown.alt import address_map
+from regscribe.emit.markdown.behaviour import assumptions, process
 from regscribe.emit.markdown.context import Context, context
 from regscribe.emit.markdown.entries import commands, sections
 from regscribe.emit.markdown.escape import Md, code, escape, join, link, md, prose
@@ -42,6 +43,8 @@ def page(register_map: RegisterMap) -> Page:
         unused=unused(found),
         groups=groups,
         commands=commands(found),
+        process=process(found),
+        assumptions=assumptions(found),
         faults=faults(found),
         exceptions=exceptions(found),
         examples=examples(found),

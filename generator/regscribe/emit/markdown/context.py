@@ -131,6 +131,8 @@ def conditions_of(register: Register) -> Iterator[Condition]:
         yield from (case.when for case in cases)
     if register.writable:
         yield register.writable.when
+    yield from (case.when for case in register.follows)
+    yield from (field.follows for field in register.fields if field.follows is not None)
 
 
 def stated(facts: Iterable[Stated[Md]]) -> Md:

@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Sequence
 
 from regscribe.emit.markdown.alt import bit_fields, structure
+from regscribe.emit.markdown.behaviour import effects
 from regscribe.emit.markdown.context import Context, by_model
 from regscribe.emit.markdown.details import bits, by_condition, elements, values, views
 from regscribe.emit.markdown.escape import Md, code, escape, join, link, md, prose
@@ -170,7 +171,10 @@ def _command(context: Context, shared: Shared[Command]) -> Entry:
         anchor=context.anchor("command", shared.key),
         name=one_line(shared.first.name),
         summary=join(DOT, parts),
-        paragraphs=_paragraphs(by_model(shared, lambda _, item: prose(item.description))),
+        paragraphs=_paragraphs(
+            by_model(shared, lambda _, item: prose(item.description)),
+            by_model(shared, lambda model, item: effects(context, model, item.effects)),
+        ),
         danger=_paragraphs(by_model(shared, lambda _, item: prose(item.danger))),
         tables=tuple(
             Titled(f"Steps ({', '.join(item.models)})" if item.models else "Steps", _steps(context, item.value))

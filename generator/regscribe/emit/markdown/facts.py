@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from functools import partial
 
+from regscribe.emit.markdown.behaviour import difference, follows, shadows
 from regscribe.emit.markdown.context import Context, by_model
 from regscribe.emit.markdown.escape import Md, code, escape, join, lines, link, md, prose
 from regscribe.emit.markdown.outline import LETTERS, Leaf, formula
@@ -233,7 +234,10 @@ FACTS: dict[str, Fact] = {
     "Unit": _unit,
     "Scale": _scale,
     "Smallest stored step": _step,
+    "Counts": difference,
     "Kept in": _persistence,
+    "When power comes": shadows,
+    "Follows": follows,
     "Changing it": _rescales,
     "Before a write": _unlock,
     "After a write": _apply,

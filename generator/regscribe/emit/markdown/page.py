@@ -106,6 +106,8 @@ class Page:
     unused: Table
     groups: tuple[Section, ...]
     commands: tuple[Entry, ...]
+    process: Table
+    assumptions: tuple[Md, ...]
     faults: Table
     exceptions: Table
     examples: tuple[Titled, ...]
