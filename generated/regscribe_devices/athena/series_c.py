@@ -146,6 +146,7 @@ _VIEWS = (
         order=OrderFrom("ieee_register_ordering", {0: "big", 1: "little"}),
         functions=(3, 16),
         preferred=True,
+        align=2,
     ),
 )
 _LINEAR_INPUT = (Is("input_type", ((13, 22),)),)

@@ -245,11 +245,10 @@ class _Series100Device(BareDevice):
         *,
         unit: int,
         linear_inputs: Collection[int],
-        timeout: float | None = None,
         **settings: Unpack[TcpSettings],
     ) -> Self:
-        """A driver over TCP; `settings`: port, framing (tcp, rtu, ascii), addressing; `timeout` in seconds."""
-        link = tcp(host, timeout=timeout or cls.protocol.timeout, **settings)
+        """A driver over TCP; see `TcpSettings`."""
+        link = tcp(host, **settings)
         return cls(link, unit=unit, linear_inputs=linear_inputs)
 
     @classmethod
@@ -259,11 +258,10 @@ class _Series100Device(BareDevice):
         *,
         unit: int,
         linear_inputs: Collection[int],
-        timeout: float | None = None,
         **line: Unpack[SerialSettings],
     ) -> Self:
-        """A driver over a serial line; `line`: baud, data_bits, parity (N, E, O), stop_bits, framing, addressing."""
-        link = serial_link(cls.protocol, port, timeout=timeout, **line)
+        """A driver over a serial line; see `SerialSettings`."""
+        link = serial_link(cls.protocol, port, **line)
         return cls(link, unit=unit, linear_inputs=linear_inputs)
 
 
@@ -280,11 +278,10 @@ class _AsyncSeries100Device(AsyncBareDevice):
         *,
         unit: int,
         linear_inputs: Collection[int],
-        timeout: float | None = None,
         **settings: Unpack[TcpSettings],
     ) -> Self:
-        """A driver over TCP; `settings`: port, framing (tcp, rtu, ascii), addressing; `timeout` in seconds."""
-        link = async_tcp(host, timeout=timeout or cls.protocol.timeout, **settings)
+        """A driver over TCP; see `TcpSettings`."""
+        link = async_tcp(host, **settings)
         return cls(link, unit=unit, linear_inputs=linear_inputs)
 
     @classmethod
@@ -294,11 +291,10 @@ class _AsyncSeries100Device(AsyncBareDevice):
         *,
         unit: int,
         linear_inputs: Collection[int],
-        timeout: float | None = None,
         **line: Unpack[SerialSettings],
     ) -> Self:
-        """A driver over a serial line; `line`: baud, data_bits, parity (N, E, O), stop_bits, framing, addressing."""
-        link = async_serial_link(cls.protocol, port, timeout=timeout, **line)
+        """A driver over a serial line; see `SerialSettings`."""
+        link = async_serial_link(cls.protocol, port, **line)
         return cls(link, unit=unit, linear_inputs=linear_inputs)
 
 
