@@ -4,7 +4,7 @@ Operations are tasks: `device.run(read(place(device)))`, and `await device.run(.
 """
 
 from regscribe.programs.checking import Checked, Planned, ProgramRefused, check
-from regscribe.programs.files import File, dump, load
+from regscribe.programs.files import File, dump, load, plain
 from regscribe.programs.model import FOREVER, RAW, Amount, Final, Program, Segment, Setting, setting
 from regscribe.programs.place import Place, place, places
 from regscribe.programs.reading import read
@@ -38,6 +38,7 @@ __all__ = [
     "load",
     "place",
     "places",
+    "plain",
     "read",
     "setting",
     "status",

@@ -16,7 +16,7 @@ from regscribe.source import Document
 LANGUAGE = "program"
 MOST_ERRORS = 20
 PLAIN = re.compile(r"[A-Za-z][A-Za-z0-9_./-]*(?: [A-Za-z0-9_./-]+)*")
-QUIET = re.compile(r"-?[0-9.]+(?: [A-Za-z°%µΩ/]+[0-9]?)?")
+QUIET = re.compile(r"-?[0-9.]+ [A-Za-z°%µΩ/]+[0-9]?")
 """Texts and amounts that need no quotes in YAML."""
 
 WORDS = frozenset({"true", "false", "null"})
@@ -83,41 +83,60 @@ def _setting(value: Any) -> Setting:  # noqa: ANN401 - as above
     return setting(value) if isinstance(value, str) else Amount(Decimal(str(value)))
 
 
-def dump(program: Program, *, remarks: tuple[str, ...] = ()) -> str:
-    """A program as a YAML file that `load` reads back; `remarks` become comments at the top."""
-    facts = {
+def plain(program: Program) -> dict[str, Any]:
+    """A program as plain data, with the keys of a file; what the device does not have is left out."""
+    final = program.final
+    found = {
         "name": program.name or None,
         "map": program.map_id or None,
         "model": program.model or None,
         "cycles": program.cycles,
         "time_unit": program.time_unit,
-        "holdback": program.holdback,
+        "holdback": _spelled(program.holdback),
         "power_failure": program.power_failure,
         "end": program.end,
         "number_of_segments": program.number_of_segments,
+        "segments": [_plain_segment(one) for one in program.segments],
+        "final": _given({"to": _spelled(final.to), "outputs": dict(final.outputs) or None}) if final else None,
     }
-    lines = [f"# {remark}" for remark in remarks]
-    lines += ["format: 1", "program:"]
-    lines += [f"  {key}: {_text(value)}" for key, value in facts.items() if value is not None]
-    lines.append("  segments:" if program.segments else "  segments: []")
-    for one in program.segments:
-        soak = {} if one.soak is None else {"soak": one.soak}
-        lines.append(f"    - {_flow({'to': one.to, 'ramp': one.ramp, **soak, 'outputs': one.outputs or None})}")
-    if program.final:
-        lines.append(f"  final: {_flow({'to': program.final.to, 'outputs': program.final.outputs or None})}")
+    return _given(found)
+
+
+def _plain_segment(one: Segment) -> dict[str, Any]:
+    times = {"ramp": _spelled(one.ramp), "soak": _spelled(one.soak)}
+    return _given({"to": _spelled(one.to), **times, "outputs": dict(one.outputs) or None})
+
+
+def _spelled(value: Setting | None) -> str | int | float | None:
+    """An amount without a unit is a number."""
+    if isinstance(value, Amount) and not value.unit:
+        whole = value.number == value.number.to_integral_value()
+        return int(value.number) if whole else float(value.number)
+    return None if value is None else str(value)
+
+
+def _given(items: Mapping[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in items.items() if value is not None}
+
+
+def dump(program: Program, *, remarks: tuple[str, ...] = ()) -> str:
+    """A program as a YAML file that `load` reads back; `remarks` become comments at the top."""
+    lines = [*(f"# {remark}" for remark in remarks), "format: 1", "program:"]
+    for key, value in plain(program).items():
+        if isinstance(value, list):
+            lines.append(f"  {key}:{'' if value else ' []'}")
+            lines += [f"    - {_text(one)}" for one in value]
+        else:
+            lines.append(f"  {key}: {_text(value)}")
     return "\n".join(lines) + "\n"
 
 
-def _flow(items: Mapping[str, Any]) -> str:
-    return f"{{{', '.join(f'{key}: {_text(value)}' for key, value in items.items() if value is not None)}}}"
-
-
-def _text(value: Any) -> str:  # noqa: ANN401 - a setting, a number or outputs
+def _text(value: Any) -> str:  # noqa: ANN401 - of `plain`
     if isinstance(value, Mapping):
-        return _flow(value)
+        return f"{{{', '.join(f'{key}: {_text(one)}' for key, one in value.items())}}}"
     text = str(value)
-    if isinstance(value, int) or (PLAIN.fullmatch(text) and text.lower() not in WORDS):
+    if isinstance(value, int | float) or QUIET.fullmatch(text):
         return text
-    if isinstance(value, Amount) and QUIET.fullmatch(text):
+    if PLAIN.fullmatch(text) and text.lower() not in WORDS:
         return text
     return json.dumps(text, ensure_ascii=False)  # a text in quotes is the same in YAML
