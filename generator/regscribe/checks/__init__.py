@@ -5,6 +5,7 @@ A rule is a pure function under a decorator of `registry`, in the module of its 
 
 from regscribe.checks import (
     addresses,
+    behaviour,
     bits,
     commands,
     conditions,
@@ -45,6 +46,7 @@ SUBJECTS = (
     writes,
     governing,
     commands,
+    behaviour,
     programs,
     protocol,
     provenance,
