@@ -3,6 +3,7 @@
 import logging
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import wraps
 from typing import Any, TypeVar
 
@@ -10,6 +11,7 @@ import click
 
 from regscribe.cli.completing import complete_model, complete_target
 from regscribe.cli.failure import REFUSED, Failure, told
+from regscribe.cli.tracing import Tracing
 from regscribe.live import config as configuration
 from regscribe.live import target as targets
 from regscribe.live.errors import TargetError
@@ -44,6 +46,7 @@ _OPTIONS = (
     ),
     PACKAGE,
     CONFIG,
+    click.option("--trace", is_flag=True, help="Tell of every frame on standard error, in hexadecimal and in names."),
     JSON,
 )
 
@@ -75,11 +78,13 @@ def target_options(function: F) -> F:
         givens: tuple[str, ...],
         packages: tuple[str, ...],
         config: str | None,
+        trace: bool,
         **more: Any,  # noqa: ANN401 - as above
     ) -> Any:  # noqa: ANN401 - the command's own result
         with told():
             target = understood(target_text, config=config, packages=packages)
             target = targets.override(target, unit=unit, model=model or "", given=targets.given_texts(givens))
+            target = replace(target, trace=Tracing(target)) if trace else target
         return function(*args, target=target, **more)
 
     command: Any = click.argument("target_text", metavar="TARGET", shell_complete=complete_target)(with_target)
@@ -104,6 +109,8 @@ def opened(target: Target, *, identity: bool = False) -> Iterator[BareDevice]:
     quiet()
     with told():
         found = targets.identified(target)
+        if isinstance(target.trace, Tracing):
+            target.trace.tell(found.known().driver)
         with targets.connect(found) as device:
             if identity:
                 same_device(device, found)

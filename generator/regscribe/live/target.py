@@ -13,6 +13,7 @@ from regscribe.live.links import LinkName
 from regscribe.runtime import AsyncBareDevice, BareDevice, Link, LinkLost, NoAnswer, identify, tcp
 from regscribe.runtime.identify import Identification, Known, identity_of
 from regscribe.runtime.link import serial
+from regscribe.runtime.trace import Tracer
 
 LAST_UNIT = 255
 USUAL_UNIT = 1
@@ -29,6 +30,7 @@ class Target:
     """A device: the link to it, its unit, its model ("" as long as nobody asked it), its givens as texts.
 
     `name` is what the configuration calls it, `packages` are the user's packages of drivers.
+    `trace` is told of every frame.
     """
 
     link: LinkName
@@ -37,6 +39,7 @@ class Target:
     givens: Mapping[str, str] = field(default_factory=dict)
     name: str = ""
     packages: tuple[str, ...] = ()
+    trace: Tracer | None = field(default=None, compare=False)
 
     def __str__(self) -> str:
         return self.name or f"unit {self.unit} on {self.link}"
@@ -105,8 +108,8 @@ def link_of(target: Target) -> Link:
     """A link to the target without a driver, not opened yet; 9600 8N1 where a line's settings are not given."""
     link, seconds = target.link, target.link.timeout or IDENTIFY_SECONDS
     if not link.serial:
-        return tcp(link.host, timeout=seconds, **link.settings())
-    return serial(link.device, timeout=seconds, **{"baud": USUAL_BAUD, **link.settings()})
+        return tcp(link.host, timeout=seconds, trace=target.trace, **link.settings())
+    return serial(link.device, timeout=seconds, trace=target.trace, **{"baud": USUAL_BAUD, **link.settings()})
 
 
 def packages_of(target: Target) -> tuple[ModuleType, ...]:
@@ -194,9 +197,8 @@ def _made(driver: Any, typed: type[BareDevice], target: Target) -> Any:  # noqa:
     link = target.link
     make = driver.rtu if link.serial else driver.tcp
     try:
-        return make(
-            link.place if link.serial else link.host, unit=target.unit, timeout=link.timeout, **given, **link.settings()
-        )
+        place, settings = link.device if link.serial else link.host, link.settings()
+        return make(place, unit=target.unit, timeout=link.timeout, trace=target.trace, **given, **settings)
     except ValueError as error:
         message = f"{target}: {error}"
         raise TargetError(message) from None

@@ -1,0 +1,128 @@
+from typing import Any
+
+import pytest
+
+from regscribe.live import catalogue, values
+from regscribe.runtime import Choice, Flags, Register, ValueRefused, Word
+from regscribe.runtime.identify import Known
+
+OVEN = catalogue.find("16C").driver.registers
+PRESS = catalogue.find("BTC-9100").driver.registers
+TIMER = catalogue.find("M300").driver.registers
+NAMED = {"enum", "flags", "fields", "boolean"}
+
+
+def possible(register: Register[Any]) -> list[Any]:
+    kind = register.kind
+    if kind.name == "boolean":
+        return [False, True]
+    if kind.name == "fields":
+        return [kind.make(code) for code in (0, 0x0101, 0x0303, 0xFFFF)]
+    members: Any = kind.special or kind.make
+    return [*members, *([members(0), members(0xFFFF)] if issubclass(members, Flags) else [])]
+
+
+@pytest.mark.parametrize("known", catalogue.models(), ids=catalogue.full_name)
+def test_what_is_shown_is_read_back_as_the_same_value(known: Known) -> None:
+    named = [one for one in known.driver.registers.values() if one.kind.name in NAMED or one.kind.special]
+    for register in named:
+        for value in possible(register):
+            shown = values.show(register, value)
+            unknown = isinstance(value, Word) and any(isinstance(part, Choice) and not part.known for _, part in value)
+            if not unknown:
+                assert values.parse(register, shown) == value, (register.path, shown)
+    assert named
+
+
+@pytest.mark.parametrize(
+    ("text", "value"), [("150.5", 150.5), ("-5", -5), ("+1e2", 100), (".5", 0.5), (77, 77), (150.5, 150.5)]
+)
+def test_a_number_is_a_number_however_it_is_written(text: Any, value: float) -> None:
+    assert values.parse(OVEN["setpoint_ram"], text) == value
+
+
+def test_whole_numbers_may_be_hexadecimal() -> None:
+    assert values.parse(OVEN["controller_id"], "0x1F") == 31
+
+
+@pytest.mark.parametrize("text", ["150.5 °F", "150.5°F", "150.5 F", "150.5 degF", "150.5 ℉"])
+def test_a_number_may_carry_the_unit_that_the_device_works_in(text: str) -> None:
+    assert values.parse(OVEN["setpoint_ram"], text, current_unit="°F") == 150.5
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "current", "said"),
+    [
+        ("150.5 °C", "", "°F", "given in °C, but the device works in °F"),
+        ("150.5", "°C", "°F", "given in °C, but the device works in °F"),
+        ("5 s", "", "", "the register has no unit"),
+        ("5 °C", "°F", "°F", "which one is meant?"),
+        ("5 mS", "", "ms", "given in mS"),
+    ],
+)
+def test_a_value_in_another_unit_is_refused(text: str, unit: str, current: str, said: str) -> None:
+    with pytest.raises(ValueRefused) as caught:
+        values.parse(OVEN["setpoint_ram"], text, unit=unit, current_unit=current)
+    assert said in str(caught.value)
+
+
+@pytest.mark.parametrize("text", ["warm", "", "1..5", "--5", "nan", "1e999", "0.10000000000000000001", [], True])
+def test_what_is_no_number_of_use_is_refused(text: Any) -> None:
+    with pytest.raises(ValueRefused):
+        values.parse(OVEN["setpoint_ram"], text)
+
+
+@pytest.mark.parametrize("text", ["J_THERMOCOUPLE", "j_thermocouple", "J thermocouple", "J", "3", 3])
+def test_a_member_is_named_by_its_name_label_first_word_or_code(text: str | int) -> None:
+    assert values.parse(OVEN["input_type"], text).name == "J_THERMOCOUPLE"
+
+
+def test_a_member_that_is_none_says_which_was_meant() -> None:
+    with pytest.raises(ValueRefused, match="did you mean `J_THERMOCOUPLE`"):
+        values.parse(OVEN["input_type"], "J_TERMOCOUPLE")
+
+
+def test_a_code_that_the_manual_does_not_list_is_shown_and_not_taken() -> None:
+    register = OVEN["input_type"]
+    assert values.show(register, register.kind.make(99)) == "UNKNOWN_99"
+    with pytest.raises(ValueRefused):
+        values.parse(register, "UNKNOWN_99")
+
+
+def test_a_special_value_is_named_beside_numbers() -> None:
+    register = OVEN["segments[1].ramp_time"]
+    assert values.parse(register, "disabled").name == "DISABLED"
+    assert values.parse(register, "12") == 12
+
+
+def test_flags_are_names_with_commas_and_a_wrong_one_says_which_was_meant() -> None:
+    register = TIMER["status"]
+    both = values.parse(register, "AUTO_TUNE, OUT_OF_RANGE")
+    assert (values.show(register, both), int(both)) == (["OUT_OF_RANGE", "AUTO_TUNE"], 0xC0)
+    assert int(values.parse(register, "none")) == 0
+    with pytest.raises(ValueRefused, match="did you mean `AUTO_TUNE`"):
+        values.parse(register, "AUTOTUNE")
+
+
+def test_bits_without_a_name_are_shown() -> None:
+    register = TIMER["status"]
+    assert values.show(register, register.kind.make(0x81 | 1 << 9)) == ["TIMER_FUNCTION_STATUS", "AUTO_TUNE", "bit_9"]
+
+
+def test_fields_are_parts_with_their_values() -> None:
+    register = PRESS["mode"]
+    shown = values.show(register, register.kind.make(0x0301))
+    assert "operation=MANUAL_CONTROL_MODE" in shown  # type: ignore[operator]  # a list of parts
+    with pytest.raises(ValueRefused, match="did you mean `operation`"):
+        values.parse(register, "operatoin=3")
+
+
+def test_a_version_and_a_text_stay_texts() -> None:
+    assert values.parse(OVEN["software_version"], "01.31.00") == "01.31.00"
+    with pytest.raises(ValueRefused, match="put it in quotes"):
+        values.parse(OVEN["software_version"], 13100)
+
+
+def test_for_people_numbers_are_short_and_nothing_set_is_said() -> None:
+    assert values.as_text(OVEN["setpoint_ram"], 77.0) == "77"
+    assert values.as_text(TIMER["status"], TIMER["status"].kind.make(0)) == "none"
