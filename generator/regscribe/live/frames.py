@@ -11,6 +11,8 @@ SHORTEST_RTU = 4
 EXCEPTION = 0x80
 _READS, _SINGLES, _MULTIPLES = range(1, 5), (5, 6), (15, 16)
 _STATUS, _LOOPBACK = 7, 8
+_FUNCTIONS = frozenset({*range(1, 9), 11, 12, 15, 16, 17, *range(20, 25), 43})
+"""The public function codes: in captured bytes another one says that what looks like a header is none."""
 
 
 class Frame(NamedTuple):
@@ -75,7 +77,7 @@ def _mbap(raw: bytes) -> list[Frame]:
     found = []
     while len(raw) > MBAP_HEAD + 1:
         end = MBAP_HEAD + int.from_bytes(raw[4:6], "big")
-        if raw[2] or raw[3] or not MBAP_HEAD + 1 < end <= len(raw):
+        if raw[2] or raw[3] or not MBAP_HEAD + 1 < end <= len(raw) or raw[MBAP_HEAD + 1] & ~EXCEPTION not in _FUNCTIONS:
             return []
         found.append(Frame(TCP, raw[MBAP_HEAD], raw[MBAP_HEAD + 1 : end], raw[:end]))
         raw = raw[end:]
