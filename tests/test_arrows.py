@@ -25,15 +25,16 @@ ROOMS = {
     "runtime": set[str](),
     "live": {"model", "source", "schema", "runtime"},
     "programs": {"model", "source", "schema", "runtime", "live", "emit"},
+    "settings": {"source", "schema", "runtime", "live"},
     "testing": {"runtime"},
     "pipeline": {"model", "source", "schema", "compose", "lower", "checks"},
     "cli": {"model", "source", "schema", "compose", "lower", "checks", "emit", "evidence", "simulate", "pipeline"}
-    | {"runtime", "live", "programs"},
+    | {"runtime", "live", "settings", "programs"},
 }
 """Which other rooms a room may import."""
 
 OWNERS = {
-    "yaml": {"source"},
+    "yaml": {"source", "settings"},
     "jsonschema": {"schema"},
     "jinja2": {"emit"},
     "click": {"cli"},

@@ -1,0 +1,37 @@
+"""The values that the manual gives as defaults, as if a device had been saved with them."""
+
+from typing import Any
+
+from regscribe.live.names import Driver
+from regscribe.live.reading import unit_needs, unit_of
+from regscribe.live.values import show
+from regscribe.runtime import Register
+from regscribe.settings.saved import Saved
+from regscribe.settings.taking import is_number, writable
+
+
+def factory(driver: Driver) -> dict[str, Saved]:
+    """The settings of a model by path, where its manual gives a default."""
+    values = {one.path: default_of(one) for one in writable(driver) if one.default is not None}
+    return {path: _saved(driver.registers[path], value, values) for path, value in values.items()}
+
+
+def default_of(register: Register[Any]) -> Any:  # noqa: ANN401 (a value of any register)
+    """The default as a driver would read it: a member of the enum, a special value, a number, a text."""
+    kind, default = register.kind, register.default
+    if kind.name == "string" or default is None:
+        return default
+    if kind.coded:
+        return kind.make(int(default))
+    if kind.special is not None and default in {member.value for member in kind.special}:
+        return kind.special(int(default))
+    if default in kind.means:
+        return kind.make(kind.means[int(default)])
+    return kind.make(default)
+
+
+def _saved(register: Register[Any], value: Any, state: dict[str, Any]) -> Saved:  # noqa: ANN401 (as above)
+    plain = show(register, value)
+    known = set(unit_needs(register)) <= set(state)
+    unit = unit_of(register, state, {}) if known and is_number(plain) else ""
+    return Saved(value=plain, unit=unit, stays=register.stays)

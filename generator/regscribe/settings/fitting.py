@@ -1,0 +1,120 @@
+"""Whether a backup fits a device, and what of it does: nothing is written before this is known."""
+
+from collections.abc import Collection, Iterator, Mapping
+from typing import Any, NamedTuple
+
+from regscribe.live.errors import unknown
+from regscribe.live.names import Driver
+from regscribe.live.reading import unit_of
+from regscribe.live.values import parse
+from regscribe.runtime import Register, ValueNotDecodable, ValueRefused, codec
+from regscribe.settings.saved import Backup, Saved
+from regscribe.settings.taking import is_number
+
+KINDS = ("address", "line", "calibration", "identity", "counter", "operation")
+"""Why a setting may have to stay with its device; `include` takes these words."""
+
+
+class Misfit(NamedTuple):
+    """A setting of the file that this device cannot take, and why."""
+
+    path: str
+    reason: str
+
+
+class Fit(NamedTuple):
+    """What a backup means for a device.
+
+    `values` are what can be written, values of use by path, in the order of the file; `misfits` what cannot;
+    `stays` what is left out because it belongs to the saved device alone, by its kind. `strange` says in what the file
+    is of another device: each line is one difference.
+    """
+
+    values: Mapping[str, Any]
+    misfits: tuple[Misfit, ...]
+    stays: Mapping[str, str]
+    strange: tuple[str, ...]
+
+
+def fit(
+    backup: Backup,
+    driver: Driver,
+    *,
+    state: Mapping[str, Any],
+    givens: Mapping[str, Any],
+    include: Collection[str] = (),
+) -> Fit:
+    """Hold a backup against a driver; `state` has the device's present values where the file has none.
+
+    `include` names kinds of settings that are to be written although they stay with their device.
+    """
+    values: dict[str, Any] = {}
+    misfits: list[Misfit] = []
+    stays: dict[str, str] = {}
+    for path, saved in backup.settings():
+        register = driver.registers.get(path)
+        kind = saved.stays or (register.stays if register else "")
+        if kind and kind not in include:
+            stays[path] = kind
+            continue
+        try:
+            values[path] = _value(path, saved, driver)
+        except ValueRefused as refusal:
+            misfits.append(Misfit(path, refusal.reason))
+    whole = {**state, **values}
+    for misfit in _contradictions(backup, driver, values, whole, givens):
+        misfits.append(misfit)
+        del values[misfit.path]
+    return Fit(values, tuple(misfits), stays, tuple(strangeness(backup, driver)))
+
+
+def strangeness(backup: Backup, driver: Driver) -> Iterator[str]:
+    """In what a backup is of another device than a driver's: map, model, version of the map."""
+    origin = backup.origin
+    if origin.map_id != driver.map_id:
+        yield f"the file is of the map {origin.map_id}, the device of {driver.map_id}"
+    elif origin.map_sha256 != driver.map_sha256:
+        yield f"the file was made with another version of the map {origin.map_id} ({origin.map_sha256[:12]}…)"
+    if origin.model != driver.model:
+        yield f"the file is of a {origin.model}, the device is a {driver.model}"
+
+
+def _value(path: str, saved: Saved, driver: Driver) -> Any:  # noqa: ANN401 (a value of any register)
+    register = driver.registers.get(path)
+    if register is None:
+        raise ValueRefused(path, unknown("register", path, driver.registers, where=f"in {driver.model}"))
+    if register.access != "rw":
+        raise ValueRefused(path, f"it is {'read-only' if register.access == 'r' else 'write-only'} on {driver.model}")
+    if saved.value is None:
+        raise ValueRefused(path, f"the file has no value for it ({saved.error or 'none was read'})")
+    return parse(register, saved.value, unit=saved.unit, current_unit=saved.unit)
+
+
+def _contradictions(
+    backup: Backup, driver: Driver, values: Mapping[str, Any], state: Mapping[str, Any], givens: Mapping[str, Any]
+) -> list[Misfit]:
+    """Values whose unit is another under the settings around them, or whose words say something else."""
+    found = []
+    for path, saved in backup.settings():
+        if path in values:
+            reason = _contradiction(driver.registers[path], saved, values[path], state, givens)
+            found += [Misfit(path, reason)] if reason else []
+    return found
+
+
+def _contradiction(
+    register: Register[Any], saved: Saved, value: object, state: Mapping[str, Any], givens: Mapping[str, Any]
+) -> str:
+    unit = unit_of(register, state, givens) if is_number(saved.value) else ""
+    if saved.unit and saved.unit != unit:
+        return f"it stands in {saved.unit}, but with these settings the device works in {unit or 'no unit'}"
+    view = register.view()
+    if len(saved.raw) != view.words or not set(register.needs(view)) <= set(state):
+        return ""
+    try:
+        meant = codec.decode(register, view, saved.raw, state, givens)
+    except (ValueNotDecodable, ValueError) as error:
+        return f"its words {list(saved.raw)} are no value ({error})"
+    if meant != value:
+        return f"the file says {saved.spelled}, but its words {list(saved.raw)} mean {meant}: which one is right?"
+    return ""
