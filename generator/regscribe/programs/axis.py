@@ -27,8 +27,10 @@ class Scale(NamedTuple):
 
 def level_scale(low: Fraction, high: Fraction, *, most: int) -> Scale:
     """At most `most` marks at round numbers that cover everything from `low` to `high`."""
-    span = max(high - low, Fraction(1, 10**6))
-    step = next((one for one in STEPS if span / one <= most - 2), STEPS[-1])
+    if low == high:
+        margin = max(abs(low) / 10, Fraction(1))
+        low, high = low - margin, high + margin
+    step = next((one for one in STEPS if (high - low) / one <= most - 2), STEPS[-1])
     first = low // step
     count = -((first * step - high) // step)
     places = [(first + number) * step for number in range(count + 1)]

@@ -6,6 +6,7 @@ from itertools import groupby
 from typing import NamedTuple
 
 from regscribe.emit.pictures.drawing import MARGIN, PLAIN, SMALL, WIDTH, Box, Canvas, Drawing, Line, Text
+from regscribe.emit.pictures.measure import width
 from regscribe.emit.pictures.style import tint
 from regscribe.emit.pictures.svg import svg
 from regscribe.programs.axis import level_scale, time_scale
@@ -18,6 +19,9 @@ LANE = 24
 BAND = 22
 TAIL = 46
 """Pixels: where the curve begins and ends, its height, the lanes of outputs, the band of numbers, the final stay."""
+
+THIN = 2
+"""Width of what takes no time, or next to none."""
 
 MOST_LEVELS, MOST_TIMES = 8, 12
 FIRST_COLOUR = 1
@@ -61,7 +65,7 @@ def drawing(program: Program, *, first: int = 1) -> Drawing:
         frame = _axes(canvas, found)
         _numbers(canvas, frame, found)
         _curve(canvas, frame, found)
-        canvas.y = frame.bottom + 34
+        canvas.y = frame.bottom + 46
         _lanes(canvas, frame, program, found)
     return canvas.finish(title, describe(program, found))
 
@@ -84,6 +88,9 @@ def _remarks(program: Program, found: Profile) -> Iterator[str]:
     facts += [f"at the end {program.end}"] if program.end else []
     facts += [f"after a power failure {program.power_failure}"] if program.power_failure else []
     yield f"{'; '.join(facts)}."
+    if found.legs:
+        stays = ", and what stays behind the last segment" if found.final is not None else ""
+        yield f"Dashed: from wherever the setpoint is when the program starts{stays}."
     open_scales = [name for name, unit in (("times", found.time), ("setpoints", found.level)) if unit == RAW]
     if open_scales:
         counted = f" (times count in {found.counts_in})" if found.counts_in else ""
@@ -123,8 +130,9 @@ def _axes(canvas: Canvas, found: Profile) -> Frame:
         canvas.add(Line(((frame.x(time), top), (frame.x(time), frame.bottom)), "grid"))
         canvas.add(Text(frame.x(time), frame.bottom + 16, text, PLAIN, "middle", "dim"))
     canvas.add(Text(LEFT - 8, top - 12, found.level, PLAIN, "end", "ink"))
-    unit = times.unit or (f"raw, in {found.counts_in}" if found.counts_in else "raw")
-    canvas.add(Text(LEFT - 8, frame.bottom + 16, unit, SMALL, "end", "ink"))
+    counted = f" (in {found.counts_in}, decimals not stated)" if found.counts_in else ""
+    words = f"time in {times.unit}" if times.unit else f"time as the controller counts it{counted}"
+    canvas.text(words, RIGHT, frame.bottom + 34, RIGHT - LEFT, Text(0, 0, "", SMALL + 1, "end", "dim"))
     return frame
 
 
@@ -134,10 +142,10 @@ def _numbers(canvas: Canvas, frame: Frame, found: Profile) -> None:
         own = list(legs)
         left, right = frame.x(own[0].start), frame.x(own[-1].end)
         tip = f"segment {number}: " + ", ".join(_leg(found, leg) for leg in own)
-        if right - left > 1:
-            canvas.add(Box(left, frame.top - 10 - BAND, right - left, BAND, tint(number + FIRST_COLOUR), tip, radius=2))
-            middle = Text(0, 0, "", PLAIN, "middle", style="ink mark", bold=True)
-            canvas.text(str(number), (left + right) / 2, frame.top - 10 - BAND / 2 + 4, right - left - 2, middle)
+        canvas.add(Box(left, frame.top - 10 - BAND, max(right - left, THIN), BAND, "empty", tip, radius=2))
+        middle = Text(0, 0, "", PLAIN, "middle", style="ink mark", bold=True)
+        if right - left > width(str(number), PLAIN, bold=True):
+            canvas.text(str(number), (left + right) / 2, frame.top - 10 - BAND / 2 + 4, right - left, middle)
 
 
 def _leg(found: Profile, leg: Leg) -> str:
@@ -185,8 +193,8 @@ def _lanes(canvas: Canvas, frame: Frame, program: Program, found: Profile) -> No
 
 
 def _state(canvas: Canvas, left: float, right: float, state: str, colours: Mapping[str, str]) -> None:
-    if state and right - left > 1:
-        canvas.add(Box(left, canvas.y, right - left, LANE, colours[state], state, radius=2))
+    if state:
+        canvas.add(Box(left, canvas.y, max(right - left, THIN), LANE, colours[state], state, radius=2))
         like = Text(0, 0, "", SMALL + 1, "middle", style="ink mark")
         canvas.text(state, (left + right) / 2, canvas.y + LANE / 2 + 4, right - left - 6, like)
 
