@@ -1,13 +1,13 @@
 """Decoding many registers of one request at once: one struct.unpack for all of them."""
 
 import struct
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from regscribe.runtime import codec
-from regscribe.runtime.errors import ValueNotDecodable
-from regscribe.runtime.ground import Item
-from regscribe.runtime.plan import Block, blocks
+from regscribe.runtime.errors import NotDecodable, RegscribeError, ValueNotDecodable
+from regscribe.runtime.plan import Block
 from regscribe.runtime.request import Request
 from regscribe.runtime.spec import View
 from regscribe.runtime.wire import LITTLE
@@ -15,6 +15,7 @@ from regscribe.runtime.wire import LITTLE
 if TYPE_CHECKING:
     from regscribe.runtime.register import Register
     from regscribe.runtime.session import Session
+    from regscribe.runtime.sieve import Words
 
 Placed = tuple["Register[Any]", View, int]
 """A register, its view, and the place of its first word in the block."""
@@ -23,21 +24,29 @@ Placed = tuple["Register[Any]", View, int]
 class PreparedBlock:
     """A request and what to do with its words, under the state of the device at the time of preparation.
 
-    Registers of numbers are unpacked together; texts, bits and registers that share words are decoded alone.
+    Registers of numbers are unpacked together; texts, bits and registers that share words are decoded alone. `unknown`
+    are registers whose values could not be learnt, with why: what depends on them has no value either.
     """
 
-    __slots__ = ("alone", "converters", "order", "packer", "paths", "request", "unpacker")
+    __slots__ = ("alone", "block", "converters", "order", "packer", "paths", "placed", "request", "unpacker")
 
-    def __init__(self, block: Block, placed: Sequence[Placed], session: "Session") -> None:
+    def __init__(
+        self,
+        block: Block,
+        placed: Sequence[Placed],
+        session: "Session",
+        unknown: Mapping[str, RegscribeError] = MappingProxyType({}),
+    ) -> None:
+        self.block, self.placed = block, placed
         self.request = Request(block.function, block.address, block.quantity)
         together, others = _split(placed)
         self.packer = struct.Struct(f">{block.quantity}H")
         self.unpacker = struct.Struct(_format(together, block.quantity))
         self.order = _order(together, block.quantity, session)
         self.paths = [register.path for register, _, _ in together]
-        converters = [_converter(*one, session) for one in together]
+        converters = [_converter(*one, session, unknown) for one in together]
         self.converters = [(place, convert) for place, convert in enumerate(converters) if convert is not codec.same]
-        self.alone = [(*one, _decoder(*one, session)) for one in others]
+        self.alone = [(*one, _decoder(*one, session, unknown)) for one in others]
 
     def decode(self, words: Sequence[int]) -> dict[str, Any]:
         """Values by path; a ValueNotDecodable in place of a value that is none."""
@@ -48,6 +57,18 @@ class PreparedBlock:
             found[register.path] = _caught(decode, words[start : start + view.words])
         return found
 
+    def decode_partly(
+        self, words: "Words", session: "Session", unknown: Mapping[str, RegscribeError]
+    ) -> dict[str, Any]:
+        """As `decode`, of the registers whose words are all there."""
+        found = {}
+        for register, view, start in self.placed:
+            there = words[start : start + view.words]
+            if None not in there:
+                decode = _decoder(register, view, start, session, unknown)
+                found[register.path] = _caught(decode, there)
+        return found
+
     def _together(self, words: Sequence[int]) -> dict[str, Any]:
         values: list[Any] = list(self.unpacker.unpack(self.packer.pack(*words)))
         for place, convert in self.converters:
@@ -56,22 +77,6 @@ class PreparedBlock:
             except ValueNotDecodable as error:
                 values[place] = error
         return dict(zip(self.paths, values, strict=True))
-
-
-def prepare(registers: Sequence["Register[Any]"], session: "Session") -> list[PreparedBlock]:
-    """Plan the reading of registers in their preferred views."""
-    wanted: dict[Item, list[tuple[Register[Any], View]]] = {}
-    for register in registers:
-        view = register.view()
-        wanted.setdefault(Item(view.space, view.address(register.at), view.words), []).append((register, view))
-    return [
-        PreparedBlock(
-            block,
-            [(register, view, item.address - block.address) for item in block.items for register, view in wanted[item]],
-            session,
-        )
-        for block in blocks([(item,) for item in wanted], session.terms())[0]
-    ]
 
 
 def _split(placed: Sequence[Placed]) -> tuple[list[Placed], list[Placed]]:
@@ -105,12 +110,15 @@ def _order(together: Sequence[Placed], quantity: int, session: "Session") -> lis
 def _backward(register: "Register[Any]", view: View, session: "Session") -> bool:
     try:
         return view.word_order(register.path, session.memory) == LITTLE
-    except ValueNotDecodable:
+    except (ValueNotDecodable, KeyError):
         return False  # its converter says so, for this register alone
 
 
-def _converter(register: "Register[Any]", view: View, _: int, session: "Session") -> Callable[[Any], Any]:
+def _converter(
+    register: "Register[Any]", view: View, _: int, session: "Session", unknown: Mapping[str, RegscribeError]
+) -> Callable[[Any], Any]:
     try:
+        _known(register, view, unknown)
         if view.words > 1:
             view.word_order(register.path, session.memory)
         return codec.reader(register, view, session.memory, session.givens)
@@ -118,11 +126,20 @@ def _converter(register: "Register[Any]", view: View, _: int, session: "Session"
         return _always(error)
 
 
-def _decoder(register: "Register[Any]", view: View, _: int, session: "Session") -> Callable[[Any], Any]:
+def _decoder(
+    register: "Register[Any]", view: View, _: int, session: "Session", unknown: Mapping[str, RegscribeError]
+) -> Callable[[Any], Any]:
     try:
+        _known(register, view, unknown)
         return codec.decoder(register, view, session.memory, session.givens)
     except ValueNotDecodable as error:
         return _always(error)
+
+
+def _known(register: "Register[Any]", view: View, unknown: Mapping[str, RegscribeError]) -> None:
+    for path in register.needs(view) if unknown else ():
+        if path in unknown:
+            raise NotDecodable(register.path, f"its meaning depends on {path}: {unknown[path]}")
 
 
 def _always(error: ValueNotDecodable) -> Callable[[Any], Any]:

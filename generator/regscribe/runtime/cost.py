@@ -11,6 +11,7 @@ from regscribe.runtime.request import READ_FUNCTIONS, READ_STATUS
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from regscribe.runtime.line import Line
     from regscribe.runtime.session import Latency, Protocol
 
 BIT_SPACES = frozenset({"coil", "discrete"})
@@ -100,6 +101,11 @@ class Cost(NamedTuple):
     gap: float = 3.5
     round_trip: float = 0.0
     latencies: "Mapping[int, Latency]" = MappingProxyType({})
+
+    @classmethod
+    def of(cls, protocol: "Protocol", line: "Line | None") -> "Cost":
+        """Of the line that a link has; over TCP without one."""
+        return cls.serial(protocol, baud=line.baud, form=line.format) if line else cls.tcp(protocol)
 
     @classmethod
     def serial(cls, protocol: "Protocol", *, baud: int = 0, form: str = "", framing: str = "rtu") -> "Cost":

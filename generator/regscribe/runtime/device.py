@@ -9,7 +9,7 @@ from regscribe.runtime.bound import _AsyncBound, _Bound
 from regscribe.runtime.execute import run, run_async
 from regscribe.runtime.line import Line
 from regscribe.runtime.link import AsyncLink, LineSettings, Link, LinkSettings
-from regscribe.runtime.parts import AsyncPart, Command, Group, Part, Section
+from regscribe.runtime.parts import AsyncPart, Command, Group, Part, Section, groups_of
 from regscribe.runtime.program import SetpointProgram
 from regscribe.runtime.register import Register
 from regscribe.runtime.session import Protocol, Session
@@ -37,6 +37,7 @@ class _Common:
 
     model: ClassVar[str] = ""
     map_id: ClassVar[str] = ""
+    map_sha256: ClassVar[str] = ""
     protocol: ClassVar[Protocol] = Protocol()
     identity: ClassVar[tuple[Identity, ...]] = ()
     setpoint_programs: ClassVar[tuple[SetpointProgram, ...]] = ()
@@ -51,6 +52,7 @@ class _Common:
             registers=type(self).registers,
             commands=self._declared_commands(),
             givens=givens,
+            groups=groups_of(type(self)),
             unused=self._unused,
         )
 

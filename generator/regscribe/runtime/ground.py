@@ -44,7 +44,7 @@ class Stretch(NamedTuple):
 class Ground:
     """The stretches of every space of one device, and why they end."""
 
-    __slots__ = ("_known", "_refused", "_starts", "_stretches", "_unreadable", "holes")
+    __slots__ = ("_aligned", "_known", "_refused", "_starts", "_stretches", "_unreadable", "holes")
 
     def __init__(
         self,
@@ -55,17 +55,26 @@ class Ground:
         refused: Mapping[str, list[Range]] | None = None,
         holes: bool = False,
     ) -> None:
-        self.holes = holes
+        self.holes, self._aligned = holes, aligned or {}
         self._known = {space: merged(found) for space, found in readable.items()}
         self._unreadable = {
             space: without(merged(found), self._known.get(space, ())) for space, found in (unreadable or {}).items()
         }
         self._refused = {space: merged(found) for space, found in (refused or {}).items()}
         self._stretches = {
-            space: tuple(self._cut(space, (aligned or {}).get(space, [])))
+            space: tuple(self._cut(space, self._aligned.get(space, [])))
             for space in {*self._known, *self._unreadable, *self._refused}
         }
         self._starts = {space: [one.first for one in found] for space, found in self._stretches.items()}
+
+    def refusing(self, items: Iterable[Item]) -> "Ground":
+        """The same ground without addresses that a unit refused."""
+        refused: dict[str, list[Range]] = {}
+        for item in items:
+            refused.setdefault(item.space, []).append((item.address, item.end))
+        return Ground(
+            self._known, unreadable=self._unreadable, aligned=self._aligned, refused=refused, holes=self.holes
+        )
 
     def _cut(self, space: str, aligned: list[Stretch]) -> Iterator[Stretch]:
         allowed = [(0, ADDRESSES)] if self.holes else self._known.get(space, [])
@@ -83,20 +92,18 @@ class Ground:
                 yield Stretch(place, end)
 
     def stretch(self, item: Item) -> Stretch | None:
-        """The stretch that holds an item; None for one that cannot be read."""
+        """The stretch that holds an item and what must be read along for alignment; None if it cannot be read."""
         place = bisect_right(self._starts.get(item.space, []), item.address) - 1
         if place < 0:
             return None
         found = self._stretches[item.space][place]
-        return found if item.end <= found.end else None
+        wide = item if found.align == 1 else _aligned(item, found.align)
+        return found if found.first <= wide.address and wide.end <= found.end else None
 
     def widened(self, item: Item) -> Item:
         """The addresses that must be asked for to read an item: whole steps of the alignment there."""
         found = self.stretch(item)
-        if found is None or found.align == 1:
-            return item
-        first = item.address // found.align * found.align
-        return Item(item.space, first, -(-(item.end - first) // found.align) * found.align)
+        return item if found is None or found.align == 1 else _aligned(item, found.align)
 
     def between(self, before: Item, after: Item) -> str:
         """Why no request reads from `before` to `after`: unreadable, refused, hole or alignment; "" if one may."""
@@ -112,14 +119,18 @@ class Ground:
         return "alignment"
 
 
+def _aligned(item: Item, align: int) -> Item:
+    first = item.address // align * align
+    return Item(item.space, first, -(-(item.end - first) // align) * align)
+
+
 def ground_of(
     registers: Iterable["Register[Any]"],
     *,
     unused: Iterable[tuple[str, int, int]] = (),
-    refused: Iterable[Item] = (),
     holes: bool = False,
 ) -> Ground:
-    """The ground of a device with these registers; `unused` (first, last address) reads as 0, `refused` not at all."""
+    """The ground of a device with these registers; `unused` are spaces, first and last addresses that read as 0."""
     readable: dict[str, list[Range]] = {}
     unreadable: dict[str, list[Range]] = {}
     aligned: dict[tuple[str, str], Stretch] = {}
@@ -134,13 +145,10 @@ def ground_of(
                 aligned[key] = Stretch(first, end, view.align)
     for space, first, last in unused:
         readable.setdefault(space, []).append((first, last + 1))
-    gone: dict[str, list[Range]] = {}
-    for item in refused:
-        gone.setdefault(item.space, []).append((item.address, item.end))
     regions: dict[str, list[Stretch]] = {}
     for (space, _), stretch in sorted(aligned.items(), key=lambda one: one[1]):
         regions.setdefault(space, []).append(stretch)
-    return Ground(readable, unreadable=unreadable, aligned=regions, refused=gone, holes=holes)
+    return Ground(readable, unreadable=unreadable, aligned=regions, holes=holes)
 
 
 def places(register: "Register[Any]") -> Iterator[tuple[View, int]]:

@@ -9,10 +9,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from regscribe.runtime import codec
-from regscribe.runtime.block import prepare
+from regscribe.runtime.errors import ExceptionAnswer, RegscribeError, Unsteady, ValueNotDecodable
 from regscribe.runtime.ground import Item
 from regscribe.runtime.plan import blocks
+from regscribe.runtime.ready import MISSING, Ready, dependencies, make_ready
 from regscribe.runtime.request import READ_FUNCTIONS, Request
+from regscribe.runtime.sieve import REFUSALS, Sieve, is_absence
 from regscribe.runtime.snapshot import Snapshot
 from regscribe.runtime.spec import View, choose, registers_of
 
@@ -24,15 +26,20 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
+TRIES = 4
+"""Reads of a snapshot until it is given up as unsteady; an absent dependency takes one of them."""
+
 MAX_DEPTH = 8
 """Dependencies of dependencies; the compiler refuses cycles, this bounds what it let through."""
 
 
-def _item(register: Register[Any], view: View) -> Item:
+def item_of(register: Register[Any], view: View) -> Item:
+    """Where a register stands in a view."""
     return Item(view.space, view.address(register.at), view.words)
 
 
-def _fetch(session: Session, items: Iterable[Item]) -> Operation[dict[Item, tuple[int, ...]]]:
+def fetch(session: Session, items: Iterable[Item]) -> Operation[dict[Item, tuple[int, ...]]]:
+    """The present words of items, in few requests."""
     found = {}
     made, _ = blocks([(item,) for item in items], session.terms())
     for block in made:
@@ -55,9 +62,9 @@ def know(session: Session, paths: Iterable[str], *, fresh: bool = False, depth: 
     views = [register.view() for register in registers]
     for register, view in zip(registers, views, strict=True):
         yield from know(session, register.needs(view), depth=depth + 1)
-    found = yield from _fetch(session, map(_item, registers, views))
+    found = yield from fetch(session, map(item_of, registers, views))
     values = {
-        register.path: codec.decode(register, view, found[_item(register, view)], session.memory, session.givens)
+        register.path: codec.decode(register, view, found[item_of(register, view)], session.memory, session.givens)
         for register, view in zip(registers, views, strict=True)
     }
     for path, value in values.items():
@@ -109,19 +116,107 @@ def read_unit(register: Register[Any]) -> Task[str]:
     return task
 
 
-def read_many(registers: Sequence[Register[Any]]) -> Task[Snapshot]:
-    """Read several registers in few requests: one snapshot with a value or an error for each."""
+def read_many(registers: Sequence[Register[Any]], *, fresh: bool = True) -> Task[Snapshot]:
+    """Read several registers in the requests of least cost: one snapshot with a value or an error for each.
+
+    The snapshot is consistent: what the meaning of values depends on (decimals, input type, word order) is read along,
+    behind the values. If it is not as it was known before, everything is read again under the new state, unless values
+    and state came in one request; after TRIES times Unsteady is raised. Without `fresh`, what was remembered is
+    trusted, as single reads do: cheaper, and right as long as nobody else configures the device.
+
+    If the unit refuses a request because it lacks a register, `Sieve` finds it and delivers the rest; the entry of that
+    register is an Absent error, and reads go round it until that expires. What concerns the whole unit is raised:
+    NoAnswer, LinkLost, WrongAnswer, and any other exception answer.
+    """
 
     def task(session: Session) -> Operation[Snapshot]:
-        key = tuple(register.path for register in registers)
-        if key not in session.prepared:
-            needs = [path for register in registers for path in register.needs(register.view())]
-            yield from know(session, needs)
-            session.prepared[key] = prepare(registers, session)
-        values: dict[str, Any] = dict.fromkeys(key)
-        for block in session.prepared[key]:
-            words = yield from session.exchange(block.request)
-            values.update(block.decode(words))
-        return Snapshot(values)
+        if session.absences and session.absences.expire():
+            session.prepared.clear()
+        changed: dict[str, Any] = {}
+        for _ in range(TRIES):
+            ready = yield from _ready(session, registers, fresh=fresh)
+            answers, complete = yield from _answers(session, ready)
+            if not complete and ready.blind(answers):
+                continue
+            changed = ready.changed(answers, session)
+            if changed:
+                _take_over(session, changed)
+                before, ready = ready, (yield from _ready(session, registers, fresh=fresh))
+                if not (before.atomic and complete and ready.alike(before)):
+                    continue
+            if complete:
+                return Snapshot(ready.decode(answers))
+            return Snapshot(
+                (yield from _patched(session, registers, ready.decode_partly(answers, session), fresh=fresh))
+            )
+        raise Unsteady(unit=session.unit, changed=tuple(changed), tries=TRIES)
 
     return task
+
+
+def _ready(session: Session, registers: Sequence[Register[Any]], *, fresh: bool) -> Operation[Ready]:
+    key = (tuple(register.path for register in registers), fresh)
+    if key not in session.prepared:
+        unknown = yield from _learn(session, registers)
+        session.prepared[key] = make_ready(session, registers, fresh=fresh, unknown=unknown)
+    found: Ready = session.prepared[key]
+    return found
+
+
+def _learn(session: Session, registers: Sequence[Register[Any]]) -> Operation[dict[str, RegscribeError]]:
+    """Make known what the meaning of registers depends on; why not, of each that has no value."""
+    needs = dependencies(session, registers)
+    needed = frozenset().union(*needs.values())
+    unknown: dict[str, RegscribeError] = {}
+    try:
+        yield from know(session, [path for path in needs if path in needed])
+    except (ValueNotDecodable, ExceptionAnswer) as error:
+        _bearable(session, error)
+    else:
+        return unknown
+    for path in needs:
+        try:
+            if path in needed:
+                yield from know(session, [path])
+        except (ValueNotDecodable, ExceptionAnswer) as error:
+            _bearable(session, error)
+            unknown[path] = error
+    return unknown
+
+
+def _bearable(session: Session, error: RegscribeError) -> None:
+    if not isinstance(error, ValueNotDecodable) and not is_absence(error, session.protocol.absent):
+        raise error
+
+
+def _answers(session: Session, ready: Ready) -> Operation[tuple[list[Any], bool]]:
+    """The words of each block, and whether all could be read."""
+    answers: list[Any] = []
+    complete = True
+    for block in ready.blocks:
+        try:
+            answers.append((yield from session.exchange(block.request)))
+        except REFUSALS as error:
+            if not is_absence(error, session.protocol.absent):
+                raise
+            complete = False
+            answers.append((yield from Sieve(session, block.block, error, heard=bool(answers)).run()))
+    return answers, complete
+
+
+def _take_over(session: Session, changed: dict[str, Any]) -> None:
+    session.forget(path for path, value in changed.items() if value is MISSING)
+    for path, value in changed.items():
+        if value is not MISSING:
+            session.remember(path, value)
+
+
+def _patched(
+    session: Session, registers: Sequence[Register[Any]], values: dict[str, Any], *, fresh: bool
+) -> Operation[dict[str, Any]]:
+    """Values with what was refused read by another way, or the error that there is none."""
+    left = [register for register in registers if values[register.path] is None]
+    if left:
+        rest = yield from read_many(left, fresh=fresh)(session)
+        values.update(rest.entries)
+    return values

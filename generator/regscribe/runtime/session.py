@@ -4,19 +4,21 @@ from collections.abc import Callable, Generator, Iterable, Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar
 
+from regscribe.runtime.absent import Absences
 from regscribe.runtime.cost import Cost
 from regscribe.runtime.errors import ExceptionAnswer, LinkLost, NoAnswer, RegscribeError, WrongAnswer
-from regscribe.runtime.ground import ground_of
+from regscribe.runtime.ground import Ground, ground_of
 from regscribe.runtime.line import Line
 from regscribe.runtime.plan import Limits, Terms
 from regscribe.runtime.policy import Retry
+from regscribe.runtime.report import Wear
 from regscribe.runtime.request import Meanings, Reply, Request, verify
 from regscribe.runtime.timing import response_seconds
 
 T = TypeVar("T")
 
-Operation = Generator["Request | Pause", "Reply | None", T]
-"""Protocol logic without I/O: yields requests (or pauses), receives replies, returns a value."""
+Operation = Generator["Request | Pause | Retune", "Reply | None", T]
+"""Protocol logic without I/O: yields requests (or pauses, or how to talk on), receives replies, returns a value."""
 
 
 GATEWAY_GOT_NO_ANSWER = 0x0B
@@ -27,6 +29,26 @@ class Pause(NamedTuple):
     """Time that the device needs, in seconds."""
 
     seconds: float
+
+
+class Retune(NamedTuple):
+    """How the device talks from now on, so that the session and its link follow; None: as before.
+
+    Over TCP speed and format are those of a gateway, which a link cannot set: they stay as they are.
+    """
+
+    unit: int | None = None
+    baud: int | None = None
+    data_bits: int | None = None
+    parity: str | None = None
+    stop_bits: int | None = None
+    addressing: str | None = None
+
+    @property
+    def line(self) -> dict[str, int | str]:
+        """What changes of the serial line."""
+        found = {"baud": self.baud, "data_bits": self.data_bits, "parity": self.parity, "stop_bits": self.stop_bits}
+        return {name: value for name, value in found.items() if value is not None}
 
 
 class Latency(NamedTuple):
@@ -48,6 +70,7 @@ class Protocol(NamedTuple):
     `timeout` is the longest time in seconds that a good answer may take at any speed, from the manual's latencies,
     which `latencies` has by function code; `gap` is the silence between frames in characters. `broadcast` are the
     functions that may be sent to all units at once, `bauds` and `formats` (8N1) what the serial line can be set to.
+    `absent` is the exception code by which the device refuses an address that it does not have; 0: it keeps silent.
     """
 
     functions: tuple[int, ...] = (3, 6, 16)
@@ -67,6 +90,7 @@ class Protocol(NamedTuple):
     gap: float = 3.5
     latencies: Mapping[int, Latency] = MappingProxyType({})
     broadcast: tuple[int, ...] = ()
+    absent: int = 2
 
     @property
     def read_limits(self) -> Limits:
@@ -82,14 +106,15 @@ class Session:
     """One device behind one link: `memory` holds the registers that the meaning of others depends on.
 
     It is forgotten when one of them is written, when a command ran, and when the link was opened anew (`epoch`).
-    `prepared` caches requests and decoders made under that memory, so it goes whenever the memory changes. `line` is the
-    link's serial line (None over TCP), `retry` what is tried again (None: as the link has it), `wrote` whether the
-    operation under way has sent anything but reads.
+    `prepared` caches requests and decoders made under that memory, so it goes whenever the memory changes. `line` is
+    the link's serial line (None over TCP), `retry` what is tried again (None: as the link has it), `wrote` whether the
+    operation under way has sent anything but reads. `unused` addresses (space, first, last) read as 0; `absences` are
+    those that this unit refused.
     """
 
     __slots__ = (
-        "_seconds", "_tries", "commands", "epoch", "givens", "line", "memory", "prepared", "protocol", "registers",
-        "retry", "unit", "wrote",
+        "_ground", "_seconds", "_tries", "absences", "addressing", "commands", "epoch", "givens", "groups", "line",
+        "memory", "prepared", "protocol", "registers", "retry", "unit", "unused", "wear", "wrote",
     )  # fmt: skip # one name a line says no more
 
     def __init__(
@@ -100,21 +125,27 @@ class Session:
         registers: Mapping[str, Any],
         commands: Mapping[str, Any],
         givens: Mapping[str, Any],
+        groups: Mapping[str, Any] = MappingProxyType({}),
+        unused: tuple[tuple[str, int, int], ...] = (),
     ) -> None:
         low, high = protocol.unit_ids
         if not low <= unit <= high:
             message = f"unit {unit} is outside {low} to {high}, the unit ids of this device"
             raise ValueError(message)
         self.unit, self.protocol, self.givens = unit, protocol, givens
-        self.registers, self.commands = registers, commands
+        self.registers, self.commands, self.groups = registers, commands, groups
         self.memory: dict[str, Any] = {}
         self.prepared: dict[Any, Any] = {}
+        self.wear = Wear()
         self.epoch = 0
         self.line: Line | None = None
+        self.addressing = "modbus"
         self.retry: Retry | None = None
         self.wrote = False
         self._tries = Retry()
         self._seconds: dict[tuple[int, int, Line | None], float] = {}
+        self.unused, self.absences = unused, Absences()
+        self._ground: Ground | None = None
 
     def remember(self, path: str, value: object) -> None:
         """Keep the value of a register that others depend on."""
@@ -134,23 +165,36 @@ class Session:
         if epoch != self.epoch:
             self.epoch = epoch
             self.forget()
+            if self.absences.clear():
+                self.prepared.clear()
 
     def terms(self) -> Terms:
         """What a read plan must keep to, and what requests cost on this line."""
         if TERMS not in self.prepared:
-            ground = ground_of(self.registers.values(), holes=self.protocol.read_holes)
-            self.prepared[TERMS] = Terms(self.protocol.read_limits, ground, Cost.serial(self.protocol))
+            if self._ground is None:
+                holes = self.protocol.read_holes
+                self._ground = ground_of(self.registers.values(), unused=self.unused, holes=holes)
+            ground = self._ground.refusing(self.absences.items()) if self.absences else self._ground
+            self.prepared[TERMS] = Terms(self.protocol.read_limits, ground, Cost.of(self.protocol, self.line))
         found: Terms = self.prepared[TERMS]
         return found
 
-    def begin(self, *, epoch: int, line: Line | None, retry: Retry) -> None:
+    def begin(self, *, epoch: int, line: Line | None, retry: Retry, addressing: str) -> None:
         """Before an operation: what its link is like now."""
         self.at_epoch(epoch)
+        self.addressing = addressing
         self._tries = self.retry or retry
         self.wrote = False
         if line != self.line:
             self.line = line
             self.prepared.clear()
+
+    def retuned(self, change: Retune, *, line: Line | None, addressing: str) -> None:
+        """The device talks otherwise from now on: another unit id, line or addressing. Nothing remembered counts."""
+        self.unit = self.unit if change.unit is None else change.unit
+        self.line, self.addressing = line, addressing
+        self.memory.clear()
+        self.prepared.clear()
 
     def doubt(self) -> None:
         """The device fell silent: it may be another one when it speaks again, so nothing remembered will count."""

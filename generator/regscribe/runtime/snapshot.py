@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, TypeVar, overload
 
-from regscribe.runtime.errors import ValueNotDecodable
+from regscribe.runtime.errors import RegscribeError
 
 if TYPE_CHECKING:
     from regscribe.runtime.register import Register
@@ -12,7 +12,9 @@ T = TypeVar("T")
 
 
 class Snapshot(Mapping[str, Any]):
-    """Values by register path; a value that could not be decoded raises its error when it is asked for.
+    """Values by register path; a register without a value raises its error when it is asked for.
+
+    Such errors are ValueNotDecodable (with SensorFault and Saturated), or Absent for what this unit does not have.
 
     Index it with a register of the driver's class for a typed value: `snapshot[Athena16C.process_value]`.
     """
@@ -26,7 +28,7 @@ class Snapshot(Mapping[str, Any]):
     def __getitem__(self, key: str) -> Any: ...
     def __getitem__(self, key: "Register[Any] | str") -> Any:
         value = self._values[key if isinstance(key, str) else key.path]
-        if isinstance(value, ValueNotDecodable):
+        if isinstance(value, RegscribeError):
             raise value
         return value
 
@@ -37,9 +39,14 @@ class Snapshot(Mapping[str, Any]):
         return len(self._values)
 
     @property
-    def errors(self) -> dict[str, ValueNotDecodable]:
+    def entries(self) -> dict[str, Any]:
+        """Values and errors as they are, by path."""
+        return dict(self._values)
+
+    @property
+    def errors(self) -> dict[str, RegscribeError]:
         """The registers that hold no value, with why."""
-        return {path: value for path, value in self._values.items() if isinstance(value, ValueNotDecodable)}
+        return {path: value for path, value in self._values.items() if isinstance(value, RegscribeError)}
 
     def renamed(self, names: Mapping[str, str]) -> "Snapshot":
         """The same values under other paths."""

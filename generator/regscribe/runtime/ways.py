@@ -37,8 +37,15 @@ def ways(register: "Register[Any]") -> tuple[Way, ...]:
 
 
 def same_number(view: View, other: View) -> bool:
-    """Whether two views transmit the same number with the same precision."""
-    return (view.type, view.words, view.factor, view.rounding, view.saturates, view.byte_order) == (
+    """Whether a view transmits the same number as another with the same precision, and needs to know no more for it."""
+    return set(view.needs()) <= set(other.needs()) and (
+        view.type,
+        view.words,
+        view.factor,
+        view.rounding,
+        view.saturates,
+        view.byte_order,
+    ) == (
         other.type,
         other.words,
         other.factor,

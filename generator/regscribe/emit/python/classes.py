@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
+from regscribe.emit.header import HASH_DIGITS
 from regscribe.emit.python import sets
 from regscribe.emit.python.declare import Declarations, command_call, command_text
 from regscribe.emit.python.families import Shared, partition, suffix
@@ -286,7 +287,9 @@ class Classes:
             body = [
                 f"{INDENT}model = {literal(model.name)}",
                 f"{INDENT}map_id = {literal(self.register_map.id)}",
+                f"{INDENT}map_sha256 = {literal(self.register_map.content_hash[:HASH_DIGITS])}",
                 f"{INDENT}protocol = _PROTOCOL",
+                *([f"{INDENT}_unused = {self._unused(model)}"] if model.unused else []),
                 *self._identity(model),
                 f"{INDENT}groups = {groups}",
                 *([f"{INDENT}commands = Section({commands}, Async{commands})"] if commands else []),
@@ -321,6 +324,10 @@ class Classes:
 
     def _programs(self, model: Model) -> str:
         return self.pool.share("programs", programs(model, Specs(model, self.pool)), "setpoint programs")
+
+    def _unused(self, model: Model) -> str:
+        rows = [group([literal(space), str(first), str(last)]) for space, first, last in model.unused]
+        return self.pool.share("unused", group(rows), "addresses that read as 0")
 
     def _device(self, prefix: str) -> str:
         """The class that a model's class stands on: that of the runtime, or one that takes the map's givens."""

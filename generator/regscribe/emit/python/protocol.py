@@ -31,6 +31,7 @@ def protocol_call(protocol: Protocol) -> Call:
         exceptions=mapping(
             [(str(one.code), group([literal(one.name), literal(one_line(one.meaning))])) for one in protocol.exceptions]
         ),
+        absent=str(protocol.faults.address) if protocol.faults.address != USUAL_PROTOCOL.faults.address else None,
         timeout=str(timeout(protocol)),
         baud=str(serial.default_baud) if serial.default_baud else None,
         format=literal(serial.default_format) if serial.default_format else None,

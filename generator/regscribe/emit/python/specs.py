@@ -173,6 +173,7 @@ def _view(view: View, base: View) -> Call:
         else None,
         space=literal(view.space) if view.space is not Space.HOLDING else None,
         preferred="True" if view.preferred else None,
+        align=str(view.align) if view.align != 1 else None,
     )
 
 
