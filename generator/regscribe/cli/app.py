@@ -35,6 +35,7 @@ COMMANDS = {
     "dump": "Read everything that a device holds.",
     "watch": "Follow values as they change; chart and log them.",
     "command": "Make a device act, or list what it can be told to do.",
+    "program": "Setpoint programs of a controller: read, draw, check, write and run them.",
     "decode": "Say in names what captured frames mean.",
     "completion": "Let a shell complete commands, devices and registers.",
 }
