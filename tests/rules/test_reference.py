@@ -114,6 +114,16 @@ def test_decimals_from_a_register_count_while_their_condition_holds() -> None:
     assert encode(alarm, INT16, Fraction("95.75"), state(input=14, digits=2)) == (9575,)
 
 
+@pytest.mark.parametrize("at_most", [None, 3])
+@pytest.mark.parametrize("digits", [10, 65535, 10**30])
+def test_what_is_no_number_of_decimals_neither_scales_nor_takes_forever(digits: int, at_most: int | None) -> None:
+    alarm = replace(register(INT16), scale=always(Conversion(decimals=Decimals("digits", at_most))))
+    assert decode(alarm, INT16, (9575,), state(digits=9)).value in {Fraction(9575, 10**9), Fraction(9575, 10**3)}
+    assert decode(alarm, INT16, (9575,), state(digits=digits)).meaning is Meaning.NOT_DECODABLE
+    with pytest.raises(RefusedError):
+        encode(alarm, INT16, Fraction(1), state(digits=digits))
+
+
 def test_a_sentinel_is_a_fault_and_no_number() -> None:
     sensor = replace(register(INT16), sentinels=(Sentinel(Fraction(-32768), "sensor low", "low"),))
     assert decode(sensor, INT16, (0x8000,)).fault == "low"

@@ -8,7 +8,7 @@ from regscribe.lower.commands import Device, commands_of
 from regscribe.lower.conditions import condition
 from regscribe.lower.examples import Product, examples_of
 from regscribe.lower.groups import Bundle, bundles_of, groups_of
-from regscribe.lower.names import letters_and_digits
+from regscribe.lower.names import letters_and_digits, module_id
 from regscribe.lower.node import Node, elements_of, items_of, text_of, texts_of
 from regscribe.lower.presence import Models, named_models
 from regscribe.lower.process import process_of
@@ -30,7 +30,7 @@ def map_of(root: Node) -> RegisterMap:
         look_at_tables(root, replace(scope, lenient=True))
     about = root.child("map") or root
     return RegisterMap(
-        id=text_of(about, "id"),
+        id=module_id(about),
         title=text_of(about, "title"),
         maker=text_of(about, "maker"),
         class_prefix=text_of(about, "class_prefix"),

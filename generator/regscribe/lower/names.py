@@ -1,11 +1,12 @@
 """Identifiers from the manual's names, and help with names that nothing has."""
 
+import keyword
 import re
 from collections.abc import Iterable
 from difflib import get_close_matches
 
-from regscribe.lower.node import Node, brief
-from regscribe.lower.rules import NO_IDENTIFIER
+from regscribe.lower.node import Node, brief, text_of
+from regscribe.lower.rules import NO_IDENTIFIER, NO_MODULE
 from regscribe.model.name import snake, unindexed
 
 _RUN = re.compile(r"[A-Za-z0-9]+")
@@ -15,6 +16,16 @@ _LISTED = 12
 def letters_and_digits(text: str) -> str:
     """The name without anything but letters and digits, for class names."""
     return "".join(_RUN.findall(text))
+
+
+def module_id(about: Node) -> str:
+    """The id of a map or library, each part of which becomes a part of a module's name; RS0335 where none can."""
+    map_id = text_of(about, "id")
+    for part in map_id.split("/"):
+        if keyword.iskeyword(part):
+            message = f"`{part}` is a Python keyword: `import regscribe_devices.{map_id.replace('/', '.')}` cannot be"
+            (about.child("id") or about).report(NO_MODULE, message, remedy=f"give another id, for example `{part}-1`")
+    return map_id
 
 
 def identifier(node: Node, *, label: str, given: Node | None, capitals: bool = False) -> str:

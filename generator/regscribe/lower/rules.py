@@ -36,6 +36,7 @@ TOO_MANY_ELEMENTS = "RS0331"
 UNKNOWN_GROUP = "RS0332"
 UNKNOWN_SET = "RS0333"
 SET_IN_ITSELF = "RS0334"
+NO_MODULE = "RS0335"
 
 _NAMES = "A name must mean something, or the driver would look up what does not exist."
 
@@ -76,6 +77,7 @@ RULES: tuple[Rule, ...] = (
     Rule(UNKNOWN_GROUP, "Unknown group", _NAMES),
     Rule(UNKNOWN_SET, "Unknown set", _NAMES),
     Rule(SET_IN_ITSELF, "Set that contains itself", "A set within itself would have no end."),
+    Rule(NO_MODULE, "Map id with a Python keyword", "Python cannot import a module that has the name of a keyword."),
 )
 
 DEPENDS_ON_MAP = frozenset(

@@ -9,6 +9,9 @@ from regscribe.model.reference.outcome import Reason, RefusedError, UnknownValue
 from regscribe.model.register import Register
 from regscribe.model.value import Decimals, Limit, Open, Range, Reference
 
+MOST_DECIMALS = 9
+"""A decimals register above this is no decimal position of any device, and ten to the power of it may be endless."""
+
 
 @dataclass(frozen=True, slots=True)
 class Surroundings:
@@ -56,11 +59,11 @@ def choose(cases: Cases[T], known: Surroundings) -> T | None:
 
 
 def decimal_factor(decimals: Decimals | None, known: Surroundings) -> Fraction | None:
-    """Return 10 to the power of the decimals register; None if that is no number of decimals."""
+    """Return 10 to the power of the decimals register; None if that is no number of decimals (0 to 9)."""
     if decimals is None:
         return Fraction(1)
     count = known.look_up(decimals.register)
-    if count.denominator != 1 or count < 0:
+    if count.denominator != 1 or not 0 <= count <= MOST_DECIMALS:
         return None
     most = int(count) if decimals.at_most is None else min(int(count), decimals.at_most)
     return Fraction(10**most)
