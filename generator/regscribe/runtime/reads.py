@@ -144,11 +144,11 @@ def read_many(registers: Sequence[Register[Any]], *, fresh: bool = True) -> Task
                 before, ready = ready, (yield from _ready(session, registers, fresh=fresh))
                 if not (before.atomic and complete and ready.alike(before)):
                     continue
+            read = tuple(zip(ready.blocks, answers, strict=True))
             if complete:
-                return Snapshot(ready.decode(answers))
-            return Snapshot(
-                (yield from _patched(session, registers, ready.decode_partly(answers, session), fresh=fresh))
-            )
+                return Snapshot(ready.decode(answers), read)
+            partly = Snapshot(ready.decode_partly(answers, session), read)
+            return (yield from _patched(session, registers, partly, fresh=fresh))
         raise Unsteady(unit=session.unit, changed=tuple(changed), tries=TRIES)
 
     return task
@@ -212,11 +212,12 @@ def _take_over(session: Session, changed: dict[str, Any]) -> None:
 
 
 def _patched(
-    session: Session, registers: Sequence[Register[Any]], values: dict[str, Any], *, fresh: bool
-) -> Operation[dict[str, Any]]:
-    """Values with what was refused read by another way, or the error that there is none."""
+    session: Session, registers: Sequence[Register[Any]], partly: Snapshot, *, fresh: bool
+) -> Operation[Snapshot]:
+    """A snapshot with what was refused read by another way, or the error that there is none."""
+    values = partly.entries
     left = [register for register in registers if values[register.path] is None]
-    if left:
-        rest = yield from read_many(left, fresh=fresh)(session)
-        values.update(rest.entries)
-    return values
+    if not left:
+        return partly
+    rest = yield from read_many(left, fresh=fresh)(session)
+    return Snapshot(values | rest.entries, partly.answers + rest.answers)

@@ -1,14 +1,17 @@
 """The result of reading several registers at once."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 from regscribe.runtime.errors import RegscribeError
 
 if TYPE_CHECKING:
+    from regscribe.runtime.block import PreparedBlock
     from regscribe.runtime.register import Register
 
 T = TypeVar("T")
+Answers = tuple[tuple["PreparedBlock", "Sequence[int | None]"], ...]
+"""Requests that were sent, and the words that came (None where none could be read)."""
 
 
 class Snapshot(Mapping[str, Any]):
@@ -19,8 +22,9 @@ class Snapshot(Mapping[str, Any]):
     Index it with a register of the driver's class for a typed value: `snapshot[Athena16C.process_value]`.
     """
 
-    def __init__(self, values: Mapping[str, Any]) -> None:
+    def __init__(self, values: Mapping[str, Any], answers: Answers = ()) -> None:
         self._values = values
+        self.answers = answers
 
     @overload
     def __getitem__(self, key: "Register[T]") -> T: ...
@@ -48,9 +52,20 @@ class Snapshot(Mapping[str, Any]):
         """The registers that hold no value, with why."""
         return {path: value for path, value in self._values.items() if isinstance(value, RegscribeError)}
 
+    @property
+    def words(self) -> dict[str, tuple[int, ...]]:
+        """The words that each register was read from, by its path in the device, also where they are no value."""
+        found: dict[str, tuple[int, ...]] = {}
+        for block, words in self.answers:
+            for register, view, start in block.placed:
+                there = tuple(word for word in words[start : start + view.words] if word is not None)
+                if len(there) == view.words:
+                    found[register.path] = there
+        return found
+
     def renamed(self, names: Mapping[str, str]) -> "Snapshot":
         """The same values under other paths."""
-        return Snapshot({names[path]: value for path, value in self._values.items()})
+        return Snapshot({names[path]: value for path, value in self._values.items()}, self.answers)
 
     def __repr__(self) -> str:
         shown = ", ".join(f"{path}={value!r}" for path, value in self._values.items())
