@@ -1,0 +1,38 @@
+"""Lets the tests import the clients beside them, counts what was agreed, and prints the table at the end."""
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent))  # the helpers are no part of what is tested, so no package of it
+
+from independent.table import PROPERTY, Agreed, table  # noqa: E402 (found by the line above)
+
+AGREEMENTS: list[Agreed] = []
+
+
+@pytest.fixture
+def agree(record_property: Callable[[str, object], None]) -> Callable[..., None]:
+    """Count an agreement: `agree(client, family, what, count=1)`."""
+
+    def record(client: str, family: str, what: str, count: int = 1) -> None:
+        record_property(PROPERTY, (client, family, what, count))
+
+    return record
+
+
+def pytest_runtest_logreport(report: pytest.TestReport) -> None:
+    """Collect the counts, also from other processes."""
+    if report.when == "call" and report.passed:
+        AGREEMENTS.extend(Agreed(*value) for name, value in report.user_properties if name == PROPERTY)  # type: ignore[misc]  # lists after a transfer
+
+
+def pytest_terminal_summary(terminalreporter: Any) -> None:
+    """Print the table."""
+    if AGREEMENTS:
+        terminalreporter.section("agreed on the wire")
+        for line in table(AGREEMENTS):
+            terminalreporter.write_line(line)

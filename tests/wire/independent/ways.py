@@ -1,0 +1,49 @@
+"""Each client with each way of talking that it has, ready to be let loose on a simulated device."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from independent.answers import Client
+from independent.lines import pty_before, pty_pair
+from independent.mbpoll import MbpollRtu, MbpollTcp
+from independent.minimal import MinimalAscii, MinimalRtu
+from independent.node import NodeAscii, NodeRtu, NodeRtuTcp, NodeTcp
+from independent.stage import Stage, service, staged
+from regscribe.runtime.link import Link, tcp
+from regscribe.simulate import Foreign, SimulatedDevice
+
+OVER_TCP: dict[type[Client], str] = {MbpollTcp: "tcp", NodeTcp: "tcp", NodeRtuTcp: "rtu-tcp"}
+ON_A_LINE: tuple[type[Client], ...] = (MbpollRtu, MinimalRtu, NodeRtu)
+ASCII_ON_A_LINE: tuple[type[Client], ...] = (MinimalAscii, NodeAscii)
+CLIENTS: tuple[type[Client], ...] = (*OVER_TCP, *ON_A_LINE, *ASCII_ON_A_LINE)
+
+Talk = tuple[Client, Stage]
+
+
+@contextmanager
+def talking(
+    kind: type[Client], device: SimulatedDevice, folder: Path, foreign: Foreign | None = None
+) -> Iterator[Talk]:
+    """Serve `device` as the client `kind` talks, and on TCP as the last server of the stage; connect the client."""
+    own = service("tcp")
+    make: Callable[..., Client] = kind
+    if kind in OVER_TCP:
+        with staged(device, service(OVER_TCP[kind], foreign=foreign), own) as stage:
+            with make(stage.servers[0].host, stage.servers[0].port) as client:
+                yield client, stage
+    elif kind in ON_A_LINE:
+        with pty_pair(folder) as (ours, theirs), staged(device, service("serial", path=ours), own) as stage:
+            with make(theirs) as client:
+                yield client, stage
+    else:
+        with staged(device, service("ascii-tcp"), own) as stage:
+            server = stage.servers[0]
+            with pty_before(server.host, server.port, folder) as theirs, make(theirs) as client:
+                yield client, stage
+
+
+def own_link(stage: Stage) -> Link:
+    """Return a link of the own drivers to the device."""
+    server = stage.servers[-1]
+    return tcp(server.host, port=server.port, timeout=5.0)
