@@ -11,6 +11,7 @@ from regscribe.emit.markdown.line import exceptions, faults, latency, line
 from regscribe.emit.markdown.origins import base, overrides, unused
 from regscribe.emit.markdown.overview import overview
 from regscribe.emit.markdown.page import Page, Table, table
+from regscribe.emit.markdown.programs import programs
 from regscribe.emit.markdown.quickstart import quick_start
 from regscribe.emit.markdown.transmission import conditions, givens, identity, plain, reserved, units, views
 from regscribe.emit.text import one_line
@@ -43,6 +44,7 @@ def page(register_map: RegisterMap) -> Page:
         unused=unused(found),
         groups=groups,
         commands=commands(found),
+        programs=programs(found),
         process=process(found),
         assumptions=assumptions(found),
         faults=faults(found),

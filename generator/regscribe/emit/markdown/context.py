@@ -79,6 +79,7 @@ def context(register_map: RegisterMap) -> Context:
     keys = [f"register {leaf.register.key}" for leaf in leaves(nodes)]
     keys += [f"group {group.id}" for model in register_map.models for group in model.groups]
     keys += [f"command {command.id}" for model in register_map.models for command in model.commands]
+    keys += [f"program {program.id}" for model in register_map.models for program in model.programs]
     keys += [f"condition {name}" for name in conditions]
     units = _units(register_map)
     keys += [f"unit {name}" for name in units]

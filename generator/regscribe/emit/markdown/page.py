@@ -106,6 +106,7 @@ class Page:
     unused: Table
     groups: tuple[Section, ...]
     commands: tuple[Entry, ...]
+    programs: tuple[Entry, ...]
     process: Table
     assumptions: tuple[Md, ...]
     faults: Table
