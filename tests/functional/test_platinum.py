@@ -1,5 +1,7 @@
 """Platinum drivers against simulated controllers: programs, JBUS, bits, and who answers."""
 
+import importlib
+import re
 from pathlib import Path
 from typing import Any
 
@@ -114,6 +116,32 @@ def test_every_model_is_recognised_and_only_those_that_answer_alike_with_it(fami
     expected = next((alike for alike in ALIKE if model in alike), {model})
     assert model in told
     assert told <= expected
+
+
+def module(family: str) -> Any:
+    """The generated driver of a family."""
+    return importlib.import_module(f"regscribe_devices.{FAMILIES[family].id.replace('-', '_').replace('/', '.')}")
+
+
+@pytest.mark.parametrize(("family", "model"), MODELS)
+def test_registers_stand_in_the_order_of_the_own_manual_and_cite_its_sections(family: str, model: str) -> None:
+    found = FAMILIES[family].model(model)
+    for prefix in ("", "Async"):
+        driver = getattr(module(family), f"{prefix}{found.class_name}")
+        told = [(path, one.section, one.persistence, one.stays) for path, one in driver.registers.items()]
+        assert told == [(one.path, one.section, one.persistence, one.stays) for one in found.registers]
+
+
+def test_no_platinum_driver_repeats_a_declaration_of_another() -> None:
+    told = re.compile(r'(section|persistence)="[^"]*",? ?|; [0-9.]+\."""$|\s')
+    seen: dict[tuple[str, Any], str] = {}
+    for family in (family for family in FAMILIES if family.startswith("platinum")):
+        source = Path(module(family).__file__).read_text(encoding="utf-8")
+        for found in re.finditer(r'^    (\w+) = (?:Read|Write)[\s\S]*?^    """.*', source, flags=re.MULTILINE):
+            named = re.search(r"(?:choice|flags)\((\w+)\)", found[0])
+            what = told.sub("", found[0]), named and getattr(module(family), named[1])
+            assert seen.setdefault(what, family) == family, f"{seen[what]} and {family} both declare {found[1]}"
+    assert set(seen.values()) == {family for family in FAMILIES if family.startswith("platinum")}
 
 
 def test_all_21_models_are_known() -> None:
