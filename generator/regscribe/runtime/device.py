@@ -6,12 +6,14 @@ from typing import Any, ClassVar, Self, TypeVar, Unpack
 from regscribe.runtime import link as links
 from regscribe.runtime import operations
 from regscribe.runtime.bound import _AsyncBound, _Bound
+from regscribe.runtime.configure import ConfigureOptions
 from regscribe.runtime.execute import run, run_async
 from regscribe.runtime.line import Line
 from regscribe.runtime.link import AsyncLink, LineSettings, Link, LinkSettings
 from regscribe.runtime.parts import AsyncPart, Command, Group, Part, Section, groups_of
 from regscribe.runtime.program import SetpointProgram
 from regscribe.runtime.register import Register
+from regscribe.runtime.report import Wear, WriteReport
 from regscribe.runtime.session import Protocol, Session
 from regscribe.runtime.snapshot import Snapshot
 from regscribe.runtime.spec import Identity
@@ -55,6 +57,11 @@ class _Common:
             groups=groups_of(type(self)),
             unused=self._unused,
         )
+
+    @property
+    def wear(self) -> Wear:
+        """Writes to the EEPROM by this driver: how many were sent, and how many spared, of each register."""
+        return self.session.wear
 
     def _declared_commands(self) -> dict[str, Command]:
         section = getattr(type(self), "commands", None)
@@ -100,16 +107,30 @@ class BareDevice(_Common, Part):
         """Carry out an operation, alone among those of this unit; other units may talk between its requests."""
         return run(task, self.session, self.link)
 
-    def read(self, *what: What) -> Snapshot:
-        """Read groups and registers (all without arguments) in few requests; see `Snapshot`."""
+    def read(self, *what: What, fresh: bool = True) -> Snapshot:
+        """Read groups and registers (all without arguments) at the least cost on this line; see `Snapshot`.
+
+        What the values depend on is read along (decimals, input type, word order), so no value has a stale scale;
+        Unsteady is raised if that changes again and again meanwhile. Without `fresh` what was read before is trusted.
+        """
         chosen = self._chosen(what) if what else list(self.placed().values())
-        return self.run(operations.read_many(chosen))
+        return self.run(operations.read_many(chosen, fresh=fresh))
 
     def read_part(self, part: Part) -> Snapshot:
         """Read the registers of a part, keyed by their ids in it."""
         placed = part.placed()
         values = self.run(operations.read_many(list(placed.values())))
         return values.renamed({register.path: path for path, register in placed.items()})
+
+    def configure(self, values: Mapping[Any, Any], **how: Unpack[ConfigureOptions]) -> WriteReport:
+        """Write several values as one operation; `values` by path, declaration or attribute; `how`: `ConfigureOptions`.
+
+        All values are checked before the first is sent, each in the state that those before it will leave. They are
+        written in the map's order, neighbours in one request; what the device holds already is left out; unlocking and
+        applying is done once, and all is read back in the end. Raises ValueRefused (ValuesRefused for several) before
+        anything is sent, and NotConfigured with a report of every register if it breaks off.
+        """
+        return self.run(operations.configure(values, **how))
 
     def loopback(self, data: int = 0x55AA) -> int:
         """Function 08: send one word, return the echo."""
@@ -161,16 +182,20 @@ class AsyncBareDevice(_Common, AsyncPart):
         """As `BareDevice.run`."""
         return await run_async(task, self.session, self.link)
 
-    async def read(self, *what: What) -> Snapshot:
+    async def read(self, *what: What, fresh: bool = True) -> Snapshot:
         """As `BareDevice.read`."""
         chosen = self._chosen(what) if what else list(self.placed().values())
-        return await self.run(operations.read_many(chosen))
+        return await self.run(operations.read_many(chosen, fresh=fresh))
 
     async def read_part(self, part: AsyncPart) -> Snapshot:
         """As `BareDevice.read_part`."""
         placed = part.placed()
         values = await self.run(operations.read_many(list(placed.values())))
         return values.renamed({register.path: path for path, register in placed.items()})
+
+    async def configure(self, values: Mapping[Any, Any], **how: Unpack[ConfigureOptions]) -> WriteReport:
+        """As `BareDevice.configure`."""
+        return await self.run(operations.configure(values, **how))
 
     async def loopback(self, data: int = 0x55AA) -> int:
         """Function 08: send one word, return the echo."""
