@@ -185,7 +185,7 @@ def test_a_conditional_scale_uses_the_given(controller: Any, running: Any, oven:
 
 
 def test_a_write_under_a_condition_says_which_and_what_is_now(controller: Any) -> None:
-    with pytest.raises(ValueRefused, match=r"writable while heating only; now state is"):
+    with pytest.raises(ValueRefused, match=r"writable while heating only; state.phase is IDLE"):
         controller.hand_power.write(50)
 
     controller.state.change(lambda state: state.replace(phase=1))

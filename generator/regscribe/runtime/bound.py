@@ -1,7 +1,7 @@
 """Registers as attributes of a driver: the verbs read, write and change, synchronous and awaitable."""
 
 from collections.abc import Awaitable, Callable
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import TYPE_CHECKING, Generic, TypedDict, TypeVar, Unpack
 
 from regscribe.runtime import operations
 
@@ -10,6 +10,20 @@ if TYPE_CHECKING:
     from regscribe.runtime.register import Register
 
 T = TypeVar("T")
+
+
+class WriteOptions(TypedDict, total=False):
+    """How to write.
+
+    `view` chooses another view than the preferred one. `rounded` allows a value finer than the device can hold.
+    `confirm` is needed where the map calls the write dangerous. `verify` reads the value back (or not); without it,
+    what the device keeps as its configuration is read back, and passing operation is not.
+    """
+
+    view: str | None
+    rounded: bool
+    confirm: bool
+    verify: bool | None
 
 
 class _Bound(Generic[T]):
@@ -31,6 +45,9 @@ class Readable(_Bound[T]):
     def read(self, *, view: str | None = None) -> T:
         """Read the value of use; `view` chooses another view than the preferred one.
 
+        What its meaning depends on (decimals, word order) is read once and remembered until it is written through this
+        driver. `device.read(register)` reads it along instead: for when others configure the device as well.
+
         Raises SensorFault, Saturated or NotDecodable for words that are no value, NoAnswer, ExceptionAnswer,
         WrongAnswer or LinkLost for what happens on the line.
         """
@@ -50,16 +67,17 @@ class Writable(_Bound[T]):
 
     __slots__ = ()
 
-    def write(self, value: T, *, view: str | None = None, rounded: bool = False, confirm: bool = False) -> None:
-        """Write a value of use, after checking condition, range and resolution; the answer is verified.
+    def write(self, value: T, **how: Unpack[WriteOptions]) -> None:
+        """Write a value of use, after checking condition, range and resolution; `how`: see `WriteOptions`.
 
-        `rounded` allows a value finer than the device can hold; `confirm` is needed where the map calls a write
-        dangerous. Raises ValueRefused before anything is sent, and what `read` raises for the line.
+        What the device keeps as its configuration is read back. A lost answer is answered by reading back, never by
+        sending again. Raises ValueRefused before anything is sent, ExceptionAnswer if the device refuses, and
+        WriteFailed (NotWritten, WriteUnknown, ReadBackDiffers, NotApplied, LeftAt) for all that may come after.
         """
-        self._part.run(operations.write(self.register, value, view=view, rounded=rounded, confirm=confirm))
+        self._part.run(operations.write(self.register, value, **how))
 
     def write_raw(self, words: tuple[int, ...], *, view: str | None = None) -> None:
-        """Write words as they are; nothing is checked but their number and the answer."""
+        """Write words as they are; nothing is checked but their number and the answer (a lost one as in `write`)."""
         self._part.run(operations.write_raw(self.register, words, view))
 
 
@@ -68,9 +86,13 @@ class ReadWritable(Readable[T], Writable[T]):
 
     __slots__ = ()
 
-    def change(self, how: Callable[[T], T], *, confirm: bool = False) -> T:
-        """Read, modify by `how`, write; returns what was written. For bit fields; the device may change in between."""
-        return self._part.run(operations.change(self.register, how, confirm=confirm))
+    def change(self, how: Callable[[T], T], *, confirm: bool = False, verify: bool | None = None) -> T:
+        """Read, modify by `how`, write; returns what was written. For the fields of a word, which only go together.
+
+        These are a read and a write, not one step of the device: what the device or another master changes in between
+        is overwritten. Nothing else of this driver comes in between. Raises what `read` and `write` raise.
+        """
+        return self._part.run(operations.change(self.register, how, confirm=confirm, verify=verify))
 
 
 class _AsyncBound(Generic[T]):
@@ -107,11 +129,9 @@ class AsyncWritable(_AsyncBound[T]):
 
     __slots__ = ()
 
-    def write(
-        self, value: T, *, view: str | None = None, rounded: bool = False, confirm: bool = False
-    ) -> Awaitable[None]:
+    def write(self, value: T, **how: Unpack[WriteOptions]) -> Awaitable[None]:
         """As `Writable.write`, awaitable."""
-        return self._part.run(operations.write(self.register, value, view=view, rounded=rounded, confirm=confirm))
+        return self._part.run(operations.write(self.register, value, **how))
 
     def write_raw(self, words: tuple[int, ...], *, view: str | None = None) -> Awaitable[None]:
         """As `Writable.write_raw`, awaitable."""
@@ -123,6 +143,6 @@ class AsyncReadWritable(AsyncReadable[T], AsyncWritable[T]):
 
     __slots__ = ()
 
-    def change(self, how: Callable[[T], T], *, confirm: bool = False) -> Awaitable[T]:
+    def change(self, how: Callable[[T], T], *, confirm: bool = False, verify: bool | None = None) -> Awaitable[T]:
         """As `ReadWritable.change`, awaitable."""
-        return self._part.run(operations.change(self.register, how, confirm=confirm))
+        return self._part.run(operations.change(self.register, how, confirm=confirm, verify=verify))

@@ -29,16 +29,25 @@ class Conversation:
     """
 
     def __init__(self, framing: str, *, addressing: str, line: Line | None, gap: float, echo: bool | None) -> None:
-        if addressing not in ADDRESSINGS:
-            message = f"addressing {addressing!r} is none of {', '.join(ADDRESSINGS)}"
-            raise ValueError(message)
         self.framing = framing_for(framing)
-        self.first = ADDRESSINGS[addressing]
+        self.addressing = addressing
         self.trace: Tracer | None = None
         self.tainted = False
         self.manners: Manners | None = None
         if line is not None:
             self.manners = Manners(line, gap, echo=echo, framing=self.framing, told=self._heard)
+
+    @property
+    def addressing(self) -> str:
+        """The way in which units count their addresses: modbus from 0, jbus from 1."""
+        return next(name for name, first in ADDRESSINGS.items() if first == self.first)
+
+    @addressing.setter
+    def addressing(self, name: str) -> None:
+        if name not in ADDRESSINGS:
+            message = f"addressing {name!r} is none of {', '.join(ADDRESSINGS)}"
+            raise ValueError(message)
+        self.first = ADDRESSINGS[name]
 
     def exchange(self, wire: Wire, unit: int, request: Request) -> Steps[Reply]:
         """Send `request` once and return its answer; NoAnswer, WrongAnswer, or OSError for a broken wire."""

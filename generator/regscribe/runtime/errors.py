@@ -28,7 +28,6 @@ write was good. Otherwise NotWritten or WriteUnknown say so, and they are NoAnsw
 whichever it was: who handles these handles the lost write with them.
 """
 
-from functools import cache
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -234,6 +233,10 @@ def lost(kind: type[WriteFailed], register: str, reason: str, cause: Exception) 
     return error
 
 
-@cache
+_BOTH: dict[tuple[type[WriteFailed], type[RegscribeError]], type[WriteFailed]] = {}
+
+
 def _both(kind: type[WriteFailed], base: type[RegscribeError]) -> type[WriteFailed]:
-    return type(f"{kind.__name__}{base.__name__}", (kind, base), {"__doc__": kind.__doc__})
+    if (kind, base) not in _BOTH:
+        _BOTH[kind, base] = type(f"{kind.__name__}{base.__name__}", (kind, base), {"__doc__": kind.__doc__})
+    return _BOTH[kind, base]

@@ -7,7 +7,7 @@ from typing import TypeVar, cast
 from regscribe.runtime.errors import NoAnswer, RegscribeError
 from regscribe.runtime.link import AsyncLink, Link
 from regscribe.runtime.request import Request
-from regscribe.runtime.session import Operation, Pause, Session, Task
+from regscribe.runtime.session import Operation, Pause, Retune, Session, Task
 
 T = TypeVar("T")
 
@@ -24,8 +24,10 @@ def carry_out(operation: Operation[T], link: Link, unit: int, session: Session |
                 reply = None
                 if isinstance(asked, Pause):
                     time.sleep(asked.seconds)
+                elif isinstance(asked, Retune):
+                    _retune(asked, session, link)
                 else:
-                    reply = link.call(unit, _timed(asked, session, link))
+                    reply = link.call(session.unit if session else unit, _timed(asked, session, link))
             except RegscribeError as error:
                 asked = operation.throw(error)
             else:
@@ -45,8 +47,10 @@ async def carry_out_async(operation: Operation[T], link: AsyncLink, unit: int, s
                 reply = None
                 if isinstance(asked, Pause):
                     await asyncio.sleep(asked.seconds)
+                elif isinstance(asked, Retune):
+                    _retune(asked, session, link)
                 else:
-                    reply = await link.call(unit, _timed(asked, session, link))
+                    reply = await link.call(session.unit if session else unit, _timed(asked, session, link))
             except RegscribeError as error:
                 asked = operation.throw(error)
             else:
@@ -55,6 +59,12 @@ async def carry_out_async(operation: Operation[T], link: AsyncLink, unit: int, s
         return cast("T", done.value)
     finally:
         operation.close()
+
+
+def _retune(change: Retune, session: Session | None, link: Link | AsyncLink) -> None:
+    link.retune(change)
+    if session is not None:
+        session.retuned(change, line=link.line, addressing=link.addressing)
 
 
 def _timed(asked: Request, session: Session | None, link: Link | AsyncLink) -> Request:
@@ -73,7 +83,7 @@ def run(task: Task[T], session: Session, link: Link) -> T:
     """
     with link.lock.of(session.unit):
         while True:
-            session.begin(epoch=link.epoch, line=link.line, retry=link.retry)
+            session.begin(epoch=link.epoch, line=link.line, retry=link.retry, addressing=link.addressing)
             try:
                 value = carry_out(task(session), link, session.unit, session)
             except NoAnswer:
@@ -87,7 +97,7 @@ async def run_async(task: Task[T], session: Session, link: AsyncLink) -> T:
     """As `run`, for asyncio."""
     async with link.lock.of(session.unit):
         while True:
-            session.begin(epoch=link.epoch, line=link.line, retry=link.retry)
+            session.begin(epoch=link.epoch, line=link.line, retry=link.retry, addressing=link.addressing)
             try:
                 value = await carry_out_async(task(session), link, session.unit, session)
             except NoAnswer:

@@ -1,12 +1,15 @@
 """Links: what carries requests to a unit and answers back. The drivers know these protocols, not pymodbus."""
 
-from typing import Protocol, TypedDict, Unpack
+from typing import TYPE_CHECKING, Protocol, TypedDict, Unpack
 
 from regscribe.runtime.line import Line
 from regscribe.runtime.policy import Retry
 from regscribe.runtime.request import Reply, Request
 from regscribe.runtime.trace import Tracer
 from regscribe.runtime.turns import AsyncTurns, Turns
+
+if TYPE_CHECKING:
+    from regscribe.runtime.session import Retune
 
 MODBUS_TCP_PORT = 502
 
@@ -54,6 +57,14 @@ class Link(Protocol):
     def line(self) -> Line | None:
         """The serial line, None over TCP."""
 
+    @property
+    def addressing(self) -> str:
+        """The way in which units count their addresses: modbus from 0, jbus from 1."""
+        raise NotImplementedError
+
+    def retune(self, change: "Retune") -> None:
+        """Talk at another speed, in another format or with other addresses from the next request on."""
+
     def open(self) -> None:
         """Open it, if it is not open; LinkLost if that fails."""
 
@@ -80,6 +91,14 @@ class AsyncLink(Protocol):
     @property
     def line(self) -> Line | None:
         """The serial line, None over TCP."""
+
+    @property
+    def addressing(self) -> str:
+        """The way in which units count their addresses: modbus from 0, jbus from 1."""
+        raise NotImplementedError
+
+    def retune(self, change: "Retune") -> None:
+        """Talk at another speed, in another format or with other addresses from the next request on."""
 
     async def open(self) -> None:
         """Open it, if it is not open; LinkLost if that fails."""

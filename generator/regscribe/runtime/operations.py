@@ -3,14 +3,17 @@
 # an annotation of an inner function is evaluated at every call otherwise, which costs a read a hundredth of its time
 from __future__ import annotations
 
+from regscribe.runtime.configure import configure
 from regscribe.runtime.reads import read, read_many, read_raw, read_unit
 from regscribe.runtime.request import LOOPBACK, READ_STATUS, Request
+from regscribe.runtime.sending import run
 from regscribe.runtime.session import Operation, Session, Task
-from regscribe.runtime.writes import change, run, write, write_raw
+from regscribe.runtime.writes import change, write, write_raw
 
 __all__ = [
     "Task",
     "change",
+    "configure",
     "exception_status",
     "loopback",
     "read",

@@ -56,6 +56,17 @@ def _moved(register: Register[Any], steps: int, path: str) -> Register[Any]:
     return moved
 
 
+_GROUPS: dict[type, Mapping[str, "Group"]] = {}
+"""The groups of classes that were asked for: once for all drivers of a model."""
+
+
+def groups_of(owner: type) -> Mapping[str, "Group"]:
+    """The groups of a driver's class by id, in the order of the manual."""
+    if owner not in _GROUPS:
+        _GROUPS[owner] = MappingProxyType(_declared(getattr(owner, "groups", object), Group))
+    return _GROUPS[owner]
+
+
 def _declared(owner: type, *kinds: type) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for base in reversed(owner.__mro__):

@@ -35,7 +35,7 @@ class Register(Generic[T]):
     `at` is the n of its views' address formulas. `default` is the manual's, in values of use. `unit` is an engineering
     unit, or cases of them. `stays` is why the value must not be copied to another device (address, line, calibration,
     identity, counter, operation; "": it may be), `governs` what it sets of the line, `settle` for how many milliseconds
-    after a write reading it back says nothing.
+    after a write reading it back says nothing; `rescales` names the unit whose values the device converts then.
 
     `decode` and `encode` need no device: `state` holds the values of the registers in `needs`.
     """
@@ -63,13 +63,14 @@ class Register(Generic[T]):
         stays: str = "",
         governs: Governs | None = None,
         settle: int = 0,
+        rescales: str = "",
     ) -> None:
         self.at, self.views, self.kind = at, views, kind
         self.scale, self.range, self.sentinels = scale, range, sentinels
         self.default, self.unit, self.section, self.aliases = default, unit, section, aliases
         self.writable, self.persistence = writable, persistence
         self.unlock, self.apply, self.danger = unlock, apply, danger
-        self.stays, self.governs, self.settle = stays, governs, settle
+        self.stays, self.governs, self.settle, self.rescales = stays, governs, settle, rescales
         self.id = self.path = self.home = ""
 
     def __set_name__(self, owner: type, name: str) -> None:

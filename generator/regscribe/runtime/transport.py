@@ -14,6 +14,7 @@ from regscribe.runtime.line import Line
 from regscribe.runtime.link import LinkSettings
 from regscribe.runtime.policy import Retry
 from regscribe.runtime.request import Reply, Request
+from regscribe.runtime.session import Retune
 from regscribe.runtime.trace import Tracer
 from regscribe.runtime.turns import AsyncTurns, Turns
 from regscribe.runtime.wires import Wire, open_serial, open_tcp, open_tcp_async, wait, wait_async
@@ -62,6 +63,18 @@ class _Base:
             message = f"{self.name} has no serial line whose settings could change"
             raise ValueError(message)  # noqa: TRY004 (a value that this link cannot have)
         self._place = line.checked()
+
+    @property
+    def addressing(self) -> str:
+        """The way in which units count their addresses: modbus from 0, jbus from 1."""
+        return self._talk.addressing
+
+    def retune(self, change: Retune) -> None:
+        """Talk otherwise from the next request on; over TCP there is no speed and no format to change."""
+        if change.addressing is not None:
+            self._talk.addressing = change.addressing
+        if change.line and self.line is not None:
+            self.line = self.line._replace(**change.line)  # type: ignore[arg-type] # the fields of a line
 
     @property
     def trace(self) -> Tracer | None:

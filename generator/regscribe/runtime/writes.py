@@ -1,4 +1,7 @@
-"""What writing and commanding take, step by step, without I/O: generators of requests, as in `reads`."""
+"""What writing one register takes, step by step, without I/O: generators of requests, as in `reads`.
+
+A write is sent once. If its answer is lost, the register is read back, and only then it counts as written or not.
+"""
 
 # an annotation of an inner function is evaluated at every call otherwise, which costs a read a hundredth of its time
 from __future__ import annotations
@@ -6,64 +9,76 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from regscribe.runtime import codec
-from regscribe.runtime.errors import ValueRefused
+from regscribe.runtime.errors import RegscribeError, ValueRefused
+from regscribe.runtime.governing import follow
+from regscribe.runtime.lookback import fate_of_lost, is_lost, verified
 from regscribe.runtime.reads import know, read, read_request
-from regscribe.runtime.request import WRITE_COIL, WRITE_COILS, WRITE_REGISTER, WRITE_REGISTERS, Request
-from regscribe.runtime.session import Operation, Pause, Session, Task
+from regscribe.runtime.sending import EEPROM, applied, condition_needs, confirmed, permitted, send, unlocked
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Generator
+    from collections.abc import Callable
 
-    from regscribe.runtime.parts import Command
     from regscribe.runtime.register import Register
-    from regscribe.runtime.spec import View
+    from regscribe.runtime.report import Words
+    from regscribe.runtime.session import Operation, Session, Task
+    from regscribe.runtime.spec import State, View
 
 T = TypeVar("T")
 
 
-def write(register: Register[Any], value: object, *, view: str | None, rounded: bool, confirm: bool) -> Task[None]:
-    """Check, encode and write one register; unlock before and apply after, where the map says so."""
+def write(
+    register: Register[Any],
+    value: object,
+    *,
+    view: str | None = None,
+    rounded: bool = False,
+    confirm: bool = False,
+    verify: bool | None = None,
+) -> Task[None]:
+    """Check, encode and write one register; unlock before and apply after, where the map says so; read it back.
+
+    `verify` None: reads back what the device keeps as its configuration.
+    """
 
     def task(session: Session) -> Operation[None]:
-        if register.danger and not confirm:
-            raise ValueRefused(register.path, f"writing it is dangerous ({register.danger}): pass confirm=True")
+        confirmed(register, confirm=confirm)
         chosen = register.view(view)
         yield from know(session, register.needs(chosen))
-        yield from _permitted(session, register)
-        state = yield from know(session, register.limit_needs, fresh=True)
+        state = yield from know(session, (*condition_needs(register), *register.limit_needs), fresh=True)
+        permitted(register, state, session.givens)
         words = codec.encode(register, chosen, value, state, session.givens, rounded=rounded)
-        if register.persistence in {"eeprom", "both"}:  # spares a write cycle of the EEPROM
-            held = yield from session.exchange(read_request(register, chosen))
-            if held == words:
-                return
-        yield from _command(session, register.unlock)
-        yield from _send(session, register, chosen, words)
-        yield from _command(session, register.apply)
+        if (yield from _held(session, register, chosen, words)):
+            session.wear.add(register.path, spared=1)
+            return
+        state = dict(state)  # what the words mean, whatever is forgotten meanwhile
+        yield from unlocked(session, register)
+        if register.governs:
+            yield from follow(session, (register, chosen), words, state)
+            return
+        yield from _sent(session, register, chosen, words, state)
+        yield from applied(session, register)
+        if register.is_configuration if verify is None else verify:
+            yield from verified(session, (register, chosen), words, state)
 
     return task
 
 
-def _permitted(session: Session, register: Register[Any]) -> Operation[None]:
-    if register.writable is None:
-        return
-    when, reason = register.writable
-    paths = [test.register for test in when if test.register]
-    state = yield from know(session, paths, fresh=True)
-    if not all(test.holds(state, session.givens) for test in when):
-        now = ", ".join(f"{path} is {state[path]!r}" for path in dict.fromkeys(paths))
-        raise ValueRefused(register.path, f"{reason}; now {now}")
+def _held(session: Session, register: Register[Any], view: View, words: Words) -> Operation[bool]:
+    """Whether a register in the EEPROM holds these words already, so that a write would only wear it out."""
+    if register.persistence not in EEPROM or register.access != "rw":
+        return False
+    return (yield from session.exchange(read_request(register, view))) == words
 
 
-def _send(session: Session, register: Register[Any], view: View, words: tuple[int, ...]) -> Operation[None]:
-    address = view.address(register.at)
-    yield from session.exchange(Request(_write_function(session, view, words), address, len(words), words))
-    session.forget([register.path])
-
-
-def _write_function(session: Session, view: View, words: tuple[int, ...]) -> int:
-    allowed = [code for code in session.protocol.functions if not view.functions or code in view.functions]
-    single, several = (WRITE_COIL, WRITE_COILS) if view.space == "coil" else (WRITE_REGISTER, WRITE_REGISTERS)
-    return single if len(words) == 1 and single in allowed else several
+def _sent(session: Session, register: Register[Any], view: View, words: Words, state: State) -> Operation[None]:
+    try:
+        yield from send(session, register, view, words)
+    except RegscribeError as error:
+        if not is_lost(error):
+            raise
+        failure = yield from fate_of_lost(session, (register, view), words, state, error)
+        if failure is not None:
+            raise failure from error
 
 
 def write_raw(register: Register[Any], words: tuple[int, ...], view_name: str | None) -> Task[None]:
@@ -73,38 +88,17 @@ def write_raw(register: Register[Any], words: tuple[int, ...], view_name: str | 
         view = register.view(view_name)
         if len(words) != view.words:
             raise ValueRefused(register.path, f"{len(words)} words for a view of {view.words}")
-        yield from _send(session, register, view, tuple(words))
+        yield from _sent(session, register, view, tuple(words), dict(session.memory))
 
     return task
 
 
-def change(register: Register[T], how: Callable[[T], T], *, confirm: bool) -> Task[T]:
-    """Read, modify, write."""
+def change(register: Register[T], how: Callable[[T], T], *, confirm: bool, verify: bool | None = None) -> Task[T]:
+    """Read, modify, write: three steps, no device does them as one."""
 
     def task(session: Session) -> Operation[T]:
         value = how((yield from read(register, None)(session)))
-        yield from write(register, value, view=None, rounded=False, confirm=confirm)(session)
+        yield from write(register, value, confirm=confirm, verify=verify)(session)
         return value
-
-    return task
-
-
-def _command(session: Session, name: str) -> Generator[Any, Any, None]:
-    if name:
-        yield from run(session.commands[name], confirm=True)(session)
-
-
-def run(command: Command, *, confirm: bool) -> Task[None]:
-    """Send the steps of a command; afterwards nothing remembered counts."""
-
-    def task(session: Session) -> Operation[None]:
-        if command.danger and not confirm:
-            raise ValueRefused(command.id, f"this command is dangerous ({command.danger}): pass confirm=True")
-        for function, address, words in command.steps:
-            if function:
-                yield from session.exchange(Request(function, address, len(words), words))
-            else:
-                yield Pause(address / 1000)
-        session.forget()
 
     return task

@@ -69,6 +69,7 @@ class Declarations:
             stays=literal(register.stays) if register.stays else None,
             governs=specs.governs(register),
             settle=str(register.settle) if register.settle else None,
+            rescales=literal(register.rescales) if register.rescales else None,
         )
 
     def _sentinels(self, register: Register) -> str | None:

@@ -1,0 +1,142 @@
+"""What is to be written: values checked as a whole before anything is sent, each in the state as it will be then."""
+
+from __future__ import annotations
+
+import copy
+from difflib import get_close_matches
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from regscribe.runtime import codec
+from regscribe.runtime.errors import ValueRefused, ValuesRefused
+from regscribe.runtime.lookback import meaning, words_of
+from regscribe.runtime.reads import know
+from regscribe.runtime.report import Change, Fate
+from regscribe.runtime.sending import confirmed, permitted
+from regscribe.runtime.sequence import needs, order
+from regscribe.runtime.spec import registers_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping, Sequence
+
+    from regscribe.runtime.register import Register
+    from regscribe.runtime.report import Words
+    from regscribe.runtime.session import Operation, Session
+    from regscribe.runtime.spec import View
+
+SUGGESTED = 3
+
+
+class Wanted(NamedTuple):
+    """A register and the value that it is to have."""
+
+    register: Register[Any]
+    value: Any
+
+    @property
+    def view(self) -> View:
+        """The view in which it is written."""
+        return self.register.view()
+
+
+class Sight(NamedTuple):
+    """What the device holds: values that others depend on, and the words of what is to be written."""
+
+    state: dict[str, Any]
+    words: dict[str, Words]
+
+
+def wanted(session: Session, values: Mapping[Any, Any], *, confirm: bool) -> list[Wanted]:
+    """The registers of `values` in the order of writing; ValueRefused for names, access and dangers."""
+    refusals: list[ValueRefused] = []
+    found: dict[str, Wanted] = {}
+    for key, value in values.items():
+        try:
+            register = _register(session, key)
+            confirmed(register, confirm=confirm)
+            found[register.path] = Wanted(register, value)
+        except ValueRefused as refusal:
+            refusals.append(refusal)
+    refuse(refusals)
+    return [found[register.path] for register in order(session, [one.register for one in found.values()])]
+
+
+def refuse(refusals: Sequence[ValueRefused]) -> None:
+    """Raise what was refused, all of it together."""
+    if len(refusals) == 1:
+        raise refusals[0]
+    if refusals:
+        raise ValuesRefused(refusals)
+
+
+def _register(session: Session, key: Any) -> Register[Any]:
+    path = key if isinstance(key, str) else getattr(key, "register", key).path
+    register: Register[Any] | None = session.registers.get(path)
+    if register is None:
+        near = get_close_matches(path, session.registers, n=SUGGESTED)
+        meant = f": did you mean {' or '.join(near)}?" if near else ""
+        raise ValueRefused(path, f"the device has no such register{meant}")
+    if register.access == "r":
+        raise ValueRefused(path, "the register is read-only")
+    return register
+
+
+def look(session: Session, targets: Iterable[Wanted]) -> Operation[Sight]:
+    """Read what the checks need and what the registers hold now."""
+    chosen = list(targets)
+    session.forget()
+    paths = [path for one in chosen for path in needs(one.register, one.view)]
+    state = dict((yield from know(session, paths, fresh=True)))
+    words = yield from words_of(session, [(one.register, one.view) for one in chosen if one.register.access == "rw"])
+    return Sight(state, words)
+
+
+def intend(session: Session, targets: Iterable[Wanted], sight: Sight, *, rounded: bool) -> list[Change]:
+    """The changes that bring the device to the values; ValueRefused (all together) if it cannot take them.
+
+    Each is checked in the state that those before it leave. `sight.state` is that after the last one then. Limits that
+    the device converts meanwhile, because the unit of measure changes, are not known yet: they are checked when it has.
+    """
+    refusals: list[ValueRefused] = []
+    changes: list[Change] = []
+    converted: set[str] = set()
+    for one in targets:
+        register, view = one.register, one.view
+        try:
+            permitted(register, sight.state, session.givens)
+            free = converted.intersection(register.limit_needs)
+            checked = _unlimited(register) if free else register
+            words = codec.encode(checked, view, one.value, sight.state, session.givens, rounded=rounded)
+        except ValueRefused as refusal:
+            refusals.append(refusal)
+            continue
+        change = _change(session, one, sight, words)
+        changes.append(change)
+        if register.rescales and change.fate is not Fate.EQUAL:
+            converted |= dependent(session, register)
+        converted.discard(register.path)
+        value = meaning(register, view, words, sight.state, session)
+        sight.state[register.path] = one.value if value is None else value
+    refuse(refusals)
+    return changes
+
+
+def _change(session: Session, one: Wanted, sight: Sight, words: Words) -> Change:
+    before = sight.words.get(one.register.path)
+    was = meaning(one.register, one.view, before, sight.state, session)
+    fate = Fate.EQUAL if before == words else Fate.PLANNED
+    return Change(one.register.path, one.view.name, before, words, was, one.value, fate)
+
+
+def dependent(session: Session, register: Register[Any]) -> set[str]:
+    """The registers that the device converts when this one, a unit of measure, is written."""
+    return {
+        path
+        for path, other in session.registers.items()
+        if not isinstance(other.unit, str) and register.path in registers_of(other.unit)
+    }
+
+
+def _unlimited(register: Register[Any]) -> Register[Any]:
+    other = copy.copy(register)
+    other.range = ()
+    return other

@@ -1,0 +1,154 @@
+"""Reading back: what a register holds after a write, and what that says of a write whose answer was lost."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from regscribe.runtime import codec
+from regscribe.runtime.errors import (
+    LOST,
+    ExceptionAnswer,
+    LinkLost,
+    NotWritten,
+    PartialWrite,
+    ReadBackDiffers,
+    RegscribeError,
+    ValueNotDecodable,
+    WriteFailed,
+    WriteUnknown,
+    lost,
+)
+from regscribe.runtime.reads import fetch, item_of
+from regscribe.runtime.session import Pause
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from regscribe.runtime.register import Register
+    from regscribe.runtime.report import Words
+    from regscribe.runtime.session import Operation, Session
+    from regscribe.runtime.spec import State, View
+
+Target = tuple["Register[Any]", "View"]
+
+LOOKS = (0.0, 1.0)
+"""Seconds before each attempt to read back: the link may need a moment to be there again."""
+
+UNDECIDED = frozenset({4, 5, 11})
+"""Exceptions after which a write may have been carried out: failed midway, taken but not done, and a gateway's."""
+
+
+def is_lost(error: Exception) -> bool:
+    """Whether a write may have been carried out although it ended in this error."""
+    if isinstance(error, ExceptionAnswer):
+        return error.code in UNDECIDED and not error.name
+    return isinstance(error, LOST) and not isinstance(error, PartialWrite)
+
+
+def words_of(session: Session, targets: Iterable[Target]) -> Operation[dict[str, Words]]:
+    """The present words of registers in these views, by path, in few requests."""
+    places = {register.path: item_of(register, view) for register, view in targets}
+    found = yield from fetch(session, dict.fromkeys(places.values()))
+    return {path: found[place] for path, place in places.items()}
+
+
+def look_back(session: Session, targets: Iterable[Target], after: Exception) -> Operation[dict[str, Words] | None]:
+    """The present words after a write that ended in the error `after`; None if nobody answers any more."""
+    wanted = list(targets)
+    yield Pause(rest(session, wanted, after))
+    for seconds in LOOKS:
+        if seconds:
+            yield Pause(seconds)
+        try:
+            return (yield from words_of(session, wanted))
+        except RegscribeError:
+            continue
+    return None
+
+
+def rest(session: Session, targets: Iterable[Target], after: Exception | None = None) -> float:
+    """Seconds until reading back says something: the map's, and the device's latency where no timeout waited for it."""
+    registers = [register for register, _ in targets]
+    seconds = max((register.settle for register in registers), default=0) / 1000
+    if isinstance(after, LinkLost):
+        words = sum(view.words for _, view in targets)
+        latencies = [session.protocol.latencies.get(code) for code in (6, 16)]
+        needed = [one.maximum + one.maximum_per_word * words for one in latencies if one]
+        seconds = max([seconds, *(milliseconds / 1000 for milliseconds in needed)])
+    return seconds
+
+
+def same(register: Register[Any], view: View, one: Words, other: Words, state: State, session: Session) -> bool:
+    """Whether words mean the same: equal words, or other words of an equal value (-0.0 and 0.0)."""
+    if one == other:
+        return True
+    mine, its = (meaning(register, view, words, state, session) for words in (one, other))
+    return mine is not None and mine == its
+
+
+def meaning(register: Register[Any], view: View, words: Words | None, state: State, session: Session) -> Any:
+    """The value of words; None if they mean nothing, or are not known."""
+    if words is None:
+        return None
+    try:
+        return codec.decode(register, view, words, state, session.givens)
+    except (ValueNotDecodable, KeyError):
+        return None
+
+
+def fate_of_lost(
+    session: Session, target: Target, sent: Words, state: State, cause: RegscribeError
+) -> Operation[WriteFailed | None]:
+    """What became of a write of one register whose answer was lost: None if it was carried out, else the error."""
+    register, view = target
+    if register.access != "rw":
+        return lost(WriteUnknown, register.path, f"the answer was lost ({cause}), and it cannot be read back", cause)
+    found = yield from look_back(session, [target], cause)
+    if found is None:
+        return lost(WriteUnknown, register.path, f"the answer was lost ({cause}), and reading back fails too", cause)
+    read = found[register.path]
+    if same(register, view, read, sent, state, session):
+        return None
+    held, asked = (meaning(register, view, words, state, session) for words in (read, sent))
+    if steady(register):
+        return lost(
+            NotWritten, register.path, f"the answer was lost ({cause}); it holds {held!r}, not {asked!r}", cause
+        )
+    return lost(
+        WriteUnknown,
+        register.path,
+        f"the answer was lost ({cause}); it holds {held!r}, and the device changes it by itself",
+        cause,
+    )
+
+
+def steady(register: Register[Any]) -> bool:
+    """Whether the device keeps what is written, so that reading another value back says something."""
+    return register.is_configuration or register.persistence == "ram"
+
+
+def verified(session: Session, target: Target, sent: Words, state: State) -> Operation[None]:
+    """Read a register back; ReadBackDiffers if it holds something else, WriteUnknown if it cannot be read."""
+    register, view = target
+    if register.settle:
+        yield Pause(register.settle / 1000)
+    try:
+        read = (yield from words_of(session, [target]))[register.path]
+    except RegscribeError as error:
+        raise lost(
+            WriteUnknown, register.path, f"the device took it, but reading back fails ({error})", error
+        ) from error
+    if not same(register, view, read, sent, state, session):
+        raise differs(session, target, sent, read, state)
+
+
+def differs(session: Session, target: Target, sent: Words, read: Words, state: State) -> ReadBackDiffers:
+    """The error for a register that holds something else than was sent."""
+    register, view = target
+    value, held = (meaning(register, view, words, state, session) for words in (sent, read))
+    return ReadBackDiffers(register.path, sent=sent, read=read, value=value, held=held)
+
+
+def readable(targets: Mapping[str, Target]) -> dict[str, Target]:
+    """The targets that can be read."""
+    return {path: target for path, target in targets.items() if target[0].access == "rw"}

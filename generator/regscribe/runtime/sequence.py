@@ -1,0 +1,146 @@
+"""In which order values are written, and which of them go in one request."""
+
+from __future__ import annotations
+
+import heapq
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from regscribe.runtime.codec import BIT_SPACES
+from regscribe.runtime.request import WRITE_COILS, WRITE_REGISTERS
+from regscribe.runtime.sending import condition_needs, write_request
+from regscribe.runtime.spec import registers_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Mapping
+
+    from regscribe.runtime.register import Register
+    from regscribe.runtime.report import Change, Words
+    from regscribe.runtime.request import Request
+    from regscribe.runtime.session import Session
+    from regscribe.runtime.spec import View
+
+LAST = 1 << 30
+"""The place of a group without one."""
+
+
+class Piece(NamedTuple):
+    """One value to write: where it stands and its words."""
+
+    register: Register[Any]
+    view: View
+    words: Words
+
+    @property
+    def path(self) -> str:
+        """The register's path."""
+        return self.register.path
+
+    @property
+    def address(self) -> int:
+        """The wire address of the first word."""
+        return self.view.address(self.register.at)
+
+
+class Batch(NamedTuple):
+    """One write request and the values in it, in the order of their addresses."""
+
+    request: Request
+    pieces: tuple[Piece, ...]
+
+
+def needs(register: Register[Any], view: View) -> tuple[str, ...]:
+    """Registers that must hold their new value first: they decide what this one means, its limits, its permission."""
+    unit = () if isinstance(register.unit, str) else registers_of(register.unit)
+    return (*register.needs(view), *register.limit_needs, *condition_needs(register), *unit)
+
+
+def order(session: Session, registers: Iterable[Register[Any]]) -> list[Register[Any]]:
+    """The registers as they are to be written.
+
+    First what others depend on; then as the groups of the map are ordered; in a group by address, so that neighbours
+    share a request. What governs the line comes last: if the device gets lost, all else is done.
+    """
+    chosen = {register.path: register for register in registers}
+    waits = {
+        path: {one for one in needs(register, register.view()) if one in chosen and one != path}
+        for path, register in chosen.items()
+    }
+    places = _places(session)
+    keys = {path: _key(register, places) for path, register in chosen.items()}
+    return [chosen[path] for path in _sorted(waits, keys)]
+
+
+def _sorted(waits: dict[str, set[str]], keys: Mapping[str, Any]) -> Iterator[str]:
+    """Paths whose prerequisites went before, the one of the lowest key first; a circle is broken at its lowest key."""
+    behind: dict[str, list[str]] = {}
+    for path, before in waits.items():
+        for one in before:
+            behind.setdefault(one, []).append(path)
+    ready = [(keys[path], path) for path, before in waits.items() if not before]
+    heapq.heapify(ready)
+    left = set(waits)
+    while left:
+        path = heapq.heappop(ready)[1] if ready else min(left, key=lambda one: keys[one])
+        if path not in left:
+            continue
+        left.discard(path)
+        yield path
+        for one in behind.get(path, ()):
+            waits[one].discard(path)
+            if not waits[one] and one in left:
+                heapq.heappush(ready, (keys[one], one))
+
+
+def _places(session: Session) -> dict[str, int]:
+    return {
+        member: LAST if group.order is None else group.order
+        for group in session.groups.values()
+        for member in group.members
+    }
+
+
+def _key(register: Register[Any], places: Mapping[str, int]) -> tuple[bool, int, str, str, int]:
+    view = register.view()
+    place = places.get(register.path.partition("[")[0], LAST)
+    return bool(register.governs), place, view.space, view.name, view.address(register.at)
+
+
+def batches(session: Session, pieces: Iterable[Piece]) -> Iterator[Batch]:
+    """The requests that write pieces in their order: neighbours in one, as far as the device takes them together."""
+    found = list(pieces)
+    start = 0
+    for at, (one, other) in enumerate(pairwise(found), start=1):
+        if not _together(session, found[start:at], one, other):
+            yield _batch(session, found[start:at])
+            start = at
+    if found:
+        yield _batch(session, found[start:])
+
+
+def _together(session: Session, so_far: list[Piece], one: Piece, other: Piece) -> bool:
+    view, its = one.view, other.view
+    bits = view.space in BIT_SPACES
+    function, most = (
+        (WRITE_COILS, session.protocol.write_bits) if bits else (WRITE_REGISTERS, session.protocol.write_words)
+    )
+    return (
+        (view.space, view.functions) == (its.space, its.functions)
+        and one.address + view.words == other.address
+        and function in session.protocol.functions
+        and (not view.functions or function in view.functions)
+        and sum(len(piece.words) for piece in so_far) + len(other.words) <= most
+        and not (one.register.governs or other.register.governs)
+        and (one.register.unlock, one.register.apply) == (other.register.unlock, other.register.apply)
+    )
+
+
+def _batch(session: Session, pieces: list[Piece]) -> Batch:
+    first = pieces[0]
+    words = tuple(word for piece in pieces for word in piece.words)
+    return Batch(write_request(session, first.view, first.address, words), tuple(pieces))
+
+
+def piece(register: Register[Any], change: Change) -> Piece:
+    """What a change of a register writes."""
+    return Piece(register, register.view(change.view), change.sent)
