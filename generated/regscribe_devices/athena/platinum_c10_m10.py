@@ -260,6 +260,7 @@ class AthenaC10(
 
     model = "C10"
     map_id = "athena/platinum-c10-m10"
+    map_sha256 = "63b97898de668ae9"
     protocol = _PROTOCOL
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "C1"),)),)
@@ -281,6 +282,7 @@ class AsyncAthenaC10(
 
     model = "C10"
     map_id = "athena/platinum-c10-m10"
+    map_sha256 = "63b97898de668ae9"
     protocol = _PROTOCOL
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "C1"),)),)
@@ -302,6 +304,7 @@ class AthenaM10(
 
     model = "M10"
     map_id = "athena/platinum-c10-m10"
+    map_sha256 = "63b97898de668ae9"
     protocol = _PROTOCOL
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "C1"),)),)
@@ -323,6 +326,7 @@ class AsyncAthenaM10(
 
     model = "M10"
     map_id = "athena/platinum-c10-m10"
+    map_sha256 = "63b97898de668ae9"
     protocol = _PROTOCOL
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "C1"),)),)

@@ -352,6 +352,7 @@ class AthenaM300(
 
     model = "M300"
     map_id = "athena/platinum-m300"
+    map_sha256 = "a6f1dc60fce9bec2"
     protocol = _PROTOCOL
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "M3"),)),)
@@ -373,6 +374,7 @@ class AsyncAthenaM300(
 
     model = "M300"
     map_id = "athena/platinum-m300"
+    map_sha256 = "a6f1dc60fce9bec2"
     protocol = _PROTOCOL
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "M3"),)),)

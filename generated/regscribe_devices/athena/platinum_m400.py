@@ -389,6 +389,7 @@ class AthenaM400(
 
     model = "M400"
     map_id = "athena/platinum-m400"
+    map_sha256 = "605968399206a16b"
     protocol = _PROTOCOL
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "M4"),)),)
@@ -409,6 +410,7 @@ class AsyncAthenaM400(
 
     model = "M400"
     map_id = "athena/platinum-m400"
+    map_sha256 = "605968399206a16b"
     protocol = _PROTOCOL
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "M4"),)),)

@@ -850,6 +850,7 @@ class AthenaM5000(_PlatinumM5000, _PlatinumM5000InBits, _PlatinumM5000InPage1, _
 
     model = "M5000"
     map_id = "athena/platinum-m5000"
+    map_sha256 = "902e7a0aac44998a"
     protocol = _PROTOCOL
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "P M5"),)), Identity((), (("product_code", "  M5"),)))
@@ -862,6 +863,7 @@ class AsyncAthenaM5000(_PlatinumM5000, _PlatinumM5000InBits, _PlatinumM5000InPag
 
     model = "M5000"
     map_id = "athena/platinum-m5000"
+    map_sha256 = "902e7a0aac44998a"
     protocol = _PROTOCOL
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "P M5"),)), Identity((), (("product_code", "  M5"),)))

@@ -621,6 +621,7 @@ class AthenaX100(
 
     model = "X100"
     map_id = "athena/platinum-x100-x400"
+    map_sha256 = "31212c737d8e416a"
     protocol = _PROTOCOL
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "X1"),)),)
@@ -641,6 +642,7 @@ class AsyncAthenaX100(
 
     model = "X100"
     map_id = "athena/platinum-x100-x400"
+    map_sha256 = "31212c737d8e416a"
     protocol = _PROTOCOL
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "X1"),)),)
@@ -661,6 +663,7 @@ class AthenaX400(
 
     model = "X400"
     map_id = "athena/platinum-x100-x400"
+    map_sha256 = "31212c737d8e416a"
     protocol = _PROTOCOL
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "X3"),)),)
@@ -681,6 +684,7 @@ class AsyncAthenaX400(
 
     model = "X400"
     map_id = "athena/platinum-x100-x400"
+    map_sha256 = "31212c737d8e416a"
     protocol = _PROTOCOL
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "X3"),)),)

@@ -955,6 +955,7 @@ class AthenaX5000(_PlatinumX5000, _PlatinumX5000InBits, _PlatinumX5000InPage1, _
 
     model = "X5000"
     map_id = "athena/platinum-x5000"
+    map_sha256 = "d848823ac1e61ca5"
     protocol = _PROTOCOL
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "X5"),)),)
@@ -967,6 +968,7 @@ class AsyncAthenaX5000(_PlatinumX5000, _PlatinumX5000InBits, _PlatinumX5000InPag
 
     model = "X5000"
     map_id = "athena/platinum-x5000"
+    map_sha256 = "d848823ac1e61ca5"
     protocol = _PROTOCOL
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "X5"),)),)

@@ -680,7 +680,7 @@ class _SeriesC:
     )
     """IEEE Register Ordering (nnOd): read and write; 4.2.2."""
     display_unit_of_measure = ReadWrite(
-        4070, _INT16, choice(DisplayUnitOfMeasure), default=1, section="4.4.2", danger=_DANGER_4
+        4070, _INT16, choice(DisplayUnitOfMeasure), default=1, section="4.4.2", danger=_DANGER_4, rescales="temperature"
     )
     """Display Unit of Measure: read and write; 4.4.2."""
     input_type = ReadWrite(4049, _INT16, choice(InputType), default=3, section="4.3.2")
@@ -1503,6 +1503,7 @@ class Athena1ZC(_SeriesC, _SeriesCOf1ZC16C, _SeriesCOf1ZC, Device):
 
     model = "1ZC"
     map_id = "athena/series-c"
+    map_sha256 = "4fc9ccefad21c3f2"
     protocol = _PROTOCOL
     identity = (Identity((Is("controller_type", ((4, 4),)),)),)
     groups = SeriesCGroups
@@ -1515,6 +1516,7 @@ class AsyncAthena1ZC(_SeriesC, _SeriesCOf1ZC16C, _SeriesCOf1ZC, AsyncDevice):
 
     model = "1ZC"
     map_id = "athena/series-c"
+    map_sha256 = "4fc9ccefad21c3f2"
     protocol = _PROTOCOL
     identity = (Identity((Is("controller_type", ((4, 4),)),)),)
     groups = SeriesCGroups
@@ -1527,6 +1529,7 @@ class Athena16C(_SeriesC, _SeriesCOf1ZC16C, _SeriesCOf16C18C25C, _SeriesCOf16C, 
 
     model = "16C"
     map_id = "athena/series-c"
+    map_sha256 = "4fc9ccefad21c3f2"
     protocol = _PROTOCOL
     identity = (Identity((Is("controller_type", ((2, 2),)),)),)
     groups = SeriesCGroups
@@ -1539,6 +1542,7 @@ class AsyncAthena16C(_SeriesC, _SeriesCOf1ZC16C, _SeriesCOf16C18C25C, _SeriesCOf
 
     model = "16C"
     map_id = "athena/series-c"
+    map_sha256 = "4fc9ccefad21c3f2"
     protocol = _PROTOCOL
     identity = (Identity((Is("controller_type", ((2, 2),)),)),)
     groups = SeriesCGroups
@@ -1551,6 +1555,7 @@ class Athena18C(_SeriesC, _SeriesCOf18C25C, _SeriesCOf16C18C25C, Device):
 
     model = "18C"
     map_id = "athena/series-c"
+    map_sha256 = "4fc9ccefad21c3f2"
     protocol = _PROTOCOL
     identity = (Identity((Is("controller_type", ((3, 3),)),)),)
     groups = SeriesCGroups
@@ -1563,6 +1568,7 @@ class AsyncAthena18C(_SeriesC, _SeriesCOf18C25C, _SeriesCOf16C18C25C, AsyncDevic
 
     model = "18C"
     map_id = "athena/series-c"
+    map_sha256 = "4fc9ccefad21c3f2"
     protocol = _PROTOCOL
     identity = (Identity((Is("controller_type", ((3, 3),)),)),)
     groups = SeriesCGroups
@@ -1575,6 +1581,7 @@ class Athena25C(_SeriesC, _SeriesCOf18C25C, _SeriesCOf16C18C25C, Device):
 
     model = "25C"
     map_id = "athena/series-c"
+    map_sha256 = "4fc9ccefad21c3f2"
     protocol = _PROTOCOL
     identity = (Identity((Is("controller_type", ((3, 3),)),)),)
     groups = SeriesCGroups
@@ -1587,6 +1594,7 @@ class AsyncAthena25C(_SeriesC, _SeriesCOf18C25C, _SeriesCOf16C18C25C, AsyncDevic
 
     model = "25C"
     map_id = "athena/series-c"
+    map_sha256 = "4fc9ccefad21c3f2"
     protocol = _PROTOCOL
     identity = (Identity((Is("controller_type", ((3, 3),)),)),)
     groups = SeriesCGroups

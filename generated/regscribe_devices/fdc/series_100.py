@@ -705,6 +705,7 @@ class FdcBTC9100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Series10
 
     model = "BTC-9100"
     map_id = "fdc/series-100"
+    map_sha256 = "4068c05de25f5baa"
     protocol = _PROTOCOL
     identity = (Identity((Is("prog", ((6, "6.99"),)),)),)
     groups = Series100Groups
@@ -716,6 +717,7 @@ class AsyncFdcBTC9100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Asy
 
     model = "BTC-9100"
     map_id = "fdc/series-100"
+    map_sha256 = "4068c05de25f5baa"
     protocol = _PROTOCOL
     identity = (Identity((Is("prog", ((6, "6.99"),)),)),)
     groups = Series100Groups
@@ -727,6 +729,7 @@ class FdcBTC8100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Series10
 
     model = "BTC-8100"
     map_id = "fdc/series-100"
+    map_sha256 = "4068c05de25f5baa"
     protocol = _PROTOCOL
     identity = (Identity((Is("prog", ((11, "11.99"),)),)),)
     groups = Series100Groups
@@ -738,6 +741,7 @@ class AsyncFdcBTC8100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Asy
 
     model = "BTC-8100"
     map_id = "fdc/series-100"
+    map_sha256 = "4068c05de25f5baa"
     protocol = _PROTOCOL
     identity = (Identity((Is("prog", ((11, "11.99"),)),)),)
     groups = Series100Groups
@@ -749,6 +753,7 @@ class FdcBTC4100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Series10
 
     model = "BTC-4100"
     map_id = "fdc/series-100"
+    map_sha256 = "4068c05de25f5baa"
     protocol = _PROTOCOL
     identity = (Identity((Is("prog", ((12, "12.99"),)),)),)
     groups = Series100Groups
@@ -760,6 +765,7 @@ class AsyncFdcBTC4100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Asy
 
     model = "BTC-4100"
     map_id = "fdc/series-100"
+    map_sha256 = "4068c05de25f5baa"
     protocol = _PROTOCOL
     identity = (Identity((Is("prog", ((12, "12.99"),)),)),)
     groups = Series100Groups
@@ -771,6 +777,7 @@ class FdcBTC7100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Series10
 
     model = "BTC-7100"
     map_id = "fdc/series-100"
+    map_sha256 = "4068c05de25f5baa"
     protocol = _PROTOCOL
     identity = (Identity((Is("prog", ((13, "13.99"),)),)),)
     groups = Series100Groups
@@ -782,6 +789,7 @@ class AsyncFdcBTC7100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Asy
 
     model = "BTC-7100"
     map_id = "fdc/series-100"
+    map_sha256 = "4068c05de25f5baa"
     protocol = _PROTOCOL
     identity = (Identity((Is("prog", ((13, "13.99"),)),)),)
     groups = Series100Groups
@@ -793,6 +801,7 @@ class FdcC21(_Series100, _Series100OfC21C91, _Series100OfC21, _Series100Device):
 
     model = "C21"
     map_id = "fdc/series-100"
+    map_sha256 = "4068c05de25f5baa"
     protocol = _PROTOCOL
     identity = (Identity((Is("prog", ((33, "33.99"),)),)),)
     groups = Series100Groups
@@ -804,6 +813,7 @@ class AsyncFdcC21(_Series100, _Series100OfC21C91, _Series100OfC21, _AsyncSeries1
 
     model = "C21"
     map_id = "fdc/series-100"
+    map_sha256 = "4068c05de25f5baa"
     protocol = _PROTOCOL
     identity = (Identity((Is("prog", ((33, "33.99"),)),)),)
     groups = Series100Groups
@@ -815,6 +825,7 @@ class FdcC91(_Series100, _Series100OfC21C91, _Series100Device):
 
     model = "C91"
     map_id = "fdc/series-100"
+    map_sha256 = "4068c05de25f5baa"
     protocol = _PROTOCOL
     identity = (Identity((Is("prog", ((34, "34.99"),)),)),)
     groups = Series100Groups
@@ -826,6 +837,7 @@ class AsyncFdcC91(_Series100, _Series100OfC21C91, _AsyncSeries100Device):
 
     model = "C91"
     map_id = "fdc/series-100"
+    map_sha256 = "4068c05de25f5baa"
     protocol = _PROTOCOL
     identity = (Identity((Is("prog", ((34, "34.99"),)),)),)
     groups = Series100Groups

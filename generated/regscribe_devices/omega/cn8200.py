@@ -225,6 +225,7 @@ class OmegaCN8200(_Cn8200, _SeriesC, _SeriesCOf1ZC16C, _SeriesCOf16C18C25C, _Ser
 
     model = "CN8200"
     map_id = "omega/cn8200"
+    map_sha256 = "6b2a3a0a47b7b8de"
     protocol = _PROTOCOL
     identity = (Identity((Is("controller_type", ((2, 2),)),)),)
     groups = SeriesCGroups
@@ -241,6 +242,7 @@ class AsyncOmegaCN8200(_Cn8200, _SeriesC, _SeriesCOf1ZC16C, _SeriesCOf16C18C25C,
 
     model = "CN8200"
     map_id = "omega/cn8200"
+    map_sha256 = "6b2a3a0a47b7b8de"
     protocol = _PROTOCOL
     identity = (Identity((Is("controller_type", ((2, 2),)),)),)
     groups = SeriesCGroups
@@ -257,6 +259,7 @@ class OmegaCN8240(_Cn8200, _SeriesC, _SeriesCOf18C25C, _SeriesCOf16C18C25C, Devi
 
     model = "CN8240"
     map_id = "omega/cn8200"
+    map_sha256 = "6b2a3a0a47b7b8de"
     protocol = _PROTOCOL
     identity = (Identity((Is("controller_type", ((3, 3),)),)),)
     groups = SeriesCGroups
@@ -273,6 +276,7 @@ class AsyncOmegaCN8240(_Cn8200, _SeriesC, _SeriesCOf18C25C, _SeriesCOf16C18C25C,
 
     model = "CN8240"
     map_id = "omega/cn8200"
+    map_sha256 = "6b2a3a0a47b7b8de"
     protocol = _PROTOCOL
     identity = (Identity((Is("controller_type", ((3, 3),)),)),)
     groups = SeriesCGroups
@@ -289,6 +293,7 @@ class OmegaCN8260(_Cn8200, _SeriesC, _SeriesCOf18C25C, _SeriesCOf16C18C25C, Devi
 
     model = "CN8260"
     map_id = "omega/cn8200"
+    map_sha256 = "6b2a3a0a47b7b8de"
     protocol = _PROTOCOL
     identity = (Identity((Is("controller_type", ((3, 3),)),)),)
     groups = SeriesCGroups
@@ -305,6 +310,7 @@ class AsyncOmegaCN8260(_Cn8200, _SeriesC, _SeriesCOf18C25C, _SeriesCOf16C18C25C,
 
     model = "CN8260"
     map_id = "omega/cn8200"
+    map_sha256 = "6b2a3a0a47b7b8de"
     protocol = _PROTOCOL
     identity = (Identity((Is("controller_type", ((3, 3),)),)),)
     groups = SeriesCGroups
