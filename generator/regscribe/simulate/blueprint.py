@@ -1,12 +1,13 @@
 """What all devices of one model share: where values stand, what they begin with, and what depends on what."""
 
 from collections import OrderedDict
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from threading import Lock
 
 from regscribe.model import Model, OrderFromRegister, Register, RegisterMap, Space
+from regscribe.simulate.following import sources_of
 from regscribe.simulate.givens import Givens, GivenValue
 from regscribe.simulate.layout import Layout, Place, places_of
 
@@ -25,7 +26,8 @@ class Blueprint:
 
     `stored` and `image` are the state of a new device, of which each device keeps only what is different; they are
     filled once, by `State`. `places` are where a register is transmitted, `ordered_by` the registers whose word order
-    a register sets.
+    a register sets, `followers` those that (or whose bits) change with it, `shadows` those that take their value from
+    it when power comes.
     """
 
     register_map: RegisterMap
@@ -34,6 +36,8 @@ class Blueprint:
     layout: Layout
     places: Mapping[str, tuple[Place, ...]]
     ordered_by: Mapping[str, tuple[Register, ...]]
+    followers: Mapping[str, tuple[Register, ...]]
+    shadows: Mapping[str, tuple[Register, ...]]
     stored: dict[str, Stored] = field(default_factory=dict)
     image: Image = field(default_factory=lambda: {space: {} for space in Space})
 
@@ -46,17 +50,25 @@ def draw(register_map: RegisterMap, model: Model, givens: Mapping[str, GivenValu
         Givens(register_map, model, givens),
         Layout(model, register_map.reserved),
         {register.path: places_of(register) for register in model.registers},
-        _ordered_by(model.registers),
+        _by_source(model.registers, _orderers),
+        _by_source(model.registers, sources_of),
+        _by_source(model.registers, lambda register: {register.shadows} if register.shadows else set()),
     )
 
 
-def _ordered_by(registers: Iterable[Register]) -> dict[str, tuple[Register, ...]]:
-    found: dict[str, tuple[Register, ...]] = {}
+def _by_source(
+    registers: Iterable[Register], sources: Callable[[Register], Iterable[str]]
+) -> dict[str, tuple[Register, ...]]:
+    found: dict[str, list[Register]] = {}
     for register in registers:
-        orders = (view.word_order for view in register.views)
-        for path in {order.register for order in orders if isinstance(order, OrderFromRegister)}:
-            found[path] = (*found.get(path, ()), register)
-    return found
+        for path in sources(register):
+            found.setdefault(path, []).append(register)
+    return {path: tuple(dependents) for path, dependents in found.items()}
+
+
+def _orderers(register: Register) -> set[str]:
+    orders = (view.word_order for view in register.views)
+    return {order.register for order in orders if isinstance(order, OrderFromRegister)}
 
 
 _Key = tuple[int, str, frozenset[tuple[str, bool | frozenset[int]]]]

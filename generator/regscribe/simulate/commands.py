@@ -6,14 +6,18 @@ from regscribe.model import Command, Step
 
 
 class Commands:
-    """Follows the commands of a model and remembers which were run; a wait between steps is not enforced."""
+    """Follows the commands of a model and remembers which were run; a wait between steps is not enforced.
 
-    __slots__ = ("_commands", "_progress", "run")
+    `run` are all that were ever run, `since_power` those since power came.
+    """
+
+    __slots__ = ("_commands", "_progress", "run", "since_power")
 
     def __init__(self, commands: Sequence[Command]) -> None:
         self._commands = {command.id: tuple(step for step in command.steps if step.words) for command in commands}
         self._progress = dict.fromkeys(self._commands, 0)
         self.run: list[str] = []
+        self.since_power: set[str] = set()
 
     def is_step(self, function: int, address: int, words: Sequence[int]) -> bool:
         """Whether a request is, by its function too, a step of a command: for addresses that are no registers."""
@@ -27,7 +31,13 @@ class Commands:
         """Note accepted words; returns the ids of the commands that they complete, now also in `run`."""
         completed = tuple(self._advance(address, words))
         self.run.extend(completed)
+        self.since_power.update(completed)
         return completed
+
+    def forget(self) -> None:
+        """Power came: what was begun is not, and what was unlocked is locked."""
+        self._progress = dict.fromkeys(self._commands, 0)
+        self.since_power.clear()
 
     def _steps(self) -> Iterator[Step]:
         return (step for steps in self._commands.values() for step in steps)

@@ -1,5 +1,6 @@
 """A device that answers as its map says: requests in, answers (or silence) out, without any line in between."""
 
+import math
 import struct
 from collections.abc import Callable, Mapping, Sequence
 from threading import RLock
@@ -8,10 +9,13 @@ from regscribe.model import Model, Protocol, RegisterMap, Space
 from regscribe.simulate.addressing import AddressError, first_address, shifted
 from regscribe.simulate.answers import EXCEPTION_BIT, Refusal, exception_answer, pack_bits, unpack_bits
 from regscribe.simulate.commands import Commands
+from regscribe.simulate.conduct import Conduct
+from regscribe.simulate.controller import controller_of
 from regscribe.simulate.errors import SimulatorError
 from regscribe.simulate.givens import GivenValue
 from regscribe.simulate.reading import Reader
 from regscribe.simulate.state import State, Value
+from regscribe.simulate.thermal import ThermalProcess
 from regscribe.simulate.values import Plain
 from regscribe.simulate.writing import Writer
 
@@ -23,10 +27,11 @@ class SimulatedDevice:
     """One device of one model: typed state, the map's limits and faults, and commands that were run.
 
     `handle` is pure but for the state: no I/O, no clock. All methods may be called from any thread. Registers whose
-    write needs an `unlock` refuse it (as an unmet condition) until that command was run; effects of commands beyond
-    the registers that they write, and the delay until an `apply` command, are not simulated. `seed` decides the
-    garbage that some devices send for addresses that they do not have. `addressing` is modbus, or jbus for a device
-    that counts its addresses from 1.
+    write needs an `unlock` refuse it (as an unmet condition) until that command was run since power came. A write
+    that needs an `apply` shows at once and counts after that command. `seed` decides the garbage that some devices
+    send for addresses that they do not have, the noise of `process` and the latencies. `addressing` is modbus, or
+    jbus for a device that counts its addresses from 1. With a `process`, the map's process value moves as time passes
+    (`advance`); without one it stays where it is put, and outputs and alarms follow it.
     """
 
     def __init__(
@@ -38,6 +43,7 @@ class SimulatedDevice:
         givens: Mapping[str, GivenValue] | None = None,
         seed: int = 0,
         addressing: str = "modbus",
+        process: ThermalProcess | bool = False,
     ) -> None:
         self._first = first_address(addressing)
         self.register_map = register_map
@@ -49,7 +55,9 @@ class SimulatedDevice:
         self._commands = Commands(self.model.commands)
         self._layout = layout = self.state.blueprint.layout
         self._reader = Reader(self._protocol, layout, self.state, seed, self.unit)
-        self._writer = Writer(self._protocol, layout, self.state, self._commands)
+        self._conduct = Conduct(self.state, self._commands, controller_of(self.state, process=process, seed=seed))
+        self._writer = Writer(self._protocol, layout, self.state, self._commands, self._conduct)
+        self.moves = bool(process)
         self._lock = RLock()
         self._functions: dict[int, Callable[[bytes], bytes]] = {
             **dict.fromkeys(READS, self._read),
@@ -82,6 +90,33 @@ class SimulatedDevice:
         """Return the words that a view of a register (default: the base view) transmits now."""
         with self._lock:
             return self.state.peek_words(path, view)
+
+    @property
+    def wear(self) -> Mapping[str, int]:
+        """How many writes the lasting memory of each register took (those of which the map says that it is lasting)."""
+        return dict(self._conduct.wear)
+
+    @property
+    def pending(self) -> tuple[str, ...]:
+        """The registers that show a value which is not in effect until an `apply` command comes."""
+        return tuple(self.state.pending)
+
+    def power_cycle(self) -> None:
+        """Take power away and give it back: RAM is restored from lasting memory, where the map says what from."""
+        with self._lock:
+            self._conduct.power_cycle()
+
+    def advance(self, seconds: float) -> None:
+        """Let simulated time pass: the process goes on, outputs and alarms follow. SimulatorError if it would go back.
+
+        Time passes in steps of half a second; what is left of a step is kept for the next call.
+        """
+        if not 0 <= seconds < math.inf:
+            message = f"time cannot advance by {seconds!r} seconds: give a number of 0 or more"
+            raise SimulatorError(message)
+        with self._lock:
+            if self._conduct.controller is not None:
+                self._conduct.controller.advance(seconds)
 
     def handle(self, pdu: bytes, *, broadcast: bool = False) -> bytes | None:
         """Act on a request (function code and data) and return the answer; None where the device keeps silent.

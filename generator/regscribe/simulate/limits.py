@@ -4,7 +4,7 @@ from abc import abstractmethod
 from fractions import Fraction
 from typing import Protocol
 
-from regscribe.model import Cases, Decimals, Enum, Interval, Kind, Limit, Number, Range, Reference, Register
+from regscribe.model import Cases, Condition, Decimals, Enum, Interval, Kind, Limit, Number, Range, Reference, Register
 from regscribe.simulate.givens import T
 from regscribe.simulate.values import field_value
 
@@ -19,6 +19,10 @@ class Present(Protocol):
     @abstractmethod
     def choose(self, cases: Cases[T]) -> T | None:
         """Return what the first case that holds now says; None if none holds."""
+
+    @abstractmethod
+    def holds(self, condition: Condition) -> bool:
+        """Whether `condition` holds now."""
 
     @abstractmethod
     def power(self, decimals: Decimals | None) -> int:

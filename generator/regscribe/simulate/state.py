@@ -4,28 +4,21 @@ from collections.abc import Mapping
 from fractions import Fraction
 
 from regscribe.model import (
-    IDENTITY,
-    BitField,
-    Cases,
-    Condition,
-    Conversion,
-    Decimals,
     Kind,
     Model,
-    Order,
     Register,
     RegisterMap,
-    Rounding,
     Space,
-    View,
     exact,
 )
 from regscribe.model.reference import version_text
 from regscribe.simulate import codec
 from regscribe.simulate.blueprint import Blueprint, Image, Shelf, Stored, draw
 from regscribe.simulate.errors import SimulatorError
-from regscribe.simulate.givens import GivenValue, T
+from regscribe.simulate.following import followed_bits, has_followed_bits, source_of
+from regscribe.simulate.givens import GivenValue
 from regscribe.simulate.initial import initial_value
+from regscribe.simulate.meaning import Meaning
 from regscribe.simulate.values import Plain, field_value, number_of, with_field
 
 Value = Fraction | str
@@ -34,22 +27,23 @@ Value = Fraction | str
 _SHELF = Shelf()
 
 
-class State:
+class State(Meaning):
     """Stored values of one device, and the image of words that they show.
 
     The image is kept up to date at every change, so a read is a look-up. A write through any view sets the stored
     value, from which every other view and alias follows. What is as on a new device is kept once for all of its model.
     """
 
-    __slots__ = ("_image", "_initial", "_model", "_stored", "blueprint", "givens")
+    __slots__ = ("_driven", "_image", "_initial", "_pending", "_settling", "_stored")
 
     def __init__(self, blueprint: Blueprint) -> None:
-        self.blueprint = blueprint
-        self.givens = blueprint.givens
-        self._model = blueprint.model
+        super().__init__(blueprint)
         self._stored: dict[str, Stored] = {}
         self._initial: set[str] = set()
         self._image: Image = {}
+        self._pending: dict[str, Stored] = {}
+        self._driven: frozenset[str] = frozenset()
+        self._settling: frozenset[str] = frozenset()
 
     @classmethod
     def of(cls, register_map: RegisterMap, model: Model, givens: Mapping[str, GivenValue]) -> "State":
@@ -65,7 +59,10 @@ class State:
     def _begin(self) -> None:
         """Fill the blueprint with what a new device holds and shows."""
         for register in self._model.registers:
-            self.blueprint.stored[register.path] = self.stored(register.path)
+            self.stored(register.path)
+        for register in self._model.registers:
+            self._follow(register)
+        self.blueprint.stored.update(self._stored)
         for register in self._model.registers:
             self._show(register, self.blueprint.image)
 
@@ -92,26 +89,75 @@ class State:
         register = self._model.register(path)
         self._stored[path] = stored if isinstance(stored, str) else self.quantise(register, stored)
         self._show(register, self._image)
+        if path not in self._pending:
+            self._touch(path)
+
+    def hold_back(self, path: str, former: Stored) -> None:
+        """Let `former` stay in effect for a register although it shows another value, until `take_effect`."""
+        self._pending.setdefault(path, former)
+        self._touch(path)
+
+    def take_effect(self, path: str) -> None:
+        """Let the value that a register shows come into effect."""
+        if self._pending.pop(path, None) is not None:
+            self._touch(path)
+
+    @property
+    def pending(self) -> Mapping[str, Stored]:
+        """The registers whose value is not in effect yet, with what is in effect instead."""
+        return dict(self._pending)
+
+    def drive(self, path: str) -> None:
+        """Let a register follow nothing: something else moves it from now on."""
+        self._driven |= {path}
+
+    def put(self, subject: str, value: Plain) -> None:
+        """Set a register or `register.field` to a value of use, as `poke` does, if it is not there already."""
+        register, field = self.find(subject)
+        stored = self.stored(register.path)
+        if field is None or isinstance(stored, str):
+            new = self._to_stored(register, value)
+            new = new if isinstance(new, str) else self.quantise(register, new)
+        else:
+            new = with_field(stored, field, number_of(register, field, value))
+        if new != stored:
+            self.store(register.path, new)
+
+    def _touch(self, path: str) -> None:
+        """Let all that depends on the value in effect of a register be as it has to be now."""
         for dependent in self.blueprint.ordered_by.get(path, ()):
             self._show(dependent, self._image)
+        for follower in self.blueprint.followers.get(path, ()):
+            self._follow(follower)
 
-    def order(self, view: View) -> Order:
-        """Return the word order of `view` now; where a register sets it to a code without meaning, the map's first."""
-        if isinstance(view.word_order, Order):
-            return view.word_order
-        code = self.lookup(view.word_order.register)
-        orders = dict(view.word_order.codes)
-        return next((order for known, order in orders.items() if known == code), next(iter(orders.values()), Order.BIG))
+    def _follow(self, register: Register) -> None:
+        path = register.path
+        if path in self._driven or path in self._settling:  # the latter: a circle, which has to end somewhere
+            return
+        before = self._settling
+        self._settling = before | {path}
+        try:
+            stored = self._followed(register)
+            if stored != self.stored(path):
+                self.store(path, stored)
+        finally:
+            self._settling = before
 
-    def quantise(self, register: Register, stored: Fraction) -> Fraction:
-        """Round `stored` to what the device can hold: to the scale's step, else to what its views can tell apart."""
-        step = self.conversion(register).step
-        if step is None:
-            if any(view.type.is_float for view in register.views):
-                return stored
-            step = 1 / max(view.factor for view in register.views)
-        rounding = next((view.rounding for view in register.views if view.rounding is not Rounding.NONE), Rounding.NONE)
-        return codec.round_to_whole(stored / step, rounding) * step
+    def _followed(self, register: Register) -> Stored:
+        stored = self.stored(register.path)
+        source = source_of(register, self)
+        if source:
+            origin = self._model.register(source)
+            found = self.in_effect(source)
+            alike = origin.scale == register.scale or isinstance(found, str)
+            stored = found if alike else self.quantise(register, self.from_value(register, self.lookup(source)))
+        if has_followed_bits(register) and not isinstance(stored, str):
+            stored = followed_bits(register, stored, self)
+        return stored
+
+    def in_effect(self, path: str) -> Stored:
+        """Return what counts of a register now: what it shows, or what it showed before."""
+        return self._pending[path] if path in self._pending else self.stored(path)
 
     # -- values of use ------------------------------------------------------------------------------------------
 
@@ -121,7 +167,7 @@ class State:
         A number is in the unit of use: scale and decimals are applied as the present state has them. SimulatorError
         if there is no such register.
         """
-        register, field = self._find(path)
+        register, field = self.find(path)
         stored = self.stored(register.path)
         if isinstance(stored, str):
             return stored.rstrip("\0 ")
@@ -140,7 +186,8 @@ class State:
 
         A text is a text, a number in decimals, or the id of a sentinel, a special value or an enum member.
         """
-        register, field = self._find(path)
+        register, field = self.find(path)
+        self._pending.pop(register.path, None)
         stored = self.stored(register.path)
         if field is None or isinstance(stored, str):
             self.store(register.path, self._to_stored(register, value))
@@ -149,50 +196,13 @@ class State:
 
     def peek_words(self, path: str, view: str = "") -> tuple[int, ...]:
         """Return the words that a view (default: the base view) transmits now; of a write-only register too."""
-        register, _ = self._find(path)
+        register, _ = self.find(path)
         shown = next((each for each in register.views if view in ("", each.name)), None)
         if shown is None:
             names = ", ".join(each.name for each in register.views)
             message = f"register {register.path!r} has no view {view!r}: it has {names}"
             raise SimulatorError(message)
         return codec.encode(shown, self.stored(register.path), self.order(shown))
-
-    def lookup(self, subject: str) -> Fraction:
-        """Return the present number of a register, or of `register.field`, as conditions and limits count it."""
-        register, field = self._find(subject)
-        stored = self.stored(register.path)
-        if isinstance(stored, str):
-            return Fraction(0)
-        return self.to_value(register, stored) if field is None else field_value(stored, field)
-
-    def to_value(self, register: Register, stored: Fraction) -> Fraction:
-        """Turn a stored number into the value of use."""
-        scale = self.conversion(register)
-        return (scale.multiply * stored + scale.add) / self.power(scale.decimals)
-
-    def from_value(self, register: Register, value: Fraction) -> Fraction:
-        """Turn a value of use into a stored number (exact: as finely as asked, whatever the device can hold)."""
-        scale = self.conversion(register)
-        return (value * self.power(scale.decimals) - scale.add) / scale.multiply
-
-    def conversion(self, register: Register) -> Conversion:
-        """Return the scale that holds now; none holding counts as identity."""
-        return self.choose(register.scale) or IDENTITY
-
-    def power(self, decimals: Decimals | None) -> int:
-        """10 to the number of decimals that a register holds now."""
-        if decimals is None:
-            return 1
-        digits = max(0, int(self.lookup(decimals.register)))
-        return int(10 ** (digits if decimals.at_most is None else min(digits, decimals.at_most)))
-
-    def holds(self, condition: Condition) -> bool:
-        """Whether `condition` holds now."""
-        return self.givens.holds(condition, self.lookup)
-
-    def choose(self, cases: Cases[T]) -> T | None:
-        """Return what the first case that holds now says; None if none holds."""
-        return self.givens.choose(cases, self.lookup)
 
     # -- inside -------------------------------------------------------------------------------------------------
 
@@ -203,21 +213,6 @@ class State:
         value = initial_value(self.blueprint.register_map, self._model, register, self)
         stored = self._to_stored(register, value)
         return stored if isinstance(stored, str) else self.quantise(register, stored)
-
-    def _find(self, path: str) -> tuple[Register, BitField | None]:
-        try:
-            return self._model.register(path), None
-        except KeyError:
-            owner, _, name = path.rpartition(".")
-        try:
-            register = self._model.register(owner)
-        except KeyError:
-            register = None
-        field = next((each for each in register.fields if each.id == name), None) if register else None
-        if register is None or field is None:
-            message = f"model {self._model.name} has no register or field {path!r}"
-            raise SimulatorError(message)
-        return register, field
 
     def _to_stored(self, register: Register, value: Plain) -> Stored:
         if register.kind is Kind.STRING:

@@ -9,6 +9,7 @@ from regscribe.simulate import codec
 from regscribe.simulate.answers import Refusal
 from regscribe.simulate.blueprint import Stored
 from regscribe.simulate.commands import Commands
+from regscribe.simulate.conduct import Conduct
 from regscribe.simulate.layout import Layout, Place
 from regscribe.simulate.limits import accepts
 from regscribe.simulate.reading import check_request
@@ -32,6 +33,7 @@ class Writer:
     layout: Layout
     state: State
     commands: Commands
+    conduct: Conduct
 
     def write(self, space: Space, function: int, address: int, words: Sequence[int]) -> int:
         """Write from `address` on; returns how many words (bits) were written. Raises Refusal.
@@ -44,7 +46,7 @@ class Writer:
         place = self.layout.place(space, address)
         holds = place is not None and place.register.access.writable  # a read-only register may still take a command
         if space is Space.HOLDING and not holds and self.commands.is_step(function, address, words):
-            self.commands.saw(address, words)
+            self.conduct.commanded(self.commands.saw(address, words))
             return len(words)
         return self._write_values(space, function, address, words)
 
@@ -61,7 +63,8 @@ class Writer:
                 self._undo(written)
                 raise
         for each in written:
-            self.commands.saw(each.place.start, each.words)
+            self.conduct.written(each.place.register, each.before)
+            self.conduct.commanded(self.commands.saw(each.place.start, each.words))
         return done
 
     def _undo(self, written: Sequence[_Written]) -> None:
@@ -95,7 +98,7 @@ class Writer:
             raise Refusal(self.protocol.faults.read_only)
         if register.writable is not None and not self.state.holds(register.writable.when):
             raise Refusal(self.protocol.faults.condition)
-        if register.unlock and register.unlock not in self.commands.run:
+        if register.unlock and register.unlock not in self.commands.since_power:
             raise Refusal(self.protocol.faults.condition)
 
     def _accepted(self, place: Place, words: tuple[int, ...]) -> Stored:

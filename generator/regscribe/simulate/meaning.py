@@ -1,0 +1,116 @@
+"""What stored numbers mean in the present state: scales, decimals, word orders, conditions."""
+
+from abc import ABC, abstractmethod
+from fractions import Fraction
+
+from regscribe.model import (
+    IDENTITY,
+    BitField,
+    Cases,
+    Condition,
+    Conversion,
+    Decimals,
+    Model,
+    Order,
+    Register,
+    Rounding,
+    View,
+)
+from regscribe.simulate import codec
+from regscribe.simulate.blueprint import Blueprint, Stored
+from regscribe.simulate.errors import SimulatorError
+from regscribe.simulate.givens import Givens, T
+from regscribe.simulate.values import field_value
+
+
+class Meaning(ABC):
+    """The questions about a state that need the values of other registers; what is in effect is for a subclass."""
+
+    __slots__ = ("_model", "blueprint", "givens")
+
+    def __init__(self, blueprint: Blueprint) -> None:
+        self.blueprint = blueprint
+        self.givens: Givens = blueprint.givens
+        self._model: Model = blueprint.model
+
+    @abstractmethod
+    def in_effect(self, path: str) -> Stored:
+        """Return the stored value of a register that counts now."""
+
+    def register(self, path: str) -> Register:
+        """Return a register of the model by its path; KeyError if there is none."""
+        return self._model.register(path)
+
+    def find(self, path: str) -> tuple[Register, BitField | None]:
+        """Return the register of a path, and the bit field if it names one; SimulatorError if there is neither."""
+        try:
+            return self._model.register(path), None
+        except KeyError:
+            owner, _, name = path.rpartition(".")
+        try:
+            register = self._model.register(owner)
+        except KeyError:
+            register = None
+        field = next((each for each in register.fields if each.id == name), None) if register else None
+        if register is None or field is None:
+            message = f"model {self._model.name} has no register or field {path!r}"
+            raise SimulatorError(message)
+        return register, field
+
+    def lookup(self, subject: str) -> Fraction:
+        """Return the present number of a register, or of `register.field`, as conditions and limits count it.
+
+        That is the value in effect, which need not be the one that the register shows.
+        """
+        register, field = self.find(subject)
+        stored = self.in_effect(register.path)
+        if isinstance(stored, str):
+            return Fraction(0)
+        return self.to_value(register, stored) if field is None else field_value(stored, field)
+
+    def to_value(self, register: Register, stored: Fraction) -> Fraction:
+        """Turn a stored number into the value of use."""
+        scale = self.conversion(register)
+        return (scale.multiply * stored + scale.add) / self.power(scale.decimals)
+
+    def from_value(self, register: Register, value: Fraction) -> Fraction:
+        """Turn a value of use into a stored number (exact: as finely as asked, whatever the device can hold)."""
+        scale = self.conversion(register)
+        return (value * self.power(scale.decimals) - scale.add) / scale.multiply
+
+    def conversion(self, register: Register) -> Conversion:
+        """Return the scale that holds now; none holding counts as identity."""
+        return self.choose(register.scale) or IDENTITY
+
+    def power(self, decimals: Decimals | None) -> int:
+        """10 to the number of decimals that a register holds now."""
+        if decimals is None:
+            return 1
+        digits = max(0, int(self.lookup(decimals.register)))
+        return int(10 ** (digits if decimals.at_most is None else min(digits, decimals.at_most)))
+
+    def holds(self, condition: Condition) -> bool:
+        """Whether `condition` holds now."""
+        return self.givens.holds(condition, self.lookup)
+
+    def choose(self, cases: Cases[T]) -> T | None:
+        """Return what the first case that holds now says; None if none holds."""
+        return self.givens.choose(cases, self.lookup)
+
+    def order(self, view: View) -> Order:
+        """Return the word order of `view` now; where a register sets it to a code without meaning, the map's first."""
+        if isinstance(view.word_order, Order):
+            return view.word_order
+        code = self.lookup(view.word_order.register)
+        orders = dict(view.word_order.codes)
+        return next((order for known, order in orders.items() if known == code), next(iter(orders.values()), Order.BIG))
+
+    def quantise(self, register: Register, stored: Fraction) -> Fraction:
+        """Round `stored` to what the device can hold: to the scale's step, else to what its views can tell apart."""
+        step = self.conversion(register).step
+        if step is None:
+            if any(view.type.is_float for view in register.views):
+                return stored
+            step = 1 / max(view.factor for view in register.views)
+        rounding = next((view.rounding for view in register.views if view.rounding is not Rounding.NONE), Rounding.NONE)
+        return codec.round_to_whole(stored / step, rounding) * step
