@@ -15,6 +15,7 @@ from regscribe.runtime.device import (
     serial_link,
 )
 from regscribe.runtime.errors import (
+    Absent,
     ConditionNotMet,
     ExceptionAnswer,
     LeftAt,
@@ -29,6 +30,7 @@ from regscribe.runtime.errors import (
     RegscribeError,
     Saturated,
     SensorFault,
+    Unsteady,
     ValueNotDecodable,
     ValueRefused,
     ValuesRefused,
@@ -83,6 +85,7 @@ __all__ = [
     "UINT16",
     "UINT32",
     "UINT64",
+    "Absent",
     "Array",
     "AsyncBareDevice",
     "AsyncDevice",
@@ -141,6 +144,7 @@ __all__ = [
     "SetpointProgram",
     "Snapshot",
     "TcpSettings",
+    "Unsteady",
     "ValueNotDecodable",
     "ValueRefused",
     "ValuesRefused",

@@ -102,7 +102,7 @@ class Absent(RegscribeError):  # noqa: N818 (as above)
 
 
 class Unsteady(RegscribeError):  # noqa: N818 (as above)
-    """The registers `changed`, which values depend on, changed during each of `tries` reads: no value is trustworthy."""
+    """The registers `changed`, which values depend on, changed during each of `tries` reads: no value can be trusted."""
 
     def __init__(self, *, unit: int, changed: "Sequence[str]", tries: int) -> None:
         self.unit, self.changed, self.tries = unit, tuple(changed), tries

@@ -5,7 +5,7 @@ Every other exception, and silence, concerns the whole operation and is raised. 
 keeps silent about bad addresses is silence taken for an absence: if it was silent twice, and the unit spoke otherwise.
 
 Each register that is called absent was refused alone. If a half is good, the other one must be bad, so it is halved
-without being asked for: one absent register among n takes about log2(n) + 1 requests.
+without being asked for: one absent register among n takes between log2(n) and 2 log2(n) requests.
 """
 
 from collections.abc import Generator, Sequence
