@@ -1,6 +1,6 @@
 """The groups of a map as one class: each group has the members that any model has."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 from regscribe.emit.python.layout import call, lay
 from regscribe.emit.python.literals import literal
@@ -15,13 +15,30 @@ Members are ids of registers, or of arrays for all that is in them.
 
 
 def groups_of(register_map: RegisterMap) -> Content:
-    """The groups of all models together."""
-    merged: dict[str, tuple[str, dict[str, None], int | None]] = {}
-    for model in sorted(register_map.models, key=lambda model: -len(model.registers)):
-        for one in model.groups:
-            _, members, _ = merged.setdefault(one.id, (one_line(one.name), {}, one.order))
-            members.update(_first_parts(one))
-    return {name: (title, tuple(members), order) for name, (title, members, order) in merged.items()}
+    """The groups of all models together, each thing where the model that has it has it."""
+    every = {one.id: one for model in register_map.models for one in model.groups}
+    order = _merged([group.id for group in model.groups] for model in register_map.models)
+    members = {
+        name: _merged(_first_parts(one) for model in register_map.models for one in model.groups if one.id == name)
+        for name in order
+    }
+    return {name: (one_line(every[name].name), tuple(members[name]), every[name].order) for name in order}
+
+
+def _merged(orders: Iterable[Iterable[str]]) -> list[str]:
+    """All names of several orders in one: each new name behind the one that it follows."""
+    merged: dict[str, None] = {}
+    for order in orders:
+        behind: dict[str, list[str]] = {}
+        last = ""
+        for name in order:
+            if name in merged:
+                last = name
+            else:
+                behind.setdefault(last, []).append(name)
+        if behind:
+            merged = dict.fromkeys(new for known in ("", *merged) for new in (known, *behind.get(known, ())) if new)
+    return list(merged)
 
 
 def same_groups(base: Content, own: Content, register_map: RegisterMap) -> set[str]:
