@@ -118,7 +118,7 @@ def _asked(one: Decoded) -> bool:
 
 
 def _plain(line: int, one: Decoded) -> dict[str, Any]:
-    found: dict[str, Any] = {"line": line, "kind": one.kind, "unit": one.unit, "function": one.function}
+    found: dict[str, Any] = {"line": line, "kind": one.kind, "unit_id": one.unit, "function": one.function}
     found |= {"what": one.what, "address": one.address, "exception": one.exception or None}
     return {**found, "registers": [_item(item) for item in one.items], "complaint": one.complaint or None}
 

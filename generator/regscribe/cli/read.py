@@ -48,7 +48,7 @@ def command(*, target: Target, as_json: bool, wanted: tuple[str, ...], bare: boo
 
 def heading(device: BareDevice, target: Target) -> dict[str, Any]:
     """What every JSON object of a live command begins with: which device, and when (RFC 3339, UTC)."""
-    return {"device": str(target), "unit": target.unit, "model": device.model, "map": device.map_id, "time": now()}
+    return {"device": str(target), "unit_id": target.unit, "model": device.model, "map": device.map_id, "time": now()}
 
 
 def now() -> str:

@@ -96,7 +96,7 @@ def _show(found: Sequence[Found], ended: str, *, as_json: bool) -> None:
 
 
 def _plain(one: Found) -> dict[str, Any]:
-    return {"unit": one.unit, "link": str(one.link), "answer": one.answer, "models": list(one.models)}
+    return {"unit_id": one.unit, "link": str(one.link), "answer": one.answer, "models": list(one.models)}
 
 
 def _numbers(text: str) -> list[int]:

@@ -64,9 +64,9 @@ def command(
     with opened(target) as device, ExitStack() as stack:
         registers = names.chosen(type(device), [*wanted, *charts])
         curves = [one.path for one in names.chosen(type(device), charts)]
-        log = stack.enter_context(closing(logs.open_log(log_path, str(target)))) if log_path else None
         rounds = watch(device, registers, every=every, count=count, give_up=give_up)
         try:
+            log = stack.enter_context(closing(logs.open_log(log_path, str(target)))) if log_path else None
             _follow(_logged(rounds, log), registers, curves, str(target), as_json=as_json)
         except GaveUp as end:
             raise failure(end.error) from None

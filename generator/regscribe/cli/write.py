@@ -13,7 +13,7 @@ from regscribe.live import names, values
 from regscribe.live.dry import dry
 from regscribe.live.errors import TargetError, unknown
 from regscribe.live.target import Target
-from regscribe.runtime import Register, operations
+from regscribe.runtime import Register, ValueRefused, operations
 
 
 @click.command(
@@ -49,6 +49,8 @@ def command(  # noqa: PLR0913 - the options of the command
     with opened(target, identity=identity) as device:
         register = names.register_named(type(device), name)
         _known_view(register, view)
+        if register.access == "r":
+            raise ValueRefused(name, "the register is read-only")
         unsent = dry(device).written if dry_run else []
         unit = device.run(operations.read_unit(register))
         meant = values.parse(register, value, current_unit=unit)
