@@ -9,7 +9,7 @@ from synthetic import yaml_map
 
 from regscribe import lower, source
 from regscribe.runtime import INT16, Conversion, Device, ReadOnly, integer, number, word
-from regscribe.runtime.block import prepare
+from regscribe.runtime.ready import make_ready
 from regscribe.runtime.session import Protocol, Session
 from regscribe.simulate import simulate
 
@@ -26,8 +26,9 @@ def decoding() -> Iterator[Row]:
     ]
     for register in registers:
         register.path = f"parameter_{register.at}"
-    session = Session(unit=1, protocol=Protocol(read_words=COUNT), registers={}, commands={}, givens={})
-    (block,) = prepare(registers, session)
+    known = {register.path: register for register in registers}
+    session = Session(unit=1, protocol=Protocol(read_words=COUNT), registers=known, commands={}, givens={})
+    (block,) = make_ready(session, registers, fresh=True, unknown={}).blocks
     words = tuple(range(COUNT))
 
     def bare() -> list[float]:

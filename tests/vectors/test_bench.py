@@ -86,7 +86,12 @@ def test_a_driver_that_decodes_wrongly_does_not_come_back(
 
 def test_a_request_over_the_limit_or_asked_twice_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     tried = Bench(series_100.FdcC21, load(PATH))
-    monkeypatch.setattr("regscribe.runtime.block.plan", lambda items, _: [Block(3, 0, 80, tuple(items))])
+
+    def one_block(wants: Any, _: object) -> tuple[tuple[Block, ...], bool]:
+        items = tuple(want[0] for want in wants)
+        return ((Block(3, 0, 80, items),) if items else ()), True
+
+    monkeypatch.setattr("regscribe.runtime.layout.blocks", one_block)
 
     @settings(hold.each_run, max_examples=5)
     @given(data=st.data())

@@ -102,7 +102,7 @@ class Absent(RegscribeError):  # noqa: N818 (as above)
 
 
 class Unsteady(RegscribeError):  # noqa: N818 (as above)
-    """The registers `changed`, which values depend on, changed during each of `tries` reads: no value can be trusted."""
+    """The registers `changed`, which values depend on, changed during each of `tries` reads: no value is certain."""
 
     def __init__(self, *, unit: int, changed: "Sequence[str]", tries: int) -> None:
         self.unit, self.changed, self.tries = unit, tuple(changed), tries
@@ -168,11 +168,7 @@ class ReadBackDiffers(WriteFailed):
 
 
 class NotApplied(WriteFailed):
-    """The register was written, but `command`, which makes it take effect, was not carried out or may not have been."""
-
-    def __init__(self, register: str, command: str, cause: Exception) -> None:
-        self.command = command
-        super().__init__(register, f"written, but not in effect: {command} failed ({cause})")
+    """The register was written, but the command that makes it take effect was not carried out, or may not have been."""
 
 
 class NotConfigured(WriteFailed):

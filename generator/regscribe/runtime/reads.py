@@ -12,7 +12,7 @@ from regscribe.runtime import codec
 from regscribe.runtime.errors import ExceptionAnswer, RegscribeError, Unsteady, ValueNotDecodable
 from regscribe.runtime.ground import Item
 from regscribe.runtime.plan import blocks
-from regscribe.runtime.ready import MISSING, Ready, dependencies, make_ready
+from regscribe.runtime.ready import MISSING, Ready, dependencies, make_ready, missing
 from regscribe.runtime.request import READ_FUNCTIONS, Request
 from regscribe.runtime.sieve import REFUSALS, Sieve, is_absence
 from regscribe.runtime.snapshot import Snapshot
@@ -39,10 +39,16 @@ def item_of(register: Register[Any], view: View) -> Item:
 
 
 def fetch(session: Session, items: Iterable[Item]) -> Operation[dict[Item, tuple[int, ...]]]:
-    """The present words of items, in few requests."""
+    """The present words of items, in few requests; what plans go round is asked for alone."""
     found = {}
-    made, _ = blocks([(item,) for item in items], session.terms())
-    for block in made:
+    terms = session.terms()
+    known: list[Item] = []
+    for item in dict.fromkeys(items):
+        if terms.ground.stretch(item) is None:
+            found[item] = yield from session.exchange(Request(READ_FUNCTIONS[item.space], item.address, item.words))
+        else:
+            known.append(item)
+    for block in blocks([(item,) for item in known], terms)[0]:
         words = yield from session.exchange(Request(block.function, block.address, block.quantity))
         for item in block.items:
             start = item.address - block.address
@@ -167,17 +173,18 @@ def _learn(session: Session, registers: Sequence[Register[Any]]) -> Operation[di
     """Make known what the meaning of registers depends on; why not, of each that has no value."""
     needs = dependencies(session, registers)
     needed = frozenset().union(*needs.values())
-    unknown: dict[str, RegscribeError] = {}
+    paths = [path for path in needs if path in needed]
+    absent = {path: error for path in paths if (error := missing(session, session.registers[path]))}
     try:
-        yield from know(session, [path for path in needs if path in needed])
+        yield from know(session, [path for path in paths if path not in absent])
     except (ValueNotDecodable, ExceptionAnswer) as error:
         _bearable(session, error)
     else:
-        return unknown
-    for path in needs:
+        return absent
+    unknown: dict[str, RegscribeError] = absent
+    for path in paths:
         try:
-            if path in needed:
-                yield from know(session, [path])
+            yield from know(session, [] if path in absent else [path])
         except (ValueNotDecodable, ExceptionAnswer) as error:
             _bearable(session, error)
             unknown[path] = error

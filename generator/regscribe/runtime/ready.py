@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from regscribe.runtime import codec
 from regscribe.runtime.block import Placed, PreparedBlock
-from regscribe.runtime.errors import Absent, RegscribeError, ValueNotDecodable
+from regscribe.runtime.errors import RegscribeError, ValueNotDecodable
 from regscribe.runtime.layout import Place, lay_out
 from regscribe.runtime.ways import open_ways, ways
 
@@ -26,7 +26,7 @@ MISSING = object()
 class Ready:
     """The requests of one read, and how to judge and decode the answers; made by `make_ready`."""
 
-    __slots__ = ("_seen", "_watched", "atomic", "blocks", "missing", "paths", "unknown")
+    __slots__ = ("_seen", "_watched", "absent", "atomic", "blocks", "paths", "unknown")
 
     def __init__(
         self,
@@ -35,11 +35,11 @@ class Ready:
         *,
         watched: "list[tuple[Register[Any], Place]]",
         atomic: bool,
-        missing: dict[str, Absent],
+        absent: Mapping[str, RegscribeError],
         unknown: Mapping[str, RegscribeError],
     ) -> None:
         self.blocks, self.paths, self.atomic = blocks_, tuple(paths), atomic
-        self.missing, self.unknown = missing, unknown
+        self.absent, self.unknown = absent, unknown
         self._watched = watched
         self._seen: list[Words] | None = None if watched else []
 
@@ -64,7 +64,7 @@ class Ready:
     def decode(self, answers: Sequence[Sequence[int]]) -> dict[str, Any]:
         """Values by path, in the order asked for; an error in place of a value that is none."""
         values: dict[str, Any] = dict.fromkeys(self.paths)
-        values.update(self.missing)
+        values.update(self.absent)
         for block, words in zip(self.blocks, answers, strict=True):
             values.update(block.decode(words))
         return values
@@ -72,7 +72,7 @@ class Ready:
     def decode_partly(self, answers: "Sequence[Words]", session: "Session") -> dict[str, Any]:
         """As `decode`, where words may be missing: None for a register that could not be read."""
         values: dict[str, Any] = dict.fromkeys(self.paths)
-        values.update(self.missing)
+        values.update(self.absent)
         for block, words in zip(self.blocks, answers, strict=True):
             values.update(block.decode_partly(words, session, self.unknown))
         return values
@@ -139,15 +139,17 @@ def make_ready(
         chosen,
         watched=[(wanted[path], layout.checks[path]) for path in needs if path in layout.checks],
         atomic=layout.atomic,
-        missing={path: _missing(session, one) for path, one in chosen.items() if path not in open_},
+        absent={path: why for path, one in chosen.items() if (why := missing(session, one))},
         unknown=unknown,
     )
 
 
-def _missing(session: "Session", register: "Register[Any]") -> Absent:
+def missing(session: "Session", register: "Register[Any]") -> RegscribeError | None:
+    """Why a register is left out of every plan; None if some way to read it is open."""
+    if open_ways(register, session.terms().ground):
+        return None
     for way in ways(register):
-        found: Absent | None = session.absences.error(register.path, way.item, session.unit)
-        if found:
+        if found := session.absences.error(register.path, way.item, session.unit):
             return found
     message = f"{register.path} cannot be read from this device: it can only be written, or belongs to another one"
     raise ValueError(message)

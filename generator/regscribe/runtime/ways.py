@@ -27,13 +27,13 @@ def ways(register: "Register[Any]") -> tuple[Way, ...]:
     preferred = register.view()
     if len(register.views) == 1 and not register.aliases:
         return (_way(preferred, preferred.address(register.at)),)
-    found = dict.fromkeys(
-        _way(view, address)
-        for view, address in _from_preferred(register, preferred)
-        if view is preferred or same_number(view, preferred)
-    )
-    readable = tuple(way for way in found if may_read(way.view))
-    return readable or tuple(found)[:1]
+    found: dict[Item, Way] = {}
+    for view, address in _from_preferred(register, preferred):
+        if view is preferred or same_number(view, preferred):
+            way = _way(view, address)
+            found.setdefault(way.item, way)
+    readable = tuple(way for way in found.values() if may_read(way.view))
+    return readable or tuple(found.values())[:1]
 
 
 def same_number(view: View, other: View) -> bool:

@@ -1,7 +1,7 @@
 """Drive the read operation of a driver without a link, and judge the requests that it makes."""
 
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Container, Iterator, Sequence
 from typing import Any, NamedTuple
 
 from regscribe.runtime import ValueNotDecodable, operations
@@ -9,7 +9,6 @@ from regscribe.runtime.register import Register
 from regscribe.runtime.request import READ_FUNCTIONS, Reply, Request
 from regscribe.runtime.session import Protocol, Session
 from regscribe.runtime.snapshot import Snapshot
-from regscribe.runtime.spec import View
 
 Cell = tuple[str, int]
 """A space and a wire address."""
@@ -38,10 +37,11 @@ def read_through(driver: Any, chosen: Sequence[Register[Any]], *, seed: int = 0,
         registers=driver.registers,
         commands={},
         givens=defaultdict(frozenset),
+        unused=unused_of(driver),
     )
     needs = (path for register in chosen for path in register.needs(register.view()))
     session.memory.update(dict.fromkeys(needs, code))
-    operation = operations.read_many(chosen)(session)
+    operation = operations.read_many(chosen, fresh=False)(session)
     requests: list[Request] = []
     try:
         asked = next(operation)
@@ -64,25 +64,36 @@ def wrong_requests(driver: Any, chosen: Sequence[Register[Any]]) -> list[str]:  
     """Return what is wrong with the requests: registers left out or asked for twice, holes, limits."""
     requests = read_through(driver, chosen).requests
     asked = Counter(cell for request in requests for cell in _cells(SPACES[request.function], request))
-    wanted = Counter(cell for register in chosen for cell in _cells_of(register, register.view()))
-    known = {
-        cell for register in driver.registers.values() for view in register.views for cell in _cells_of(register, view)
-    }
-    found = [f"{space} {address} is asked for {asked[space, address]} times" for space, address in wanted - asked]
+    found = [f"{register.path} is not asked for" for register in chosen if not _is_asked(register, asked)]
     found += [f"{space} {address} is asked for again" for space, address in asked if asked[space, address] > 1]
     if not driver.protocol.read_holes:
+        known = {cell for register in driver.registers.values() for cell in _places_of(register)}
+        known |= {(space, at) for space, first, last in unused_of(driver) for at in range(first, last + 1)}
         found += [f"{space} {address} is no register" for space, address in asked if (space, address) not in known]
     return found + [text for request in requests for text in _too_much(driver.protocol, request)]
+
+
+def unused_of(driver: Any) -> tuple[tuple[str, int, int], ...]:  # noqa: ANN401 (as above)
+    """Return the addresses of a generated class that read as 0: space, first, last."""
+    found: tuple[tuple[str, int, int], ...] = driver._unused  # noqa: SLF001 (a fact for the runtime and its judges)
+    return found
 
 
 def _cells(space: str, request: Request) -> Iterator[Cell]:
     return ((space, request.address + offset) for offset in range(request.quantity))
 
 
-def _cells_of(register: Register[Any], view: View) -> Iterator[Cell]:
-    starts = (view.address(register.at), *(register.aliases if view is register.views[0] else ()))
-    wanted = starts[:1] if view is register.view() else starts
-    return ((view.space, start + offset) for start in wanted for offset in range(view.words))
+def _is_asked(register: Register[Any], asked: Container[Cell]) -> bool:
+    view = register.view()
+    addresses = (range(start, start + view.words) for start in _starts(register))
+    return any(all((view.space, address) in asked for address in one) for one in addresses)
+
+
+def _places_of(register: Register[Any]) -> Iterator[Cell]:
+    base = register.views[0]
+    starts = [(view, view.address(register.at)) for view in register.views]
+    starts += [(base, alias) for alias in register.aliases]
+    return ((view.space, start + offset) for view, start in starts for offset in range(view.words))
 
 
 def _too_much(protocol: Protocol, request: Request) -> Iterator[str]:
@@ -97,15 +108,23 @@ def wrong_values(driver: Any, chosen: Sequence[Register[Any]], *, seed: int, cod
     found = []
     for register in chosen:
         together = _outcome(lambda path=register.path: reading.snapshot[path])  # type: ignore[misc]
-        alone = _outcome(lambda register=register: _alone(register, reading.session, seed))  # type: ignore[misc]
-        if together != alone:
-            found.append(f"{register.path}: {together} with others, {alone} alone")
+        alone = [
+            _outcome(lambda register=register, start=start: _alone(register, start, reading.session, seed))  # type: ignore[misc]
+            for start in _starts(register)
+        ]
+        if together not in alone:
+            found.append(f"{register.path}: {together} with others, {alone[0]} alone")
     return found
 
 
-def _alone(register: Register[Any], session: Session, seed: int) -> Any:  # noqa: ANN401 (any value)
+def _starts(register: Register[Any]) -> tuple[int, ...]:
+    """Return where a register may be read: its preferred view, and aliases where that is the base view."""
     view = register.view()
-    words = [word_at(view.address(register.at) + offset, seed) for offset in range(view.words)]
+    return (view.address(register.at), *(register.aliases if view is register.views[0] else ()))
+
+
+def _alone(register: Register[Any], start: int, session: Session, seed: int) -> Any:  # noqa: ANN401 (any value)
+    words = [word_at(start + offset, seed) for offset in range(register.view().words)]
     return register.decode(words, state=session.memory, givens=session.givens)
 
 
