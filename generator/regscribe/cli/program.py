@@ -7,7 +7,7 @@ from typing import Any, TypeVar, cast
 
 import click
 
-from regscribe.cli.failure import REFUSED, Failure, code_of, kind_of, told
+from regscribe.cli.failure import REFUSED, UNKNOWN_STATE, Failure, code_of, kind_of, told
 from regscribe.cli.output import print_json, remark, show_table
 from regscribe.cli.profile import show_program
 from regscribe.cli.read import heading
@@ -18,6 +18,7 @@ from regscribe.programs import (
     File,
     Place,
     ProgramRefused,
+    ProgramUnfinished,
     State,
     act,
     check,
@@ -169,6 +170,8 @@ def write_command(
             done = device.run(task)
         except ProgramRefused as error:
             raise _refused(given, error) from None
+        except ProgramUnfinished as error:
+            raise Failure(str(error), kind=kind_of(error), code=UNKNOWN_STATE) from None
     if as_json:
         print_json(**heading(device, target), written=done.written, registers=done.total)
     else:

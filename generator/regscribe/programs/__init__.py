@@ -10,7 +10,7 @@ from regscribe.programs.place import Place, place, places
 from regscribe.programs.reading import read
 from regscribe.programs.running import NotNow, State, act, status
 from regscribe.programs.structure import Problem
-from regscribe.programs.writing import ProgramDiffers, ProgramRuns, ProgramUnfinished, Written, write
+from regscribe.programs.writing import ProgramGivenBack, ProgramRuns, ProgramUnfinished, Written, write
 
 __all__ = [
     "FOREVER",
@@ -24,7 +24,7 @@ __all__ = [
     "Planned",
     "Problem",
     "Program",
-    "ProgramDiffers",
+    "ProgramGivenBack",
     "ProgramRefused",
     "ProgramRuns",
     "ProgramUnfinished",

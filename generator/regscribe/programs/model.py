@@ -63,11 +63,12 @@ class Program:
 
     `number_of_segments` is needed only where the manual does not say which segments the device counts. `cycles` is the
     device's own number of runs or repetitions, or `forever`. `time_unit` is s, min, h or d; `power_failure` and `end`
-    are names of members of the device's registers. `map_id` and `model` are those of the device it was made for.
+    are names of members of the device's registers. `map_id` and `model` are those of the device it was made for; these
+    and the name do not count when programs are compared, since a device does not keep them.
     """
 
     segments: tuple[Segment, ...]
-    name: str = ""
+    name: str = field(default="", compare=False)
     final: Final | None = None
     number_of_segments: int | None = None
     cycles: int | str | None = None

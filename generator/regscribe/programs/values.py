@@ -53,7 +53,9 @@ class Bench:
         return (self.time_unit if time else "") or unit_of(register, self.state, self.givens)
 
     def setting(self, register: Register[Any], value: Any, *, time: bool = False) -> Setting:  # noqa: ANN401 - a value of any register
-        """A value of use as a setting."""
+        """A value of use as a setting; no time is nought, also where the device calls it by a name."""
+        if time and int(value) == 0:
+            return Amount(Decimal(0), self.unit(register, time=True))
         shown = values.show(register, value)
         if isinstance(shown, bool) or not isinstance(shown, int | float):
             return str(shown).lower() if isinstance(shown, bool) else str(shown)

@@ -1,16 +1,27 @@
-"""Writing a program: nothing while one runs, in the map's order, only what differs, and read back in the end."""
+"""Writing a program: not while one runs, in the map's order, only what differs, read back, given back if it fails."""
 
-from typing import Any, Literal, NamedTuple
+from collections.abc import Iterator, Sequence
+from typing import Literal, NamedTuple
 
 from regscribe.programs.checking import Planned, ProgramRefused, check
 from regscribe.programs.model import Program
 from regscribe.programs.place import Place
-from regscribe.programs.running import act, status
+from regscribe.programs.running import State, act, status
 from regscribe.runtime import RegscribeError, operations
-from regscribe.runtime.session import Operation, Session, Task
+from regscribe.runtime.errors import NotConfigured, WriteFailed
+from regscribe.runtime.program import PARTS
+from regscribe.runtime.report import Fate, WriteReport
+from regscribe.runtime.session import Operation, Pause, Session, Task
 
 WhileRunning = Literal["refuse", "reset", "write"]
 """What to do about a program that runs: refuse, end it first, or write all the same."""
+
+ALONE = frozenset({"time_unit", "count", "enable"})
+"""Parts that are written before or after all others are complete; the others share requests."""
+
+
+TRIES, BETWEEN = 6, 0.5
+"""How often a device is asked whether a program that was reset has ended, and the seconds between."""
 
 
 class Written(NamedTuple):
@@ -23,18 +34,17 @@ class Written(NamedTuple):
 class ProgramRuns(RegscribeError):  # noqa: N818 (as the errors of drivers)
     """A program runs or is held, so nothing was written."""
 
-
-class ProgramUnfinished(RegscribeError):  # noqa: N818 (as the errors of drivers)
-    """The write broke off: `written` of `total` registers hold the new program, the others the old one."""
-
-    def __init__(self, place: Place, error: RegscribeError, *, written: int, total: int) -> None:
-        self.written, self.total = written, total
-        advice = "it must not be started like this: write it again, which goes on with what is left"
-        super().__init__(f"{place.name}: {written} of {total} registers were written, then {error}; {advice}")
+    def __init__(self, place: Place, now: State, advice: str) -> None:
+        why = "; the manual forbids to write a program that runs" if place.spec.while_running == "refused" else ""
+        super().__init__(f"{place.name}: it is {now.state} ({now.detail}), so nothing was written{why}: {advice}")
 
 
-class ProgramDiffers(RegscribeError):  # noqa: N818 (as the errors of drivers)
-    """What was read back is not what was written."""
+class ProgramUnfinished(WriteFailed):
+    """The write broke off in the middle, and what was there before could not be given back."""
+
+
+class ProgramGivenBack(WriteFailed):
+    """The write broke off in the middle; the device holds the program that it held before."""
 
 
 def write(
@@ -48,7 +58,7 @@ def write(
     """Check a program, write what differs from what the device holds, and verify it.
 
     `confirm` is needed where a register is dangerous to write. Errors: ProgramRefused and ProgramRuns (nothing was
-    written), ProgramUnfinished, ProgramDiffers, and those of the link.
+    written), ProgramGivenBack, ProgramUnfinished.
     """
 
     def task(session: Session) -> Operation[Written]:
@@ -56,37 +66,54 @@ def write(
         if checked.problems:
             raise ProgramRefused(place, checked.problems)
         yield from _at_rest(place, while_running)(session)
-        todo = yield from _different(checked.planned)(session)
-        for count, one in enumerate(todo):
+        reports: list[WriteReport] = []
+        for stage in stages(place.spec.order, checked.planned):
+            values = {one.register.path: one.value for one in stage}
             try:
-                yield from operations.write(one.register, one.value, view=None, rounded=False, confirm=confirm)(session)
-            except RegscribeError as error:
-                raise ProgramUnfinished(place, error, written=count, total=len(todo)) from error
-        left = yield from _different(checked.planned)(session)
-        if left:
-            paths = ", ".join(one.register.path for one in left)
-            message = f"{place.name}: read back, these do not hold what was written: {paths}"
-            raise ProgramDiffers(message)
-        return Written(len(todo), len(checked.planned))
+                reports.append((yield from operations.configure(values, confirm=confirm)(session)))
+            except NotConfigured as error:
+                yield from _given_back(place, reports, error)(session)
+        return Written(sum(len(one.written) for one in reports), len(checked.planned))
 
     return task
 
 
-def _different(planned: tuple[Planned, ...]) -> Task[list[Planned]]:
-    """What the device does not hold yet."""
+def stages(order: Sequence[str], planned: Sequence[Planned]) -> Iterator[list[Planned]]:
+    """What is written together, one after the other; parts share a stage where the map asks for no order of its own."""
+    told = tuple(order) != PARTS
+    stage: list[Planned] = []
+    last = ""
+    for one in planned:
+        if stage and one.part != last and (told or {one.part, last} & ALONE):
+            yield stage
+            stage = []
+        stage.append(one)
+        last = one.part
+    if stage:
+        yield stage
 
-    def task(session: Session) -> Operation[list[Planned]]:
-        snapshot = yield from operations.read_many([one.register for one in planned])(session)
-        return [one for one in planned if _held(snapshot, one.register.path) != one.value]
+
+def _given_back(place: Place, reports: Sequence[WriteReport], error: NotConfigured) -> Task[None]:
+    """Give the registers of earlier stages back what they held; those of the stage that failed have it back if ever."""
+
+    def task(session: Session) -> Operation[None]:
+        before = {one.register: one.was for report in reports for one in report.changes if one.fate is Fate.WRITTEN}
+        if error.report.unknown:
+            raise ProgramUnfinished(place.name, _unfinished(error)) from error
+        try:
+            if before:
+                yield from operations.configure(before, confirm=True, undo=False)(session)
+        except RegscribeError:
+            raise ProgramUnfinished(place.name, _unfinished(error)) from error
+        message = f"{error.reason}; all was given back what it held"
+        raise ProgramGivenBack(place.name, message) from error
 
     return task
 
 
-def _held(snapshot: Any, path: str) -> Any:  # noqa: ANN401 - a value of any register
-    try:
-        return snapshot[path]
-    except RegscribeError:
-        return None
+def _unfinished(error: NotConfigured) -> str:
+    advice = "it must not be started like this: write it again, which goes on with what is left"
+    return f"the device holds parts of the new program and of the old one ({error.reason}); {advice}"
 
 
 def _at_rest(place: Place, how: WhileRunning) -> Task[None]:
@@ -101,11 +128,13 @@ def _at_rest(place: Place, how: WhileRunning) -> Task[None]:
         if now.state == "ended":
             return
         if how == "reset":
-            yield from act(place, "reset")(session)
-            return
-        message = f"{place.name}: a program runs ({now.detail}): end it first, or write with `reset` to end it"
-        if place.spec.while_running == "refused":
-            message = f"{message}; the manual forbids to write one that runs"
-        raise ProgramRuns(message)
+            now = yield from act(place, "reset")(session)
+            for _ in range(TRIES):
+                if now.state == "ended":
+                    return
+                yield Pause(BETWEEN)
+                now = yield from status(place)(session)
+        advice = "let the write end it (while running: reset)" if how == "refuse" else "see why it does not end"
+        raise ProgramRuns(place, now, advice)
 
     return task
