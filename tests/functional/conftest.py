@@ -12,6 +12,11 @@ import pytest
 from regscribe import checks, lower, schema, source
 from regscribe.emit import python
 from regscribe.model import RegisterMap, Severity
+from regscribe.runtime import LinkLost, NoAnswer, WrongAnswer, pdu
+from regscribe.runtime.line import Line
+from regscribe.runtime.policy import NEVER
+from regscribe.runtime.request import Request
+from regscribe.runtime.turns import Turns
 
 OVEN = (Path(__file__).parent / "oven.yaml").read_text(encoding="utf-8")
 """A made-up controller with every hard fact of the real manuals in a few registers."""
@@ -72,3 +77,69 @@ def build(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Built]:
 def oven(build: Callable[[str], Built]) -> Built:
     """The made-up controller."""
     return build(OVEN)
+
+
+KILN = (Path(__file__).parent / "kiln.yaml").read_text(encoding="utf-8")
+"""A made-up controller whose writes have every contract that the real manuals have."""
+
+
+@pytest.fixture(scope="session")
+def kiln(build: Callable[[str], Built]) -> Built:
+    """The made-up controller for writes."""
+    return build(KILN)
+
+
+class DirectLink:
+    """Carries requests to a simulated device without a line; `fate` says what happens to the one of a number.
+
+    `lost` was carried out and is not answered, `missed` never arrived, `gone` took the link away before it was sent,
+    `garbled` was carried out and answered with nonsense; all of them count from 1. `writes_only` counts writes alone.
+    """
+
+    def __init__(self, device: Any, *, fate: dict[int, str] | None = None, writes_only: bool = False) -> None:
+        self.device, self.fate, self.writes_only = device, fate or {}, writes_only
+        self.epoch, self.lock, self.timeout, self.retry = 1, Turns(), 1.0, NEVER
+        self.line: Any = Line("", 9600)
+        self.addressing = "modbus"
+        self.count, self.log = 0, list[Request]()
+        self.answered = True
+
+    def open(self) -> None:
+        """Nothing to open."""
+
+    def close(self) -> None:
+        """Nothing to close."""
+
+    def retune(self, change: Any) -> None:
+        """Talk otherwise."""
+        self.addressing = change.addressing or self.addressing
+        self.line = self.line._replace(**change.line)
+
+    def call(self, unit: int, request: Request) -> Any:
+        """Hand the request to the device, with the fate of its number."""
+        self.log.append(request)
+        self.count += not (self.writes_only and request.reads)
+        fate = self.fate.get(self.count, "") if not (self.writes_only and request.reads) else self.fate.get(-1, "")
+        if fate == "gone":
+            message = "the cable is out"
+            raise LinkLost(message)
+        answer = None if fate == "missed" or unit != self.device.unit else self._answer(request)
+        if answer is None or fate == "lost":
+            raise NoAnswer(unit=unit, function=request.function, address=request.address, seconds=1.0)
+        if fate == "garbled":
+            message = "noise on the line"
+            raise WrongAnswer(message)
+        return answer
+
+    def _answer(self, request: Request) -> Any:
+        first = {"modbus": 0, "jbus": 1}[self.addressing]
+        asked = request._replace(address=request.address + first)
+        answer = self.device.handle(pdu.encode(asked))
+        reply = None if answer is None else pdu.decode(asked, answer)
+        return reply and reply._replace(address=reply.address - first if reply.address else 0)
+
+
+@pytest.fixture(scope="session")
+def direct() -> type[DirectLink]:
+    """The link without a line."""
+    return DirectLink

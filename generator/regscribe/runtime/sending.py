@@ -121,7 +121,8 @@ def applied(session: Session, register: Register[Any]) -> Operation[None]:
     try:
         yield from run(session.commands[register.apply], confirm=True)(session)
     except RegscribeError as error:
-        raise NotApplied(register.path, register.apply, error) from error
+        reason = f"written, but not in effect: {register.apply} failed ({error})"
+        raise failed(NotApplied, register.path, reason, _cause(error)) from error
 
 
 def _cause(error: Exception) -> Exception:

@@ -107,7 +107,10 @@ def _key(register: Register[Any], places: Mapping[str, int]) -> tuple[bool, int,
 
 
 def batches(session: Session, pieces: Iterable[Piece]) -> Iterator[Batch]:
-    """The requests that write pieces in their order: neighbours in one, as far as the device takes them together."""
+    """The requests that write pieces in their order: neighbours in one, as far as the device takes them together.
+
+    What depends on a value goes in a later request: a device may check all of a request before it takes any of it.
+    """
     found = list(pieces)
     start = 0
     for at, (one, other) in enumerate(pairwise(found), start=1):
@@ -131,6 +134,7 @@ def _together(session: Session, so_far: list[Piece], one: Piece, other: Piece) -
         and (not view.functions or function in view.functions)
         and sum(len(piece.words) for piece in so_far) + len(other.words) <= most
         and not (one.register.governs or other.register.governs)
+        and not {piece.path for piece in so_far}.intersection(needs(other.register, its))
         and (one.register.unlock, one.register.apply) == (other.register.unlock, other.register.apply)
     )
 

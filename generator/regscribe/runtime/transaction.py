@@ -28,7 +28,7 @@ class Transaction:
     def __init__(self, session: Session, tell: Teller | None) -> None:
         self.session, self.tell = session, tell
         self.changes: dict[str, Change] = {}
-        self.first: dict[str, Words] = {}
+        self.first: dict[str, Change] = {}
         self.state: dict[str, Any] = {}
         self.requests: list[Sent] = []
         self.unlocked: set[str] = set()
@@ -39,7 +39,10 @@ class Transaction:
     def report(self, *, dry_run: bool = False) -> WriteReport:
         """The report of what is known now; what was not reached was not written."""
         left = Fate.PLANNED if dry_run else Fate.NOT_WRITTEN
-        changes = [one._replace(fate=left) if one.fate is Fate.PLANNED else one for one in self.changes.values()]
+        told = [
+            one._replace(before=self.first[path].before, was=self.first[path].was) for path, one in self.changes.items()
+        ]
+        changes = [one._replace(fate=left) if one.fate is Fate.PLANNED else one for one in told]
         requests = [one._replace(fate=left) if one.fate is Fate.PLANNED else one for one in self.requests]
         return WriteReport(tuple(changes), tuple(requests), dry_run)
 
@@ -47,8 +50,7 @@ class Transaction:
         """Take note of changes; the pieces of those that are no equal values."""
         for change in changes:
             self.changes[change.register] = change
-            if change.before is not None:
-                self.first.setdefault(change.register, change.before)
+            self.first.setdefault(change.register, change)
         return [self._piece(change, change.sent) for change in changes if change.fate is Fate.PLANNED]
 
     def mark(self, path: str, fate: Fate, read: Words | None = None) -> None:
@@ -160,7 +162,7 @@ class Transaction:
         register, view = self.target(path)
         if same(register, view, words, change.sent, self.state, self.session):
             self.mark(path, Fate.WRITTEN, words)
-        elif words == self.first.get(path, change.before):
+        elif words in (self.first[path].before, change.before):
             self.mark(path, Fate.NOT_WRITTEN, words)
         else:
             self.mark(path, Fate.UNKNOWN, words)
@@ -235,14 +237,14 @@ class Transaction:
 
     def _undone(self, touched: Sequence[str]) -> Operation[None]:
         """Read all back; what the device converted on the way (a unit of measure) is given back once more."""
-        readable = [path for path in touched if path in self.first]
+        first = {path: before for path in touched if (before := self.first[path].before) is not None}
         for last in (False, True):
-            found = yield from words_of(self.session, [self.target(path) for path in readable])
-            wrong = [path for path, words in found.items() if words != self.first[path]]
+            found = yield from words_of(self.session, [self.target(path) for path in first])
+            wrong = [path for path, words in found.items() if words != first[path]]
             if last or not wrong:
                 break
             for path in wrong:
-                yield from self._give_back(path, self.first[path])
+                yield from self._give_back(path, first[path])
         for path, words in found.items():
             self.mark(path, Fate.UNKNOWN, words)
             self._shows(path, words)
