@@ -30,24 +30,19 @@ class Conversation:
 
     def __init__(self, framing: str, *, addressing: str, line: Line | None, gap: float, echo: bool | None) -> None:
         self.framing = framing_for(framing)
-        self.addressing = addressing
+        self.number_from(addressing)
         self.trace: Tracer | None = None
         self.tainted = False
         self.manners: Manners | None = None
         if line is not None:
             self.manners = Manners(line, gap, echo=echo, framing=self.framing, told=self._heard)
 
-    @property
-    def addressing(self) -> str:
-        """The way in which units count their addresses: modbus from 0, jbus from 1."""
-        return next(name for name, first in ADDRESSINGS.items() if first == self.first)
-
-    @addressing.setter
-    def addressing(self, name: str) -> None:
-        if name not in ADDRESSINGS:
-            message = f"addressing {name!r} is none of {', '.join(ADDRESSINGS)}"
+    def number_from(self, addressing: str) -> None:
+        """Count addresses as the units do: modbus from 0, jbus from 1; ValueError for another name."""
+        if addressing not in ADDRESSINGS:
+            message = f"addressing {addressing!r} is none of {', '.join(ADDRESSINGS)}"
             raise ValueError(message)
-        self.first = ADDRESSINGS[name]
+        self.first = ADDRESSINGS[addressing]
 
     def exchange(self, wire: Wire, unit: int, request: Request) -> Steps[Reply]:
         """Send `request` once and return its answer; NoAnswer, WrongAnswer, or OSError for a broken wire."""
@@ -75,14 +70,12 @@ class Conversation:
         wire.write(asked.frame)
         if self.manners is not None:
             self.manners.sent(len(asked.frame))
-        self._told(SENT, asked.unit, asked.frame)
-
-    def _told(self, direction: str, unit: int, frame: bytes) -> None:
-        if self.trace is not None and frame:
-            self.trace(Trace(time.time(), direction, unit, frame))
+        if self.trace is not None:
+            self.trace(Trace(time.time(), SENT, asked.unit, asked.frame))
 
     def _heard(self, unit: int, frame: bytes) -> None:
-        self._told(RECEIVED, unit, frame)
+        if self.trace is not None and frame:
+            self.trace(Trace(time.time(), RECEIVED, unit, frame))
 
     def _take(self, wire: Wire) -> bytes:
         if self.manners is None:
@@ -100,7 +93,7 @@ class Conversation:
         if manners is not None and manners.echo:
             received = yield from manners.echoed(wire, asked, deadline)
         while True:
-            while found := self._found(received, asked):
+            while received and (found := self._found(received, asked)):
                 reply = self._reply(found, asked)
                 if reply is not None and (fits(asked.wire, reply) or self.framing.decisive):
                     self._finished(received, asked)
@@ -120,15 +113,13 @@ class Conversation:
         return wrong
 
     def _found(self, received: bytearray, asked: Asked) -> Found | None:
-        if not received:
-            return None
         try:
             found = self.framing.find(received, asked.unit, asked.wire.function)
         except ValueError as error:
             self._heard(asked.unit, bytes(received))
             message = f"{asked}: {error}. Check the port and the framing (tcp, rtu, ascii)"
             raise WrongAnswer(message) from None
-        if found is not None:
+        if found is not None and self.trace is not None:
             self._heard(found.unit, found.raw)
         return found
 

@@ -70,10 +70,9 @@ def _retune(change: Retune, session: Session | None, link: Link | AsyncLink) -> 
 def _timed(asked: Request, session: Session | None, link: Link | AsyncLink) -> Request:
     if session is None:
         return asked
-    session.wrote |= not asked.reads
-    if asked.seconds or link.timeout:
-        return asked
-    return asked._replace(seconds=session.seconds(asked))
+    if not asked.reads:
+        session.wrote = True
+    return asked if asked.seconds or link.timeout else session.timed(asked)
 
 
 def run(task: Task[T], session: Session, link: Link) -> T:
@@ -83,7 +82,7 @@ def run(task: Task[T], session: Session, link: Link) -> T:
     """
     with link.lock.of(session.unit):
         while True:
-            session.begin(epoch=link.epoch, line=link.line, retry=link.retry, addressing=link.addressing)
+            session.begin(link)
             try:
                 value = carry_out(task(session), link, session.unit, session)
             except NoAnswer:
@@ -97,7 +96,7 @@ async def run_async(task: Task[T], session: Session, link: AsyncLink) -> T:
     """As `run`, for asyncio."""
     async with link.lock.of(session.unit):
         while True:
-            session.begin(epoch=link.epoch, line=link.line, retry=link.retry, addressing=link.addressing)
+            session.begin(link)
             try:
                 value = await carry_out_async(task(session), link, session.unit, session)
             except NoAnswer:

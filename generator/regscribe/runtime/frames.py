@@ -4,6 +4,7 @@ Its framers build frames and check single ones (CRC, LRC, MBAP header). Which of
 the framers drop what follows a bad frame, wait for ever on a foreign header, and find the wrong length in noise.
 """
 
+import struct
 from abc import abstractmethod
 from typing import NamedTuple, Protocol
 
@@ -53,7 +54,7 @@ class Mbap:
     decisive = True
     wordy = 1.0
     _FRAMER = FramerSocket(_DECODER)
-    _HEAD = 6
+    _HEAD = struct.Struct(">HHHB")
     _LENGTHS = range(3, 256)
 
     def __init__(self) -> None:
@@ -66,19 +67,18 @@ class Mbap:
 
     def find(self, buffer: bytearray, unit: int, function: int) -> Found | None:  # noqa: ARG002 (the id tells more)
         """The next frame, whosever it is; ValueError for a header that is none."""
-        if len(buffer) < self._HEAD:
+        if len(buffer) < self._HEAD.size:
             return None
-        length = int.from_bytes(buffer[4:6], "big")
-        if buffer[2] or buffer[3] or length not in self._LENGTHS:
-            message = f"{bytes(buffer[:7]).hex(' ')} is no header of Modbus TCP"
+        transaction, protocol, length, sender = self._HEAD.unpack_from(buffer)
+        if protocol or length not in self._LENGTHS:
+            message = f"{bytes(buffer[: self._HEAD.size]).hex(' ')} is no header of Modbus TCP"
             raise ValueError(message)
-        end = self._HEAD + length
+        end = self._HEAD.size - 1 + length
         if len(buffer) < end:
             return None
         raw = bytes(buffer[:end])
         del buffer[:end]
-        _, sender, transaction, pdu = self._FRAMER.decode(raw)
-        return Found(raw, sender, pdu, transaction == self._transaction)
+        return Found(raw, sender, raw[self._HEAD.size :], transaction == self._transaction)
 
     def stranger(self, buffer: bytes) -> int | None:  # noqa: ARG002 (as above)
         """None: a frame of another transaction was dropped when it came."""

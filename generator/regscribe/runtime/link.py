@@ -45,22 +45,18 @@ class Link(Protocol):
 
     `epoch` counts how often it was opened. Requests go out one after the other, first come, first served; the lock of a
     unit (`link.lock.of(unit)`) is held for a whole operation. `line` is the serial line (None over TCP), `timeout` the
-    response timeout that overrides all others, `retry` what is tried again.
+    response timeout that overrides all others, `retry` what is tried again, `addressing` how units count: modbus, jbus.
     """
 
     epoch: int
     lock: Turns
     timeout: float | None
     retry: Retry
+    addressing: str
 
     @property
     def line(self) -> Line | None:
         """The serial line, None over TCP."""
-
-    @property
-    def addressing(self) -> str:
-        """The way in which units count their addresses: modbus from 0, jbus from 1."""
-        raise NotImplementedError
 
     def retune(self, change: "Retune") -> None:
         """Talk at another speed, in another format or with other addresses from the next request on."""
@@ -87,15 +83,11 @@ class AsyncLink(Protocol):
     lock: AsyncTurns
     timeout: float | None
     retry: Retry
+    addressing: str
 
     @property
     def line(self) -> Line | None:
         """The serial line, None over TCP."""
-
-    @property
-    def addressing(self) -> str:
-        """The way in which units count their addresses: modbus from 0, jbus from 1."""
-        raise NotImplementedError
 
     def retune(self, change: "Retune") -> None:
         """Talk at another speed, in another format or with other addresses from the next request on."""

@@ -13,6 +13,7 @@ WORD_READS = (functions.READ_HOLDING, functions.READ_INPUT)
 BIT_READS = (functions.READ_COILS, functions.READ_DISCRETE_INPUTS)
 ADDRESSED = struct.Struct(">BHH")
 HEAD = struct.Struct(">BH")
+WORDS = tuple(struct.Struct(f">{count}H") for count in range(128))
 
 
 def encode(request: Request) -> bytes:
@@ -46,13 +47,16 @@ def _write(function: int, address: int, words: tuple[int, ...]) -> bytes:
 
 def decode(request: Request, pdu: bytes) -> Reply:
     """The answer that `pdu` spells; what is too short or has a wrong byte count has no words, so it fits no request."""
-    code, data = pdu[0], pdu[1:]
+    code = pdu[0]
+    if code in WORD_READS and len(pdu) > 1 and pdu[1] == len(pdu) - 2 and not pdu[1] % 2:
+        return Reply(code, WORDS[pdu[1] // 2].unpack_from(pdu, 2))
+    data = pdu[1:]
     if code & EXCEPTION_BIT:
         return Reply(code & ~EXCEPTION_BIT, exception=(data[0] if data else 0) or UNKNOWN_EXCEPTION)
+    if code in BIT_READS and data and data[0] == len(data) - 1:
+        return Reply(code, _bits(data[1:], request.quantity))
     if code in WORD_READS or code in BIT_READS:
-        if not data or data[0] != len(data) - 1:
-            return Reply(code)
-        return Reply(code, _words(data[1:]) if code in WORD_READS else _bits(data[1:], request.quantity))
+        return Reply(code)
     if code == functions.READ_STATUS:
         return Reply(code, tuple(data))
     return _echoed(code, data)

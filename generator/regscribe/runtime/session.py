@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Generator, Iterable, Mapping
 from types import MappingProxyType
-from typing import Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from regscribe.runtime.absent import Absences
 from regscribe.runtime.cost import Cost
@@ -14,6 +14,9 @@ from regscribe.runtime.policy import Retry
 from regscribe.runtime.report import Wear
 from regscribe.runtime.request import Meanings, Reply, Request, verify
 from regscribe.runtime.timing import response_seconds
+
+if TYPE_CHECKING:
+    from regscribe.runtime.link import AsyncLink, Link
 
 T = TypeVar("T")
 
@@ -98,6 +101,9 @@ class Protocol(NamedTuple):
         return Limits(words=self.read_words, bits=self.read_bits, holes=self.read_holes)
 
 
+MOST_TIMED = 2000
+"""Reads whose timeout is kept: more than a device has registers; a scan of all addresses must not fill the memory."""
+
 TERMS = object()
 """The key of the terms among what is prepared."""
 
@@ -113,7 +119,7 @@ class Session:
     """
 
     __slots__ = (
-        "_ground", "_seconds", "_tries", "absences", "addressing", "commands", "epoch", "givens", "groups", "line",
+        "_ground", "_timed", "_tries", "absences", "addressing", "commands", "epoch", "givens", "groups", "line",
         "memory", "prepared", "protocol", "registers", "retry", "unit", "unused", "wear", "wrote",
     )  # fmt: skip # one name a line says no more
 
@@ -143,7 +149,7 @@ class Session:
         self.retry: Retry | None = None
         self.wrote = False
         self._tries = Retry()
-        self._seconds: dict[tuple[int, int, Line | None], float] = {}
+        self._timed: dict[Request, Request] = {}
         self.unused, self.absences = unused, Absences()
         self._ground: Ground | None = None
 
@@ -179,20 +185,24 @@ class Session:
         found: Terms = self.prepared[TERMS]
         return found
 
-    def begin(self, *, epoch: int, line: Line | None, retry: Retry, addressing: str) -> None:
+    def begin(self, link: "Link | AsyncLink") -> None:
         """Before an operation: what its link is like now."""
-        self.at_epoch(epoch)
-        self.addressing = addressing
-        self._tries = self.retry or retry
+        if link.epoch != self.epoch:
+            self.at_epoch(link.epoch)
+        self.addressing = link.addressing
+        self._tries = self.retry or link.retry
         self.wrote = False
-        if line != self.line:
+        line = link.line
+        if line is not self.line and line != self.line:
             self.line = line
             self.prepared.clear()
+            self._timed.clear()
 
     def retuned(self, change: Retune, *, line: Line | None, addressing: str) -> None:
         """The device talks otherwise from now on: another unit id, line or addressing. Nothing remembered counts."""
         self.unit = self.unit if change.unit is None else change.unit
         self.line, self.addressing = line, addressing
+        self._timed.clear()
         self.memory.clear()
         self.prepared.clear()
 
@@ -200,12 +210,14 @@ class Session:
         """The device fell silent: it may be another one when it speaks again, so nothing remembered will count."""
         self.epoch = -1
 
-    def seconds(self, request: Request) -> float:
-        """The response timeout of a request, from the manual's latencies and the line."""
-        key = request.function, request.quantity, self.line
-        if key not in self._seconds:
-            self._seconds[key] = response_seconds(self.protocol, request, self.line)
-        return self._seconds[key]
+    def timed(self, request: Request) -> Request:
+        """The request with its response timeout, from the manual's latencies and the line."""
+        found = self._timed.get(request)
+        if found is None:
+            found = request._replace(seconds=response_seconds(self.protocol, request, self.line))
+            if request.reads and len(self._timed) < MOST_TIMED:
+                self._timed[request] = found
+        return found
 
     def exchange(self, request: Request) -> Operation[tuple[int, ...]]:
         """Send one request and verify its answer; a read is sent again as `retry` says, a write never."""

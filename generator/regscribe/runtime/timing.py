@@ -22,6 +22,9 @@ GATEWAY_SECONDS = 0.5
 FAST_BAUD, FAST_SILENCE = 19200, 0.00175
 """Above this speed the silence between frames is a fixed time (Modbus over Serial Line V1.02, 2.5.1.1)."""
 
+ASCII_MARKS = 2
+"""An ASCII frame has twice the characters of RTU and one more (colon and line end, a check of one byte): two frames."""
+
 RTU_FRAME = 4
 """Unit, function code and CRC."""
 BITS_IN_BYTE, BYTES_IN_WORD = 8, 2
@@ -72,15 +75,16 @@ def slowest(protocol: "Protocol") -> Line:
     return Line.of("", min((*protocol.bauds, protocol.baud)), protocol.format)
 
 
-def response_seconds(protocol: "Protocol", request: "Request", line: Line | None, *, wordy: float = 1.0) -> float:
-    """The response timeout of a request: on `line`, or over TCP without one.
-
-    `wordy` is how many characters of the line's framing stand for one of RTU: 2 in ASCII.
-    """
+def response_seconds(protocol: "Protocol", request: "Request", line: Line | None) -> float:
+    """The response timeout of a request: in RTU frames on `line`, or over TCP without one."""
     if line is None:
         return on_line(protocol, request, slowest(protocol)) + MARGIN_SECONDS + GATEWAY_SECONDS
-    more = (wordy - 1) * sum(characters(request)) * line.character
-    return on_line(protocol, request, line) + more + MARGIN_SECONDS
+    return on_line(protocol, request, line) + MARGIN_SECONDS
+
+
+def more_in_ascii(request: "Request", line: Line) -> float:
+    """What ASCII frames take longer than RTU ones: two characters for each, colon and line end."""
+    return (sum(characters(request)) + ASCII_MARKS) * line.character
 
 
 def broadcast_seconds(protocol: "Protocol", request: "Request", line: Line | None) -> float:

@@ -5,6 +5,7 @@ and the next request opens a new one, so that nothing late can reach it; a seria
 sees to it (opening a port costs time and resets some devices).
 """
 
+import time
 from typing import Unpack
 
 from regscribe.runtime.asked import Steps
@@ -15,12 +16,16 @@ from regscribe.runtime.link import LinkSettings
 from regscribe.runtime.policy import Retry
 from regscribe.runtime.request import Reply, Request
 from regscribe.runtime.session import Retune
+from regscribe.runtime.timing import more_in_ascii
 from regscribe.runtime.trace import Tracer
 from regscribe.runtime.turns import AsyncTurns, Turns
 from regscribe.runtime.wires import Wire, open_serial, open_tcp, open_tcp_async, wait, wait_async
 
 USUAL_GAP = 3.5
 """Characters of silence between frames, by the standard."""
+
+TRUST_SECONDS = 0.01
+"""So long after an answer a connection is not looked at before it is used: servers close idle ones."""
 
 Place = tuple[str, int] | Line
 """Host and port, or a serial line."""
@@ -41,11 +46,12 @@ class _Base:
         line = place.checked() if isinstance(place, Line) else None
         self._place, self._tuned = place, line
         self._echo, gap = settings.get("echo"), settings.get("gap", USUAL_GAP)
-        addressing = settings.get("addressing", "modbus")
-        self._talk = Conversation(self.framing, addressing=addressing, line=line, gap=gap, echo=self._echo)
+        self.addressing = settings.get("addressing", "modbus")
+        self._talk = Conversation(self.framing, addressing=self.addressing, line=line, gap=gap, echo=self._echo)
         self._talk.trace = settings.get("trace")
         self._wire: Wire | None = None
         self._renewing = False
+        self._trusted_until = 0.0
 
     @property
     def name(self) -> str:
@@ -64,15 +70,11 @@ class _Base:
             raise ValueError(message)  # noqa: TRY004 (a value that this link cannot have)
         self._place = line.checked()
 
-    @property
-    def addressing(self) -> str:
-        """The way in which units count their addresses: modbus from 0, jbus from 1."""
-        return self._talk.addressing
-
     def retune(self, change: Retune) -> None:
         """Talk otherwise from the next request on; over TCP there is no speed and no format to change."""
         if change.addressing is not None:
-            self._talk.addressing = change.addressing
+            self._talk.number_from(change.addressing)
+            self.addressing = change.addressing
         if change.line and self.line is not None:
             self.line = self.line._replace(**change.line)  # type: ignore[arg-type] # the fields of a line
 
@@ -111,7 +113,7 @@ class _Base:
             return None
         if self._tuned != self.line:
             self._drop(renew=True)
-        elif self._tuned is None:
+        elif self._tuned is None and time.monotonic() > self._trusted_until:
             try:
                 if self._wire.read():
                     self._drop(renew=True)
@@ -120,7 +122,11 @@ class _Base:
         return self._wire
 
     def _timed(self, request: Request) -> Request:
-        return request._replace(seconds=self.timeout) if self.timeout else request
+        if self.timeout and not request.seconds:
+            return request._replace(seconds=self.timeout)
+        if self.framing == "ascii" and self._tuned is not None and request.seconds:
+            return request._replace(seconds=request.seconds + more_in_ascii(request, self._tuned))
+        return request
 
     def _failed(self, error: BaseException) -> LinkLost | None:
         """Tidy up after an exchange that did not end well; the error to raise in place of one of the system."""
@@ -133,6 +139,8 @@ class _Base:
         return None
 
     def _finished(self) -> None:
+        if self._talk.framing.decisive:
+            self._trusted_until = time.monotonic() + TRUST_SECONDS
         if not self.opened:  # closed by another one meanwhile
             self._drop()
         elif self._talk.tainted and self._tuned is None:

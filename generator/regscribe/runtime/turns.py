@@ -6,6 +6,7 @@ and the write that depends on it; other units do not mind. `line` is always the 
 """
 
 import asyncio
+import contextlib
 import threading
 from collections import deque
 from types import TracebackType
@@ -13,65 +14,51 @@ from typing import Self
 
 
 class FairLock:
-    """A lock for threads that may be taken again by its holder, and is handed on in the order of asking."""
+    """A lock for threads that may be taken again by its holder, and is handed on in the order of asking.
 
-    __slots__ = ("_depth", "_mutex", "_owner", "_queue")
+    The head of the queue holds it. Each waits for a lock of its own, which the one before releases; a deque's methods
+    are atomic, so no further lock is needed.
+    """
+
+    __slots__ = ("_depth", "_owner", "_queue")
 
     def __init__(self) -> None:
-        self._mutex = threading.Lock()
         self._owner: int | None = None
         self._depth = 0
-        self._queue: deque[tuple[threading.Lock, int]] = deque()
+        self._queue: deque[threading.Lock] = deque()
 
-    def acquire(self) -> None:
+    def __enter__(self) -> Self:
         """Wait for one's turn."""
         me = threading.get_ident()
         if self._owner == me:
             self._depth += 1
-            return
-        with self._mutex:
-            if self._owner is None:
-                self._owner, self._depth = me, 1
-                return
-            turn = threading.Lock()
-            turn.acquire()
-            self._queue.append((turn, me))
-        try:
-            turn.acquire()  # released by the one before
-        except BaseException:
-            self._give_up(turn, me)
-            raise
-
-    def release(self) -> None:
-        """Let the next one in."""
-        if self._owner != threading.get_ident():
-            message = "this thread does not hold the lock"
-            raise RuntimeError(message)
-        self._depth -= 1
-        if not self._depth:
-            self._hand_on()
-
-    def _hand_on(self) -> None:
-        with self._mutex:
-            self._owner = None
-            if self._queue:
-                turn, self._owner = self._queue.popleft()
-                self._depth = 1
-                turn.release()
-
-    def _give_up(self, turn: threading.Lock, me: int) -> None:
-        with self._mutex:
-            if (turn, me) in self._queue:
-                self._queue.remove((turn, me))
-                return
-        self._hand_on()  # the turn came at the very moment
-
-    def __enter__(self) -> Self:
-        self.acquire()
+            return self
+        turn = threading.Lock()
+        turn.acquire()
+        self._queue.append(turn)
+        if self._queue[0] is not turn:
+            try:
+                turn.acquire()
+            except BaseException:  # Ctrl-C: leave the queue, and wake the head in case that this was it
+                self._queue.remove(turn)
+                self._wake()
+                raise
+        self._owner, self._depth = me, 1
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
-        self.release()
+        """Let the next one in."""
+        self._depth -= 1
+        if not self._depth:
+            self._owner = None
+            self._queue.popleft()
+            if self._queue:
+                self._wake()
+
+    def _wake(self) -> None:
+        # the head may be gone already, or awake since it found itself at the head
+        with contextlib.suppress(IndexError, RuntimeError):
+            self._queue[0].release()
 
 
 class Turns:

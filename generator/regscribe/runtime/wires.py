@@ -6,6 +6,7 @@ import errno
 import os
 import select
 import socket
+import sys
 import time
 from collections.abc import Iterator
 from typing import Any, Protocol
@@ -23,6 +24,8 @@ CHUNK = 4096
 POLL_SECONDS = 0.002
 """Between two looks at a port that the system cannot wait for (a serial port of Windows)."""
 PORTS_NAMED = 5
+MOST_SELECTED = 1024 if os.name == "posix" else sys.maxsize
+"""Descriptors from here on are too high for select (FD_SETSIZE)."""
 
 
 class Wire(Protocol):
@@ -201,11 +204,11 @@ def wait(wire: Wire, seconds: float) -> bool:
     """Wait in this thread until bytes are there (True), for `seconds` at most."""
     if wire.descriptor < 0:
         return any(wire.waiting() for _ in _looks(seconds))
-    if hasattr(select, "poll"):
-        poller = select.poll()
-        poller.register(wire.descriptor, select.POLLIN)
-        return bool(poller.poll(max(seconds, 0) * 1000))
-    return bool(select.select([wire.descriptor], [], [], max(seconds, 0))[0])
+    if wire.descriptor < MOST_SELECTED:  # to the microsecond, where poll counts in milliseconds
+        return bool(select.select([wire.descriptor], [], [], max(seconds, 0.0))[0])
+    poller = select.poll()
+    poller.register(wire.descriptor, select.POLLIN)
+    return bool(poller.poll(max(seconds, 0.0) * 1000))
 
 
 def _looks(seconds: float) -> Iterator[None]:
