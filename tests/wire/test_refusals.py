@@ -47,6 +47,12 @@ def fits(answer: Answer, case: Case, device: SimulatedDevice) -> bool:
     return answer == case.answer
 
 
+def patience(client: Client, expected: Answer) -> float:
+    """Return how long to wait: minimalmodbus waits as long as it may for what an exception answer is too short for."""
+    short = isinstance(expected, Silent) or (isinstance(client, Minimal) and isinstance(expected, Refused))
+    return SOON if short else 3.0
+
+
 def verdict(case: Case) -> str:
     return "silences" if isinstance(case.answer, Silent) else "exceptions"
 
@@ -60,7 +66,7 @@ def test_a_client_is_refused_and_ignored_as_the_manual_says(
         for case in cases_of(family):
             for path, value in case.before.items():
                 stage.device.poke(path, value)
-            answer = client.ask(stage.device.unit, case.question, SOON if isinstance(case.answer, Silent) else 3.0)
+            answer = client.ask(stage.device.unit, case.question, patience(client, case.answer))
             if isinstance(answer, Unable):
                 continue
             assert fits(answer, case, stage.device), f"{case.what} ({case.source}): {answer}, not {case.answer}"
@@ -142,7 +148,7 @@ def test_a_controller_that_counts_from_one_is_addressed_one_higher(
     device.poke("setpoint", 321)
     with talking(kind, device, tmp_path) as (client, _):
         assert client.ask(device.unit, Read(3, 2)) == Values((321,))
-        assert client.ask(device.unit, Read(3, 0)) == Refused(2)
+        assert client.ask(device.unit, Read(3, 0), patience(client, Refused(2))) == Refused(2)
         assert client.ask(device.unit, Write(6, 2, (322,))) == Written()
         assert device.peek("setpoint") == 322
         agree(client.name, family.name, "exceptions")

@@ -47,8 +47,8 @@ class Node:
                     return problem
                 return Written() if said["written"] == len(words) else Partly(said["written"])
             case Raw(function, data):
-                if function not in range(65, 73):
-                    return Unable("modbus-serial sends of other functions only 65 to 72 and 100 to 110")
+                if function not in range(65, 73) or self.transport != "tcp":
+                    return Unable("modbus-serial sends of other functions only 65 to 72 and 100 to 110, and over TCP")
                 said = self._say(unit, patience, do="custom", function=function, data=list(data))
                 return self._judge(said) or Payload(bytes(said["data"]))
 

@@ -122,8 +122,8 @@ def broadcasts(model: Model) -> Iterator[tuple[Write, str, int]]:
     plain = [each for each in model.registers if _is_plain(each)]
     beside = {each.base.address: each for each in plain}
     first = next(each for each in plain if each.base.address + 1 in beside)
-    yield Write(6, first.base.address, (5,)), first.path, 5
-    yield Write(16, first.base.address, (6, 6)), first.path, 6
+    yield Write(6, first.base.address, (1,)), first.path, 1
+    yield Write(16, first.base.address, (1, 1)), first.path, 1
     coils = [each for each in model.registers if each.base.space is Space.COIL and _is_free(each)]
     if coils:
         yield Write(5, coils[0].base.address, (1,)), coils[0].path, 1
