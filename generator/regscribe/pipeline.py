@@ -74,6 +74,7 @@ def _meaning(composed: compose.Composed) -> tuple[RegisterMap | None, list[Diagn
         base = _base(composed)
         libraries = tuple(lower.library_of(library) for library in composed.libraries)
         register_map = replace(register_map, base=base, renumber=composed.renumber, libraries=libraries)
+        register_map = replace(register_map, shipped=composed.shipped)
     found = [*found, *checks.check(register_map)]
     return None if has_errors(found) else register_map, found
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import click
 
-import regscribe
+from regscribe.source import shipped
 
 ID = re.compile(r"[\w-]+(/[\w-]+)+")
 """What may be the id of a map: names, and no step upwards."""
@@ -39,13 +39,6 @@ def find_map(argument: str) -> Path:
         message = f"{argument} is a folder: name one map in it"
         raise click.UsageError(message)
     return _maps_of(argument)[0]
-
-
-def shipped() -> Path:
-    """Return the folder of the maps that come with regscribe: in the wheel, else those of the source checkout."""
-    package = Path(regscribe.__file__).parent
-    wheel = package / "data" / "maps"
-    return wheel if wheel.is_dir() else package.parents[1] / "maps"
 
 
 def _maps_of(argument: str, *, libraries: bool = False) -> list[Path]:

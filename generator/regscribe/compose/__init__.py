@@ -31,7 +31,7 @@ class Composed:
     """The document of all files, None if there are diagnostics; what it was made of, with the SHA-256 of each file.
 
     `base` is where the map that it extends lies, `renumber` the chapters that have another number here, `libraries`
-    are the documents of `uses`.
+    are the documents of `uses`. `shipped` are the ids of those files that come with regscribe.
     """
 
     document: Document | None
@@ -43,6 +43,7 @@ class Composed:
     base: Path | None = None
     renumber: tuple[tuple[str, str], ...] = ()
     libraries: tuple[Document, ...] = ()
+    shipped: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,6 +97,7 @@ def compose(document: Document, path: Path) -> Composed:
         base=part.base,
         renumber=tuple((old, text(new)) for old, new in members(root.child("renumber")).items()),
         libraries=tuple(_document(library, shelf) for library in part.libraries),
+        shipped=tuple(file.id for file in shelf.known.values() if file is not None and file.shipped),
     )
 
 
@@ -109,7 +111,7 @@ def _build(file: File, shelf: Shelf, chain: tuple[File, ...]) -> _Part | None:
     known = base.libraries if base else ()
     names = {library.id for library in known}
     wanted = [node for node in elements(file.root.child("uses")) if text(node) not in names]
-    libraries = [shelf.find(node, LIBRARY) for node in wanted]
+    libraries = [shelf.find(node, LIBRARY, file) for node in wanted]
     if (file.root.child("extends") and base is None) or None in libraries:
         return None
     found = [library for library in libraries if library is not None]
@@ -123,7 +125,7 @@ def _build(file: File, shelf: Shelf, chain: tuple[File, ...]) -> _Part | None:
 
 def _base(file: File, shelf: Shelf, chain: tuple[File, ...]) -> _Part | None:
     node = file.root.child("extends")
-    found = shelf.find(node, MAP) if node else None
+    found = shelf.find(node, MAP, file) if node else None
     if node is None or found is None:
         return None
     if len(chain) > DEEPEST or any(found.path.resolve() == each.path.resolve() for each in chain):

@@ -19,7 +19,11 @@ CHANGED_IN_PASSING = "RS0513"
 _SURPLUS = "What does nothing here is meant for something else, or its reason is gone."
 
 RULES: tuple[Rule, ...] = (
-    Rule(NO_FILE, "Base or library not found", "What a map builds on lies in the same `maps` folder, under its id."),
+    Rule(
+        NO_FILE,
+        "Base or library not found",
+        "What a map builds on lies under its id in the same `maps` folder, or comes with regscribe.",
+    ),
     Rule(CYCLE, "Map that extends itself", "A map that is built on itself, however indirectly, has no beginning."),
     Rule(
         WRONG_FILE, "Map in place of a library, or the reverse", "A map is extended; of a library the names are used."

@@ -1,4 +1,4 @@
-"""The other files of a map: found by id in the same `maps` folder, read once, checked for their shape."""
+"""The other files of a map: found by id in its `maps` folder or among those shipped, read once, checked in shape."""
 
 import hashlib
 import os
@@ -18,30 +18,38 @@ ENDINGS = {MAP: ".yaml", LIBRARY: ".library.yaml"}
 
 @dataclass(frozen=True, slots=True)
 class File:
-    """One file as read: its tree, in which each place knows the file, its id and its path."""
+    """One file as read: its tree, in which each place knows the file, its id and its path; whether it was shipped."""
 
     id: str
     path: Path
     root: Node
+    shipped: bool = False
 
 
 @dataclass(slots=True)
 class Shelf:
-    """The folder that ids are looked up in, and what was read from it: the SHA-256 of each file by path."""
+    """The folders that ids are looked up in, and what was read from them: the SHA-256 of each file by path.
+
+    `folder` is that of the map itself. What comes with regscribe is looked for after it, and knows nothing of it.
+    """
 
     folder: Path
     findings: Findings
+    shipped: Path = field(default_factory=source.shipped)
     hashes: dict[Path, str] = field(default_factory=dict)
     known: dict[Path, File | None] = field(default_factory=dict)
 
-    def find(self, node: Node, kind: str) -> File | None:
+    def find(self, node: Node, kind: str, asker: File) -> File | None:
         """The map or library whose id stands at `node`; None, with the reason among the findings, if there is none."""
-        path = self.folder / f"{node.value}{ENDINGS[kind]}"
-        if not os.path.isfile(path):  # noqa: PTH113 - Path.is_file raises where a folder may not be read
-            where = source.display_name(path)
-            advice = meant(str(node.value), self._ids(kind))
-            self.findings.add(NO_FILE, f"there is no {kind} `{node.value}`: no file {where}", node.place, advice)
+        places = [self.shipped] if asker.shipped else [self.folder, self.shipped]
+        paths = [folder / f"{node.value}{ENDINGS[kind]}" for folder in places]
+        found = [path for path in paths if os.path.isfile(path)]  # noqa: PTH113 - Path.is_file raises where a folder may not be read
+        if not found:
+            where = source.display_name(paths[0])
+            message = f"there is no {kind} `{node.value}`: no file {where}, and none comes with regscribe"
+            self.findings.add(NO_FILE, message, node.place, meant(str(node.value), self._ids(kind, places)))
             return None
+        path = found[0]
         if path not in self.known:
             self.known[path] = self._read(path, node, kind)
         return self.known[path]
@@ -71,12 +79,18 @@ class Shelf:
             advice = "correct the id in it, or the name of the file"
             self.findings.add(OTHER_ID, message, node.place, advice, ("it says so here", called.place))
             return None
-        return File(text(called), path, root)
+        return File(text(called), path, root, shipped=self._is_shipped(path))
 
-    def _ids(self, kind: str) -> list[str]:
-        """The ids of all files of a kind in the folder."""
-        paths = sorted(self.folder.glob(f"*/*{ENDINGS[kind]}"))
-        names = [path.relative_to(self.folder).as_posix() for path in paths]
+    def _is_shipped(self, path: Path) -> bool:
+        return path.is_relative_to(self.shipped) and self.folder.resolve() != self.shipped.resolve()
+
+    def _ids(self, kind: str, places: list[Path]) -> list[str]:
+        """The ids of all files of a kind in these folders."""
+        names = [
+            path.relative_to(folder).as_posix()
+            for folder in places
+            for path in sorted(folder.glob(f"*/*{ENDINGS[kind]}"))
+        ]
         return [
             name.removesuffix(ENDINGS[kind]) for name in names if kind == LIBRARY or not name.endswith(ENDINGS[LIBRARY])
         ]

@@ -11,7 +11,7 @@ from regscribe.emit.header import FORMAT
 from regscribe.model import Array, FrameExample, Model, Register, RegisterMap, TimingExample, ValueExample, exact, show
 
 EXAMPLES = {ValueExample: "value", FrameExample: "frame", TimingExample: "timing"}
-PLACES = frozenset({"span", "by_path", "base", "renumber", "libraries"})
+PLACES = frozenset({"span", "by_path", "base", "renumber", "libraries", "shipped"})
 """Fields that say where something stands in a file, that only speed a look-up, or that only let emitters share."""
 
 Json = Any  # what the json module writes: nested lists and dicts of str, int, float, bool and None

@@ -252,7 +252,8 @@ class RegisterMap:
     `content_hash` is the SHA-256 in hex of the file's bytes, or of the hashes of all files where there are several.
     `base` is the map that it extends as that map stands alone, None if it extends none (or one with errors of its own);
     `renumber` has the chapters of the base's manual that have another number here; `libraries` are those of `uses`.
-    These three let emitters share code. They are no facts about the devices, so exports leave them out.
+    `shipped` are the ids of those of them that come with regscribe, as do their modules.
+    These four let emitters share code. They are no facts about the devices, so exports leave them out.
     """
 
     id: str
@@ -280,6 +281,7 @@ class RegisterMap:
     base: "RegisterMap | None" = field(default=None, compare=False, repr=False)
     renumber: tuple[tuple[str, str], ...] = field(default=(), compare=False)
     libraries: tuple[Library, ...] = field(default=(), compare=False, repr=False)
+    shipped: tuple[str, ...] = field(default=(), compare=False)
     span: Span = NOWHERE
 
     def model(self, name: str) -> Model:

@@ -11,6 +11,7 @@ from regscribe.source.document import Document, Node, Path, Place, Plain
 from regscribe.source.reading import display_name, parse, read
 from regscribe.source.rules import RULES
 from regscribe.source.scalars import NumberFormError, resolve, shorten
+from regscribe.source.shipped import shipped
 
 __all__ = [
     "RULES",
@@ -24,6 +25,7 @@ __all__ = [
     "load",
     "parse",
     "resolve",
+    "shipped",
     "shorten",
 ]
 

@@ -29,8 +29,12 @@ def path_of(register_map: RegisterMap) -> str:
 
 
 def render(register_map: RegisterMap) -> dict[str, str]:
-    """The driver module of a map and those that it imports, of its base and its libraries, as {path: text}."""
-    return _files(build(register_map))
+    """The driver module of a map and those that it imports, of its base and its libraries, as {path: text}.
+
+    What comes with regscribe is imported from there and not made again.
+    """
+    installed = {module_path(map_id) for map_id in register_map.shipped}
+    return {path: text for path, text in _files(build(register_map)).items() if path not in installed}
 
 
 def _files(classes: Classes) -> dict[str, str]:
