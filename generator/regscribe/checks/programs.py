@@ -21,6 +21,7 @@ WHOLE = frozenset({Kind.INTEGER, Kind.RAW})
 CHOICES = frozenset({Kind.ENUM, Kind.BOOLEAN})
 ANY = CHOICES | NUMBERS
 ENUM = frozenset({Kind.ENUM})
+UNITS = ("s", "min", "h", "d")
 
 Role = tuple[str, str, frozenset[Kind]]
 """What a register is in a program, its path, and the kinds that can be it."""
@@ -140,9 +141,10 @@ def times(scope: Scope) -> Iterator[Finding]:
                 yield _at(program, message, "list every member under `time_unit.codes`", _here(register))
         for path in (program.segments.ramp, program.segments.soak):
             time = _register(path, program, scope)
-            if time and not unit and not any(case.then for case in time.unit):
-                message = f"has times in `{time.path}`, which has no unit"
-                yield _at(program, message, "give the register a `unit`, or the program a `time_unit`", _here(time))
+            if time and not unit and not all(case.then in UNITS for case in time.unit):
+                message = f"has times in `{time.path}`, which has no unit of time"
+                advice = f"give the register a `unit` of {', '.join(UNITS)}, or the program a `time_unit`"
+                yield _at(program, message, advice, _here(time))
 
 
 @model_rule(

@@ -45,6 +45,8 @@ def check(place: Place, program: Program, *, beyond_limits: bool = False) -> Tas
         bench = Bench(place, readable(snapshot), session.givens, program.time_unit or "")
         planned = []
         for one in asked:
+            if one.time and not _countable(place, program):
+                continue  # what the times count in is wrong already, so nothing can be said of them
             try:
                 value = bench.value(one.register, one.setting, time=one.time)
                 if one.limited and not beyond_limits:
@@ -62,10 +64,24 @@ def check(place: Place, program: Program, *, beyond_limits: bool = False) -> Tas
     return task
 
 
+def _countable(place: Place, program: Program) -> bool:
+    units = dict(place.spec.time_unit[1]).values() if place.spec.time_unit else ()
+    return place.spec.time_unit is None or program.time_unit in units
+
+
+ORDER = ("to", "ramp", "soak", "outputs")
+"""The keys of a segment as people write them."""
+
+
 def _sorted(problems: list[Problem]) -> list[Problem]:
-    return sorted(
-        problems, key=lambda one: (one.where[:1] == ("segments",), [str(part).zfill(3) for part in one.where])
-    )
+    """First what concerns the whole program, then the segments one after the other."""
+    return sorted(problems, key=lambda one: (one.where[:1] == ("segments",), [_rank(part) for part in one.where]))
+
+
+def _rank(part: str | int) -> tuple[int, str]:
+    if isinstance(part, int):
+        return part, ""
+    return (ORDER.index(part), "") if part in ORDER else (len(ORDER), part)
 
 
 def _within(place: Place, bench: Bench, register: Register[Any], value: Any) -> None:  # noqa: ANN401 - a value of any register
