@@ -159,7 +159,7 @@ def test_the_reasons_of_a_plan_say_why_each_request_is_its_own() -> None:
     )
     cost = Cost(SerialLine(9600), latencies={3: Latency(0, 0, 5, 100)})
     at = [("coil", 0, 1), ("holding", 0, 2), ("holding", 2, 6), ("holding", 9, 1), ("holding", 20, 1)]
-    more = [("holding", 40, 2), ("holding", 50, 2)]
+    more = [("holding", 40, 2), ("holding", 47, 2), ("holding", 50, 2)]
 
     found = plan([(Item(*one),) for one in at + more], Terms(Limits(words=6), ground, cost))
 
@@ -170,6 +170,7 @@ def test_the_reasons_of_a_plan_say_why_each_request_is_its_own() -> None:
         (9, 1, Reason.REFUSED),
         (20, 1, Reason.LIMIT),
         (40, 2, Reason.HOLE),
+        (47, 2, Reason.LIMIT),
         (50, 2, Reason.ALIGNMENT),
     ]
     apart = plan([(Item("holding", 0, 1),), (Item("holding", 3, 1),)], Terms(Limits(), ground, cost))

@@ -150,6 +150,10 @@ def plan(wants: Iterable[Want], terms: Terms) -> Plan:
     return Plan(tuple(requests), exact)
 
 
+GAPS = {"hole": "no registers", "refused": "refused by this unit", "unreadable": "not readable"}
+"""What may lie between two requests, in words."""
+
+
 def split(before: Block | None, block: Block, terms: Terms) -> Split:
     """Why two neighbours of a plan are two requests."""
     if before is None:
@@ -159,13 +163,14 @@ def split(before: Block | None, block: Block, terms: Terms) -> Split:
     first, last = _hull(before), _hull(block)
     gap = block.address - before.end
     barred = terms.ground.between(first, last)
-    if barred:
-        told = {"hole": "no registers", "refused": "refused by this unit", "unreadable": "not readable"}
+    if barred in GAPS:
         where = f"{before.end}..{block.address - 1}" if gap > 0 else f"at {block.address}"
-        return Split(Reason(barred), f"{told.get(barred, 'requests must be aligned')} {where}")
+        return Split(Reason(barred), f"{GAPS[barred]} {where}")
     together, most = block.end - before.address, terms.limits.most(block.space)
     if together > most:
         return Split(Reason.LIMIT, f"{together} together, limit {most}")
+    if barred:
+        return Split(Reason.ALIGNMENT, f"requests from {block.address} on must be aligned")
     tariff = terms.cost.tariff(block.space)
     saved = tariff.of(together) - tariff.of(before.quantity) - tariff.of(block.quantity)
     return Split(Reason.CHEAPER, f"{gap} between, saves {milliseconds(saved):.1f} ms")
