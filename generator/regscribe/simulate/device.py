@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from threading import RLock
 
 from regscribe.model import Model, Protocol, RegisterMap, Space
-from regscribe.simulate.addressing import AddressError, first_address, shifted
+from regscribe.simulate.addressing import AddressError, shifted
 from regscribe.simulate.answers import EXCEPTION_BIT, Refusal, exception_answer, pack_bits, unpack_bits
 from regscribe.simulate.commands import Commands
 from regscribe.simulate.conduct import Conduct
@@ -16,6 +16,7 @@ from regscribe.simulate.givens import GivenValue
 from regscribe.simulate.reading import Reader
 from regscribe.simulate.state import State, Value
 from regscribe.simulate.thermal import ThermalProcess
+from regscribe.simulate.tuning import Tuning
 from regscribe.simulate.values import Plain
 from regscribe.simulate.writing import Writer
 
@@ -30,8 +31,9 @@ class SimulatedDevice:
     write needs an `unlock` refuse it (as an unmet condition) until that command was run since power came. A write
     that needs an `apply` shows at once and counts after that command. `seed` decides the garbage that some devices
     send for addresses that they do not have, the noise of `process` and the latencies. `addressing` is modbus, or
-    jbus for a device that counts its addresses from 1. With a `process`, the map's process value moves as time passes
-    (`advance`); without one it stays where it is put, and outputs and alarms follow it.
+    jbus for a device that counts its addresses from 1; a register that governs these or the unit id changes them. With
+    a `process`, the map's process value moves as time passes (`advance`); without one it stays where it is put, and
+    outputs and alarms follow it.
     """
 
     def __init__(
@@ -45,12 +47,11 @@ class SimulatedDevice:
         addressing: str = "modbus",
         process: ThermalProcess | bool = False,
     ) -> None:
-        self._first = first_address(addressing)
         self.register_map = register_map
         self.model = _model(register_map, model)
-        self.unit = _unit(register_map.protocol, unit)
         self.seed = seed
         self.state = State.of(register_map, self.model, givens or {})
+        self._tuning = Tuning(self.state, unit=_unit(register_map.protocol, unit), addressing=addressing)
         self._protocol = register_map.protocol
         self._commands = Commands(self.model.commands)
         self._layout = layout = self.state.blueprint.layout
@@ -70,6 +71,11 @@ class SimulatedDevice:
             22: self._mask_word,
             23: self._write_and_read,
         }
+
+    @property
+    def unit(self) -> int:
+        """The unit id to which it answers now."""
+        return self._tuning.unit
 
     @property
     def commands_run(self) -> tuple[str, ...]:
@@ -105,6 +111,7 @@ class SimulatedDevice:
         """Take power away and give it back: RAM is restored from lasting memory, where the map says what from."""
         with self._lock:
             self._conduct.power_cycle()
+            self._tuning.follow(restarted=True)
 
     def advance(self, seconds: float) -> None:
         """Let simulated time pass: the process goes on, outputs and alarms follow. SimulatorError if it would go back.
@@ -126,13 +133,15 @@ class SimulatedDevice:
         if not pdu or pdu[0] & EXCEPTION_BIT or (broadcast and pdu[0] not in self._protocol.broadcast):
             return None
         with self._lock:
+            first = self._tuning.first
             try:
-                answer = shifted(self._act(shifted(pdu, -self._first)), self._first, echoes=True)
+                answer = shifted(self._act(shifted(pdu, -first)), first, echoes=True)
             except AddressError:
                 answer = exception_answer(pdu[0], self._protocol.faults.address)
             except Refusal as refusal:
                 answer = exception_answer(pdu[0], refusal.code)
-        return None if broadcast else answer
+            lost = pdu[0] not in READS and self._tuning.follow()
+        return None if broadcast or lost else answer
 
     def _act(self, pdu: bytes) -> bytes | None:
         act = self._functions.get(pdu[0]) if pdu[0] in self._protocol.functions else None
