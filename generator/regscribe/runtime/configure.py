@@ -51,11 +51,11 @@ def configure(
     """Bring several registers (by path, declaration or attribute) to their values; see `BareDevice.configure`."""
 
     def task(session: Session) -> Operation[WriteReport]:
-        targets = wanted(session, values, confirm=confirm)
+        targets = wanted(session, values)
         work = Transaction(session, tell)
         sight = yield from look(session, targets)
         state = dict(sight.state)
-        changes = intend(session, targets, sight, rounded=rounded)
+        changes = intend(session, targets, sight, rounded=rounded, confirm=confirm)
         if dry_run:
             _foresee(session, work, changes)
             return work.report(dry_run=True)

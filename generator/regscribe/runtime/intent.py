@@ -45,14 +45,13 @@ class Sight(NamedTuple):
     words: dict[str, Words]
 
 
-def wanted(session: Session, values: Mapping[Any, Any], *, confirm: bool) -> list[Wanted]:
-    """The registers of `values` in the order of writing; ValueRefused for names, access and dangers."""
+def wanted(session: Session, values: Mapping[Any, Any]) -> list[Wanted]:
+    """The registers of `values` in the order of writing; ValueRefused for names and access."""
     refusals: list[ValueRefused] = []
     found: dict[str, Wanted] = {}
     for key, value in values.items():
         try:
             register = _register(session, key)
-            confirmed(register, confirm=confirm)
             found[register.path] = Wanted(register, value)
         except ValueRefused as refusal:
             refusals.append(refusal)
@@ -90,8 +89,12 @@ def look(session: Session, targets: Iterable[Wanted]) -> Operation[Sight]:
     return Sight(state, words)
 
 
-def intend(session: Session, targets: Iterable[Wanted], sight: Sight, *, rounded: bool) -> list[Change]:
+def intend(
+    session: Session, targets: Iterable[Wanted], sight: Sight, *, rounded: bool, confirm: bool = True
+) -> list[Change]:
     """The changes that bring the device to the values; ValueRefused (all together) if it cannot take them.
+
+    A dangerous write that is not confirmed is refused, too, unless the device holds the value already.
 
     Each is checked in the state that those before it leave. `sight.state` is that after the last one then. Limits that
     the device converts meanwhile, because the unit of measure changes, are not known yet: they are checked when it has.
@@ -106,10 +109,11 @@ def intend(session: Session, targets: Iterable[Wanted], sight: Sight, *, rounded
             free = converted.intersection(register.limit_needs)
             checked = _unlimited(register) if free else register
             words = codec.encode(checked, view, one.value, sight.state, session.givens, rounded=rounded)
+            change = _change(session, one, sight, words)
+            confirmed(register, confirm=confirm or change.fate is Fate.EQUAL)
         except ValueRefused as refusal:
             refusals.append(refusal)
             continue
-        change = _change(session, one, sight, words)
         changes.append(change)
         if register.rescales and change.fate is not Fate.EQUAL:
             converted |= dependent(session, register)

@@ -7,7 +7,7 @@ from regscribe.settings.differing import Difference, Side, differences, side
 from regscribe.settings.factory import factory
 from regscribe.settings.fitting import KINDS, Fit, Misfit, fit
 from regscribe.settings.restoring import Restored, restore
-from regscribe.settings.saved import Backup, BackupError, Origin, Saved
+from regscribe.settings.saved import Backup, BackupError, Origin, Saved, UnfitError
 from regscribe.settings.store import save
 from regscribe.settings.taking import backup, saved
 from regscribe.settings.text import load, to_text
@@ -23,6 +23,7 @@ __all__ = [
     "Restored",
     "Saved",
     "Side",
+    "UnfitError",
     "backup",
     "differences",
     "factory",

@@ -48,24 +48,38 @@ def fit(
 
     `include` names kinds of settings that are to be written although they stay with their device.
     """
-    values: dict[str, Any] = {}
+    meant: dict[str, Any] = {}
     misfits: list[Misfit] = []
-    stays: dict[str, str] = {}
     for path, saved in backup.settings():
-        register = driver.registers.get(path)
-        kind = saved.stays or (register.stays if register else "")
-        if kind and kind not in include:
-            stays[path] = kind
-            continue
         try:
-            values[path] = _value(path, saved, driver)
+            meant[path] = _value(path, saved, driver)
         except ValueRefused as refusal:
             misfits.append(Misfit(path, refusal.reason))
-    whole = {**state, **values}
-    for misfit in _contradictions(backup, driver, values, whole, givens):
-        misfits.append(misfit)
-        del values[misfit.path]
-    return Fit(values, tuple(misfits), stays, tuple(strangeness(backup, driver)))
+    stays = {path: kind for path, saved in backup.settings() if (kind := _kind(path, saved, driver)) not in include}
+    stays = {path: kind for path, kind in stays.items() if kind}
+    values = {path: value for path, value in meant.items() if path not in stays}
+    world = _World({**state, **meant}, {**state, **values}, givens)
+    for path, saved in backup.settings():
+        reason = _contradiction(driver.registers[path], saved, values[path], world) if path in values else ""
+        if reason:
+            misfits.append(Misfit(path, reason))
+            del values[path]
+    return Fit(
+        values, tuple(one for one in misfits if one.path not in stays), stays, tuple(strangeness(backup, driver))
+    )
+
+
+class _World(NamedTuple):
+    """The values around a setting: on the device that was saved, and on this one when all is written."""
+
+    there: Mapping[str, Any]
+    here: Mapping[str, Any]
+    givens: Mapping[str, Any]
+
+
+def _kind(path: str, saved: Saved, driver: Driver) -> str:
+    register = driver.registers.get(path)
+    return saved.stays or (register.stays if register else "")
 
 
 def strangeness(backup: Backup, driver: Driver) -> Iterator[str]:
@@ -90,31 +104,18 @@ def _value(path: str, saved: Saved, driver: Driver) -> Any:  # noqa: ANN401 (a v
     return parse(register, saved.value, unit=saved.unit, current_unit=saved.unit)
 
 
-def _contradictions(
-    backup: Backup, driver: Driver, values: Mapping[str, Any], state: Mapping[str, Any], givens: Mapping[str, Any]
-) -> list[Misfit]:
-    """Values whose unit is another under the settings around them, or whose words say something else."""
-    found = []
-    for path, saved in backup.settings():
-        if path in values:
-            reason = _contradiction(driver.registers[path], saved, values[path], state, givens)
-            found += [Misfit(path, reason)] if reason else []
-    return found
-
-
-def _contradiction(
-    register: Register[Any], saved: Saved, value: object, state: Mapping[str, Any], givens: Mapping[str, Any]
-) -> str:
-    unit = unit_of(register, state, givens) if is_number(saved.value) else ""
+def _contradiction(register: Register[Any], saved: Saved, value: object, world: _World) -> str:
+    """Why a value cannot be meant: its unit is another here, or its words say something else."""
+    unit = unit_of(register, world.here, world.givens) if is_number(saved.value) else ""
     if saved.unit and saved.unit != unit:
         return f"it stands in {saved.unit}, but with these settings the device works in {unit or 'no unit'}"
     view = register.view()
-    if len(saved.raw) != view.words or not set(register.needs(view)) <= set(state):
+    if len(saved.raw) != view.words or not set(register.needs(view)) <= set(world.there):
         return ""
     try:
-        meant = codec.decode(register, view, saved.raw, state, givens)
+        spelled = codec.decode(register, view, saved.raw, world.there, world.givens)
     except (ValueNotDecodable, ValueError) as error:
         return f"its words {list(saved.raw)} are no value ({error})"
-    if meant != value:
-        return f"the file says {saved.spelled}, but its words {list(saved.raw)} mean {meant}: which one is right?"
+    if spelled != value:
+        return f"the file says {saved.spelled}, but its words {list(saved.raw)} mean {spelled}: which one is right?"
     return ""

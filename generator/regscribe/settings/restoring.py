@@ -10,7 +10,7 @@ from regscribe.runtime.errors import ValuesRefused
 from regscribe.runtime.report import Teller, WriteReport
 from regscribe.runtime.session import Operation, Session, Task
 from regscribe.settings.fitting import Fit, Misfit, fit
-from regscribe.settings.saved import Backup, BackupError
+from regscribe.settings.saved import Backup, UnfitError
 from regscribe.settings.taking import values_of, writable
 
 MOST_NAMED = 8
@@ -37,7 +37,7 @@ def restore(
     """Bring a device to the settings of a backup.
 
     Settings that stay with their device are left out unless `include` names their kind. A file of another model or map,
-    and one with values that the device cannot take, is refused (BackupError) unless `partial`: then what fits is
+    and one with values that the device cannot take, is refused (UnfitError) unless `partial`: then what fits is
     written. What the device holds already is not written; all is verified. Nothing is undone when it breaks off
     (NotConfigured says what was written): run it again, and it goes on where it was.
     """
@@ -80,7 +80,7 @@ def _refuse(found: Fit) -> None:
     if len(found.misfits) > MOST_NAMED:
         lines.append(f"and {len(found.misfits) - MOST_NAMED} more that do not fit")
     lines.append(f"{len(found.values)} settings fit: restore those with `partial`, after a look at the plan (dry run)")
-    raise BackupError("\n".join(lines))
+    raise UnfitError("\n".join(lines))
 
 
 def _without(found: Fit, refusal: ValueRefused) -> Fit:

@@ -11,7 +11,11 @@ NO_GROUP = "other"
 
 
 class BackupError(Exception):
-    """A file that is no backup, or one that does not fit the device: what differs, and what to do."""
+    """A file that is no backup, cannot be read or cannot be written: what is wrong, and where."""
+
+
+class UnfitError(BackupError):
+    """A backup of another device, or with values that this one cannot take; nothing was written."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
