@@ -147,6 +147,23 @@ def test_a_dry_run_shows_the_words_and_writes_nothing(cli: Cli, oven: str, runni
     assert (request["function"], request["address"], sorted(request["words"])) == (16, 8004, [0, 0x42C5])
 
 
+def test_a_dry_run_of_the_speed_leaves_the_line_alone(cli: Cli, serve: Callable[..., Any]) -> None:
+    with serve(transport="pty") as running:
+        line = f"rtu:{running.path}?baud=9600&model=16C"
+        result = cli("write", line, "baud_rate", "BAUD_4800", "--confirm", "--dry-run")
+        assert (result.code, result.out.split()[:2]) == (0, ["06", "4082"])
+        assert cli("read", line, "baud_rate", "--value").out == "BAUD_9600\n"
+
+
+def test_what_the_device_holds_already_is_not_written_again(cli: Cli, oven: str, running: Running) -> None:
+    assert cli("write", oven, "setpoint_eeprom_and_ram", "88").code == 0
+    running.requests.clear()
+    again = cli("write", oven, "setpoint_eeprom_and_ram", "88")
+    assert (again.code, "its EEPROM was spared" in again.err) == (0, True)
+    assert not [pdu for pdu in running.requests if pdu[0] in {6, 16}]
+    assert json.loads(cli("write", oven, "setpoint_eeprom_and_ram", "88", "--json").out)["written"] is False
+
+
 def test_a_device_of_another_model_is_not_written_to(cli: Cli, oven: str, running: Running) -> None:
     running.requests.clear()
     result = cli("write", oven, "setpoint_ram", "98.5", "--model", "25C")

@@ -15,8 +15,12 @@ import click
 
 from regscribe.live.errors import TargetError
 from regscribe.runtime import LinkLost, NoAnswer, PartialWrite, RegscribeError
+from regscribe.runtime.errors import LeftAt, NotApplied, NotConfigured, ReadBackDiffers, WriteUnknown
 
 REFUSED, USAGE, SILENT, UNKNOWN_STATE = 1, 2, 3, 4
+
+UNSETTLED = (PartialWrite, WriteUnknown, ReadBackDiffers, NotApplied, NotConfigured, LeftAt)
+"""Errors after which the device does not hold what it held, or nobody knows; some of them are NoAnswer, too."""
 
 
 class Failure(click.ClickException):
@@ -60,7 +64,7 @@ def _in_options(message: str) -> str:
 
 def code_of(error: RegscribeError) -> int:
     """The exit code of an error of a driver."""
-    if isinstance(error, PartialWrite):
+    if isinstance(error, UNSETTLED):
         return UNKNOWN_STATE
     return SILENT if isinstance(error, (LinkLost, NoAnswer)) else REFUSED
 

@@ -5,15 +5,16 @@ from typing import Any
 import click
 
 from regscribe.cli.completing import complete_register, complete_value
-from regscribe.cli.output import print_json, show_table
+from regscribe.cli.output import print_json, remark, show_table
 from regscribe.cli.read import heading
 from regscribe.cli.requests import plain_requests, show_requests
 from regscribe.cli.target import HELP, checked_identity, opened, target_options
 from regscribe.live import names, values
-from regscribe.live.dry import dry
+from regscribe.live.dry import Written, dry
 from regscribe.live.errors import TargetError, unknown
 from regscribe.live.target import Target
-from regscribe.runtime import Register, ValueRefused, operations
+from regscribe.runtime import BareDevice, Register, ValueRefused, operations
+from regscribe.runtime.request import Request
 
 
 @click.command(
@@ -32,6 +33,11 @@ of an enum by name, label or code, flags as names with commas.\n\n{HELP}""",
 @click.option("--rounded", is_flag=True, help="Round a value that is finer than the device can hold.")
 @click.option("--view", metavar="VIEW", help="Transmit it in this view of the map instead of the preferred one.")
 @click.option("--dry-run", is_flag=True, help="Check everything and show the words; write nothing.")
+@click.option(
+    "--verify/--no-verify",
+    default=None,
+    help="Read it back, or not; without either, what the device keeps as its configuration is.",
+)
 @checked_identity
 def command(  # noqa: PLR0913 - the options of the command
     *,
@@ -43,28 +49,60 @@ def command(  # noqa: PLR0913 - the options of the command
     rounded: bool,
     view: str | None,
     dry_run: bool,
+    verify: bool | None,
     identity: bool,
 ) -> int:
     """Write one register."""
     with opened(target, identity=identity) as device:
-        register = names.register_named(type(device), name)
-        _known_view(register, view)
-        if register.access == "r":
-            raise ValueRefused(name, "the register is read-only")
-        unsent = dry(device).written if dry_run else []
+        register = _writable(type(device), name, view)
         unit = device.run(operations.read_unit(register))
         meant = values.parse(register, value, current_unit=unit)
-        device.run(operations.write(register, meant, view=view, rounded=rounded, confirm=confirm))
-    said = {"register": name, "value": values.show(register, meant), "unit": unit, "written": not dry_run}
+        if dry_run:
+            unsent = _unsent(device, register, meant, view=view, rounded=rounded, confirm=confirm)
+        else:
+            device.run(operations.write(register, meant, view=view, rounded=rounded, confirm=confirm, verify=verify))
+        spared = device.session.wear.spared > 0
+    said = {"register": name, "value": values.show(register, meant), "unit": unit, "written": not (dry_run or spared)}
     if as_json:
         print_json(**heading(device, target), **said, **({"requests": plain_requests(unsent)} if dry_run else {}))
     elif dry_run:
         show_requests(unsent)
     else:
         show_table(("REGISTER", "VALUE"), [(name, f"{values.as_text(register, meant)} {unit}".rstrip())])
+        _remarks(register, spared=spared)
     return 0
 
 
-def _known_view(register: Register[Any], view: str | None) -> None:
+def _writable(driver: type[BareDevice], name: str, view: str | None) -> Register[Any]:
+    register = names.register_named(driver, name)
     if view is not None and view not in register.view_names:
         raise TargetError(unknown("view", view, register.view_names, where=f"of {register.path}"))
+    if register.access == "r":
+        raise ValueRefused(name, "the register is read-only")
+    return register
+
+
+def _unsent(
+    device: BareDevice,
+    register: Register[Any],
+    meant: Any,  # noqa: ANN401 - a value of any register
+    *,
+    view: str | None,
+    rounded: bool,
+    confirm: bool,
+) -> list[Written]:
+    """The requests of a write, without sending one; of a register that governs the line, without following it."""
+    if register.governs is not None:
+        plan = operations.configure({register.path: meant}, dry_run=True, confirm=confirm, rounded=rounded)
+        requests = (Request(one.function, one.address, len(one.words), one.words) for one in device.run(plan).requests)
+        return [Written(device.session.unit, request) for request in requests]
+    unsent = dry(device).written
+    device.run(operations.write(register, meant, view=view, rounded=rounded, confirm=confirm))
+    return unsent
+
+
+def _remarks(register: Register[Any], *, spared: bool) -> None:
+    if spared:
+        remark("the device holds it already: its EEPROM was spared")
+    elif register.governs is not None:
+        remark("the device talks otherwise from now on: its name must say so")
