@@ -50,7 +50,7 @@ def test_a_full_disk_leaves_the_old_file_and_nothing_else(
     assert [(one.name, one.read_text(encoding="utf-8")) for one in folder.iterdir()] == [("oven.yaml", "mine")]
 
 
-def test_a_restore_shows_its_plan_and_then_does_it(cli: Cli, serve: Serve, folder: Path) -> None:
+def test_a_restore_shows_its_plan_and_then_does_it(cli: Cli, serve: Serve) -> None:
     with serve() as one:
         one.device.poke("input_filter", 9)
         assert cli("backup", name_of(one), "one.yaml").code == 0
@@ -64,7 +64,7 @@ def test_a_restore_shows_its_plan_and_then_does_it(cli: Cli, serve: Serve, folde
         assert found == [{"register": "input_filter", "before": "5", "after": "9", "fate": "written"}]
 
 
-def test_files_and_devices_and_the_factory_are_compared_by_name_and_unit(cli: Cli, serve: Serve, folder: Path) -> None:
+def test_files_and_devices_and_the_factory_are_compared_by_name_and_unit(cli: Cli, serve: Serve) -> None:
     with serve() as running:
         oven = name_of(running)
         cli("backup", oven, "before.yaml")
@@ -79,9 +79,7 @@ def test_files_and_devices_and_the_factory_are_compared_by_name_and_unit(cli: Cl
         assert (found["left"], found["right"]) == ({"value": 9, "unit": "0.1 s"}, {"value": 5, "unit": "0.1 s"})
 
 
-def test_a_clone_sets_each_device_and_a_silent_one_stops_none_of_the_others(
-    cli: Cli, serve: Serve, folder: Path
-) -> None:
+def test_a_clone_sets_each_device_and_a_silent_one_stops_none_of_the_others(cli: Cli, serve: Serve) -> None:
     with serve() as one, serve(unit=2) as other, serve() as third:
         one.device.poke("input_filter", 9)
         nobody = f"tcp:{one.host}:{one.port}?unit=9&model=16C&timeout=0.2"
@@ -103,7 +101,7 @@ def test_a_file_that_is_no_backup_is_told_with_its_place(cli: Cli, oven: str, fo
 
 
 def test_ctrl_c_during_a_restore_says_what_was_written_and_a_second_run_completes_it(
-    cli: Cli, serve: Serve, start: Start, folder: Path
+    cli: Cli, serve: Serve, start: Start
 ) -> None:
     with serve() as one:
         for name in ("input_filter", "display_filter", "output_1_cycle_time", "output_2_cycle_time"):
