@@ -4,7 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypedDict
 
-from regscribe.runtime.errors import NotConfigured, RegscribeError
+from regscribe.runtime.errors import (
+    ExceptionAnswer,
+    LeftAt,
+    NotConfigured,
+    NotWritten,
+    ReadBackDiffers,
+    RegscribeError,
+    ValueRefused,
+)
 from regscribe.runtime.governing import follow
 from regscribe.runtime.intent import intend, look, wanted
 from regscribe.runtime.report import Fate, Sent, Teller
@@ -130,9 +138,19 @@ class _Steps:
             self.work.plan([change])
             if change.fate is Fate.EQUAL:
                 continue
-            self.work.mark(change.register, Fate.UNKNOWN)
-            yield from follow(self.session, (one.register, one.view), change.sent, sight.state)
+            try:
+                yield from follow(self.session, (one.register, one.view), change.sent, sight.state)
+            except RegscribeError as error:
+                self.work.mark(change.register, _fate(error))
+                raise
             self.work.mark(change.register, Fate.WRITTEN)
+
+
+def _fate(error: RegscribeError) -> Fate:
+    """What an error of `follow` says of the register."""
+    if isinstance(error, (NotWritten, ValueRefused, ExceptionAnswer)):
+        return Fate.NOT_WRITTEN
+    return Fate.DIFFERS if isinstance(error, ReadBackDiffers) else Fate.UNKNOWN
 
 
 def applies(work: Transaction) -> list[str]:
@@ -160,7 +178,7 @@ def _broken(work: Transaction, error: BaseException, *, undo: bool) -> Operation
     """Undo what was written, if that is wanted, and say what became of everything."""
     ran = {name for name, fate in work.report().commands.items() if fate is not Fate.NOT_WRITTEN}
     applied = [name for name in applies(work) if name in ran]
-    if undo:
+    if undo and not isinstance(error, LeftAt):  # nobody is there to undo anything
         yield from work.undo(applied)
     raise NotConfigured(str(error) or type(error).__name__, work.report()) from error
 

@@ -195,8 +195,11 @@ class Transaction:
     # --- undoing
 
     def undo(self, applied: Sequence[str]) -> Operation[None]:
-        """Give back what the registers held, the last one first; `applied` are commands to run once more then."""
-        touched = self.paths(*TOUCHED)
+        """Give back what the registers held, the last one first; `applied` are commands to run once more then.
+
+        What governs the line is left as it is: the driver talks that way now.
+        """
+        touched = [path for path in self.paths(*TOUCHED) if not self.register(path).governs]
         self.unlocked.clear()
         try:
             for path in reversed(touched):
@@ -204,9 +207,7 @@ class Transaction:
             for command in applied:
                 yield from self.command(command)
             yield from self._undone(touched)
-        except RegscribeError as error:
-            for path in touched:
-                self.mark(path, Fate.UNKNOWN)
+        except RegscribeError as error:  # what was not reached is as it was before
             yield from self.settle(touched, error)
             for path in touched:
                 self._undone_one(path)
@@ -222,11 +223,13 @@ class Transaction:
             except RegscribeError as error:
                 if not is_lost(error):
                     raise
+                self.mark(path, Fate.UNKNOWN)
                 found = yield from look_back(self.session, [self.target(path)], error)
                 if found is None or found[path] != words:
                     raise
             finally:
                 self.session.forget()
+            self.mark(path, Fate.RESTORED, words)
 
     def _told_quietly(self, what: str) -> None:
         """Tell of progress; who breaks off an undoing is not heard."""
