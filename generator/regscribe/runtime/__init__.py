@@ -3,6 +3,7 @@
 Nothing here imports the compiler; pymodbus is loaded when a link is made.
 """
 
+from regscribe.runtime.bus import AsyncBus, Bus
 from regscribe.runtime.choices import Bit, Choice, Field, Flags, Word
 from regscribe.runtime.device import (
     AsyncBareDevice,
@@ -53,8 +54,10 @@ from regscribe.runtime.kinds import (
     version,
     word_of,
 )
-from regscribe.runtime.link import AsyncLink, Link, async_tcp, tcp
+from regscribe.runtime.line import Line
+from regscribe.runtime.link import AsyncLink, Link, LinkSettings, async_tcp, tcp
 from regscribe.runtime.parts import Array, AsyncPart, Command, Group, Part, Section
+from regscribe.runtime.policy import Retry
 from regscribe.runtime.program import ProgramAction, ProgramFinal, ProgramSegments, ProgramStates, SetpointProgram
 from regscribe.runtime.register import ReadOnly, ReadWrite, Register, WriteOnly
 from regscribe.runtime.report import Change, Count, Fate, Progress, Sent, Wear, WriteReport
@@ -74,6 +77,7 @@ from regscribe.runtime.spec import (
     within,
     word,
 )
+from regscribe.runtime.trace import Trace, Tracer
 from regscribe.runtime.wire import FLOAT32, FLOAT64, INT16, INT32, INT64, UINT16, UINT32, UINT64
 
 __all__ = [
@@ -88,11 +92,13 @@ __all__ = [
     "Absent",
     "Array",
     "AsyncBareDevice",
+    "AsyncBus",
     "AsyncDevice",
     "AsyncLink",
     "AsyncPart",
     "BareDevice",
     "Bit",
+    "Bus",
     "Change",
     "Choice",
     "Command",
@@ -113,8 +119,10 @@ __all__ = [
     "Latency",
     "LeftAt",
     "Limits",
+    "Line",
     "Link",
     "LinkLost",
+    "LinkSettings",
     "NoAnswer",
     "NotApplied",
     "NotConfigured",
@@ -136,6 +144,7 @@ __all__ = [
     "Register",
     "RegisterSet",
     "RegscribeError",
+    "Retry",
     "Saturated",
     "Section",
     "SensorFault",
@@ -144,6 +153,8 @@ __all__ = [
     "SetpointProgram",
     "Snapshot",
     "TcpSettings",
+    "Trace",
+    "Tracer",
     "Unsteady",
     "ValueNotDecodable",
     "ValueRefused",

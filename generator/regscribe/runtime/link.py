@@ -43,20 +43,37 @@ class LineSettings(LinkSettings, total=False):
 class Link(Protocol):
     """A synchronous link, for any number of threads.
 
-    `epoch` counts how often it was opened. Requests go out one after the other, first come, first served; the lock of a
-    unit (`link.lock.of(unit)`) is held for a whole operation. `line` is the serial line (None over TCP), `timeout` the
-    response timeout that overrides all others, `retry` what is tried again, `addressing` how units count: modbus, jbus.
+    Requests go out one after the other, first come, first served; the lock of a unit (`link.lock.of(unit)`) is held for
+    a whole operation.
     """
 
-    epoch: int
-    lock: Turns
-    timeout: float | None
-    retry: Retry
-    addressing: str
+    @property
+    def epoch(self) -> int:
+        """How often it was opened."""
+        raise NotImplementedError
+
+    @property
+    def lock(self) -> Turns:
+        """Whose turn it is."""
+        raise NotImplementedError
 
     @property
     def line(self) -> Line | None:
         """The serial line, None over TCP."""
+
+    @property
+    def timeout(self) -> float | None:
+        """The response timeout that overrides all others, in seconds."""
+
+    @property
+    def retry(self) -> Retry:
+        """What is tried again."""
+        raise NotImplementedError
+
+    @property
+    def addressing(self) -> str:
+        """How units count their addresses: modbus from 0, jbus from 1."""
+        raise NotImplementedError
 
     def retune(self, change: "Retune") -> None:
         """Talk at another speed, in another format or with other addresses from the next request on."""
@@ -79,15 +96,33 @@ class Link(Protocol):
 class AsyncLink(Protocol):
     """An asyncio link, for any number of tasks of one event loop; otherwise as `Link`."""
 
-    epoch: int
-    lock: AsyncTurns
-    timeout: float | None
-    retry: Retry
-    addressing: str
+    @property
+    def epoch(self) -> int:
+        """How often it was opened."""
+        raise NotImplementedError
+
+    @property
+    def lock(self) -> AsyncTurns:
+        """Whose turn it is."""
+        raise NotImplementedError
 
     @property
     def line(self) -> Line | None:
         """The serial line, None over TCP."""
+
+    @property
+    def timeout(self) -> float | None:
+        """The response timeout that overrides all others, in seconds."""
+
+    @property
+    def retry(self) -> Retry:
+        """What is tried again."""
+        raise NotImplementedError
+
+    @property
+    def addressing(self) -> str:
+        """How units count their addresses: modbus from 0, jbus from 1."""
+        raise NotImplementedError
 
     def retune(self, change: "Retune") -> None:
         """Talk at another speed, in another format or with other addresses from the next request on."""
