@@ -100,7 +100,7 @@ def test_the_driver_follows_addresses_that_are_counted_from_one(controller: Any,
 
 
 def test_neighbours_are_not_taken_for_a_device_that_counts_otherwise(
-    kiln: Any, direct: Any, device: SimulatedDevice, monkeypatch: pytest.MonkeyPatch
+    kiln: Any, direct: Any, device: SimulatedDevice
 ) -> None:
     """The register behind holds the value that was sent, and the write never arrived."""
     device.poke("parity_code", 1)
