@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from regscribe.checks.registry import Finding, Scope, model_rule, register_rule
-from regscribe.model import Alarm, BitField, Effect, Kind, Output, Process, Register, Related, Rule
+from regscribe.model import Alarm, BitField, Effect, Kind, Output, Process, Register, Related, Rule, WireType
 
 RAM = "ram"
 Role = tuple[str, str, bool]
@@ -71,7 +71,7 @@ def roles(scope: Scope) -> Iterator[Finding]:
         if found is None or process is None:
             continue
         register, field = found
-        is_bit = field.width == 1 if field is not None else register.kind is Kind.BOOLEAN
+        is_bit = field.width == 1 if field is not None else register.base.type is WireType.BIT
         what = f"{field.width} bits" if field is not None else f"of kind {register.kind}"
         related = Related(f"`{register.path}` stands here", register.span)
         if bit and not is_bit:

@@ -1,13 +1,14 @@
 """Libraries: their names become names of the map, their commands, errata and notes come along."""
 
 from regscribe.compose.findings import Findings, meant
-from regscribe.compose.merge import TABLES, append, merge_notations, merge_protocol, merge_tables
+from regscribe.compose.merge import TABLES, append, merge_notations, merge_protocol, merge_tables, replace
 from regscribe.compose.rules import LEAVES_NOTHING_OUT
 from regscribe.compose.shelf import File
 from regscribe.compose.tree import cut, edit, key_place, listing, mapping, members, put, scalar
 from regscribe.source import Document, Node
 
 _LISTS = ("errata", "notes")
+_WHOLE = ("process",)
 _MERGED = {*TABLES, *_LISTS, "notations", "protocol"}
 
 
@@ -18,6 +19,7 @@ def with_libraries(root: Node, libraries: list[File], findings: Findings) -> Nod
     for library in libraries:
         part = _without(library.root, left_out)
         below = _laid(below, part, findings, owner="another library", advice="use one of the two libraries only")
+        below = replace(below, part, _WHOLE)
     every = [name for library in libraries for name in members(library.root.child("commands"))]
     for name in left_out - set(every):
         message = f"there is no command `{name}` in a library that could be left out"

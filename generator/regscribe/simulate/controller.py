@@ -32,8 +32,6 @@ class Controller:
         self._rest = 0.0
         self._working: float | None = None
         self._shown = None if oven is None else self._show_temperature(oven)
-        if process.ramp is not None and process.ramp.shows:
-            state.drive(process.ramp.shows)
 
     def reset(self) -> None:
         """Power came: the controller forgets, the oven does not."""
@@ -107,6 +105,7 @@ class Controller:
             step = rate * STEP / ramp.seconds
             self._working = min(goal, self._working + step) if goal > self._working else max(goal, self._working - step)
         if ramp.shows:
+            self._state.drive(ramp.shows, alone=bool(self._rate(ramp, rising=True) or self._rate(ramp, rising=False)))
             self._state.put(ramp.shows, _exact(self._working))
         return self._working
 

@@ -107,9 +107,9 @@ class State(Meaning):
         """The registers whose value is not in effect yet, with what is in effect instead."""
         return dict(self._pending)
 
-    def drive(self, path: str) -> None:
-        """Let a register follow nothing: something else moves it from now on."""
-        self._driven |= {path}
+    def drive(self, path: str, *, alone: bool) -> None:
+        """Let a register follow nothing while something else moves it `alone`."""
+        self._driven = self._driven | {path} if alone else self._driven - {path}
 
     def put(self, subject: str, value: Plain) -> None:
         """Set a register or `register.field` to a value of use, as `poke` does, if it is not there already."""
