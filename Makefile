@@ -5,7 +5,7 @@ BIN := .venv/bin
 INSTALLED := .venv/.installed
 
 .DEFAULT_GOAL := generate
-.PHONY: generate test test-all check format bench mutate lock clean
+.PHONY: generate test test-all check format bench mutate sessions lock clean
 
 generate: $(INSTALLED) ## compile all maps; only what changed is written
 	@$(BIN)/regscribe generate
@@ -32,6 +32,9 @@ bench: $(INSTALLED) ## measure against the budgets and against other tools, side
 
 mutate: $(INSTALLED) ## break scales, codes, addresses, orders and limits: the tests must notice each
 	$(BIN)/python tests/mutate/run.py
+
+sessions: $(INSTALLED) ## carry out the sessions of docs/cli.md anew and write what they print
+	$(BIN)/python tests/live/sessions.py
 
 lock: $(INSTALLED) ## pin the newest versions that requirements.in allows
 	$(BIN)/pip install --quiet uv

@@ -65,6 +65,12 @@ def cli(folder: Path, capsys: pytest.CaptureFixture[str]) -> Callable[..., Resul
     return call
 
 
+@pytest.fixture(scope="session", name="compiled")
+def compiled_fixture() -> Callable[[str], RegisterMap]:
+    """Compiles a shipped map, once."""
+    return compiled
+
+
 Serve = Callable[..., AbstractContextManager[Running]]
 
 

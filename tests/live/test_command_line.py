@@ -186,7 +186,7 @@ def test_everything_is_dumped_group_by_group(cli: Cli, oven: str) -> None:
 
 def test_commands_are_listed_without_a_device(cli: Cli) -> None:
     listed = cli("command", "tcp:127.0.0.1:1?model=16C")
-    assert (listed.code, listed.out.split()[0]) == (0, "load_defaults")
+    assert (listed.code, "load_defaults" in listed.out) == (0, True)
     assert "clear_latched_alarms" in json.loads(cli("command", "tcp:h?model=16C", "--json").out)["commands"]
 
 
@@ -302,8 +302,7 @@ def test_frames_are_decoded_without_a_device(cli: Cli, folder: Path) -> None:
         "12:00:01 TX 01 03 0F A0 00 01 87 3C\n12:00:01 RX 01 03 02 00 02 39 85\n", encoding="utf-8"
     )
     assert cli("decode", "16C", "--log", "bus.log").out.splitlines()[1:] == [
-        "unit 1 <- answer",
-        "    controller_type = MODEL_16C",
+        "unit 1 <- controller_type = MODEL_16C",
     ]
     found = json.loads(cli("decode", "16C", "--log", "bus.log", "--json").out)["frames"]
     assert [(one["line"], one["kind"]) for one in found] == [(1, "request"), (2, "response")]

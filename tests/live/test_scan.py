@@ -1,3 +1,5 @@
+import socket
+import threading
 from collections.abc import Callable
 from typing import Any
 
@@ -79,3 +81,27 @@ def test_other_speeds_are_not_tried_once_units_answered(serve: Callable[..., Any
         once = [probe.link.baud for probe in scan.scan(tried, (2,), names=False)]
         every = [probe.link.baud for probe in scan.scan(tried, (2,), names=False, every=True)]
     assert (once, every) == ([9600], [9600, 19200])
+
+
+def test_who_does_not_speak_modbus_is_no_unit(serve: Callable[..., Any]) -> None:
+    with serve(transport="ascii-tcp") as running:
+        link = links.parse(f"tcp:{running.host}:{running.port}?framing=rtu&timeout=0.1")
+        assert [probe.found for probe in scan.scan((link,), (1, 2))] == [None, None]
+
+
+def test_a_server_of_another_kind_is_asked_once() -> None:
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        answering = threading.Thread(target=_greet, args=(server,), daemon=True)
+        answering.start()
+        link = links.parse(f"tcp:127.0.0.1:{server.getsockname()[1]}?timeout=1")
+        (probe,) = scan.scan((link,), (1, 2, 3))
+        answering.join()
+    assert (probe.found, "is no header of Modbus TCP" in probe.noise) == (None, True)
+
+
+def _greet(server: socket.socket) -> None:
+    connection, _ = server.accept()
+    with connection:
+        connection.recv(100)
+        connection.sendall(b"HTTP/1.1 400 Bad Request\r\n\r\n")
+        connection.recv(100)

@@ -11,6 +11,7 @@ from regscribe.cli.excerpt import safe
 from regscribe.cli.failure import REFUSED, told
 from regscribe.cli.output import print_json, remark
 from regscribe.cli.target import CONFIG, JSON, PACKAGE
+from regscribe.cli.text import count
 from regscribe.live import catalogue, config, givens, names, values
 from regscribe.live.capture import Captured, captured
 from regscribe.live.decode import Decoded, Decoder, Item
@@ -100,21 +101,19 @@ def _decoded(decoder: Decoder, lines: Iterable[Captured]) -> Iterator[tuple[int,
 
 def _show(found: Iterable[Decoded]) -> None:
     for one in found:
+        held = [item for item in one.items if item.words]
         sys.stdout.write(f"{safe(told_line(one))}\n")
-        sys.stdout.writelines(f"    {safe(item.spelled)}\n" for item in one.items if not _asked(one))
+        if len(held) > 1:
+            sys.stdout.writelines(f"    {safe(item.spelled)}\n" for item in held)
 
 
 def told_line(one: Decoded) -> str:
-    """A frame in one line: `unit 1 -> read holding 4000: controller_type`."""
-    asked = ", ".join(item.name for item in one.items) if _asked(one) else ""
+    """A frame in one line: `unit 1 -> read holding 4000: controller_type`; several values stand below it."""
+    held = [item for item in one.items if item.words]
+    names = ", ".join(item.name for item in one.items) if not held else ""
+    what = ": ".join(filter(None, (one.what, names, held[0].spelled if len(held) == 1 else "")))
     wrong = f"  [{one.complaint}]" if one.complaint else ""
-    what = one.what or "answer"
-    return f"unit {one.unit} {ARROWS[one.kind]} {what}{f': {asked}' if asked else ''}{wrong}"
-
-
-def _asked(one: Decoded) -> bool:
-    """Whether the frame only names registers, without their values."""
-    return all(not item.words for item in one.items)
+    return f"unit {one.unit} {ARROWS[one.kind]} {what or count(len(held), 'value')}{wrong}"
 
 
 def _plain(line: int, one: Decoded) -> dict[str, Any]:

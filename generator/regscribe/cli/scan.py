@@ -1,6 +1,7 @@
 """`regscribe scan`: which units answer on a line, at which speed, and what they are."""
 
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import click
@@ -9,6 +10,7 @@ from regscribe.cli.failure import REFUSED, failure, told
 from regscribe.cli.output import print_json, remark, show_table
 from regscribe.cli.progress import progress
 from regscribe.cli.target import CONFIG, JSON, PACKAGE, quiet, understood
+from regscribe.cli.text import count
 from regscribe.live import scan as scanning
 from regscribe.live.links import LinkName
 from regscribe.live.scan import Found, Probe
@@ -66,29 +68,34 @@ def command(  # noqa: PLR0913 - the options of the command
 
 def _run(probes: Iterator[Probe], links: Sequence[LinkName], asked: Sequence[int], *, as_json: bool) -> int:
     found: list[Found] = []
+    noise: dict[str, str] = {}
     ended = ""
     code = 0
-    remark(f"asking {len(asked)} units with {len(links)} settings: at most {scanning.longest(links, asked):.0f} s")
+    most = math.ceil(scanning.longest(links, asked))
+    remark(f"asking {count(len(asked), 'unit')} with {count(len(links), 'setting')}: at most {most} s")
     try:
         with progress(len(links) * len(asked), "scanning") as advance:
             for probe in probes:
                 found += [probe.found] if probe.found else []
+                noise |= {str(probe.link): probe.noise} if probe.noise else {}
                 advance(f"unit {probe.unit} on {probe.link}, {len(found)} found")
     except KeyboardInterrupt:
         ended, code = "stopped before the end", INTERRUPTED
     except LinkLost as error:
         lost = failure(error)
         ended, code = lost.message, lost.exit_code
-    _show(found, ended, as_json=as_json)
+    _show(found, noise, ended, as_json=as_json)
     return code or (0 if found else REFUSED)
 
 
-def _show(found: Sequence[Found], ended: str, *, as_json: bool) -> None:
+def _show(found: Sequence[Found], noise: Mapping[str, str], ended: str, *, as_json: bool) -> None:
     if as_json:
-        print_json(complete=not ended, ended=ended or None, found=[_plain(one) for one in found])
+        print_json(complete=not ended, ended=ended or None, found=[_plain(one) for one in found], noise=noise)
     else:
         rows = [(str(one.unit), str(one.link), one.answer, " or ".join(one.models) or "?") for one in found]
         show_table(("UNIT", "LINK", "ANSWER", "MODEL"), rows)
+    for link, said in noise.items():
+        remark(f"what comes on {link} is no Modbus (another speed, format or framing?): {said}")
     if ended:
         remark(ended)
     elif not found:

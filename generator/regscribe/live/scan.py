@@ -37,11 +37,12 @@ class Found(NamedTuple):
 
 
 class Probe(NamedTuple):
-    """One question: which unit is asked on which link, and what it took to find (None: nobody there)."""
+    """One question: which unit is asked on which link, and whom it found; `noise` is what came and is no answer."""
 
     link: LinkName
     unit: int
     found: Found | None
+    noise: str = ""
 
 
 def units(text: str) -> tuple[int, ...]:
@@ -108,11 +109,13 @@ def scan(
         link.open()
         try:
             for unit in asked:
-                answer = _answer(link, unit, address)
-                models = _models(link, unit, target) if answer and names else ()
-                found = Found(name, unit, answer, models) if answer else None
-                any_found = any_found or found is not None
-                yield Probe(name, unit, found)
+                probe = _probe(link, name, unit, address)
+                if probe.found and names:
+                    probe = probe._replace(found=probe.found._replace(models=_models(link, unit, target)))
+                any_found = any_found or probe.found is not None
+                yield probe
+                if probe.noise and not name.serial:
+                    break  # whoever listens there does not speak Modbus, whatever unit is asked
         finally:
             link.close()
         if any_found and not every:
@@ -127,19 +130,19 @@ def _with_format(link: LinkName, text: str) -> LinkName:
     return replace(link, data_bits=int(found[1]), parity=found[2], stop_bits=int(found[3]))
 
 
-def _answer(link: Link, unit: int, address: int) -> str:
-    """What a unit answers; "" if it does not."""
+def _probe(link: Link, name: LinkName, unit: int, address: int) -> Probe:
     try:
         reply = link.call(unit, Request(READ_HOLDING, address))
     except NoAnswer:
-        return ""
+        return Probe(name, unit, None)
     except LinkLost:
         raise
     except RegscribeError as error:
-        return f"not understood ({error})"
+        return Probe(name, unit, None, str(error))
     if reply.exception in GATEWAY:
-        return ""
-    return f"exception {reply.exception:02d}" if reply.exception else "a value"
+        return Probe(name, unit, None)
+    answer = f"exception {reply.exception:02d}" if reply.exception else "a value"
+    return Probe(name, unit, Found(name, unit, answer, ()))
 
 
 def _models(link: Link, unit: int, target: Target) -> tuple[str, ...]:
