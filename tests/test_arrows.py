@@ -16,7 +16,8 @@ ROOMS = {
     "model": set[str](),
     "source": {"model"},
     "schema": {"model", "source"},
-    "compose": {"model", "source", "schema"},
+    "shipped": set[str](),
+    "compose": {"model", "source", "schema", "shipped"},
     "lower": {"model", "source", "schema"},
     "checks": {"model", "source", "schema", "compose", "lower"},
     "emit": {"model", "schema"},
@@ -29,7 +30,7 @@ ROOMS = {
     "testing": {"runtime"},
     "pipeline": {"model", "source", "schema", "compose", "lower", "checks"},
     "cli": {"model", "source", "schema", "compose", "lower", "checks", "emit", "evidence", "simulate", "pipeline"}
-    | {"runtime", "live", "settings", "programs"},
+    | {"runtime", "live", "settings", "programs", "shipped"},
 }
 """Which other rooms a room may import."""
 

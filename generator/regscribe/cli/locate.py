@@ -8,7 +8,7 @@ from pathlib import Path
 
 import click
 
-from regscribe.source import shipped
+from regscribe.shipped import shipped
 
 ID = re.compile(r"[\w-]+(/[\w-]+)+")
 """What may be the id of a map: names, and no step upwards."""

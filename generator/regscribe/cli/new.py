@@ -10,7 +10,7 @@ from string import Template
 
 import click
 
-from regscribe.source import shipped
+from regscribe.shipped import shipped
 
 WORD = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 """A maker or a family: it becomes a folder, a file and a Python module."""

@@ -9,6 +9,7 @@ from regscribe import schema, source
 from regscribe.compose.findings import Findings, meant
 from regscribe.compose.rules import NO_FILE, OTHER_ID, WRONG_FILE
 from regscribe.compose.tree import in_file, key_place, text
+from regscribe.shipped import shipped
 from regscribe.source import Document, Node
 
 MAP, LIBRARY = "map", "library"
@@ -35,7 +36,7 @@ class Shelf:
 
     folder: Path
     findings: Findings
-    shipped: Path = field(default_factory=source.shipped)
+    shipped: Path = field(default_factory=shipped)
     hashes: dict[Path, str] = field(default_factory=dict)
     known: dict[Path, File | None] = field(default_factory=dict)
 

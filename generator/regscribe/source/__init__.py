@@ -11,7 +11,6 @@ from regscribe.source.document import Document, Node, Path, Place, Plain
 from regscribe.source.reading import display_name, parse, read
 from regscribe.source.rules import RULES
 from regscribe.source.scalars import NumberFormError, resolve, shorten
-from regscribe.source.shipped import shipped
 
 __all__ = [
     "RULES",
@@ -25,7 +24,6 @@ __all__ = [
     "load",
     "parse",
     "resolve",
-    "shipped",
     "shorten",
 ]
 
