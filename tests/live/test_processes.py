@@ -1,3 +1,4 @@
+import asyncio
 import json
 import os
 import pty
@@ -11,6 +12,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+
+from regscribe.simulate import Exchange
 
 Start = Callable[..., subprocess.Popen[str]]
 
@@ -52,6 +55,26 @@ def test_ctrl_c_ends_a_scan_with_what_was_found(start: Start, serve: Callable[..
     found = json.loads(out)
     assert (code, found["complete"], [one["unit_id"] for one in found["found"]]) == (130, False, [1])
     assert "stopped before the end" in err
+
+
+def test_ctrl_c_during_a_write_lets_it_come_to_its_end(start: Start, serve: Callable[..., Any]) -> None:
+    asked, go = threading.Event(), threading.Event()
+
+    async def held(exchange: Exchange) -> bytes:
+        if exchange.request.pdu[0] in {6, 16}:
+            asked.set()
+            await asyncio.to_thread(go.wait, 20)
+        return exchange.frame
+
+    with serve(delivery=held) as running:
+        process = start("write", f"tcp:{running.host}:{running.port}?model=16C&timeout=20", "setpoint_ram", "99.5")
+        assert asked.wait(20)
+        process.send_signal(signal.SIGINT)
+        assert process.stderr is not None
+        assert "finishing what is being written" in process.stderr.readline()
+        go.set()
+        code, out, _ = ended(process)
+    assert (code, out) == (130, "setpoint_ram  99.5 °F\n")
 
 
 def test_a_port_that_vanishes_ends_watching_after_patience(

@@ -7,6 +7,7 @@ from regscribe.cli.failure import told
 from regscribe.cli.output import print_json, remark, show_table
 from regscribe.cli.read import heading
 from regscribe.cli.requests import show_requests
+from regscribe.cli.shield import shielded
 from regscribe.cli.target import HELP, checked_identity, opened, target_options
 from regscribe.live import names
 from regscribe.live import target as targets
@@ -32,7 +33,7 @@ def command(*, target: Target, as_json: bool, name: str | None, confirm: bool, d
         with told():
             _list(targets.identified(target), as_json=as_json)
         return 0
-    with opened(target, identity=identity) as device:
+    with opened(target, identity=identity) as device, shielded() as shield:
         found = names.command_named(type(device), name)
         unsent = dry(device).written if dry_run else []
         device.run(operations.run(found, confirm=confirm))
@@ -42,7 +43,7 @@ def command(*, target: Target, as_json: bool, name: str | None, confirm: bool, d
         show_requests(unsent)
     else:
         remark(f"{name}: done")
-    return 0
+    return shield.code
 
 
 def _list(target: Target, *, as_json: bool) -> None:

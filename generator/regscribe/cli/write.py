@@ -8,6 +8,7 @@ from regscribe.cli.completing import complete_register, complete_value
 from regscribe.cli.output import print_json, remark, show_table
 from regscribe.cli.read import heading
 from regscribe.cli.requests import plain_requests, show_requests
+from regscribe.cli.shield import shielded
 from regscribe.cli.target import HELP, checked_identity, opened, target_options
 from regscribe.live import names, values
 from regscribe.live.dry import Written, dry
@@ -53,7 +54,7 @@ def command(  # noqa: PLR0913 - the options of the command
     identity: bool,
 ) -> int:
     """Write one register."""
-    with opened(target, identity=identity) as device:
+    with opened(target, identity=identity) as device, shielded() as shield:
         register = _writable(type(device), name, view)
         unit = device.run(operations.read_unit(register))
         meant = values.parse(register, value, current_unit=unit)
@@ -70,7 +71,7 @@ def command(  # noqa: PLR0913 - the options of the command
     else:
         show_table(("REGISTER", "VALUE"), [(name, f"{values.as_text(register, meant)} {unit}".rstrip())])
         _remarks(register, spared=spared)
-    return 0
+    return shield.code
 
 
 def _writable(driver: type[BareDevice], name: str, view: str | None) -> Register[Any]:
