@@ -9,7 +9,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))  # the helpers are no part of what is tested, so no package of it
 
-from independent.table import PROPERTY, Agreed, table  # noqa: E402 (found by the line above)
+from independent.table import PROPERTY, Agreed, table
 
 AGREEMENTS: list[Agreed] = []
 

@@ -41,7 +41,6 @@ NOBODY = {
 """Exchanges that none of the controllers can carry out."""
 
 
-
 class Printed(NamedTuple):
     """An exchange of a manual: `answer` None where it prints the request only."""
 
@@ -239,9 +238,8 @@ def as_request(example: FrameExample) -> Request:
 @every_exchange
 def test_the_link_of_the_drivers_sends_the_printed_bytes(printed: Printed) -> None:
     refusal = with_crc(replace(printed.request, frame=bytes((printed.sent[0], 0x80 | printed.sent[1], 4)), crc=False))
-    with other_end(refusal if printed.request.unit else b"") as (link, got):
-        with contextlib.suppress(NoAnswer):
-            link.call(printed.request.unit, as_request(printed.request))
+    with other_end(refusal if printed.request.unit else b"") as (link, got), contextlib.suppress(NoAnswer):
+        link.call(printed.request.unit, as_request(printed.request))
     assert b"".join(got) == printed.sent
 
 
@@ -314,7 +312,9 @@ def rate_after(register_map: RegisterMap, frame: bytes) -> object:
 
 def test_no_printed_frame_is_left_out() -> None:
     """The manuals print 11 (Series C), 11 (CN8200, the same), 8 (Series 100) and 16 (Platinum) frames."""
-    counted = {name: {each.frame for each in compiled(name).examples if isinstance(each, FrameExample)} for name in MAPS}
+    counted = {
+        name: {each.frame for each in compiled(name).examples if isinstance(each, FrameExample)} for name in MAPS
+    }
     assert len(counted["athena/series-c"]) == len(counted["omega/cn8200"]) == 11
     assert len(counted["fdc/series-100"]) == 8
     general = [each for each in compiled(PLATINUM).examples if isinstance(each, FrameExample)]

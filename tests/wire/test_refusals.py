@@ -4,7 +4,20 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pytest
-from independent.answers import Answer, Client, Partly, Payload, Raw, Read, Refused, Silent, Unable, Values, Write, Written
+from independent.answers import (
+    Answer,
+    Client,
+    Partly,
+    Payload,
+    Raw,
+    Read,
+    Refused,
+    Silent,
+    Unable,
+    Values,
+    Write,
+    Written,
+)
 from independent.families import FAMILIES, Family
 from independent.minimal import Minimal, MinimalRtu
 from independent.refusals import SERIES_100, SERIES_C, Case, broadcasts, platinum

@@ -10,7 +10,6 @@ from independent.drivers import FINE, Case, agrees, bound, readings, written
 from independent.families import FAMILIES, Family
 from independent.mbpoll import Mbpoll
 from independent.places import Shown, Stretch, reading_functions, stretches
-from independent.stage import Stage
 from independent.ways import CLIENTS, own_link, talking
 
 from regscribe.model import Space, WireType

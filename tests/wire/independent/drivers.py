@@ -52,7 +52,9 @@ def readings(family: Family) -> dict[tuple[str, str], Any]:
         }
 
 
-def agrees(device: SimulatedDevice, register: Register, view: View, number: float | str, said: Any, fine: float) -> bool:
+def agrees(
+    device: SimulatedDevice, register: Register, view: View, number: float | str, said: Any, fine: float
+) -> bool:
     """Tell whether `number`, as a client read it from the view, means what the driver says."""
     if isinstance(number, str):
         return str(said) == _unswapped(number, view).rstrip("\0 ")

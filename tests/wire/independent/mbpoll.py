@@ -76,9 +76,11 @@ class Mbpoll:
     def write_float(self, unit: int, address: int, number: float, *, swapped: bool) -> Answer:
         """Write one IEEE number."""
         options = _order(swapped=swapped)
-        return self._judge(self._run(unit, address, "4:float", 3.0, values=[repr(number)], options=options)) or Written()
+        return (
+            self._judge(self._run(unit, address, "4:float", 3.0, values=[repr(number)], options=options)) or Written()
+        )
 
-    def _run(  # noqa: PLR0913 (the parts of one command line)
+    def _run(
         self,
         unit: int,
         address: int,
@@ -89,7 +91,20 @@ class Mbpoll:
         values: list[str] | None = None,
         options: tuple[str, ...] = (),
     ) -> "subprocess.CompletedProcess[str]":
-        head = ["mbpoll", "-0", "-1", "-a", str(unit), "-r", str(address), "-t", kind, "-o", f"{patience:.2f}", *options]
+        head = [
+            "mbpoll",
+            "-0",
+            "-1",
+            "-a",
+            str(unit),
+            "-r",
+            str(address),
+            "-t",
+            kind,
+            "-o",
+            f"{patience:.2f}",
+            *options,
+        ]
         asked = ["-c", str(count)] if count else []
         return subprocess.run(  # noqa: S603 (a fixed program, no shell)
             [*head, *asked, *self._target, *(values or [])],

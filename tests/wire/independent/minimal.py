@@ -5,7 +5,20 @@ from typing import ClassVar, Self
 
 import minimalmodbus
 
-from independent.answers import Answer, Partly, Payload, Question, Raw, Read, Refused, Silent, Unable, Values, Write, Written
+from independent.answers import (
+    Answer,
+    Partly,
+    Payload,
+    Question,
+    Raw,
+    Read,
+    Refused,
+    Silent,
+    Unable,
+    Values,
+    Write,
+    Written,
+)
 
 CODES = {
     "Slave reported illegal function": 1,

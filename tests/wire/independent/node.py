@@ -6,7 +6,20 @@ import subprocess
 from pathlib import Path
 from typing import Any, ClassVar, Self
 
-from independent.answers import Answer, Partly, Payload, Question, Raw, Read, Refused, Silent, Unable, Values, Write, Written
+from independent.answers import (
+    Answer,
+    Partly,
+    Payload,
+    Question,
+    Raw,
+    Read,
+    Refused,
+    Silent,
+    Unable,
+    Values,
+    Write,
+    Written,
+)
 
 HERE = Path(__file__).parents[1] / "node"
 MODULES = Path(__file__).parents[3] / ".cache" / "wire" / "node_modules"

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from independent.answers import Answer, Partly, Payload, Question, Raw, Read, Refused, Silent, Values, Write, Written
 from regscribe.model import Access, Model, Register, Space
 
+
 @dataclass(frozen=True)
 class Case:
     """A request and what the manual says comes of it; `first` are values that come before garbage.
@@ -75,7 +76,12 @@ SERIES_100 = (
     ),
     Case("an output in automatic control", "7-3", Write(6, 66, (100,)), Refused(3), before={"mode.operation": 0}),
     Case(
-        "an output in manual control", "7-3", Write(6, 66, (100,)), Written(), before={"mode.operation": 3}, after={"mv1": 1}
+        "an output in manual control",
+        "7-3",
+        Write(6, 66, (100,)),
+        Written(),
+        before={"mode.operation": 3},
+        after={"mv1": 1},
     ),
     Case("a calibration that is locked", "7-5", Write(6, 52, (100,)), Refused(3)),
     Case("the command that unlocks it", "7-5", Write(6, 72, (26669,)), Written()),

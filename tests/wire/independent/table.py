@@ -28,7 +28,11 @@ def table(agreements: Iterable[Agreed]) -> list[str]:
     head = ["client", "family", *kinds, "exceptions", "silences"]
     body = [[*row, *(_pair(counts, row, kind) for kind in kinds), *_faults(counts, row)] for row in rows]
     total = f"{sum(counts.values())} agreements of {len({client for client, _, _ in counts})} clients"
-    return ["each cell: values read / values written and seen alike by client, driver and device", *_aligned([head, *body]), total]
+    return [
+        "each cell: values read / values written and seen alike by client, driver and device",
+        *_aligned([head, *body]),
+        total,
+    ]
 
 
 def _pair(counts: Counter[tuple[str, str, str]], row: tuple[str, str], kind: str) -> str:
