@@ -7,6 +7,7 @@ import sys
 from collections.abc import Iterator
 
 import compiling
+import planning
 import talking
 from measure import Row
 from rich.console import Console
@@ -21,6 +22,7 @@ def rows() -> Iterator[Row]:
     yield from talking.reading()
     yield from compiling.start_up()
     yield from compiling.real_maps()
+    yield from planning.rows()
 
 
 def main() -> int:
