@@ -69,7 +69,7 @@ def test_a_unit_set_to_jbus_is_addressed_one_higher() -> None:
         assert running.device.peek("local_setpoint") == 123
         assert running.requests[-2][1:3] != (4).to_bytes(2, "big")
         with AthenaC10.tcp(running.host, port=running.port, unit=1) as misled:
-            assert misled.local_setpoint.read_raw() != (123,)
+            assert misled.proportional_band.read_raw() == (123,)  # the neighbour
 
 
 def test_configuration_is_brought_into_effect_by_the_write_that_changes_it() -> None:

@@ -192,6 +192,21 @@ def test_a_value_counts_against_the_state_that_the_others_will_leave(controller:
     assert [device.peek(path) for path in ("setpoint", "output_1")] == [2500, 9]
 
 
+def test_registers_that_a_unit_lacks_are_named_before_anything_is_sent(
+    controller: Any, device: SimulatedDevice, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    take = device.handle
+
+    def lack(pdu: bytes) -> bytes | None:
+        address, count = int.from_bytes(pdu[1:3], "big"), int.from_bytes(pdu[3:5], "big")
+        return b"\x83\x02" if pdu[0] == 3 and address <= 24 < address + count else take(pdu)
+
+    monkeypatch.setattr(device, "handle", lack)
+    with pytest.raises(ValueRefused, match=r"slope: this unit cannot read it.*no such address"):
+        controller.configure({"band": 1, "slope": 2, "delay": 3})
+    assert written(controller) == []
+
+
 # --- what breaks
 
 

@@ -43,6 +43,9 @@ class DryLink:
     def __getattr__(self, name: str) -> Any:  # noqa: ANN401 - whatever else the link has
         return getattr(self._link, name)
 
+    def retune(self, change: object) -> None:
+        """Talk as before: what would have changed the line was not written."""
+
     def call(self, unit: int, request: Request) -> Reply:
         """Answer a write with its echo; send anything else."""
         if request.function not in WRITES:

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from regscribe.runtime.errors import LeftAt, NotWritten, RegscribeError, ValueRefused, lost
 from regscribe.runtime.lookback import Target, differs, is_lost, meaning, same, words_of
+from regscribe.runtime.reads import read_request
+from regscribe.runtime.request import verify
 from regscribe.runtime.sending import applied, called, send
 from regscribe.runtime.session import Operation, Pause, Retune, Session
 
@@ -97,9 +99,11 @@ def _free(session: Session, target: Target, governs: Governs, words: Words, old:
     if governs.setting != "address" or _meant_unit(target, words, session) == session.unit:
         return
     unit = _meant_unit(target, words, session)
+    request = read_request(*target)
     yield Retune(unit=unit)
     try:
-        found = (yield from words_of(session, [target]))[register.path]
+        reply = yield request  # once: nobody is expected there
+        found = verify(request, reply, unit=unit, meanings=session.protocol.exceptions) if reply else ()
     except RegscribeError:
         found = ()  # nobody there, or nobody that knows this register
     yield old

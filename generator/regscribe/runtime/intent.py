@@ -7,7 +7,7 @@ from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from regscribe.runtime import codec
-from regscribe.runtime.errors import ValueRefused, ValuesRefused
+from regscribe.runtime.errors import ExceptionAnswer, ValueRefused, ValuesRefused
 from regscribe.runtime.lookback import meaning, words_of
 from regscribe.runtime.reads import know
 from regscribe.runtime.report import Change, Fate
@@ -18,6 +18,7 @@ from regscribe.runtime.spec import registers_of
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
+    from regscribe.runtime.lookback import Target
     from regscribe.runtime.register import Register
     from regscribe.runtime.report import Words
     from regscribe.runtime.session import Operation, Session
@@ -85,8 +86,24 @@ def look(session: Session, targets: Iterable[Wanted]) -> Operation[Sight]:
     session.forget()
     paths = [path for one in chosen for path in needs(one.register, one.view)]
     state = dict((yield from know(session, paths, fresh=True)))
-    words = yield from words_of(session, [(one.register, one.view) for one in chosen if one.register.access == "rw"])
+    words = yield from _words(session, [(one.register, one.view) for one in chosen if one.register.access == "rw"])
     return Sight(state, words)
+
+
+def _words(session: Session, targets: Sequence[Target]) -> Operation[dict[str, Words]]:
+    """The words of registers; ValueRefused for those that this unit does not have, found one by one."""
+    try:
+        return (yield from words_of(session, targets))
+    except ExceptionAnswer:
+        refusals: list[ValueRefused] = []
+        found: dict[str, Words] = {}
+    for target in targets:
+        try:
+            found |= yield from words_of(session, [target])
+        except ExceptionAnswer as error:
+            refusals.append(ValueRefused(target[0].path, f"this unit cannot read it, so it may not have it: {error}"))
+    refuse(refusals)
+    return found
 
 
 def intend(

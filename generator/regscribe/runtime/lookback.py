@@ -18,7 +18,7 @@ from regscribe.runtime.errors import (
     WriteUnknown,
     lost,
 )
-from regscribe.runtime.reads import fetch, item_of
+from regscribe.runtime.reads import fetch, item_of, read_request
 from regscribe.runtime.session import Pause
 
 if TYPE_CHECKING:
@@ -47,7 +47,11 @@ def is_lost(error: Exception) -> bool:
 
 def words_of(session: Session, targets: Iterable[Target]) -> Operation[dict[str, Words]]:
     """The present words of registers in these views, by path, in few requests."""
-    places = {register.path: item_of(register, view) for register, view in targets}
+    chosen = list(targets)
+    if len(chosen) == 1:
+        register, view = chosen[0]
+        return {register.path: (yield from session.exchange(read_request(register, view)))}
+    places = {register.path: item_of(register, view) for register, view in chosen}
     found = yield from fetch(session, dict.fromkeys(places.values()))
     return {path: found[place] for path, place in places.items()}
 
