@@ -7,10 +7,8 @@ LEAST_WIDTH, MARGIN = 20, 16
 """Columns that a curve has at least, and those of the scale beside it."""
 
 
-def chart(
-    title: str, seconds: Sequence[float], values: Sequence[float], *, unit: str, width: int, across: str = "s"
-) -> str:
-    """The curve of `values` over `seconds` (or what `across` says), at most `width` columns wide; "" without values."""
+def chart(title: str, seconds: Sequence[float], values: Sequence[float], *, unit: str, width: int) -> str:
+    """The curve of `values` over `seconds` as text of at most `width` columns; "" without values."""
     if not values:
         return ""
     import plotille  # type: ignore[import-untyped]  # noqa: PLC0415 - it ships no types; only a chart needs it
@@ -22,7 +20,7 @@ def chart(
     room = (high - low) * 0.05 or max(abs(high) * 0.05, 1.0)
     figure.set_y_limits(low - room, high + room)
     figure.set_x_limits(min(seconds), max(*seconds, min(seconds) + 1))
-    figure.x_label, figure.y_label = across, unit
+    figure.x_label, figure.y_label = "s", unit
     figure.register_label_formatter(float, _label)
     figure.plot(seconds, values)
     return f"{title}\n{figure.show()}\n"

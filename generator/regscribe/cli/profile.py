@@ -3,16 +3,20 @@
 import shutil
 import sys
 from collections.abc import Iterator
+from fractions import Fraction
+from typing import Any
 
-from regscribe.cli.chart import chart
 from regscribe.cli.output import show_table
-from regscribe.programs.axis import time_scale
+from regscribe.programs.axis import steps_of, time_scale
 from regscribe.programs.files import plain
 from regscribe.programs.model import RAW, Program
 from regscribe.programs.profile import Profile, profile
 
-POINTS = 400
-"""The curve is drawn through so many points, since a line between two is drawn at its ends only."""
+BLANK = " \u2800"
+"""A blank, and the one of braille."""
+
+ROWS, COLUMNS, MARGIN, MOST = 16, 10, 16, 6
+"""Rows of the curve at most, columns between two marks, columns of the scale beside it, marks of a unit of time."""
 
 SECONDS = {"s": 1, "min": 60, "h": 3600, "d": 86400, "": 1}
 
@@ -31,7 +35,7 @@ def show_program(program: Program, *, first: int = 1) -> None:
 
 def _rows(program: Program, names: list[str], *, first: int, soaks: bool) -> Iterator[tuple[str, ...]]:
     for number, one in enumerate(program.segments, start=first):
-        soak = (str(one.soak),) if soaks else ()
+        soak = ("" if one.soak is None else str(one.soak),) if soaks else ()
         yield (str(number), str(one.to), str(one.ramp), *soak, *(one.outputs.get(name, "") for name in names))
     if program.final:
         soak = ("",) if soaks else ()
@@ -39,26 +43,36 @@ def _rows(program: Program, names: list[str], *, first: int, soaks: bool) -> Ite
 
 
 def curve(found: Profile) -> None:
-    """Draw the setpoint over time."""
+    """Draw the setpoint over time; round numbers stand at every row and every tenth column."""
     if not found.total:
         return
     raw = found.time == RAW
-    unit = time_scale(found.total, most=6, raw=raw).unit
-    times = [float(found.total) * number / POINTS for number in range(POINTS + 1)]
-    levels = [_level(found, time) for time in times]
-    known = [(time / SECONDS[unit], level) for time, level in zip(times, levels, strict=True) if level is not None]
-    wide = shutil.get_terminal_size().columns
-    label = f"raw ({found.counts_in})" if raw and found.counts_in else unit or RAW
-    text = chart("", [one for one, _ in known], [one for _, one in known], unit=found.level, width=wide, across=label)
-    sys.stdout.write(text)
+    unit = time_scale(found.total, most=MOST, raw=raw).unit
+    wide = max((shutil.get_terminal_size().columns - MARGIN) // COLUMNS, 2)
+    across = steps_of(found.total / SECONDS[unit], most=wide)
+    low, high = min(found.levels), max(found.levels)
+    up = steps_of(max(high - low, Fraction(1)), most=ROWS - 2)
+    bottom = low // up * up
+    figure = _figure(-(-found.total // (across * SECONDS[unit])), -((bottom - high) // up) + 1)
+    figure.set_x_limits(0, float(across * figure.width / COLUMNS))
+    figure.set_y_limits(float(bottom), float(bottom + up * figure.height))
+    figure.x_label = f"raw ({found.counts_in})" if raw and found.counts_in else unit or RAW
+    figure.y_label = found.level
+    points = [(leg.end / SECONDS[unit], leg.to) for leg in found.legs]
+    figure.plot([float(time) for time, _ in points], [float(level) for _, level in points])
+    sys.stdout.write("\n" + "".join(f"{line.rstrip(BLANK)}\n" for line in figure.show().splitlines()))
 
 
-def _level(found: Profile, time: float) -> float | None:
-    """The setpoint at a time; None while it comes from wherever the controller was."""
-    for leg in found.legs:
-        if leg.start <= time <= leg.end:
-            if leg.source is None:
-                return float(leg.to) if time == leg.end else None
-            share = (time - float(leg.start)) / float(leg.end - leg.start) if leg.end > leg.start else 1
-            return float(leg.source) + (float(leg.to) - float(leg.source)) * share
-    return None
+def _figure(columns: int, rows: int) -> Any:  # noqa: ANN401 - plotille ships no types
+    import plotille  # type: ignore[import-untyped]  # noqa: PLC0415 - as above; only a curve needs it
+
+    figure = plotille.Figure()
+    figure.width, figure.height = max(columns, 1) * COLUMNS, max(rows, 2)
+    figure.color_mode, figure.with_colors = "names", False
+    figure.register_label_formatter(float, _label)
+    return figure
+
+
+def _label(value: float, chars: int, delta: float, left: bool = False) -> str:  # noqa: ARG001, FBT001, FBT002 - as plotille calls it
+    text = f"{value:.6g}"
+    return text.ljust(chars) if left else text.rjust(chars)

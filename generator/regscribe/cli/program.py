@@ -12,11 +12,14 @@ from regscribe.cli.output import print_json, remark, show_table
 from regscribe.cli.profile import show_program
 from regscribe.cli.read import heading
 from regscribe.cli.target import HELP, checked_identity, opened, target_options
+from regscribe.live import catalogue
+from regscribe.live.errors import TargetError
 from regscribe.live.target import Target
 from regscribe.programs import (
     Checked,
     File,
     Place,
+    Program,
     ProgramRefused,
     ProgramUnfinished,
     State,
@@ -25,6 +28,7 @@ from regscribe.programs import (
     dump,
     load,
     place,
+    places,
     plain,
     read,
     status,
@@ -216,11 +220,21 @@ def draw(*, file: Path, svg: Path | None) -> int:
     """Draw a file."""
     with told():
         given = load(file).program
+    first = _first(given)
     if svg:
-        _save(svg, picture(given))
+        _save(svg, picture(given, first=first))
     else:
-        show_program(given)
+        show_program(given, first=first)
     return 0
+
+
+def _first(given: Program) -> int:
+    """The number of the first segment on the model that a file is for; 1 if it says nothing of it."""
+    try:
+        name = f"{given.map_id}:{given.model}" if given.map_id else given.model
+        return places(catalogue.find(name).driver)[0].spec.segments.first if given.model else 1
+    except (TargetError, IndexError):
+        return 1
 
 
 def _save(path: Path, text: str) -> None:

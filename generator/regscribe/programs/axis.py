@@ -47,6 +47,11 @@ def time_scale(total: Fraction, *, most: int, raw: bool) -> Scale:
     return Scale(_within(total, step * seconds, seconds), unit)
 
 
+def steps_of(total: Fraction, *, most: int) -> Fraction:
+    """The smallest round step of which at most `most` reach `total`."""
+    return _step(total, STEPS, most)
+
+
 def _step(total: Fraction, steps: Sequence[Fraction], most: int) -> Fraction:
     return next((one for one in steps if total / one <= most), steps[-1] * max(1, round(total / steps[-1] / most)))
 
