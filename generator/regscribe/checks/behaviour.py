@@ -112,7 +112,7 @@ def _output(output: Output) -> Iterator[Role]:
         yield from (
             (f"pid.{name}", getattr(output.pid, name), False) for name in ("band", "integral", "derivative", "bias")
         )
-        yield from (("pid.span", path, False) for path in output.pid.span or ())
+        yield from (("pid.span", path, False) for path in output.pid.ends or ())
     if output.on_off:
         yield "on_off.hysteresis", output.on_off.hysteresis, False
 

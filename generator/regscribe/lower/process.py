@@ -76,7 +76,7 @@ def _pid(node: Node, scope: Scope) -> Pid:
         integral=_role(node, "integral", scope),
         derivative=_role(node, "derivative", scope),
         bias=_role(node, "bias", scope),
-        span=(ends[0], ends[1]) if ends else None,
+        ends=(ends[0], ends[1]) if ends else None,
     )
 
 

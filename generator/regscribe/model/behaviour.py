@@ -30,7 +30,7 @@ class Effect:
 class Pid:
     """Proportional control under `when`: registers of its parameters (empty: the device has none).
 
-    `band` is in units of the process value, or in per cent of the distance between the two registers of `span`; a band
+    `band` is in units of the process value, or in per cent of the distance between the two registers of `ends`; a band
     of 0 is on/off control. `integral` and `derivative` are in seconds, 0 is none; `bias` is added to the output.
     """
 
@@ -39,7 +39,7 @@ class Pid:
     integral: str = ""
     derivative: str = ""
     bias: str = ""
-    span: tuple[str, str] | None = None
+    ends: tuple[str, str] | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -84,9 +84,9 @@ class Loop:
 
     def _band(self, pid: Pid) -> float:
         band = self._number(pid.band)
-        if pid.span is None:
+        if pid.ends is None:
             return band
-        low, high = (self._number(path) for path in pid.span)
+        low, high = (self._number(path) for path in pid.ends)
         return band / 100 * (high - low) if high > low else band
 
     def _part(self, path: str, otherwise: float) -> float:

@@ -95,8 +95,8 @@ def _roles(context: Context, model: Model, found: Process) -> Iterator[Row]:
             yield role, _subject(context, model, path)
     for number, output in enumerate(found.outputs, start=1):
         yield f"output {number}", _output(context, model, output)
-    for number, alarm in enumerate(found.alarms, start=1):
-        yield f"alarm {number}", _alarm(context, model, alarm)
+    for alarm in found.alarms:
+        yield "alarm", _alarm(context, model, alarm)
 
 
 def _output(context: Context, model: Model, output: Output) -> Md:
@@ -115,7 +115,7 @@ def _output(context: Context, model: Model, output: Output) -> Md:
     )
     parts = tuple(md(word, _subject(context, model, path)) for word, path in named if path)
     cools = md("cools", _when(context, output.cools, model)) if output.cools is not None else Md()
-    return join("; ", (_subject(context, model, output.percent), *parts, *((cools,) if cools else ())))
+    return lines(_subject(context, model, output.percent), *parts, cools)
 
 
 def _alarm(context: Context, model: Model, alarm: Alarm) -> Md:
@@ -127,7 +127,7 @@ def _alarm(context: Context, model: Model, alarm: Alarm) -> Md:
     named = (("hysteresis ", alarm.hysteresis), ("delay ", alarm.delay), ("not in the first seconds ", alarm.inhibit))
     parts = (md(word, _subject(context, model, path)) for word, path in named if path)
     latched = md("latched", _when(context, alarm.latched, model)) if alarm.latched is not None else Md()
-    return join("; ", (bits, *trips, *parts, *((latched,) if latched else ())))
+    return lines(bits, *trips, *parts, latched)
 
 
 def _when(context: Context, condition: Condition, model: Model) -> Md:
