@@ -84,6 +84,22 @@ def test_a_name_that_is_none_says_which_was_meant(name: str, said: str, cli: Cli
     assert (result.code, said in result.err) == (2, True), result.err
 
 
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("read", "x"),
+        ("watch", "process_value", "--chart", "x"),
+        ("dump", "--group", "x"),
+        ("write", "x", "1"),
+        ("command", "x"),
+    ],
+)
+def test_names_are_looked_up_before_anybody_is_asked(arguments: tuple[str, ...], cli: Cli) -> None:
+    command, *more = arguments
+    result = cli(command, "tcp:127.0.0.1:1?model=16C", *more)
+    assert (result.code, "there is no" in result.err) == (2, True)
+
+
 def test_a_number_is_written_in_the_unit_of_the_device(cli: Cli, oven: str, running: Running) -> None:
     assert cli("write", oven, "setpoint_ram", "150.5 °F").code == 0
     assert cli("read", oven, "setpoint_ram", "--value").out == "150.5\n"

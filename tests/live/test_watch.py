@@ -67,7 +67,7 @@ def test_the_line_is_left_to_others_for_a_tenth_of_what_a_round_takes(monkeypatc
 
 def test_a_device_that_is_silent_is_asked_again_until_patience_ends() -> None:
     rounds = watched(1.0, SILENCE, SILENCE, 1.0, SILENCE, SILENCE, SILENCE, 1.0, give_up=3)
-    seen = []
+    seen: list[RegscribeError | None] = []
     with pytest.raises(GaveUp, match="3 rounds in a row"):
         seen.extend(one.error for one in rounds)
     assert len(seen) == 7

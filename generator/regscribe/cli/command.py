@@ -13,7 +13,7 @@ from regscribe.live import names
 from regscribe.live import target as targets
 from regscribe.live.dry import dry
 from regscribe.live.target import Target
-from regscribe.runtime import BareDevice, operations
+from regscribe.runtime import BareDevice, Command, operations
 
 
 @click.command(
@@ -33,8 +33,12 @@ def command(*, target: Target, as_json: bool, name: str | None, confirm: bool, d
         with told():
             _list(targets.identified(target), as_json=as_json)
         return 0
-    with opened(target, identity=identity) as device, shielded() as shield:
-        found = names.command_named(type(device), name)
+
+    def check(driver: type[BareDevice]) -> Command:
+        return names.command_named(driver, name)
+
+    with opened(target, identity=identity, check=check) as device, shielded() as shield:
+        found = check(type(device))
         unsent = dry(device).written if dry_run else []
         device.run(operations.run(found, confirm=confirm))
     if as_json:

@@ -14,7 +14,8 @@ WHERE = {
 
 @click.command(
     name="completion",
-    epilog="\b\nSwitch it on:\n" + "\n".join(f"  {line}" for line in WHERE.values()),
+    epilog="Example: regscribe completion bash\n\n\b\nSwitch it on:\n"
+    + "\n".join(f"  {line}" for line in WHERE.values()),
 )
 @click.argument("shell", type=click.Choice(list(WHERE)))
 @click.pass_context

@@ -28,7 +28,7 @@ UNGROUPED = "other"
 @click.option("--group", "wanted", multiple=True, metavar="GROUP", help="Only this group. Repeat for several.")
 def command(*, target: Target, as_json: bool, wanted: tuple[str, ...]) -> int:
     """Read everything that a device holds, group by group as the manual has it."""
-    with opened(target) as device:
+    with opened(target, check=lambda driver: _groups(driver, wanted)) as device:
         groups = _groups(type(device), wanted)
         registers = {one.path: one for members in groups.values() for one in members}
         found = {one.name: one for one in device.run(readings(list(registers.values())))}

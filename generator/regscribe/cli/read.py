@@ -29,7 +29,7 @@ from regscribe.runtime import BareDevice, RegscribeError, operations
 @click.option("--raw", is_flag=True, help="Print the words of the view that is preferred, as they stand on the wire.")
 def command(*, target: Target, as_json: bool, wanted: tuple[str, ...], bare: bool, raw: bool) -> int:
     """Read registers, groups, arrays and their elements in few requests."""
-    with opened(target) as device:
+    with opened(target, check=lambda driver: names.chosen(driver, wanted)) as device:
         registers = names.chosen(type(device), wanted)
         if raw:
             words = {one.path: device.run(operations.read_raw(one, None)) for one in registers}

@@ -100,17 +100,23 @@ def understood(text: str, *, config: str | None = None, packages: tuple[str, ...
 
 
 @contextmanager
-def opened(target: Target, *, identity: bool = False) -> Iterator[BareDevice]:
+def opened(
+    target: Target, *, identity: bool = False, check: Callable[[type[BareDevice]], object] | None = None
+) -> Iterator[BareDevice]:
     """The open driver of a target while the block runs; errors in it, too, become one message and an exit code.
 
-    The device is asked for its model if the target has none. With `identity`, a device that shows another model than
-    the target's is refused before anything else is sent.
+    The device is asked for its model if the target has none. `check` is called with the driver's class before the link
+    is opened: it raises TargetError for names that the model does not have. With `identity`, a device that shows
+    another model than the target's is refused before anything else is sent.
     """
     quiet()
     with told():
         found = targets.identified(target)
+        driver = found.known().driver
+        if check is not None:
+            check(driver)
         if isinstance(target.trace, Tracing):
-            target.trace.tell(found.known().driver)
+            target.trace.tell(driver)
         with targets.connect(found) as device:
             if identity:
                 same_device(device, found)

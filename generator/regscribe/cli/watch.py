@@ -61,8 +61,9 @@ def command(
     give_up: int,
 ) -> int:
     """Read registers again and again."""
-    with opened(target) as device, ExitStack() as stack:
-        registers = names.chosen(type(device), [*wanted, *charts])
+    every_name = (*wanted, *charts)
+    with opened(target, check=lambda driver: names.chosen(driver, every_name)) as device, ExitStack() as stack:
+        registers = names.chosen(type(device), every_name)
         curves = [one.path for one in names.chosen(type(device), charts)]
         rounds = watch(device, registers, every=every, count=count, give_up=give_up)
         try:

@@ -54,8 +54,12 @@ def command(  # noqa: PLR0913 - the options of the command
     identity: bool,
 ) -> int:
     """Write one register."""
-    with opened(target, identity=identity) as device, shielded() as shield:
-        register = _writable(type(device), name, view)
+
+    def check(driver: type[BareDevice]) -> Register[Any]:
+        return _writable(driver, name, view)
+
+    with opened(target, identity=identity, check=check) as device, shielded() as shield:
+        register = check(type(device))
         unit = device.run(operations.read_unit(register))
         meant = values.parse(register, value, current_unit=unit)
         if dry_run:
