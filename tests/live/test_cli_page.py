@@ -1,4 +1,4 @@
-"""docs/cli.md is true: what its commands print is what stands there."""
+"""docs/cli.md and other pages are true: what their commands print is what stands there."""
 
 import importlib.util
 import re
@@ -25,10 +25,15 @@ def sessions() -> ModuleType:
     return module
 
 
-def test_the_sessions_of_the_page_print_what_stands_there(sessions: Any, compiled: Any, folder: Path) -> None:
+@pytest.mark.parametrize("name", ["cli.md", "settings.md", "programs.md"])
+def test_the_sessions_of_the_page_print_what_stands_there(
+    sessions: Any, compiled: Any, folder: Path, name: str
+) -> None:
+    (path,) = [one for one in sessions.PAGES if one.name == name]
+    page = path.read_text(encoding="utf-8")
     assert Path.cwd() == folder
     with sessions.player(compiled) as found:
-        assert found.played(PAGE) == PAGE
+        assert found.played(page) == page
 
 
 def test_a_session_that_prints_something_else_is_noticed(sessions: Any, compiled: Any, folder: Path) -> None:

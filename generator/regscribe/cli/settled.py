@@ -1,7 +1,6 @@
 """What the commands about settings share: errors, options, a bar while they write, and how they break off."""
 
-import signal
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -11,7 +10,8 @@ import click
 from regscribe import settings
 from regscribe.cli.failure import REFUSED, UNKNOWN_STATE, USAGE, Failure
 from regscribe.cli.output import show_table
-from regscribe.cli.progress import progress
+from regscribe.cli.progress import Advance, progress
+from regscribe.cli.shield import Shield, shielded
 from regscribe.live.values import as_text
 from regscribe.runtime import BareDevice, NotConfigured
 from regscribe.runtime.report import Change, Fate, Progress, Teller
@@ -46,25 +46,13 @@ def told() -> Iterator[None]:
 @contextmanager
 def telling(label: str, backup: settings.Backup) -> Iterator[Teller]:
     """A bar while settings are written; Ctrl-C breaks off between two requests, a second one at once."""
-    asked = False
-
-    def interrupt(*_: object) -> None:
-        nonlocal asked
-        if asked:
-            raise KeyboardInterrupt
-        asked = True
-
-    before = signal.signal(signal.SIGINT, interrupt)
-    try:
-        with progress(sum(1 for _ in backup.settings()), label) as advance:
-            yield _teller(lambda: asked, advance)
-    finally:
-        signal.signal(signal.SIGINT, before)
+    with shielded() as shield, progress(sum(1 for _ in backup.settings()), label) as advance:
+        yield _teller(shield, advance)
 
 
-def _teller(asked: Callable[[], bool], advance: Any) -> Teller:  # noqa: ANN401 - the bar's own type
+def _teller(shield: Shield, advance: Advance) -> Teller:
     def tell(state: Progress) -> None:
-        if asked():
+        if shield.interrupted:
             raise Stopped
         advance(f"{state.done} of {state.total}: {state.what}")
 
