@@ -77,11 +77,13 @@ def test_ctrl_c_during_a_write_lets_it_come_to_its_end(start: Start, serve: Call
     assert (code, out) == (130, "setpoint_ram  99.5 °F\n")
 
 
+@pytest.mark.parametrize("transport", ["tcp", "pty"])
 def test_a_port_that_vanishes_ends_watching_after_patience(
-    start: Start, serve: Callable[..., Any], folder: Path
+    transport: str, start: Start, serve: Callable[..., Any], folder: Path
 ) -> None:
-    with serve() as running:
-        target = f"tcp:{running.host}:{running.port}?model=16C&timeout=0.2"
+    with serve(transport=transport) as running:
+        link = f"rtu:{running.path}?baud=9600&" if running.path else f"tcp:{running.host}:{running.port}?"
+        target = f"{link}model=16C&timeout=0.2"
         process = start(
             "watch", target, "process_value", "--every", "0.01", "--give-up", "2", "--json", "--log", "log.csv"
         )
@@ -90,6 +92,19 @@ def test_a_port_that_vanishes_ends_watching_after_patience(
     assert (code, "Error: " in err) == (3, True)
     assert json.loads(out.splitlines()[-1])["error"]["kind"] in {"link-lost", "no-answer"}
     assert (folder / "log.csv").read_text(encoding="utf-8").endswith("\n")
+
+
+@pytest.mark.parametrize(
+    ("transport", "settings"), [("tcp", ""), ("rtu-tcp", "&framing=rtu"), ("ascii-tcp", "&framing=ascii")]
+)
+def test_every_kind_of_frame_carries_and_tells_its_values(
+    transport: str, settings: str, cli: Callable[..., Any], serve: Callable[..., Any]
+) -> None:
+    with serve(transport=transport, addressing="jbus") as running:
+        target = f"tcp:{running.host}:{running.port}?model=16C&addressing=jbus{settings}"
+        result = cli("read", target, "input_type", "--trace")
+    assert result.out == "input_type  J_THERMOCOUPLE\n"
+    assert "input_type = J_THERMOCOUPLE" in result.err
 
 
 def test_a_serial_line_carries_every_command(cli: Callable[..., Any], serve: Callable[..., Any]) -> None:

@@ -1,6 +1,9 @@
+from contextlib import suppress
 from typing import Any
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from regscribe.live import catalogue, values
 from regscribe.runtime import Choice, Flags, Register, ValueRefused, Word
@@ -126,3 +129,18 @@ def test_a_version_and_a_text_stay_texts() -> None:
 def test_for_people_numbers_are_short_and_nothing_set_is_said() -> None:
     assert values.as_text(OVEN["setpoint_ram"], 77.0) == "77"
     assert values.as_text(TIMER["status"], TIMER["status"].kind.make(0)) == "none"
+
+
+@given(
+    st.sampled_from([*OVEN.values(), *PRESS.values(), *TIMER.values()]),
+    st.text() | st.floats() | st.integers() | st.lists(st.text()),
+)
+def test_any_text_or_number_is_a_value_or_refused(register: Register[Any], plain: Any) -> None:
+    with suppress(ValueRefused):
+        values.parse(register, plain)
+
+
+@given(st.floats(allow_nan=False, allow_infinity=False))
+def test_a_number_of_use_is_read_as_it_is_shown(number: float) -> None:
+    shown = values.show(OVEN["setpoint_ram"], number)
+    assert values.parse(OVEN["setpoint_ram"], str(shown)) == number
