@@ -120,6 +120,14 @@ def test_a_limit_that_the_unit_of_measure_converted_is_checked_after_it(
     assert caught.value.report.not_written == ("degrees", "setpoint")
 
 
+def test_a_limit_that_the_unit_of_measure_will_raise_does_not_stop_a_value(
+    controller: Any, device: SimulatedDevice
+) -> None:
+    device.poke("degrees", 1)
+    controller.configure({"setpoint": 3000, "degrees": 0}, confirm=True)  # 2000 °C are 3632 °F
+    assert device.peek("setpoint") == 3000
+
+
 def test_a_dry_run_shows_the_plan_and_writes_nothing(controller: Any) -> None:
     report = controller.configure({"trim_low": 3, "band": 10, "cycle": 6, "span_low": 9}, confirm=True, dry_run=True)
 
@@ -335,6 +343,20 @@ def test_a_device_that_stops_in_the_middle_of_a_request_names_the_register(
     assert "delay" in str(caught.value)
 
 
+def test_a_value_that_is_half_written_is_unknown(
+    controller: Any, device: SimulatedDevice, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    take = device.handle
+
+    def stop(pdu: bytes) -> bytes | None:
+        return take(pdu) and (pdu[:3] + b"\0\3") if pdu[0] == 16 else take(pdu)
+
+    monkeypatch.setattr(device, "handle", stop)
+    with pytest.raises(NotConfigured, match="3 of 4 words") as caught:
+        controller.configure({"total": 1, "goal": 2}, undo=False)
+    assert (caught.value.report.written, caught.value.report.unknown) == (("total",), ("goal",))
+
+
 def test_a_value_that_the_device_changes_undoes_all(
     controller: Any, device: SimulatedDevice, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -348,9 +370,10 @@ def test_a_value_that_the_device_changes_undoes_all(
 
     monkeypatch.setattr(device, "handle", clip)
     with pytest.raises(NotConfigured, match=r"delay holds 600 \(words \[600\]\), sent was 700") as caught:
-        controller.configure({"band": 50, "delay": 700})
-    assert (device.peek("band"), device.peek("delay")) == (10, 0)
-    assert caught.value.report.paths(Fate.RESTORED) == ("band", "delay")
+        controller.configure({"band": 50, "delay": 700, "span_low": 5})
+    assert [device.peek(path) for path in ("band", "delay", "span_low")] == [10, 0, 0]
+    assert caught.value.report.paths(Fate.RESTORED) == ("band", "delay", "span_low")
+    assert (device.commands_run, device.pending) == (("commit", "commit"), ())
 
 
 def test_breaking_off_is_undone(controller: Any, device: SimulatedDevice) -> None:
@@ -407,4 +430,5 @@ def test_registers_know_what_stays_and_in_which_order_groups_are_written(kiln: A
         "trim": None,
         "run": None,
         "identity": None,
+        "goals": None,
     }
