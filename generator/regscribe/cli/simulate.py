@@ -89,7 +89,7 @@ def _device(register_map: RegisterMap, model: str, unit: int | None, givens: Seq
         meant = f"; did you mean `{folded[near[0]]}`?" if near else ""
         message = f"{register_map.id} has no model `{model}`: it has {', '.join(names)}{meant}"
         raise click.UsageError(message)
-    values = dict(_given(one, register_map) for one in givens)
+    values = dict(given_value(one, register_map) for one in givens)
     try:
         return SimulatedDevice(register_map, model, unit=unit, givens=values)
     except SimulatorError as error:
@@ -99,7 +99,8 @@ def _device(register_map: RegisterMap, model: str, unit: int | None, givens: Seq
         raise click.UsageError(message) from None
 
 
-def _given(text: str, register_map: RegisterMap) -> tuple[str, bool | frozenset[int]]:
+def given_value(text: str, register_map: RegisterMap) -> tuple[str, bool | frozenset[int]]:
+    """Read one `--given ID=VALUE`: the given and its codes or its yes or no; click.UsageError for what is neither."""
     name, equals, value = text.partition("=")
     kinds = {given.id: given.kind for given in register_map.givens}
     if not equals or name not in kinds:
