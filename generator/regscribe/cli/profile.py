@@ -15,6 +15,9 @@ from regscribe.programs.profile import Profile, profile
 BLANK = " \u2800"
 """A blank, and the one of braille."""
 
+PIPED = 80
+"""Columns where there is no terminal."""
+
 ROWS, COLUMNS, MARGIN, MOST = 16, 10, 16, 6
 """Rows of the curve at most, columns between two marks, columns of the scale beside it, marks of a unit of time."""
 
@@ -48,7 +51,8 @@ def curve(found: Profile) -> None:
         return
     raw = found.time == RAW
     unit = time_scale(found.total, most=MOST, raw=raw).unit
-    wide = max((shutil.get_terminal_size().columns - MARGIN) // COLUMNS, 2)
+    columns = shutil.get_terminal_size().columns if sys.stdout.isatty() else PIPED
+    wide = max((columns - MARGIN) // COLUMNS, 2)
     across = steps_of(found.total / SECONDS[unit], most=wide)
     low, high = min(found.levels), max(found.levels)
     up = steps_of(max(high - low, Fraction(1)), most=ROWS - 2)

@@ -21,6 +21,7 @@ from regscribe.programs import (
     Place,
     Program,
     ProgramRefused,
+    ProgramRuns,
     ProgramUnfinished,
     State,
     act,
@@ -174,6 +175,9 @@ def write_command(
             done = device.run(task)
         except ProgramRefused as error:
             raise _refused(given, error) from None
+        except ProgramRuns as error:
+            message = str(error).replace('pass while_running="reset"', "add --while-running reset")
+            raise Failure(message, kind=kind_of(error), code=code_of(error)) from None
         except ProgramUnfinished as error:
             raise Failure(str(error), kind=kind_of(error), code=UNKNOWN_STATE) from None
     if as_json:
@@ -263,7 +267,7 @@ def _plain_problems(given: File, checked: Checked) -> list[dict[str, str]]:
 def _refused(given: File, error: ProgramRefused) -> Failure:
     lines = [f"{given.place(one.where)}: {one}" for one in error.problems]
     count = f"{len(lines)} mistakes" if len(lines) > 1 else "a mistake"
-    return Failure("\n".join([f"nothing was written: {count}", *lines]), kind=kind_of(error), code=code_of(error))
+    return Failure("\n".join([f"{count}, so nothing is written", *lines]), kind=kind_of(error), code=code_of(error))
 
 
 def _show_state(device: BareDevice, target: Target, now: State, *, as_json: bool) -> None:

@@ -69,13 +69,14 @@ def _countable(place: Place, program: Program) -> bool:
     return place.spec.time_unit is None or program.time_unit in units
 
 
+PLACES: dict[str | int, int] = {"segments": 1, "final": 2}
 ORDER = ("to", "ramp", "soak", "outputs")
-"""The keys of a segment as people write them."""
+"""Where mistakes are told, and the keys of a segment as people write them."""
 
 
 def _sorted(problems: list[Problem]) -> list[Problem]:
-    """First what concerns the whole program, then the segments one after the other."""
-    return sorted(problems, key=lambda one: (one.where[:1] == ("segments",), [_rank(part) for part in one.where]))
+    """First what concerns the whole program, then the segments one after the other, the final one last."""
+    return sorted(problems, key=lambda one: (PLACES.get(one.where[0], 0), [_rank(part) for part in one.where]))
 
 
 def _rank(part: str | int) -> tuple[int, str]:

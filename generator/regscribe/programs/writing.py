@@ -134,7 +134,7 @@ def _at_rest(place: Place, how: WhileRunning) -> Task[None]:
                     return
                 yield Pause(BETWEEN)
                 now = yield from status(place)(session)
-        advice = "let the write end it (while running: reset)" if how == "refuse" else "see why it does not end"
+        advice = 'end it first, or pass while_running="reset"' if how == "refuse" else "see why it does not end"
         raise ProgramRuns(place, now, advice)
 
     return task
