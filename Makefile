@@ -33,7 +33,7 @@ bench: $(INSTALLED) ## measure against the budgets and against other tools, side
 mutate: $(INSTALLED) ## break scales, codes, addresses, orders and limits: the tests must notice each
 	$(BIN)/python tests/mutate/run.py
 
-sessions: $(INSTALLED) ## carry out the sessions of docs/cli.md and docs/settings.md anew and write what they print
+sessions: $(INSTALLED) ## carry out the sessions of docs/cli.md, settings.md and programs.md anew and write what they print
 	$(BIN)/python tests/live/sessions.py
 
 lock: $(INSTALLED) ## pin the newest versions that requirements.in allows
