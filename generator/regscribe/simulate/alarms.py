@@ -2,8 +2,8 @@
 
 from collections.abc import Callable
 
-from regscribe.model import Alarm, Trip, TripKind
-from regscribe.simulate.state import State
+from regscribe.model import Alarm, TripKind
+from regscribe.simulate.settings import Settings
 
 Distance = Callable[[float, float, float], float]
 """How far a process value is beyond the trip (above 0: it trips), from value, setpoint and limit."""
@@ -21,12 +21,12 @@ DISTANCES: dict[TripKind, Distance] = {
 class Watch:
     """One alarm of one device: `on` is what its bits show."""
 
-    __slots__ = ("_pending", "_state", "alarm", "on")
+    __slots__ = ("_pending", "_settings", "alarm", "on")
 
-    def __init__(self, alarm: Alarm, state: State) -> None:
+    def __init__(self, alarm: Alarm, settings: Settings) -> None:
         self.alarm = alarm
         self.on = False
-        self._state = state
+        self._settings = settings
         self._pending: float | None = None
 
     def reset(self) -> None:
@@ -39,25 +39,15 @@ class Watch:
 
     def look(self, value: float, setpoint: float, now: float) -> None:
         """Judge the process value, `now` seconds after power came."""
-        trip = next((each for each in self.alarm.trips if self._state.holds(each.when)), None)
-        if trip is None or not self._state.holds(self.alarm.when):
+        trip = next((each for each in self.alarm.trips if self._settings.holds(each.when)), None)
+        if trip is None or not self._settings.holds(self.alarm.when):
             self.reset()
             return
-        beyond = DISTANCES[trip.kind](value, setpoint, self._limit(trip))
+        beyond = DISTANCES[trip.kind](value, setpoint, self._settings.number(trip.limit))
         if self.on:
-            self.on = self._latched or beyond > -self._number(self.alarm.hysteresis)
-        elif beyond <= 0 or now < self._number(self.alarm.inhibit):
+            self.on = self._settings.holds(self.alarm.latched) or beyond > -self._settings.number(self.alarm.hysteresis)
+        elif beyond <= 0 or now < self._settings.number(self.alarm.inhibit):
             self._pending = None
         else:
             self._pending = now if self._pending is None else self._pending
-            self.on = now - self._pending >= self._number(self.alarm.delay)
-
-    @property
-    def _latched(self) -> bool:
-        return self.alarm.latched is not None and self._state.holds(self.alarm.latched)
-
-    def _limit(self, trip: Trip) -> float:
-        return self._number(trip.limit)
-
-    def _number(self, path: str) -> float:
-        return float(self._state.lookup(path)) if path else 0.0
+            self.on = now - self._pending >= self._settings.number(self.alarm.delay)

@@ -1,7 +1,7 @@
 """How an output follows from a process value and a setpoint: PID, on/off, by hand."""
 
 from regscribe.model import Output, Pid
-from regscribe.simulate.state import State
+from regscribe.simulate.settings import Settings
 from regscribe.simulate.thermal import STEP
 
 FULL = 1.0
@@ -10,19 +10,19 @@ FULL = 1.0
 class Loop:
     """One output of a controller: its share of full output from 0 to 1, and what PID remembers."""
 
-    __slots__ = ("_integral", "_last", "_state", "output", "share")
+    __slots__ = ("_integral", "_last", "_settings", "output", "share")
 
-    def __init__(self, output: Output, state: State) -> None:
+    def __init__(self, output: Output, settings: Settings) -> None:
         self.output = output
         self.share = 0.0
-        self._state = state
+        self._settings = settings
         self._integral = 0.0
         self._last: float | None = None
 
     @property
     def cools(self) -> bool:
         """Whether it takes heat away now."""
-        return self.output.cools is not None and self._state.holds(self.output.cools)
+        return self._settings.holds(self.output.cools)
 
     def reset(self) -> None:
         """Forget what was, as when power comes."""
@@ -49,20 +49,20 @@ class Loop:
         change = 0.0 if self._last is None else sign * (self._last - value) / STEP
         self._last = value
         pid, on_off = self.output.pid, self.output.on_off
-        band = self._band(pid) if pid is not None and self._state.holds(pid.when) else 0.0
+        band = self._band(pid) if pid is not None and self._settings.holds(pid.when) else 0.0
         if pid is not None and band > 0:
             self.share = self._proportional(pid, band, error, change)
-        elif on_off is not None and self._state.holds(on_off.when):
-            self.share = self._switched(error, self._number(on_off.hysteresis))
+        elif on_off is not None and self._settings.holds(on_off.when):
+            self.share = self._switched(error, self._settings.number(on_off.hysteresis))
         else:
             self.share = 0.0
 
     def _proportional(self, pid: Pid, band: float, error: float, change: float) -> float:
         """PID; the integral waits while the output is at a limit and it would drive it further."""
         proportion = error / band
-        rate = self._number(pid.derivative) * change / band
+        rate = self._settings.number(pid.derivative) * change / band
         bias = self._part(pid.bias, 0.0)
-        seconds = self._number(pid.integral)
+        seconds = self._settings.number(pid.integral)
         step = proportion * STEP / seconds if seconds > 0 else 0.0
         self._integral = self._integral if seconds > 0 else 0.0
         wanted = proportion + self._integral + rate + bias
@@ -83,14 +83,11 @@ class Loop:
         return min(max(share, low, 0.0), high, FULL)
 
     def _band(self, pid: Pid) -> float:
-        band = self._number(pid.band)
+        band = self._settings.number(pid.band)
         if pid.ends is None:
             return band
-        low, high = (self._number(path) for path in pid.ends)
+        low, high = (self._settings.number(path) for path in pid.ends)
         return band / 100 * (high - low) if high > low else band
 
     def _part(self, path: str, otherwise: float) -> float:
-        return self._number(path) / float(self.output.full) if path else otherwise
-
-    def _number(self, path: str) -> float:
-        return float(self._state.lookup(path)) if path else 0.0
+        return self._settings.number(path) / float(self.output.full) if path else otherwise

@@ -6,6 +6,7 @@ from regscribe.model import Process, Ramp
 from regscribe.simulate.alarms import Watch
 from regscribe.simulate.control import Loop
 from regscribe.simulate.errors import SimulatorError
+from regscribe.simulate.settings import Settings, scale_of
 from regscribe.simulate.state import State
 from regscribe.simulate.thermal import STEP, Oven, ThermalProcess
 
@@ -20,17 +21,25 @@ class Controller:
     one that lasts until a number is set.
     """
 
-    __slots__ = ("_loops", "_oven", "_process", "_rest", "_shown", "_state", "_watches", "_working", "seconds")
+    __slots__ = (
+        *("_extremes", "_loops", "_oven", "_process", "_put_before", "_rest", "_scale", "_settings"),
+        *("_shown", "_state", "_value", "_watches", "_working", "seconds"),
+    )
 
     def __init__(self, process: Process, state: State, oven: Oven | None) -> None:
         self.seconds = 0.0
         self._process = process
         self._state = state
+        self._settings = Settings(state)
         self._oven = oven
-        self._loops = [Loop(output, state) for output in process.outputs]
-        self._watches = [Watch(alarm, state) for alarm in process.alarms]
+        self._loops = [Loop(output, self._settings) for output in process.outputs]
+        self._watches = [Watch(alarm, self._settings) for alarm in process.alarms]
         self._rest = 0.0
         self._working: float | None = None
+        self._scale = scale_of(state.find(process.value)[0])
+        self._put_before: dict[str, Fraction] = {}
+        self._extremes: dict[str, float] = {}
+        self._value: tuple[Fraction | str, float | None] = ("", None)
         self._shown = None if oven is None else self._show_temperature(oven)
 
     def reset(self) -> None:
@@ -64,8 +73,15 @@ class Controller:
             self._step()
 
     def _step(self) -> None:
+        touched = self._settings.refresh()
+        for path in touched:
+            self._put_before.pop(path, None)
+            self._extremes.pop(path, None)
+        if not touched.isdisjoint(self._scale):
+            self._put_before.clear()
+            self._value = ("", None)
         value = self._measure()
-        setpoint = self._ramped(float(self._state.lookup(self._process.setpoint)))
+        setpoint = self._ramped(self._settings.number(self._process.setpoint))
         for loop in self._loops:
             self._run(loop, value, setpoint)
         for watch in self._watches:
@@ -77,21 +93,33 @@ class Controller:
 
     def _measure(self) -> float | None:
         """Let the oven go on; return the process value, None where the sensor is broken."""
-        path = self._process.value
-        stored = self._state.stored(path)
-        register = self._state.register(path)
-        broken = any(each.stored == stored for each in register.sentinels)
-        if self._oven is not None:
-            if stored != self._shown and not broken and not isinstance(stored, str):
-                self._oven.level = float(self._state.to_value(register, stored))
-            self._oven.step(sum(-loop.share if loop.cools else loop.share for loop in self._loops))
-            if not broken:
-                self._shown = self._show_temperature(self._oven)
-        return None if broken else float(self._state.lookup(path))
+        oven, before = self._oven, self._state.stored(self._process.value)
+        if oven is not None and before != self._shown and (value := self._meant(before)) is not None:
+            oven.level = value
+        if oven is not None:
+            oven.step(sum(-loop.share if loop.cools else loop.share for loop in self._loops))
+            if self._meant(before) is not None:
+                self._shown = self._show_temperature(oven)
+        return self._meant(self._state.stored(self._process.value))
+
+    def _meant(self, stored: Fraction | str) -> float | None:
+        """What a stored process value means; None for a fault of the sensor."""
+        if stored != self._value[0]:
+            register = self._state.register(self._process.value)
+            fault = isinstance(stored, str) or any(each.stored == stored for each in register.sentinels)
+            number = None if fault or isinstance(stored, str) else float(self._state.to_value(register, stored))
+            self._value = (stored, number)
+        return self._value[1]
+
+    def _put(self, path: str, value: Fraction) -> None:
+        """Set a register (or a bit) unless it was set to the same before and nobody touched it."""
+        if self._put_before.get(path) != value:
+            self._put_before[path] = value
+            self._state.put(path, value)
 
     def _show_temperature(self, oven: Oven) -> Fraction | str:
         path = self._process.value
-        self._state.put(path, _exact(oven.temperature))
+        self._put(path, _exact(oven.temperature))
         return self._state.stored(path)
 
     def _ramped(self, goal: float) -> float:
@@ -106,31 +134,36 @@ class Controller:
             self._working = min(goal, self._working + step) if goal > self._working else max(goal, self._working - step)
         if ramp.shows:
             self._state.drive(ramp.shows, alone=bool(self._rate(ramp, rising=True) or self._rate(ramp, rising=False)))
-            self._state.put(ramp.shows, _exact(self._working))
+            self._put(ramp.shows, _exact(self._working))
         return self._working
 
     def _rate(self, ramp: Ramp, *, rising: bool) -> float:
         path = ramp.rises if rising else ramp.falls
-        return max(0.0, float(self._state.lookup(path))) if path and self._state.holds(ramp.when) else 0.0
+        return max(0.0, self._settings.number(path)) if self._settings.holds(ramp.when) else 0.0
 
     def _run(self, loop: Loop, value: float | None, setpoint: float) -> None:
         process, output = self._process, loop.output
-        if process.manual is not None and self._state.holds(process.manual):
+        if self._settings.holds(process.manual):
             loop.by_hand()
             if not output.manual:
                 return
-        elif process.off is not None and self._state.holds(process.off):
+        elif self._settings.holds(process.off):
             loop.off()
         elif value is None:
             loop.fail()
         else:
             loop.control(value, setpoint)
-        self._state.put(output.percent, _exact(loop.share * float(output.full)))
+        self._put(output.percent, _exact(loop.share * float(output.full)))
 
     def _keep_extremes(self, value: float) -> None:
         for path, better in ((self._process.highest, max), (self._process.lowest, min)):
-            if path and (held := float(self._state.lookup(path))) != better(held, value):
-                self._state.put(path, _exact(value))
+            if not path:
+                continue
+            if path not in self._extremes:
+                self._extremes[path] = float(self._state.lookup(path))
+            if better(self._extremes[path], value) != self._extremes[path]:
+                self._put(path, _exact(value))
+                self._extremes[path] = value
 
     def _show_bits(self) -> None:
         """Set the bits of outputs, alarms and the sensor; one that several share is set if one of them sets it."""
@@ -142,10 +175,9 @@ class Controller:
             for path in watch.alarm.active:
                 bits[path] = bits.get(path, False) or watch.on
         if self._process.fault:
-            stored, register = self._state.stored(self._process.value), self._state.register(self._process.value)
-            bits[self._process.fault] = any(each.stored == stored for each in register.sentinels)
+            bits[self._process.fault] = self._meant(self._state.stored(self._process.value)) is None
         for path, on in bits.items():
-            self._state.put(path, Fraction(int(on)))
+            self._put(path, Fraction(int(on)))
 
 
 def controller_of(state: State, *, process: ThermalProcess | bool, seed: int) -> Controller | None:

@@ -32,9 +32,10 @@ class State(Meaning):
 
     The image is kept up to date at every change, so a read is a look-up. A write through any view sets the stored
     value, from which every other view and alias follows. What is as on a new device is kept once for all of its model.
+    `touched` are the registers that changed since someone cleared it.
     """
 
-    __slots__ = ("_driven", "_image", "_initial", "_pending", "_settling", "_stored")
+    __slots__ = ("_driven", "_image", "_initial", "_pending", "_settling", "_stored", "touched")
 
     def __init__(self, blueprint: Blueprint) -> None:
         super().__init__(blueprint)
@@ -44,6 +45,7 @@ class State(Meaning):
         self._pending: dict[str, Stored] = {}
         self._driven: frozenset[str] = frozenset()
         self._settling: frozenset[str] = frozenset()
+        self.touched: set[str] = set()
 
     @classmethod
     def of(cls, register_map: RegisterMap, model: Model, givens: Mapping[str, GivenValue]) -> "State":
@@ -125,6 +127,7 @@ class State(Meaning):
 
     def _touch(self, path: str) -> None:
         """Let all that depends on the value in effect of a register be as it has to be now."""
+        self.touched.add(path)
         for dependent in self.blueprint.ordered_by.get(path, ()):
             self._show(dependent, self._image)
         for follower in self.blueprint.followers.get(path, ()):
