@@ -25,6 +25,8 @@ SHOWN_BYTES = 24
 class Conversation:
     """Sends one request at a time and finds its answer, over a serial line or over a TCP connection (`line` None).
 
+    What concerns late answers outlives port and connection: a gateway may pass them on to the next connection.
+
     `tainted` tells that more came than was asked for: a connection is better opened anew then.
     """
 
@@ -34,8 +36,9 @@ class Conversation:
         self.trace: Tracer | None = None
         self.tainted = False
         self.manners: Manners | None = None
-        if line is not None:
-            self.manners = Manners(line, gap, echo=echo, framing=self.framing, told=self._heard)
+        if not self.framing.decisive:
+            known = bool(echo) if line is None else echo
+            self.manners = Manners(line, gap, echo=known, framing=self.framing, told=self._heard)
 
     def number_from(self, addressing: str) -> None:
         """Count addresses as the units do: modbus from 0, jbus from 1; ValueError for another name."""

@@ -1,4 +1,4 @@
-"""How to behave on a serial line: silence between frames, patience with late answers, the echo of two-wire adapters."""
+"""How to behave where answers name no request (RTU, ASCII): silence, patience with late answers, echo of adapters."""
 
 import time
 from typing import TYPE_CHECKING
@@ -26,11 +26,12 @@ ECHO_BYTE = b"\xff"
 class Manners:
     """What is known of a serial line between requests. `echo`: whether it gives back what is sent, None: not known yet.
 
+    Behind a gateway that passes bytes on, `line` is None: it sees to the silence, but late answers come through it.
     `told` is called with the unit that is asked and with bytes that came unasked.
     """
 
     def __init__(
-        self, line: "Line", gap: float, *, echo: bool | None, framing: "Framing", told: "Callable[[int, bytes], None]"
+        self, line: "Line | None", gap: float, *, echo: bool | None, framing: "Framing", told: "Callable[[int, bytes], None]"
     ) -> None:
         self.line, self.gap, self.echo = line, gap, echo
         self.late = Late()
@@ -44,7 +45,7 @@ class Manners:
 
     def sent(self, count: int) -> None:
         """`count` characters go out from now on."""
-        self._silent_from = time.monotonic() + count * self.line.character
+        self._silent_from = time.monotonic() + (count * self.line.character if self.line else 0.0)
 
     def heard(self) -> None:
         """Characters came in."""
@@ -62,7 +63,7 @@ class Manners:
             yield from self._ask_echo(wire, asked.unit)
 
     def _silence(self, wire: "Wire", unit: int) -> "Steps[None]":
-        gap = silence(self.line, self.gap)
+        gap = silence(self.line, self.gap) if self.line else 0.0
         until = max(self._silent_from + gap, self.late.busy)
         patience = max(until, time.monotonic()) + NOISE_SECONDS
         stray = wire.read()
@@ -101,7 +102,7 @@ class Manners:
         yield from self._silence(wire, unit)
 
     def echoed(self, wire: "Wire", asked: "Asked", deadline: float) -> "Steps[bytearray]":
-        """Take the echo of a request and return what came behind it; WrongAnswer if it is another one."""
+        """Take the echo of a request and return what came behind it; WrongAnswer if it is another one (a collision)."""
         received, frame = bytearray(), asked.frame
         while len(received) < len(frame) and frame.startswith(received):
             left = deadline - time.monotonic()

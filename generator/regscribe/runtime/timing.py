@@ -88,5 +88,5 @@ def more_in_ascii(request: "Request", line: Line) -> float:
 
 
 def broadcast_seconds(protocol: "Protocol", request: "Request", line: Line | None) -> float:
-    """How long all units need for a broadcast, counted from its first character."""
-    return response_seconds(protocol, request, line) - (MARGIN_SECONDS if line else 0)
+    """How long all units need for a broadcast, counted from its first character: as for an answer, at most."""
+    return on_line(protocol, request, line or slowest(protocol))
