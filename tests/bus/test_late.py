@@ -192,10 +192,13 @@ def gateway() -> Iterator[int]:
     newest: list[asyncio.StreamWriter] = []
     delays = iter([0.3])
 
+    def send(answer: bytes) -> None:
+        newest[0].write(answer)
+
     async def attend(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         newest[:] = [writer]
         while request := await reader.read(100):
-            loop.call_later(next(delays, 0.0), lambda answer=value_of(request): newest[0].write(answer))
+            loop.call_later(next(delays, 0.0), send, value_of(request))
         writer.close()
 
     server = loop.run_until_complete(asyncio.start_server(attend, "127.0.0.1", 0))
