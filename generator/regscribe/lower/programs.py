@@ -1,17 +1,14 @@
 """Setpoint programs: the names of registers become paths in which the numbers of program and segment are left open."""
 
-import re
-from dataclasses import dataclass
-from fractions import Fraction
+from dataclasses import replace
 
 from regscribe.lower.commands import Device
 from regscribe.lower.conditions import condition
-from regscribe.lower.names import unknown
 from regscribe.lower.node import Node, elements_of, items_of, text_of
 from regscribe.lower.presence import present
-from regscribe.lower.rules import UNKNOWN_COMMAND, UNKNOWN_REGISTER
+from regscribe.lower.program_place import ProgramPlace, numbers_of
+from regscribe.lower.rules import UNKNOWN_COMMAND
 from regscribe.lower.scope import Scope
-from regscribe.lower.subject import Subject, code_of_text
 from regscribe.model import (
     Inferred,
     ProgramAction,
@@ -27,8 +24,6 @@ from regscribe.model import (
     numbered,
 )
 
-_ELEMENT = re.compile(r"\[(\d+)\]")
-
 
 def programs_of(root: Node, device: Device) -> tuple[SetpointProgram, ...]:
     """The setpoint programs that a model has."""
@@ -42,12 +37,9 @@ def programs_of(root: Node, device: Device) -> tuple[SetpointProgram, ...]:
 
 def _program(name: str, node: Node, scope: Scope) -> SetpointProgram:
     array = node.child("array")
-    numbers = _numbers(array, array.text(), scope) if array else []
-    place = _Place(scope, tuple(numbers) or (0,), f"{array.text()}[{{i}}]." if array and numbers else "")
-    count, cycles, forever = node.child("count"), node.child("cycles"), node.child("forever")
-    limits, requires = node.child("setpoint_limits"), node.child("requires")
-    running = node.child("while_running")
-    return SetpointProgram(
+    numbers = numbers_of(array, array.text(), scope) if array else []
+    place = ProgramPlace(scope, tuple(numbers) or (0,), f"{array.text()}[{{i}}]." if array and numbers else "")
+    made = SetpointProgram(
         id=name,
         name=text_of(node, "name", name),
         segments=_segments(node.child("segments") or node, place),
@@ -55,20 +47,41 @@ def _program(name: str, node: Node, scope: Scope) -> SetpointProgram:
         programs=len(numbers),
         description=text_of(node, "description"),
         section=text_of(node, "source"),
+        inferred=tuple(Inferred(text_of(one, "what"), text_of(one, "why")) for one in elements_of(node, "inferred")),
+        span=node.key_span,
+    )
+    return _run(node, place, _made(node, place, made))
+
+
+def _made(node: Node, place: ProgramPlace, program: SetpointProgram) -> SetpointProgram:
+    """The program with what it is made of beside its segments."""
+    count, cycles, forever = node.child("count"), place.path(node, "cycles"), node.child("forever")
+    counts = count.child("counts") if count else None
+    limits = node.child("setpoint_limits")
+    return replace(
+        program,
         final=_final(node.child("final"), place),
         count=place.path(count, "register"),
-        counts=count.child("counts").choice(ProgramCounts, ProgramCounts.ALL)  # type: ignore[union-attr]
-        if count and count.child("counts")
-        else ProgramCounts.ALL,
-        cycles=place.path(node, "cycles"),
-        forever=place.code(forever, place.path(node, "cycles")) if forever and cycles else None,
+        counts=counts.choice(ProgramCounts, ProgramCounts.ALL) if counts else ProgramCounts.ALL,
+        cycles=cycles,
+        forever=place.code(forever, cycles) if forever and cycles else None,
         time_unit=_time_unit(node.child("time_unit"), place),
         holdback=place.path(node, "holdback"),
         power_failure=place.path(node, "power_failure"),
         end=place.path(node, "end"),
         setpoint_limits=(place.path(limits, "from"), place.path(limits, "to")) if limits else None,
+        order=_order(node),
+    )
+
+
+def _run(node: Node, place: ProgramPlace, program: SetpointProgram) -> SetpointProgram:
+    """The program with how it is run and watched."""
+    requires, running = node.child("requires"), node.child("while_running")
+    when = condition(requires.child("when"), place.scope) if requires else None
+    return replace(
+        program,
         enable=place.values(node.child("enable")),
-        requires=Writable(condition(requires.child("when"), scope), text_of(requires, "reason")) if requires else None,
+        requires=Writable(when, text_of(requires, "reason")) if requires and when else None,
         status=_status(node.child("status"), place),
         segment_now=place.path(node, "segment_now"),
         program_now=place.path(node, "program_now"),
@@ -78,9 +91,6 @@ def _program(name: str, node: Node, scope: Scope) -> SetpointProgram:
         resume=_action(node.child("resume"), place),
         reset=_action(node.child("reset"), place),
         while_running=running.choice(WhileRunning, WhileRunning.NOT_STATED) if running else WhileRunning.NOT_STATED,
-        order=_order(node),
-        inferred=tuple(Inferred(text_of(one, "what"), text_of(one, "why")) for one in elements_of(node, "inferred")),
-        span=node.key_span,
     )
 
 
@@ -89,90 +99,14 @@ def _order(node: Node) -> tuple[ProgramPart, ...]:
     return (*(part for part in ProgramPart if part not in told), *told)
 
 
-def _numbers(node: Node, name: str, scope: Scope) -> list[int]:
-    """The indices of an array's elements; RS0301 and none if there is no such array."""
-    found = [path[len(name) :] for path in scope.entries if path.startswith(f"{name}[")]
-    numbers = sorted({int(match[1]) for rest in found if (match := _ELEMENT.match(rest))})
-    if not numbers:
-        known = dict.fromkeys(_ELEMENT.split(path)[0] for path in scope.homes if "[" in path)
-        unknown(node, UNKNOWN_REGISTER, "array", node.text(), known)
-    return numbers
-
-
-@dataclass(frozen=True, slots=True)
-class _Place:
-    """Where the names of a program's registers are looked up: in each element `prefix`, then everywhere.
-
-    `inside` is the path of a segment, `first` the number of the first one; it comes before the element.
-    """
-
-    scope: Scope
-    numbers: tuple[int, ...]
-    prefix: str
-    inside: str = ""
-    first: int = 0
-
-    def path(self, node: Node | None, key: str) -> str:
-        """The path of the register that a key names; empty if the key is absent, or after RS0301 or RS0302."""
-        name = node.child(key) if node else None
-        return self.found(name, name.text()) if name else ""
-
-    def found(self, node: Node, name: str, *, at_key: bool = False) -> str:
-        """The path of the register of this name; RS0301 or RS0302 at `node` and an empty one if there is none."""
-        candidates = [f"{prefix}{name}" for prefix in dict.fromkeys((self.inside, self.prefix, ""))]
-        for path in candidates:
-            if all(one in self.scope.entries for one in self._concrete(path)):
-                return path
-        elsewhere = [one for path in candidates for one in self._concrete(path) if one in self.scope.homes]
-        if elsewhere:
-            lacking = next((one for one in elsewhere if one not in self.scope.entries), elsewhere[0])
-            self.scope.missing(node, lacking, at_key=at_key)
-        else:
-            unknown(node, UNKNOWN_REGISTER, "register", name, self._known(), at_key=at_key)
-        return ""
-
-    def absent(self, name: str) -> bool:
-        """Whether other models have the register in the segment, and this one does not."""
-        path = numbered(f"{self.inside}{name}", self.numbers[0], self.first)
-        return path in self.scope.homes and path not in self.scope.entries
-
-    def _concrete(self, path: str) -> list[str]:
-        return [numbered(path, number, self.first) for number in self.numbers]
-
-    def _known(self) -> list[str]:
-        own = [numbered(prefix, self.numbers[0], self.first) for prefix in (self.inside, self.prefix) if prefix]
-        return [path.removeprefix(part) for part in own for path in self.scope.homes if path.startswith(part)] + [
-            path for path in self.scope.homes if "[" not in path
-        ]
-
-    def code(self, node: Node, path: str) -> int:
-        """The code of a member or special value of the register at `path`."""
-        entry = self.scope.entries.get(numbered(path, self.numbers[0], self.first))
-        return int(code_of_text(node, Subject(path, entry), self.scope)) if entry else 0
-
-    def values(self, node: Node | None) -> tuple[tuple[str, Fraction], ...]:
-        """Paths and codes of a mapping from registers to their values."""
-        found = []
-        for key, value in node.items() if node else ():
-            path = self.found(value, key, at_key=True)
-            if path:
-                found.append((path, value.number() if value.is_number else Fraction(self.code(value, path))))
-        return tuple(found)
-
-    def outputs(self, node: Node | None) -> tuple[tuple[str, str], ...]:
-        """Names and paths of outputs, without those that only other models have."""
-        named = [(name, one) for name, one in items_of(node, "outputs") if not self.absent(one.text())]
-        return tuple((name, self.found(one, one.text())) for name, one in named)
-
-
-def _segments(node: Node, around: _Place) -> ProgramSegments:
+def _segments(node: Node, around: ProgramPlace) -> ProgramSegments:
     array = node.child("array") or node
     name = array.text() if array.is_text else ""
     first = [f"{numbered(prefix, around.numbers[0])}{name}" for prefix in dict.fromkeys((around.prefix, ""))]
     inner = bool(around.prefix) and any(path.startswith(f"{first[0]}[") for path in around.scope.entries)
-    numbers = _numbers(array, first[0] if inner else name, around.scope) or [0]
+    numbers = numbers_of(array, first[0] if inner else name, around.scope) or [0]
     prefix = around.prefix if inner else ""
-    place = _Place(around.scope, around.numbers, around.prefix, f"{prefix}{name}[{{j}}].", numbers[0])
+    place = ProgramPlace(around.scope, around.numbers, around.prefix, f"{prefix}{name}[{{j}}].", numbers[0])
     return ProgramSegments(
         first=numbers[0],
         count=len(numbers),
@@ -184,11 +118,11 @@ def _segments(node: Node, around: _Place) -> ProgramSegments:
     )
 
 
-def _final(node: Node | None, place: _Place) -> ProgramFinal | None:
+def _final(node: Node | None, place: ProgramPlace) -> ProgramFinal | None:
     return ProgramFinal(setpoint=place.path(node, "setpoint"), outputs=place.outputs(node)) if node else None
 
 
-def _time_unit(node: Node | None, place: _Place) -> ProgramTimeUnit | None:
+def _time_unit(node: Node | None, place: ProgramPlace) -> ProgramTimeUnit | None:
     if node is None:
         return None
     path = place.path(node, "register")
@@ -197,7 +131,7 @@ def _time_unit(node: Node | None, place: _Place) -> ProgramTimeUnit | None:
     return ProgramTimeUnit(register=path, codes=tuple(codes))
 
 
-def _status(node: Node | None, place: _Place) -> ProgramStatus | None:
+def _status(node: Node | None, place: ProgramPlace) -> ProgramStatus | None:
     if node is None:
         return None
     path = place.path(node, "register")
@@ -208,7 +142,7 @@ def _status(node: Node | None, place: _Place) -> ProgramStatus | None:
 _STATES = ("running", "held", "ended")
 
 
-def _action(node: Node | None, place: _Place) -> ProgramAction:
+def _action(node: Node | None, place: ProgramPlace) -> ProgramAction:
     if node is None or not node.is_text:
         return ProgramAction(writes=place.values(node))
     place.scope.named(node, "commands", rule=UNKNOWN_COMMAND, what="command")
