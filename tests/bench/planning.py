@@ -153,7 +153,7 @@ def main() -> int:
     """Print everything; 1 if a plan of ours is dearer than any other."""
     found = list(rows())
     for row in found:
-        sys.stdout.write(f"{row.what}: {row.theirs} times ours on the mean; {row.ratio:.3f} at least\n")
+        sys.stdout.write(f"{row.what}: on the mean {row.theirs} times ours; at least {row.ratio:.3f}\n")
     return 0 if all(row.kept for row in found) else 1
 
 

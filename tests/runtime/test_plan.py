@@ -90,7 +90,7 @@ def total(made: Sequence[Block], terms: Terms) -> int:
     return sum(terms.cost.tariff(block.space).of(block.quantity) for block in made)
 
 
-@settings(max_examples=300)
+@settings(max_examples=150)
 @given(wants, limits, costs, holes, st.sampled_from([1, 2]))
 def test_no_partition_and_no_choice_of_places_costs_less(
     wanted: list[tuple[Item, ...]], within: Limits, cost: Cost, gaps: list[tuple[int, int]], align: int
@@ -124,7 +124,7 @@ def test_every_want_lies_in_a_request_that_the_device_takes(
 one_place = st.lists(st.builds(Item, st.sampled_from(SPACES), st.integers(0, 50), st.integers(1, 4)), max_size=7)
 
 
-@settings(max_examples=300)
+@settings(max_examples=150)
 @given(one_place, limits, costs)
 @example([Item("coil", 0, 1), Item("coil", 8, 1), Item("coil", 15, 1)], Limits(), LINES[0])
 @example([Item("holding", 0, 4), Item("holding", 1, 1), Item("holding", 3, 4)], Limits(words=5), LINES[0])

@@ -150,7 +150,9 @@ class _Told:
 
     def print(self, title: str, also: Sequence[str]) -> None:
         """The table, the totals, and what one request a register would cost."""
-        show_table(COLUMNS, [self._row(one) for one in self.found.requests], title=f"{title}, {self._line()}")
+        rows = [self._row(one) for one in self.found.requests]
+        head = [] if sys.stdout.isatty() else [COLUMNS]  # for people in any case: programs ask for --json
+        show_table(COLUMNS, [*head, *rows], title=f"{title}, {self._line()}")
         found = self.found
         total = f"{count(len(found.requests), 'request')}, {found.wanted} addresses wanted, {found.carried} carried"
         single = f"{count(len(self.paths), 'request')}, {self.single_ms:.1f} ms"
