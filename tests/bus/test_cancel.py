@@ -55,7 +55,7 @@ def test_a_cancelled_read_keeps_the_line_until_its_answer_came(far: FarEnd) -> N
     far.plan = lambda request: [(0.15, value_of(request))]
 
     async def talk() -> tuple[int, ...]:
-        link = links.async_serial(far.path, baud=115200, timeout=0.5, echo=False, retry=Retry(0))
+        link = links.async_serial(far.path, baud=115200, timeout=2, echo=False, retry=Retry(0))
         await link.open()
         await cancelled_after(link.call(1, Request(3, 28)), 0.05)
         found = (await link.call(2, Request(3, 29))).words
@@ -70,7 +70,7 @@ def test_a_task_that_waits_for_its_turn_may_be_cancelled(far: FarEnd) -> None:
     far.plan = lambda request: [(0.05, value_of(request))]
 
     async def talk() -> list[tuple[int, ...]]:
-        link = links.async_serial(far.path, baud=115200, timeout=0.5, echo=False)
+        link = links.async_serial(far.path, baud=115200, timeout=2, echo=False)
         await link.open()
         first, second, third = (asyncio.ensure_future(link.call(1, Request(3, at))) for at in (28, 29, 30))
         await asyncio.sleep(0.01)
@@ -105,7 +105,7 @@ def test_closing_while_a_request_is_under_way_waits_for_its_end(far: FarEnd) -> 
     far.plan = lambda request: [(0.1, value_of(request))]
 
     async def talk() -> tuple[int, ...]:
-        link = links.async_serial(far.path, baud=115200, timeout=0.5, echo=False)
+        link = links.async_serial(far.path, baud=115200, timeout=2, echo=False)
         await link.open()
         reading = asyncio.ensure_future(link.call(1, Request(3, 28)))
         await asyncio.sleep(0.01)

@@ -16,7 +16,7 @@ READ, WRITE, LOOPBACK = Request(3, 28), Request(6, 28, 1, (7,)), Request(8, 0, 1
 
 
 def opened(far: FarEnd, **more: Any) -> Link:
-    link = links.serial(far.path, baud=115200, **{"timeout": 0.15, "retry": Retry(0), **more})
+    link = links.serial(far.path, baud=115200, **{"timeout": 2.0, "retry": Retry(0), **more})
     link.open()
     return link
 
@@ -45,7 +45,7 @@ def test_the_echo_is_dropped_and_the_answer_is_used(
 @pytest.mark.parametrize("request_", [READ, WRITE, LOOPBACK])
 def test_an_echo_without_a_device_is_no_answer(far: FarEnd, *, echo: bool | None, request_: Request) -> None:
     far.echo = echoing
-    link = opened(far, echo=echo)
+    link = opened(far, echo=echo, timeout=0.2)
     with pytest.raises(NoAnswer):
         link.call(1, request_)
     link.close()
@@ -70,7 +70,7 @@ def test_another_echo_is_a_collision(far: FarEnd) -> None:
 
 
 def test_a_missing_echo_asks_whether_there_is_one(far: FarEnd) -> None:
-    link = opened(far, echo=True)
+    link = opened(far, echo=True, timeout=0.1)
     with pytest.raises(WrongAnswer, match=r"0 of 8 bytes were echoed. Without echo, open it with echo=False"):
         link.call(1, READ)
     link.close()

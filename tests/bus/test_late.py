@@ -56,7 +56,7 @@ def test_an_answer_is_not_waited_for_for_ever() -> None:
 
 
 def serial(far: FarEnd, **more: Any) -> Link:
-    link = links.serial(far.path, baud=115200, **{"timeout": 0.1, "retry": Retry(0), "echo": False, **more})
+    link = links.serial(far.path, baud=115200, **{"timeout": 2.0, "retry": Retry(0), "echo": False, **more})
     link.open()
     return link
 
@@ -67,8 +67,8 @@ def value_of(request: bytes) -> bytes:
 
 
 def test_a_late_answer_on_a_serial_line_is_dropped_before_the_next_request(far: FarEnd) -> None:
-    far.plan = lambda request: [(0.25 if len(far.heard) == 1 else 0.0, value_of(request))]
-    link = serial(far)
+    far.plan = lambda request: [(0.4 if len(far.heard) == 1 else 0.0, value_of(request))]
+    link = serial(far, timeout=0.25)
     with pytest.raises(NoAnswer):
         link.call(1, READ)
     assert link.call(1, OTHER).words == (29,)
@@ -77,8 +77,8 @@ def test_a_late_answer_on_a_serial_line_is_dropped_before_the_next_request(far: 
 
 
 def test_a_late_answer_is_no_answer_to_a_write_either(far: FarEnd) -> None:
-    far.plan = lambda request: [(0.2 if len(far.heard) == 1 else 0.0, request)]
-    link = serial(far)
+    far.plan = lambda request: [(0.4 if len(far.heard) == 1 else 0.0, request)]
+    link = serial(far, timeout=0.25)
     with pytest.raises(NoAnswer):
         link.call(1, WRITE)
     begun = time.monotonic()
@@ -89,7 +89,7 @@ def test_a_late_answer_is_no_answer_to_a_write_either(far: FarEnd) -> None:
 
 def test_the_answer_of_another_unit_is_not_taken_and_its_owner_is_named(far: FarEnd) -> None:
     far.plan = lambda _: [(0.0, words(7, 99))]
-    link = serial(far)
+    link = serial(far, timeout=0.25)
     with pytest.raises(WrongAnswer, match="unit 1, function 03, address 28: unit 7 answered in its place"):
         link.call(1, READ)
     link.close()
@@ -108,7 +108,7 @@ def test_an_answer_behind_noise_and_behind_a_foreign_one_is_found(far: FarEnd) -
 
 def test_a_garbled_answer_shows_its_bytes_and_says_what_to_check(far: FarEnd) -> None:
     far.plan = lambda _: [(0.0, b"\x01\x03\x02\x00\x05\xff\xff")]
-    link = serial(far)
+    link = serial(far, timeout=0.25)
     with pytest.raises(
         WrongAnswer, match=r"7 bytes came that are no answer \(01 03 02 00 05 ff ff\). Check speed, parity"
     ):
@@ -143,7 +143,7 @@ def test_more_bits_than_asked_for_are_not_cut_to_fit(far: FarEnd) -> None:
 @pytest.mark.parametrize("transport", ["tcp", "rtu-tcp", "ascii-tcp"])
 @pytest.mark.parametrize("kind", ["sync", "async"])
 def test_a_late_answer_over_tcp_is_not_taken(athena: Any, transport: str, kind: str) -> None:
-    slow = iter([0.3])
+    slow = iter([0.4])
 
     async def deliver(exchange: Any) -> bytes:
         await asyncio.sleep(next(slow, 0.0))
@@ -151,7 +151,7 @@ def test_a_late_answer_over_tcp_is_not_taken(athena: Any, transport: str, kind: 
 
     with simulate(athena, "16C", unit=1, transport=transport, delivery=deliver) as running:
         framing = transport.removesuffix("-tcp")
-        found = _two_reads(kind, running.host, port=running.port, framing=framing, timeout=0.15, retry=Retry(0))
+        found = _two_reads(kind, running.host, port=running.port, framing=framing, timeout=0.25, retry=Retry(0))
         assert found == running.device.peek_words("setpoint_high_limit", "base")
 
 
@@ -159,7 +159,7 @@ def test_a_late_answer_over_tcp_is_not_taken(athena: Any, transport: str, kind: 
 def test_a_late_answer_that_a_gateway_passes_on_to_the_next_connection_is_not_taken(kind: str) -> None:
     """The gateway sends what comes from its serial side to whoever is connected then."""
     with gateway() as port:
-        assert _two_reads(kind, "127.0.0.1", port=port, framing="rtu", timeout=0.15, retry=Retry(0)) == (29,)
+        assert _two_reads(kind, "127.0.0.1", port=port, framing="rtu", timeout=0.25, retry=Retry(0)) == (29,)
 
 
 def _two_reads(kind: str, host: str, **where: Any) -> tuple[int, ...]:
@@ -187,10 +187,10 @@ def _two_reads(kind: str, host: str, **where: Any) -> tuple[int, ...]:
 
 @contextmanager
 def gateway() -> Iterator[int]:
-    """A transparent gateway: the first answer comes after 0.3 s, to the newest connection."""
+    """A transparent gateway: the first answer comes after 0.4 s, to the newest connection."""
     loop = asyncio.new_event_loop()
     newest: list[asyncio.StreamWriter] = []
-    delays = iter([0.3])
+    delays = iter([0.4])
 
     def send(answer: bytes) -> None:
         newest[0].write(answer)

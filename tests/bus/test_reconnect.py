@@ -90,7 +90,7 @@ def test_after_silence_the_device_may_be_another_one(athena: Any) -> None:
 
     with (
         simulate(athena, "16C", unit=1, delivery=deliver) as running,
-        Athena16C.tcp(running.host, port=running.port, unit=1, timeout=0.1, retry=Retry(0)) as device,
+        Athena16C.tcp(running.host, port=running.port, unit=1, timeout=0.2, retry=Retry(0)) as device,
     ):
         assert device.setpoint_ram.read() == 77
         mute = True
@@ -135,7 +135,7 @@ def running(end: FarEnd) -> Iterator[FarEnd]:
 def test_an_adapter_that_is_pulled_out_and_put_in_again(tmp_path: Path, kind: str) -> None:
     adapter = Adapter(tmp_path / "ttyUSB0")
     make = links.serial if kind == "sync" else links.async_serial
-    link: Any = make(str(adapter.path), baud=9600, timeout=0.5, echo=False)
+    link: Any = make(str(adapter.path), baud=9600, timeout=2, echo=False)
     runner = asyncio.Runner()
 
     def do(result: Any) -> Any:
@@ -197,7 +197,7 @@ def test_a_read_is_sent_again_as_often_as_the_policy_says(athena: Any, lost: int
 
     with (
         simulate(athena, "16C", unit=1, delivery=deliver) as running,
-        Athena16C.tcp(running.host, port=running.port, unit=1, timeout=0.1, retry=Retry(2, 0)) as device,
+        Athena16C.tcp(running.host, port=running.port, unit=1, timeout=0.3, retry=Retry(2, 0)) as device,
     ):
         assert device.controller_id.read() == 1
         assert len(running.requests) == asked
@@ -211,7 +211,7 @@ def test_a_garbled_answer_to_a_read_is_asked_for_again(athena: Any) -> None:
 
     with (
         simulate(athena, "16C", unit=1, transport="rtu-tcp", delivery=deliver) as running,
-        Athena16C.tcp(running.host, port=running.port, unit=1, framing="rtu", timeout=0.1) as device,
+        Athena16C.tcp(running.host, port=running.port, unit=1, framing="rtu", timeout=0.3) as device,
     ):
         assert device.controller_id.read() == 1
         assert len(running.requests) == 2

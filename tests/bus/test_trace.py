@@ -28,7 +28,7 @@ def test_requests_and_answers_come_in_their_order_with_unit_and_time(units: list
 def test_what_is_rejected_is_shown(far: FarEnd) -> None:
     seen: list[Trace] = []
     far.plan = lambda _: [(0.0, words(7, 99)), (0.02, b"\x01\x03")]
-    link = links.serial(far.path, baud=115200, timeout=0.1, echo=False, retry=Retry(0), trace=seen.append)
+    link = links.serial(far.path, baud=115200, timeout=0.25, echo=False, retry=Retry(0), trace=seen.append)
     link.open()
     with pytest.raises(WrongAnswer):
         link.call(1, Request(3, 28))

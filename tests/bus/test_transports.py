@@ -77,7 +77,7 @@ def test_jbus_addresses_are_one_higher_on_the_line_and_the_same_to_the_driver(
 def test_ascii_frames_go_over_a_serial_line(far: FarEnd) -> None:
     answer = b":010302002AD0\r\n"  # LRC: 01h + 03h + 02h + 00h + 2Ah = 30h, 100h - 30h = D0h
     far.echo = lambda data: answer if data.endswith(b"\r\n") else b""
-    link = links.serial(far.path, baud=19200, framing="ascii", timeout=0.5, echo=False)
+    link = links.serial(far.path, baud=19200, framing="ascii", timeout=2, echo=False)
     link.open()
     assert link.call(1, Request(3, 0)).words == (42,)
     link.close()
@@ -96,7 +96,7 @@ def test_an_ascii_frame_with_a_wrong_check_is_no_answer(far: FarEnd, bad: bytes)
 def test_a_silence_separates_an_answer_from_the_next_request(far: FarEnd) -> None:
     sent: list[float] = []
     far.plan = lambda _: [(0.0, frame(1, b"\x03\x02\x00\x05"))]
-    link = links.serial(far.path, baud=1200, timeout=0.5, echo=False, gap=4, trace=lambda one: sent.append(one.seconds))
+    link = links.serial(far.path, baud=1200, timeout=2, echo=False, gap=4, trace=lambda one: sent.append(one.seconds))
     link.open()
     for _ in range(4):
         link.call(1, Request(3, 0))
