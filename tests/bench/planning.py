@@ -46,9 +46,9 @@ class Duel(NamedTuple):
         return min(self.greedy, *self.modes.values()) / self.ours
 
 
-def subjects() -> Iterator[tuple[str, Subject]]:
-    """Every model of every map."""
-    for path in find_maps([str(MAPS)]):
+def subjects(*maps: str) -> Iterator[tuple[str, Subject]]:
+    """Every model of the maps of these ids, or of all."""
+    for path in find_maps([str(MAPS / f"{one}.yaml") for one in maps] or [str(MAPS)]):
         found = compile_map(path).map
         assert found is not None
         for model in found.models:
