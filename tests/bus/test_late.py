@@ -162,6 +162,31 @@ def test_a_late_answer_that_a_gateway_passes_on_to_the_next_connection_is_not_ta
         assert _two_reads(kind, "127.0.0.1", port=port, framing="rtu", timeout=0.25, retry=Retry(0)) == (29,)
 
 
+@pytest.mark.parametrize("kind", ["sync", "async"])
+def test_an_answer_with_another_transaction_id_is_not_taken(athena: Any, kind: str) -> None:
+    async def deliver(exchange: Any) -> bytes:
+        frame = bytes(exchange.frame)
+        return bytes([frame[0] ^ 0x40]) + frame[1:-2] + b"\x03\x09" + frame
+
+    with simulate(athena, "16C", unit=1, delivery=deliver) as running:
+        high = running.device.peek_words("setpoint_high_limit", "base")
+        low = running.device.peek_words("setpoint_low_limit", "base")
+        link = tcp(running.host, port=running.port, timeout=2.0)
+        if kind == "sync":
+            link.open()
+            assert [link.call(1, READ).words, link.call(1, OTHER).words] == [low, high]
+            link.close()
+        else:
+            asyncio.run(_both(running, [low, high]))
+
+
+async def _both(running: Any, expected: list[tuple[int, ...]]) -> None:
+    link = links.async_tcp(running.host, port=running.port, timeout=2.0)
+    await link.open()
+    assert [(await link.call(1, READ)).words, (await link.call(1, OTHER)).words] == expected
+    await link.close()
+
+
 def _two_reads(kind: str, host: str, **where: Any) -> tuple[int, ...]:
     """The words of the second read, after a first one that got no answer in time."""
 
