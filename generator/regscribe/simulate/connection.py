@@ -2,7 +2,7 @@
 
 import asyncio
 from collections import deque
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
@@ -26,11 +26,26 @@ class Exchange:
     frame: bytes
 
 
-Delivery = Callable[[Exchange], Awaitable[bytes]]
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """Bytes that are sent after `pause` seconds; with `hangup` the client is disconnected then."""
+
+    data: bytes = b""
+    pause: float = 0.0
+    hangup: bool = False
+
+
+Delivery = Callable[[Exchange], Awaitable[bytes | Sequence[Piece]]]
 """Stands between the device and the line: awaited for each exchange, it returns the bytes to send.
 
 The place for faults: waiting, changing, dropping or doubling frames. Exchanges of one connection pass one after the
 other; the device's own latency has passed before.
+"""
+
+Arrival = Callable[[Request, Callable[[], bytes | None]], bytes | None]
+"""Stands between the line and the device: called with each request, and with what lets the device act on it.
+
+It returns the answer. If it does not let the device act, the request never arrived.
 """
 
 Recorder = Callable[[Request], None]
@@ -54,6 +69,7 @@ class Manners:
 
     patience: Patience = field(default_factory=Patience)
     pace: Pace | None = None
+    arrival: Arrival | None = None
     delivery: Delivery | None = None
     recorder: Recorder | None = None
     watcher: Watcher | None = None
@@ -164,11 +180,17 @@ class Connection:
         manners = self._manners
         if manners.recorder is not None and self._station.has(request.unit):
             manners.recorder(request)
-        answer = self._station.answer(request.unit, request.pdu)
+        answer = self._answer(request)
         exchange = Exchange(request, answer, b"" if answer is None else self._framer.answer(request, answer))
         if manners.watcher is not None:
             manners.watcher(exchange)
         return exchange
+
+    def _answer(self, request: Request) -> bytes | None:
+        arrival = self._manners.arrival
+        if arrival is None:
+            return self._station.answer(request.unit, request.pdu)
+        return arrival(request, lambda: self._station.answer(request.unit, request.pdu))
 
     async def _work_off(self) -> None:
         try:
@@ -189,6 +211,15 @@ class Connection:
         pace, delivery = self._manners.pace, self._manners.delivery
         if pace is not None and exchange.answer is not None:
             await asyncio.sleep(pace.seconds(exchange.request))
-        frame = exchange.frame if delivery is None else await delivery(exchange)
-        if frame:
-            self._outlet.write(frame)
+        sent = exchange.frame if delivery is None else await delivery(exchange)
+        for piece in (Piece(sent),) if isinstance(sent, bytes) else sent:
+            await self._send(piece)
+
+    async def _send(self, piece: Piece) -> None:
+        if piece.pause:
+            await asyncio.sleep(piece.pause)
+        if piece.data:
+            self._outlet.write(piece.data)
+        if piece.hangup:
+            self._waiting.clear()
+            self._outlet.close()

@@ -3,9 +3,12 @@
 import math
 import struct
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 from threading import RLock
+from typing import Any
 
 from regscribe.model import Model, Protocol, RegisterMap, Space
+from regscribe.simulate import saving
 from regscribe.simulate.addressing import AddressError, shifted
 from regscribe.simulate.answers import EXCEPTION_BIT, Refusal, exception_answer, pack_bits, unpack_bits
 from regscribe.simulate.commands import Commands
@@ -106,6 +109,26 @@ class SimulatedDevice:
     def pending(self) -> tuple[str, ...]:
         """The registers that show a value which is not in effect until an `apply` command comes."""
         return tuple(self.state.pending)
+
+    def snapshot(self) -> dict[str, Any]:
+        """Return all that the device holds as plain values, ready for YAML or JSON; `restore` takes it back."""
+        with self._lock:
+            return saving.snapshot(self.state, self.unit, self._conduct.wear)
+
+    def restore(self, document: Mapping[str, Any]) -> None:
+        """Set the device to a snapshot, or to a backup of a real one. SimulatorError if it is of another model."""
+        with self._lock:
+            self._conduct.wear.update(saving.restore(self.state, document))
+
+    def save(self, path: str | Path) -> None:
+        """Write what the device holds to a YAML file. SimulatorError if that fails."""
+        saving.save(Path(path), self.snapshot())
+
+    def load(self, path: str | Path) -> None:
+        """Set the device to a file of `save`, or to a backup. SimulatorError if it is none, or of another model."""
+        document = saving.load(Path(path))
+        with self._lock:
+            self._conduct.wear.update(saving.restore(self.state, document, name=str(path)))
 
     def power_cycle(self) -> None:
         """Take power away and give it back: RAM is restored from lasting memory, where the map says what from."""

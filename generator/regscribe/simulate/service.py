@@ -9,7 +9,7 @@ from enum import StrEnum
 from functools import partial
 
 from regscribe.model import RegisterMap, Serial
-from regscribe.simulate.connection import Delivery, Manners, Patience, Recorder, Watcher
+from regscribe.simulate.connection import Arrival, Delivery, Manners, Patience, Recorder, Watcher
 from regscribe.simulate.device import SimulatedDevice
 from regscribe.simulate.errors import SimulatorError
 from regscribe.simulate.framing import Framing, Request, RtuFramer, SilenceFramer
@@ -52,7 +52,7 @@ class Service:
     `latency` is `off`, `real` (the map's times by function and word), or a factor. `paced` lets the bytes on a pty
     take their time at the speed of the line, frames end by silence; with `strict_gaps`, a request that comes too soon
     after an answer is lost, too. `foreign` is what a unit that is not there gets (None: over MBAP a gateway's
-    exception, elsewhere silence). `delivery` stands between device and line, `recorder` is told of each request to a
+    exception, elsewhere silence). `arrival` and `delivery` stand between device and line (see `Faults`), `recorder` is told of each request to a
     device here, `watcher` of each exchange. `connections`: how many clients at once. `patience` None: 1 s for half a
     frame and 10 minutes for an idle client on TCP, 0.1 s and for ever on a line.
     """
@@ -68,6 +68,7 @@ class Service:
     foreign: Foreign | None = None
     connections: int = MOST_CONNECTIONS
     patience: Patience | None = None
+    arrival: Arrival | None = None
     delivery: Delivery | None = None
     recorder: Recorder | None = None
     watcher: Watcher | None = None
@@ -166,6 +167,7 @@ def simulate(  # noqa: PLR0913 (all but two are keywords for tests)
     paced: bool = False,
     strict_gaps: bool = False,
     foreign: Foreign | None = None,
+    arrival: Arrival | None = None,
     delivery: Delivery | None = None,
 ) -> Iterator[Running]:
     """Serve one device from a thread of its own while the block runs; for sync and async clients in tests.
@@ -185,6 +187,7 @@ def simulate(  # noqa: PLR0913 (all but two are keywords for tests)
         paced=paced,
         strict_gaps=strict_gaps,
         foreign=foreign,
+        arrival=arrival,
         delivery=delivery,
         recorder=record,
     )
@@ -214,6 +217,7 @@ def _manners(devices: Sequence[SimulatedDevice], service: Service, usual: Patien
     return Manners(
         patience=service.patience or usual,
         pace=Pace(devices, line, factor=factor) if factor else None,
+        arrival=service.arrival,
         delivery=service.delivery,
         recorder=service.recorder,
         watcher=service.watcher,

@@ -109,6 +109,22 @@ class State(Meaning):
         """The registers whose value is not in effect yet, with what is in effect instead."""
         return dict(self._pending)
 
+    def copy(self) -> "State":
+        """Return a state of its own that holds the same."""
+        other = State(self.blueprint)
+        other.adopt(self)
+        return other
+
+    def adopt(self, other: "State") -> None:
+        """Hold and show what another state of the model holds and shows."""
+        stored, image, pending, driven = other._held()  # noqa: SLF001 - of its own kind
+        self.touched.update(self._stored, stored)
+        self._stored, self._pending, self._driven = dict(stored), dict(pending), driven
+        self._image = {space: dict(words) for space, words in image.items()}
+
+    def _held(self) -> tuple[dict[str, Stored], Image, dict[str, Stored], frozenset[str]]:
+        return self._stored, self._image, self._pending, self._driven
+
     def drive(self, path: str, *, alone: bool) -> None:
         """Let a register follow nothing while something else moves it `alone`."""
         self._driven = self._driven | {path} if alone else self._driven - {path}
