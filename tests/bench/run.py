@@ -1,13 +1,18 @@
 """`make bench`: speed and size as ratios, side by side in one run; exit 1 if a budget is missed.
 
-Usage: python tests/bench/run.py [--full]     (--full adds PeakRDL-python on 10,000 registers, which takes minutes)
+Usage: python tests/bench/run.py [--full]
+
+--full adds PeakRDL-python on 10,000 registers and the full read of every model at 9600 baud, which take minutes.
 """
 
 import sys
 from collections.abc import Iterator
 
 import compiling
+import lines
 import planning
+import polling
+import serving
 import talking
 from measure import Row
 from rich.console import Console
@@ -19,7 +24,9 @@ def rows() -> Iterator[Row]:
     yield from compiling.rows(1000, peers=True)
     yield from compiling.rows(10_000, peers="--full" in sys.argv)
     yield from talking.decoding()
-    yield from talking.reading()
+    yield from polling.rows()
+    yield from serving.rows()
+    yield from lines.rows(every="--full" in sys.argv)
     yield from compiling.start_up()
     yield from compiling.real_maps()
     yield from planning.rows()

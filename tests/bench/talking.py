@@ -1,17 +1,14 @@
-"""Decode a block; read one register through a driver; against struct and against the bare pymodbus client."""
+"""Decode a block, against struct and against pymodbus."""
 
 import struct
 from collections.abc import Iterator
 
 from measure import Row, at_least, at_most, milliseconds, paired
 from pymodbus.client import ModbusTcpClient
-from synthetic import yaml_map
 
-from regscribe import lower, source
-from regscribe.runtime import INT16, Conversion, Device, ReadOnly, integer, number, word
+from regscribe.runtime import INT16, Conversion, ReadOnly, integer, number, word
 from regscribe.runtime.ready import make_ready
 from regscribe.runtime.session import Protocol, Session
-from regscribe.simulate import simulate
 
 COUNT = 1000
 READS = 100
@@ -52,36 +49,3 @@ def decoding() -> Iterator[Row]:
         theirs / ours,
         20,
     )
-
-
-class Bench(Device):
-    """Two registers of the synthetic device."""
-
-    value = ReadOnly(2, word(INT16), integer)
-
-
-def reading() -> Iterator[Row]:
-    """One register over loopback TCP from the same simulated device, through the driver and through pymodbus."""
-    document, _ = source.parse(yaml_map(10), name="bench")
-    assert document is not None
-    register_map, _ = lower.lower(document)
-    assert register_map is not None
-    with (
-        simulate(register_map, "Unit", unit=1) as running,
-        Bench.tcp(running.host, port=running.port, unit=1) as driver,
-    ):
-        client = ModbusTcpClient(running.host, port=running.port, retries=0)
-        client.connect()
-
-        def ours() -> None:
-            for _ in range(READS):
-                driver.value.read()
-
-        def theirs() -> None:
-            for _ in range(READS):
-                client.read_holding_registers(2, count=1, device_id=1)
-
-        mine, bare = paired(ours, theirs, runs=60)
-        client.close()
-    what = "read one register over TCP (bare pymodbus client)"
-    yield at_most(what, milliseconds(mine / READS), milliseconds(bare / READS), mine / bare, 1.15)

@@ -50,7 +50,9 @@ def characters(request: "Request") -> tuple[int, int]:
 
 
 def silence(line: Line, gap: float) -> float:
-    """Seconds of silence between frames: `gap` characters, above 19200 baud at least the fixed 1.75 ms."""
+    """Seconds of silence between frames: `gap` characters, above 19200 baud at least the fixed 1.75 ms; none for 0."""
+    if not gap:
+        return 0.0
     spaced = gap * line.character
     return max(spaced, FAST_SILENCE) if line.baud > FAST_BAUD else spaced
 
