@@ -180,17 +180,13 @@ class Connection:
         manners = self._manners
         if manners.recorder is not None and self._station.has(request.unit):
             manners.recorder(request)
-        answer = self._answer(request)
+        act, arrival = self._station.answer, manners.arrival
+        unit, pdu = request.unit, request.pdu
+        answer = act(unit, pdu) if arrival is None else arrival(request, lambda: act(unit, pdu))
         exchange = Exchange(request, answer, b"" if answer is None else self._framer.answer(request, answer))
         if manners.watcher is not None:
             manners.watcher(exchange)
         return exchange
-
-    def _answer(self, request: Request) -> bytes | None:
-        arrival = self._manners.arrival
-        if arrival is None:
-            return self._station.answer(request.unit, request.pdu)
-        return arrival(request, lambda: self._station.answer(request.unit, request.pdu))
 
     async def _work_off(self) -> None:
         try:

@@ -52,9 +52,9 @@ class Service:
     `latency` is `off`, `real` (the map's times by function and word), or a factor. `paced` lets the bytes on a pty
     take their time at the speed of the line, frames end by silence; with `strict_gaps`, a request that comes too soon
     after an answer is lost, too. `foreign` is what a unit that is not there gets (None: over MBAP a gateway's
-    exception, elsewhere silence). `arrival` and `delivery` stand between device and line (see `Faults`), `recorder` is told of each request to a
-    device here, `watcher` of each exchange. `connections`: how many clients at once. `patience` None: 1 s for half a
-    frame and 10 minutes for an idle client on TCP, 0.1 s and for ever on a line.
+    exception, elsewhere silence). `arrival` and `delivery` stand between device and line (`Faults` has both),
+    `recorder` is told of each request to a device here, `watcher` of each exchange. `connections`: how many clients at
+    once. `patience` None: 1 s for half a frame and 10 minutes for an idle client on TCP, 0.1 s and for ever on a line.
     """
 
     transport: Transport = Transport.TCP
