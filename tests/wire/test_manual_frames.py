@@ -217,22 +217,16 @@ def as_request(example: FrameExample) -> Request:
     """Return the request of a frame as the drivers hold it, read off the bytes."""
     body = example.frame[2:-2] if example.crc else example.frame[2:]
     address, second = (int.from_bytes(body[at : at + 2], "big") for at in (0, 2))
-    match example.function:
-        case 1 | 3:
-            return Request(example.function, address, second)
-        case 5:
-            return Request(5, address, 1, (int(second == 0xFF00),))
-        case 6:
-            return Request(6, address, 1, (second,))
-        case 7:
-            return Request(READ_STATUS, 0)
-        case 8:
-            return Request(LOOPBACK, 0, 1, (second,))
-        case 15:
-            return Request(15, address, second, tuple(body[5] >> bit & 1 for bit in range(second)))
-        case _:
-            words = tuple(int.from_bytes(body[at : at + 2], "big") for at in range(5, len(body), 2))
-            return Request(16, address, second, words)
+    words = {
+        5: (int(second == 0xFF00),),
+        6: (second,),
+        8: (second,),
+        15: tuple(body[5] >> bit & 1 for bit in range(second)) if example.function == 15 else (),
+        16: tuple(int.from_bytes(body[at : at + 2], "big") for at in range(5, len(body), 2)),
+    }.get(example.function, ())
+    if example.function in {READ_STATUS, LOOPBACK}:
+        return Request(example.function, 0, 1, words)
+    return Request(example.function, address, 1 if example.function in {5, 6} else second, words)
 
 
 @every_exchange

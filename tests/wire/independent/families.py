@@ -78,7 +78,7 @@ def compiled(name: str) -> RegisterMap:
 
 def steering(model: Model) -> set[str]:
     """Return the registers that decide what others mean: they stay as they are."""
-    found: set[str] = set()
+    found = {register.path for register in model.registers if register.governs is not None}
     for register in model.registers:
         found |= {*registers_of(register.scale), *registers_of(register.unit)}
         found |= {case.then.decimals.register for case in register.scale if case.then.decimals}

@@ -19,7 +19,7 @@ class Agreed(NamedTuple):
 
 
 def table(agreements: Iterable[Agreed]) -> list[str]:
-    """Lay out one row for each client and family; a cell is `reads/writes`, the last columns exceptions and silences."""
+    """Lay out a row for each client and family: a cell is `reads/writes`, the last are exceptions and silences."""
     counts: Counter[tuple[str, str, str]] = Counter()
     for each in agreements:
         counts[each.client, each.family, each.what] += each.count

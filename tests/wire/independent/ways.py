@@ -1,8 +1,9 @@
 """Each client with each way of talking that it has, ready to be let loose on a simulated device."""
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
+from typing import Any
 
 from independent.answers import Client
 from independent.lines import pty_before, pty_pair
@@ -26,21 +27,22 @@ def talking(
     kind: type[Client], device: SimulatedDevice, folder: Path, foreign: Foreign | None = None
 ) -> Iterator[Talk]:
     """Serve `device` as the client `kind` talks, and on TCP as the last server of the stage; connect the client."""
-    own = service("tcp")
     make: Callable[..., Client] = kind
-    if kind in OVER_TCP:
-        with staged(device, service(OVER_TCP[kind], foreign=foreign), own) as stage:
-            with make(stage.servers[0].host, stage.servers[0].port) as client:
-                yield client, stage
-    elif kind in ON_A_LINE:
-        with pty_pair(folder) as (ours, theirs), staged(device, service("serial", path=ours), own) as stage:
-            with make(theirs) as client:
-                yield client, stage
-    else:
-        with staged(device, service("ascii-tcp"), own) as stage:
-            server = stage.servers[0]
-            with pty_before(server.host, server.port, folder) as theirs, make(theirs) as client:
-                yield client, stage
+    with ExitStack() as stack:
+        if kind in OVER_TCP:
+            stage = _served(stack, device, service(OVER_TCP[kind], foreign=foreign))
+            target = [stage.servers[0].host, stage.servers[0].port]
+        elif kind in ON_A_LINE:
+            ours, theirs = stack.enter_context(pty_pair(folder))
+            stage, target = _served(stack, device, service("serial", path=ours)), [theirs]
+        else:
+            stage = _served(stack, device, service("ascii-tcp"))
+            target = [stack.enter_context(pty_before(stage.servers[0].host, stage.servers[0].port, folder))]
+        yield stack.enter_context(make(*target)), stage
+
+
+def _served(stack: ExitStack, device: SimulatedDevice, way: dict[str, Any]) -> Stage:
+    return stack.enter_context(staged(device, way, service("tcp")))
 
 
 def own_link(stage: Stage) -> Link:
