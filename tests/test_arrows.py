@@ -22,7 +22,7 @@ ROOMS = {
     "checks": {"model", "source", "schema", "compose", "lower"},
     "emit": {"model", "schema"},
     "evidence": {"model", "emit"},
-    "simulate": {"model"},
+    "simulate": {"model", "source", "shipped", "pipeline"},
     "runtime": set[str](),
     "live": {"model", "source", "schema", "runtime"},
     "programs": {"model", "source", "schema", "runtime", "live", "emit"},
@@ -35,7 +35,7 @@ ROOMS = {
 """Which other rooms a room may import."""
 
 OWNERS = {
-    "yaml": {"source", "settings"},
+    "yaml": {"source", "settings", "simulate"},
     "jsonschema": {"schema"},
     "jinja2": {"emit"},
     "click": {"cli"},

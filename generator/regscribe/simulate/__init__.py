@@ -5,13 +5,20 @@ from regscribe.simulate.device import SimulatedDevice
 from regscribe.simulate.errors import SimulatorError
 from regscribe.simulate.framing import Request
 from regscribe.simulate.lines import Line
+from regscribe.simulate.maps import find_map
+from regscribe.simulate.running import Running, in_thread, simulate
 from regscribe.simulate.servers import Server
-from regscribe.simulate.service import Running, Service, Transport, serve, simulate, start
+from regscribe.simulate.service import Service, Transport, serve, start
 from regscribe.simulate.station import Foreign
+from regscribe.simulate.thermal import ThermalProcess
+from regscribe.simulate.values import HIGH_FAULT, LOW_FAULT, Fault
 
 __all__ = [
+    "HIGH_FAULT",
+    "LOW_FAULT",
     "Delivery",
     "Exchange",
+    "Fault",
     "Foreign",
     "Line",
     "Patience",
@@ -21,7 +28,10 @@ __all__ = [
     "Service",
     "SimulatedDevice",
     "SimulatorError",
+    "ThermalProcess",
     "Transport",
+    "find_map",
+    "in_thread",
     "serve",
     "simulate",
     "start",

@@ -1,8 +1,8 @@
 """Servers on asyncio: a station of simulated devices on a TCP port, or on a serial line."""
 
 import asyncio
-from collections.abc import Callable
-from typing import Protocol, cast
+from collections.abc import Callable, Coroutine
+from typing import Any, Protocol, cast
 
 from regscribe.simulate.connection import CHUNK, Connection, Manners
 from regscribe.simulate.errors import SimulatorError
@@ -32,13 +32,30 @@ class Server(Protocol):
         """Take no more requests and close everything."""
 
 
-class TcpServer:
+class _Accompanied:
+    """A server with tasks that last as long as it does."""
+
+    def __init__(self) -> None:
+        self._companions: list[asyncio.Task[None]] = []
+
+    def accompany(self, work: Coroutine[Any, Any, None]) -> None:
+        """Let `work` go on until the server is stopped."""
+        self._companions.append(asyncio.get_running_loop().create_task(work))
+
+    async def _part(self) -> None:
+        for companion in self._companions:
+            companion.cancel()
+        await asyncio.gather(*self._companions, return_exceptions=True)
+
+
+class TcpServer(_Accompanied):
     """Serves many clients; each is independent of what the others send or do not read.
 
     When `most` clients are there and another comes, the one that was silent longest is disconnected.
     """
 
     def __init__(self, station: Station, framing: Framing, manners: Manners, *, most: int) -> None:
+        super().__init__()
         self.host = ""
         self.port = 0
         self.path = ""
@@ -69,6 +86,7 @@ class TcpServer:
 
     async def stop(self) -> None:
         """Stop accepting, then end the clients."""
+        await self._part()
         if self._listener is not None:
             self._listener.close()
         if self._looking is not None:
@@ -159,10 +177,11 @@ Wiring = Callable[[int, Events], LineTransport]
 """Makes the transport of an open line: as it is, or at the pace of a speed."""
 
 
-class LineServer:
+class LineServer(_Accompanied):
     """Serves the one line that it is given."""
 
     def __init__(self, line: OpenLine, station: Station, manners: Manners) -> None:
+        super().__init__()
         self.host = ""
         self.port = 0
         self.path = line.path
@@ -187,6 +206,7 @@ class LineServer:
 
     async def stop(self) -> None:
         """Stop answering and close the line."""
+        await self._part()
         if self._connection is not None and self._transport is not None:
             self._connection.end()
             self._transport.abort()

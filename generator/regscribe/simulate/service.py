@@ -1,19 +1,16 @@
-"""The simulator's front door: choose a transport, serve devices, from asyncio or in a thread of a test."""
+"""The simulator's front door: choose a transport, and serve devices from asyncio."""
 
-import asyncio
-import threading
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import partial
 
-from regscribe.model import RegisterMap, Serial
+from regscribe.model import Serial
+from regscribe.simulate.clock import speed_of, tick
 from regscribe.simulate.connection import Arrival, Delivery, Manners, Patience, Recorder, Watcher
 from regscribe.simulate.device import SimulatedDevice
 from regscribe.simulate.errors import SimulatorError
-from regscribe.simulate.framing import Framing, Request, RtuFramer, SilenceFramer
-from regscribe.simulate.givens import GivenValue
+from regscribe.simulate.framing import Framing, RtuFramer, SilenceFramer
 from regscribe.simulate.latency import Pace, factor_of
 from regscribe.simulate.lines import Line, OpenLine, open_pseudo_terminal, open_serial
 from regscribe.simulate.servers import LineServer, Server, TcpServer
@@ -51,7 +48,8 @@ class Service:
     that of the line which a pty or TCP stands for: character times count with it (None: the first device's default).
     `latency` is `off`, `real` (the map's times by function and word), or a factor. `paced` lets the bytes on a pty
     take their time at the speed of the line, frames end by silence; with `strict_gaps`, a request that comes too soon
-    after an answer is lost, too. `foreign` is what a unit that is not there gets (None: over MBAP a gateway's
+    after an answer is lost, too. Simulated time passes `speed` times as fast as real time for devices with a process
+    (0: only by `advance`). `foreign` is what a unit that is not there gets (None: over MBAP a gateway's
     exception, elsewhere silence). `arrival` and `delivery` stand between device and line (`Faults` has both),
     `recorder` is told of each request to a device here, `watcher` of each exchange. `connections`: how many clients at
     once. `patience` None: 1 s for half a frame and 10 minutes for an idle client on TCP, 0.1 s and for ever on a line.
@@ -65,6 +63,7 @@ class Service:
     latency: float | str = "off"
     paced: bool = False
     strict_gaps: bool = False
+    speed: float = 1.0
     foreign: Foreign | None = None
     connections: int = MOST_CONNECTIONS
     patience: Patience | None = None
@@ -81,6 +80,7 @@ async def start(devices: Sequence[SimulatedDevice], service: Service) -> Server:
     service asks for something impossible.
     """
     transport = Transport(service.transport)
+    speed_of(service.speed)
     usual = Foreign.GATEWAY if transport is Transport.TCP else Foreign.SILENCE
     station = Station(devices, foreign=service.foreign or usual)
     if service.paced and transport is not Transport.PTY:
@@ -90,11 +90,19 @@ async def start(devices: Sequence[SimulatedDevice], service: Service) -> Server:
         manners = _manners(devices, service, Patience())
         tcp = TcpServer(station, _FRAMINGS[transport], manners, most=service.connections)
         await tcp.listen(service.host, service.port)
+        _let_time_pass(tcp, devices, service)
         return tcp
     manners = _manners(devices, service, Patience(idle=None, gap=SERIAL_GAP))
     server = LineServer(_open(transport, devices, service), station, manners)
     _begin(server, devices, service)
+    _let_time_pass(server, devices, service)
     return server
+
+
+def _let_time_pass(server: TcpServer | LineServer, devices: Sequence[SimulatedDevice], service: Service) -> None:
+    moving = [device for device in devices if device.moves]
+    if moving and service.speed:
+        server.accompany(tick(moving, service.speed))
 
 
 def _begin(server: LineServer, devices: Sequence[SimulatedDevice], service: Service) -> None:
@@ -135,81 +143,6 @@ async def serve(
         await server.wait()
     finally:
         await server.stop()
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Running:
-    """A simulated device being served in this process: `path` is a pty's, `host` and `port` are of TCP.
-
-    `requests` holds every request to the device (function code and data), broadcasts too, in the order they came;
-    clear it as you like.
-    """
-
-    device: SimulatedDevice
-    host: str
-    port: int
-    path: str
-    requests: list[bytes]
-
-
-@contextmanager
-def simulate(  # noqa: PLR0913 (all but two are keywords for tests)
-    register_map: RegisterMap,
-    model: str,
-    *,
-    unit: int | None = None,
-    transport: str = Transport.TCP,
-    givens: Mapping[str, GivenValue] | None = None,
-    seed: int = 0,
-    addressing: str = "modbus",
-    latency: float | str = "off",
-    line: Line | None = None,
-    paced: bool = False,
-    strict_gaps: bool = False,
-    foreign: Foreign | None = None,
-    arrival: Arrival | None = None,
-    delivery: Delivery | None = None,
-) -> Iterator[Running]:
-    """Serve one device from a thread of its own while the block runs; for sync and async clients in tests.
-
-    `transport` is tcp, rtu-tcp, ascii-tcp or pty. Raises SimulatorError as `SimulatedDevice` and `start` do.
-    """
-    device = SimulatedDevice(register_map, model, unit=unit, givens=givens, seed=seed, addressing=addressing)
-    requests: list[bytes] = []
-
-    def record(request: Request) -> None:
-        requests.append(request.pdu)
-
-    service = Service(
-        transport=Transport(transport),
-        line=line,
-        latency=latency,
-        paced=paced,
-        strict_gaps=strict_gaps,
-        foreign=foreign,
-        arrival=arrival,
-        delivery=delivery,
-        recorder=record,
-    )
-    with _in_thread(device, service) as server:
-        yield Running(device=device, host=server.host, port=server.port, path=server.path, requests=requests)
-
-
-@contextmanager
-def _in_thread(device: SimulatedDevice, service: Service) -> Iterator[Server]:
-    loop = asyncio.new_event_loop()
-    thread = threading.Thread(target=loop.run_forever, name=f"simulated {device.model.name}", daemon=True)
-    thread.start()
-    try:
-        server = asyncio.run_coroutine_threadsafe(start((device,), service), loop).result()
-        try:
-            yield server
-        finally:
-            asyncio.run_coroutine_threadsafe(server.stop(), loop).result()
-    finally:
-        loop.call_soon_threadsafe(loop.stop)
-        thread.join()
-        loop.close()
 
 
 def _manners(devices: Sequence[SimulatedDevice], service: Service, usual: Patience) -> Manners:

@@ -19,7 +19,7 @@ from regscribe.simulate.following import followed_bits, has_followed_bits, sourc
 from regscribe.simulate.givens import GivenValue
 from regscribe.simulate.initial import initial_value
 from regscribe.simulate.meaning import Meaning
-from regscribe.simulate.values import Plain, field_value, number_of, with_field
+from regscribe.simulate.values import Fault, Plain, field_value, number_of, sentinel_of, with_field
 
 Value = Fraction | str
 """A value of use: what a person would say the register is."""
@@ -203,7 +203,8 @@ class State(Meaning):
     def poke(self, path: str, value: Plain) -> None:
         """Set a register, or `register.field`, to a value of use, whatever its access and range (as a process would).
 
-        A text is a text, a number in decimals, or the id of a sentinel, a special value or an enum member.
+        A text is a text, a number in decimals, or the id of a sentinel, a special value or an enum member; LOW_FAULT
+        and HIGH_FAULT are the register's own sentinels.
         """
         register, field = self.find(path)
         self._pending.pop(register.path, None)
@@ -236,6 +237,8 @@ class State(Meaning):
     def _to_stored(self, register: Register, value: Plain) -> Stored:
         if register.kind is Kind.STRING:
             return str(value)
+        if isinstance(value, Fault):
+            return sentinel_of(register, value)
         if isinstance(value, str):
             fault = next((each.stored for each in register.sentinels if each.id.lower() == value.lower()), None)
             if fault is not None:

@@ -1,6 +1,7 @@
 """Bit fields, names and versions: small, stateless steps between a stored number and what a person says."""
 
 from decimal import Decimal
+from enum import StrEnum
 from fractions import Fraction
 
 from regscribe.model import BitField, Register, exact
@@ -8,6 +9,25 @@ from regscribe.simulate.errors import SimulatorError
 
 Plain = str | float | Fraction | Decimal
 """What a test may hand in for a value: a number, or a text that spells or names one."""
+
+
+class Fault(StrEnum):
+    """A fault of a sensor without its name in the map: the sentinel with the lowest or the highest number."""
+
+    LOW = "low"
+    HIGH = "high"
+
+
+LOW_FAULT, HIGH_FAULT = Fault.LOW, Fault.HIGH
+
+
+def sentinel_of(register: Register, fault: Fault) -> Fraction:
+    """Return the stored number of a fault; SimulatorError if the register has none."""
+    if not register.sentinels:
+        message = f"register {register.path!r} has no faults: the map gives it no sentinels"
+        raise SimulatorError(message)
+    stored = [each.stored for each in register.sentinels]
+    return min(stored) if fault is Fault.LOW else max(stored)
 
 
 def field_value(word: Fraction, field: BitField) -> Fraction:
