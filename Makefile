@@ -5,16 +5,20 @@ BIN := .venv/bin
 INSTALLED := .venv/.installed
 
 .DEFAULT_GOAL := generate
-.PHONY: generate test test-all check format bench mutate sessions lock clean
+.PHONY: generate test test-all test-wire check format bench mutate sessions lock clean
 
 generate: $(INSTALLED) ## compile all maps; only what changed is written
 	@$(BIN)/regscribe generate
 
 test: $(INSTALLED) ## run the tests
-	$(BIN)/pytest -q -n 2 -m "not slow"
+	$(BIN)/pytest -q -n 2 -m "not slow and not wire"
 
 test-all: $(INSTALLED) ## run the tests, the slow ones too
-	$(BIN)/pytest -q -n 2
+	$(BIN)/pytest -q -n 2 -m "not wire"
+
+test-wire: $(INSTALLED) ## let clients by others talk to the simulated devices; installs them (Debian packages, npm)
+	$(BIN)/python tests/wire/install.py
+	$(BIN)/pytest -q -n 8 -m wire tests/wire
 
 check: $(INSTALLED) ## lint, types of code and generated drivers, drift of generated files
 	$(BIN)/ruff check

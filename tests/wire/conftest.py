@@ -1,5 +1,6 @@
 """Lets the tests import the clients beside them, counts what was agreed, and prints the table at the end."""
 
+import shutil
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -36,3 +37,12 @@ def pytest_terminal_summary(terminalreporter: Any) -> None:
         terminalreporter.section("agreed on the wire")
         for line in table(AGREEMENTS):
             terminalreporter.write_line(line)
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Skip, with what to do, where a client is missing: `make test-wire` installs them before it comes here."""
+    absent = [program for program in ("mbpoll", "socat", "tshark", "node") if not shutil.which(program)]
+    skip = pytest.mark.skip(reason=f"{', '.join(absent)} not installed: `make test-wire` does that")
+    for item in items if absent else ():
+        if item.get_closest_marker("wire"):
+            item.add_marker(skip)
