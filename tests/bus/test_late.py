@@ -13,7 +13,7 @@ from regscribe.runtime import NoAnswer, Retry, WrongAnswer, tcp
 from regscribe.runtime import link as links
 from regscribe.runtime.late import LATE_SECONDS, Late
 from regscribe.runtime.link import Link
-from regscribe.runtime.request import Request
+from regscribe.runtime.request import Request, verify
 from regscribe.simulate import simulate
 
 from .conftest import FarEnd, frame, words
@@ -187,6 +187,42 @@ async def _both(running: Any, expected: list[tuple[int, ...]]) -> None:
     await link.close()
 
 
+def test_an_answer_of_another_length_is_passed_over(far: FarEnd) -> None:
+    far.plan = lambda request: [(0.0, words(1, 9, 9, 9)), (0.03, value_of(request))]
+    link = serial(far)
+    assert link.call(1, READ).words == (28,)
+    link.close()
+
+
+def test_an_answer_of_another_length_that_stays_alone_is_a_wrong_answer(far: FarEnd) -> None:
+    far.plan = lambda _: [(0.0, words(1, 9, 9, 9))]
+    link = serial(far, timeout=0.25)
+    reply = link.call(1, READ)
+    with pytest.raises(WrongAnswer, match="3 values came where 1 were asked for"):
+        verify(READ, reply, unit=1, meanings={})
+    link.close()
+
+
+def test_another_unit_that_answers_with_the_right_transaction_id_is_named_at_once(athena: Any) -> None:
+    async def deliver(exchange: Any) -> bytes:
+        return bytes(exchange.frame[:6]) + b"\x07" + bytes(exchange.frame[7:])
+
+    with simulate(athena, "16C", unit=1, delivery=deliver) as running:
+        link = tcp(running.host, port=running.port, timeout=20.0)
+        link.open()
+        with pytest.raises(WrongAnswer, match="unit 7 answered in its place"):
+            link.call(1, READ)
+        link.close()
+
+
+def test_a_connection_with_more_bytes_than_asked_for_is_not_trusted_again() -> None:
+    with gateway(noise=True) as port:
+        link = tcp("127.0.0.1", port=port, framing="rtu", timeout=2.0)
+        link.open()
+        assert [link.call(1, READ).words, link.call(1, OTHER).words] == [(28,), (29,)]
+        link.close()
+
+
 def _two_reads(kind: str, host: str, **where: Any) -> tuple[int, ...]:
     """The words of the second read, after a first one that got no answer in time."""
 
@@ -211,19 +247,23 @@ def _two_reads(kind: str, host: str, **where: Any) -> tuple[int, ...]:
 
 
 @contextmanager
-def gateway() -> Iterator[int]:
-    """A transparent gateway: the first answer comes after 0.4 s, to the newest connection."""
+def gateway(*, noise: bool = False) -> Iterator[int]:
+    """A transparent gateway: the first answer comes after 0.4 s, to the newest connection.
+
+    With `noise` it comes at once with a byte too many, then once more, and the second answer later.
+    """
     loop = asyncio.new_event_loop()
     newest: list[asyncio.StreamWriter] = []
-    delays = iter([0.4])
+    plans = iter([[(0.0, b"\0"), (0.1, b"")], [(0.2, b"")]] if noise else [[(0.4, b"")]])
 
-    def send(answer: bytes) -> None:
-        newest[0].write(answer)
+    def send(own: asyncio.StreamWriter, answer: bytes) -> None:
+        (own if noise else newest[0]).write(answer)
 
     async def attend(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         newest[:] = [writer]
         while request := await reader.read(100):
-            loop.call_later(next(delays, 0.0), send, value_of(request))
+            for delay, more in next(plans, [(0.0, b"")]):
+                loop.call_later(delay, send, writer, value_of(request) + more)
         writer.close()
 
     server = loop.run_until_complete(asyncio.start_server(attend, "127.0.0.1", 0))
@@ -233,6 +273,6 @@ def gateway() -> Iterator[int]:
         yield server.sockets[0].getsockname()[1]
     finally:
         loop.call_soon_threadsafe(server.close)
-        loop.call_soon_threadsafe(loop.call_later, 0.05, loop.stop)
+        loop.call_soon_threadsafe(loop.call_later, 0.3, loop.stop)
         thread.join()
         loop.close()

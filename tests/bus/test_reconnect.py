@@ -244,3 +244,24 @@ def test_a_host_that_does_not_answer_fails_in_seconds(monkeypatch: pytest.Monkey
             links.tcp("127.0.0.1", port=full.getsockname()[1]).open()
         for one in waiting:
             one.close()
+
+
+def test_a_link_that_cannot_be_opened_is_tried_twice_however_many_times_reads_are_tried(
+    monkeypatch: pytest.MonkeyPatch, units: list[SimulatedDevice]
+) -> None:
+    with serving(units) as server:
+        device = Athena16C.tcp("127.0.0.1", port=server.port, unit=1, retry=Retry(reads=9, pause=0))
+        device.open()
+    time.sleep(0.02)
+    tried: list[int] = []
+
+    def refuse(_: str, port: int) -> None:
+        tried.append(port)
+        message = "refused"
+        raise LinkLost(message)
+
+    monkeypatch.setattr("regscribe.runtime.transport.open_tcp", refuse)
+    with pytest.raises(LinkLost, match="refused"):
+        device.controller_id.read()
+    device.close()
+    assert len(tried) == 2
