@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from regscribe.simulate import Running
+from regscribe.simulate import Exchange, Running
 
 Cli = Callable[..., Any]
 
@@ -168,7 +168,26 @@ def test_a_dry_run_of_the_speed_leaves_the_line_alone(cli: Cli, serve: Callable[
         line = f"rtu:{running.path}?baud=9600&model=16C"
         result = cli("write", line, "baud_rate", "BAUD_4800", "--confirm", "--dry-run")
         assert (result.code, result.out.split()[:2]) == (0, ["06", "4082"])
+        assert cli("write", line, "controller_id", "9", "--confirm", "--dry-run").code == 0
         assert cli("read", line, "baud_rate", "--value").out == "BAUD_9600\n"
+
+
+def test_a_dry_run_reads_back_what_it_would_have_written(cli: Cli, oven: str) -> None:
+    before = cli("read", oven, "autotune_damping", "--value").out
+    wanted = "LOW" if "LOW" not in before else "HIGH"
+    result = cli("write", oven, "autotune_damping", wanted, "--dry-run", "--verify")
+    assert (result.code, result.out.split()[:2]) == (0, ["06", "4011"]), result.err
+    assert cli("read", oven, "autotune_damping", "--value").out == before
+
+
+def test_a_write_whose_fate_nobody_knows_is_code_four(cli: Cli, serve: Callable[..., Any]) -> None:
+    async def mute(exchange: Exchange) -> bytes:
+        after_a_write = any(pdu[0] in {6, 16} for pdu in running.requests)
+        return b"" if after_a_write else exchange.frame
+
+    with serve(delivery=mute) as running:
+        result = cli("write", f"tcp:{running.host}:{running.port}?model=16C&timeout=0.1", "setpoint_ram", "99")
+    assert (result.code, "reading back fails too" in result.err) == (4, True)
 
 
 def test_what_the_device_holds_already_is_not_written_again(cli: Cli, oven: str, running: Running) -> None:

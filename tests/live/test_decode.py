@@ -129,6 +129,12 @@ def test_a_repeated_request_is_no_answer() -> None:
     assert [one.kind for one in decoded([ask, ask, rtu("01030443168000").hex()])] == ["request", "request", "response"]
 
 
+def test_what_another_unit_or_function_sends_is_no_answer() -> None:
+    ask = rtu("01031F440002").hex()
+    for foreign in (rtu("02030443168000"), rtu("01040443168000")):
+        assert [one.kind for one in decoded([ask, foreign.hex()])] == ["request", "request"]
+
+
 def test_an_answer_without_its_request_is_told_as_such() -> None:
     (answer,) = decoded([f"RX {rtu('01030443168000').hex()}"])
     assert answer.what == "function 03, to a request that is not in the capture"

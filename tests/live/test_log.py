@@ -81,7 +81,7 @@ def test_a_line_that_was_cut_off_does_not_stay(tmp_path: Path) -> None:
     path = tmp_path / "log.csv"
     path.write_text("\n".join([*LINES, "2026-01-02T03:04"]), encoding="utf-8")
     written(path, LOST)
-    assert path.read_text(encoding="utf-8").splitlines()[:-1] == LINES
+    assert path.read_text(encoding="utf-8").splitlines() == [*LINES, "2026-01-02T03:04:05.678Z,oven,,,,the cable"]
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from regscribe.live import catalogue, values
-from regscribe.runtime import Choice, Flags, Register, ValueRefused, Word
+from regscribe.runtime import INT16, Choice, Flags, ReadWrite, Register, ValueRefused, Word, choice, word
 from regscribe.runtime.identify import Known
 
 OVEN = catalogue.find("16C").driver.registers
@@ -83,6 +83,18 @@ def test_a_member_is_named_by_its_name_label_first_word_or_code(text: str | int)
 def test_a_member_that_is_none_says_which_was_meant() -> None:
     with pytest.raises(ValueRefused, match="did you mean `J_THERMOCOUPLE`"):
         values.parse(OVEN["input_type"], "J_TERMOCOUPLE")
+
+
+class Range(Choice):
+    LOW = 0, "1"
+    HIGH = 1, "10"
+
+
+def test_a_text_that_is_the_code_of_one_member_and_the_label_of_another_is_not_guessed() -> None:
+    register = ReadWrite(0, word(INT16), choice(Range))
+    with pytest.raises(ValueRefused, match=r"LOW \(0 1\) or HIGH \(1 10\): write the name"):
+        values.parse(register, "1")
+    assert values.parse(register, "10") is Range.HIGH
 
 
 def test_a_code_that_the_manual_does_not_list_is_shown_and_not_taken() -> None:
