@@ -28,6 +28,7 @@ ROOMS = {
     "programs": {"model", "source", "schema", "runtime", "live", "emit"},
     "settings": {"source", "schema", "runtime", "live"},
     "testing": {"runtime"},
+    "pytest_plugin": {"model", "simulate"},
     "pipeline": {"model", "source", "schema", "compose", "lower", "checks"},
     "cli": {"model", "source", "schema", "compose", "lower", "checks", "emit", "evidence", "simulate", "pipeline"}
     | {"runtime", "live", "settings", "programs", "shipped"},
