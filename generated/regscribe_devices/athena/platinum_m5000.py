@@ -168,7 +168,7 @@ _PROGRAMS = (
         ),
         section="10.5",
         final=ProgramFinal("final_setpoint", outputs=(("op3", "final_digital_output"),)),
-        count="number_of_segments",
+        number_of_segments="number_of_segments",
         counts="not_stated",
         cycles="cycles",
         holdback="allowed_deviation",

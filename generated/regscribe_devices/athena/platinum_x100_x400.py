@@ -141,7 +141,7 @@ _PROGRAMS = (
         ),
         section="11.5",
         final=ProgramFinal("end_setpoint", outputs=(("op3", "end_digital_output"),)),
-        count="number_of_segments",
+        number_of_segments="number_of_segments",
         counts="not_stated",
         cycles="number_of_program_cycles",
         holdback="allowed_deviation",

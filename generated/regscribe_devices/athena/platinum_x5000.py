@@ -147,7 +147,7 @@ _PROGRAMS = (
                 ("op4", "programs[{i}].final_op4_digital_output"),
             ),
         ),
-        count="programs[{i}].number_of_segments",
+        number_of_segments="programs[{i}].number_of_segments",
         counts="not_stated",
         cycles="programs[{i}].cycles",
         holdback="programs[{i}].allowed_deviation",

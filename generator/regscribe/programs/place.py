@@ -28,7 +28,7 @@ class Place:
     @property
     def last(self) -> int:
         """The number of the last segment."""
-        return self.spec.segments.first + self.spec.segments.count - 1
+        return self.spec.segments.first + self.spec.segments.many - 1
 
     def register(self, path: str, segment: int = 0) -> Register[Any]:
         """The register of a path of the declaration, for this program and a segment."""

@@ -26,12 +26,12 @@ def read(place: Place) -> Task[Program]:
 def _registers(place: Place) -> Iterator[Register[Any]]:
     spec, segments = place.spec, place.spec.segments
     unit = spec.time_unit[0] if spec.time_unit else ""
-    single = [spec.count, spec.cycles, unit, spec.holdback, spec.power_failure, spec.end]
+    single = [spec.number_of_segments, spec.cycles, unit, spec.holdback, spec.power_failure, spec.end]
     if spec.final:
         single += [spec.final.setpoint, *(path for _, path in spec.final.outputs)]
     yield from (place.register(path) for path in single if path)
     paths = [segments.setpoint, segments.ramp, segments.soak, *(path for _, path in segments.outputs)]
-    for number in range(segments.first, segments.first + segments.count):
+    for number in range(segments.first, segments.first + segments.many):
         yield from (place.register(path, number) for path in paths if path)
 
 
@@ -50,7 +50,7 @@ class _Reader:
 
     def program(self) -> Program:
         spec = self.place.spec
-        count = self._value(spec.count)
+        count = self._value(spec.number_of_segments)
         return Program(
             name=self.place.name,
             segments=tuple(self._segment(number) for number in self._used(count)),
@@ -94,9 +94,9 @@ class _Reader:
     def _used(self, count: Any) -> range:  # noqa: ANN401 - as above
         """The numbers of the segments in use; where it is not stated which one does not count, all that may be."""
         segments = self.place.spec.segments
-        used = segments.count
+        used = segments.many
         if count is not None:
-            used = min(int(count) + (self.place.spec.counts != "all"), segments.count)
+            used = min(int(count) + (self.place.spec.counts != "all"), segments.many)
         elif segments.idle:
             while used and all(int(self._value(path, segments.first + used - 1)) == 0 for path in segments.idle):
                 used -= 1

@@ -124,13 +124,13 @@ class _Structure:
         segments, given = self.place.spec.segments, self.program.segments
         if not given:
             self._wrong(("segments",), "there are none: a program has at least one")
-        if len(given) > segments.count:
-            message = f"{len(given)} segments, but the {self.place.model} has {segments.count}: leave some out"
+        if len(given) > segments.many:
+            message = f"{len(given)} segments, but the {self.place.model} has {segments.many}: leave some out"
             self._wrong(("segments",), f"{message} ({segments.first} to {self.place.last})")
-        for place, segment in enumerate(given[: segments.count]):
+        for place, segment in enumerate(given[: segments.many]):
             self._segment(place, segment)
         if segments.idle:
-            for number in range(segments.first + len(given), segments.first + segments.count):
+            for number in range(segments.first + len(given), segments.first + segments.many):
                 self._idle(number)
 
     def _segment(self, index: int, segment: Segment) -> None:
@@ -187,7 +187,7 @@ class _Structure:
 
     def _count(self) -> None:
         spec, given, have = self.place.spec, self.program.number_of_segments, len(self.program.segments)
-        if not spec.count:
+        if not spec.number_of_segments:
             if given is not None:
                 self._lacks("number_of_segments")
             return
@@ -198,8 +198,8 @@ class _Structure:
             self._wrong(
                 ("number_of_segments",), f"{given}, but {have} segments are {counted} as the device counts them"
             )
-        elif counted > 0 and have <= spec.segments.count:
-            self._ask("count", spec.count, Amount(_decimal(counted)), ("number_of_segments",))
+        elif counted > 0 and have <= spec.segments.many:
+            self._ask("count", spec.number_of_segments, Amount(_decimal(counted)), ("number_of_segments",))
 
     def _open_count(self, given: int | None, have: int) -> str:
         first = self.place.spec.segments.first

@@ -19,13 +19,13 @@ Values = tuple[tuple[str, Text], ...]
 
 
 class ProgramSegments(NamedTuple):
-    """`count` segments from number `first`: the paths of setpoint, ramp time and soak time, and of outputs by name.
+    """`many` segments from number `first`: the paths of setpoint, ramp time and soak time, and of outputs by name.
 
     A segment is not in use if all `idle` registers are 0.
     """
 
     first: int
-    count: int
+    many: int
     setpoint: str
     ramp: str
     soak: str = ""
@@ -62,7 +62,7 @@ NO_WAY = ProgramAction()
 class SetpointProgram(NamedTuple):
     """A program, or `programs` of them numbered from `first` (0: one without a number).
 
-    `counts` tells which segments the register `count` counts (all, after_first, not_stated), `forever` the code of
+    `counts` tells which segments `number_of_segments` counts (all, after_first, not_stated), `forever` the code of
     `cycles` for a program without end, `time_unit` the unit of all times under each code of a register,
     `setpoint_limits` two registers that the setpoints lie between, `enable` what makes the device run this program,
     `requires` the condition of a start and why. `while_running`: refused, allowed, or empty if the manual says nothing.
@@ -75,7 +75,7 @@ class SetpointProgram(NamedTuple):
     programs: int = 0
     section: str = ""
     final: ProgramFinal | None = None
-    count: str = ""
+    number_of_segments: str = ""
     counts: str = "all"
     cycles: str = ""
     forever: int | None = None

@@ -48,7 +48,7 @@ def _program(program: SetpointProgram, specs: Specs) -> Call:
         programs=str(program.programs) if program.programs else None,
         section=literal(program.section) if program.section else None,
         final=_final(program.final) if program.final else None,
-        count=literal(program.count) if program.count else None,
+        number_of_segments=literal(program.count) if program.count else None,
         counts=literal(program.counts.value) if program.counts is not ProgramCounts.ALL else None,
         **paths,
         forever=str(program.forever) if program.forever is not None else None,
