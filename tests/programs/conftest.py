@@ -23,6 +23,9 @@ from regscribe_devices.omega.cn8200 import OmegaCN8200
 
 MAPS = Path(__file__).parents[2] / "maps"
 KILN = (Path(__file__).parent / "kiln.yaml").read_text(encoding="utf-8")
+PATIENCE = 20
+"""Seconds to wait for an answer: a busy machine is no reason to fail."""
+
 DRIVERS: tuple[type[BareDevice], ...] = (
     Athena16C,
     Athena1ZC,
@@ -82,7 +85,7 @@ def serve() -> Serve:
     def served(driver: type[BareDevice]) -> Iterator[Bench]:
         with (
             simulate(shipped(driver.map_id), driver.model, unit=1) as running,
-            driver.tcp(running.host, port=running.port, unit=1) as device,  # type: ignore[attr-defined]  # none needs givens
+            driver.tcp(running.host, port=running.port, unit=1, timeout=PATIENCE) as device,  # type: ignore[attr-defined]  # none needs givens
         ):
             bench = Bench(running, device)
             if driver.map_id.startswith("athena/platinum"):
@@ -129,6 +132,6 @@ def kiln(kiln_map: Built) -> Iterator[Bench]:
     """A simulated kiln."""
     with (
         simulate(kiln_map.map, "K1", unit=1) as running,
-        kiln_map.driver.tcp(running.host, port=running.port, unit=1) as device,
+        kiln_map.driver.tcp(running.host, port=running.port, unit=1, timeout=PATIENCE) as device,
     ):
         yield Bench(running, device)
