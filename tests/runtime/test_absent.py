@@ -186,6 +186,18 @@ def test_a_refused_gap_between_good_registers_is_not_crossed_again() -> None:
     assert [(one.address, one.quantity) for one in unit.asked] == [(0, 2), (4, 2)]
 
 
+def test_a_register_that_was_only_read_along_is_not_called_absent() -> None:
+    row = registers(range(6))
+    unit = Unit(dict.fromkeys([0, 1, 4, 5], 3), refuse=code(2))
+    session = session_of(row)
+    unit.read(session, [row[0], row[1], row[4], row[5]])
+
+    unit.words |= {2: 7, 3: 8}
+
+    assert dict(unit.read(session, row[2:4])) == {"r2": 7, "r3": 8}
+    assert not unit.read(session, row).errors
+
+
 def test_a_register_with_another_place_is_read_there() -> None:
     twice: list[Register[Any]] = [ReadOnly(3, word(INT16), integer, aliases=(40,))]
     twice[0].path = "twice"

@@ -73,11 +73,16 @@ def price(group: Sequence[Item], terms: Terms) -> float:
 
 def cheapest(wanted: Sequence[tuple[Item, ...]], terms: Terms) -> float:
     """The least cost over all choices of items and all partitions of them."""
-    best = float("inf")
-    for chosen in set(itertools.product(*wanted)):
-        for groups in partitions(sorted(set(chosen))):
-            best = min(best, sum(price(group, terms) for group in groups))
-    return best
+    known: dict[tuple[Item, ...], float] = {}
+
+    def cost(group: list[Item]) -> float:
+        key = tuple(group)
+        if key not in known:
+            known[key] = price(group, terms)
+        return known[key]
+
+    choices = {tuple(sorted(set(chosen))) for chosen in itertools.product(*wanted)}
+    return min((sum(map(cost, groups)) for chosen in choices for groups in partitions(chosen)), default=float("inf"))
 
 
 def readable(wanted: Sequence[tuple[Item, ...]], ground: Ground) -> list[tuple[Item, ...]]:
@@ -102,6 +107,25 @@ def test_no_partition_and_no_choice_of_places_costs_less(
 
     assert exact
     assert total(made, terms) == cheapest(left, terms)
+
+
+near = st.builds(Item, st.just("holding"), st.integers(0, 20), st.integers(1, 2))
+pairs = st.lists(st.lists(near, min_size=1, max_size=2, unique=True).map(tuple), min_size=3, max_size=6)
+
+
+@settings(max_examples=150)
+@given(
+    pairs, st.builds(Limits, words=st.integers(2, 8)), st.integers(0, 4).map(lambda gap: Cost(SerialLine(), gap=gap))
+)
+def test_choices_between_crowded_places_are_the_cheapest(
+    wanted: list[tuple[Item, ...]], within: Limits, cost: Cost
+) -> None:
+    terms = Terms(within, whole(), cost)
+
+    made, exact = blocks(wanted, terms)
+
+    assert exact
+    assert total(made, terms) == cheapest(wanted, terms)
 
 
 @given(wants, limits, costs, holes, st.sampled_from([1, 2]))

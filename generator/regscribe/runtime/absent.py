@@ -17,11 +17,16 @@ EXPIRY_SECONDS = 600.0
 
 
 class Refusal(NamedTuple):
-    """Addresses that were refused, the answer, and when that was, as seconds since 1970."""
+    """Addresses that were refused, the answer, and when that was, as seconds since 1970.
+
+    `alone`: refused by a request of their own. Otherwise they were part of a refused request and of no good one since:
+    they are not read along, but may be asked for.
+    """
 
     item: Item
     answer: RegscribeError
     when: float
+    alone: bool
 
 
 class Absences:
@@ -36,9 +41,9 @@ class Absences:
     def __bool__(self) -> bool:
         return bool(self._refusals)
 
-    def add(self, item: Item, answer: RegscribeError) -> None:
+    def add(self, item: Item, answer: RegscribeError, *, alone: bool = True) -> None:
         """Remember that these addresses were refused now."""
-        self._refusals[item] = Refusal(item, answer, self.clock())
+        self._refusals[item] = Refusal(item, answer, self.clock(), alone)
 
     def clear(self) -> bool:
         """Forget all; whether there was anything."""
@@ -54,16 +59,19 @@ class Absences:
             del self._refusals[item]
         return bool(old)
 
-    def items(self) -> tuple[Item, ...]:
-        """The addresses that no plan may touch."""
-        return tuple(self._refusals)
+    def items(self, *, alone: bool) -> tuple[Item, ...]:
+        """The addresses that no plan may touch, or (not refused alone) that none may read along."""
+        return tuple(one.item for one in self._refusals.values() if one.alone is alone)
 
     def error(self, path: str, item: Item, unit: int) -> Absent | None:
         """The error in place of the value of the register `path`, which would be read at `item`; None if it can be."""
         touching = (
             one
             for one in self._refusals.values()
-            if one.item.space == item.space and one.item.address < item.end and item.address < one.item.end
+            if one.alone
+            and one.item.space == item.space
+            and one.item.address < item.end
+            and item.address < one.item.end
         )
         found = next(touching, None)
         if found is None:

@@ -7,6 +7,7 @@ A view whose requests must be aligned has a stretch of its own.
 
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Mapping
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from regscribe.runtime.request import READ_FUNCTIONS
@@ -44,7 +45,7 @@ class Stretch(NamedTuple):
 class Ground:
     """The stretches of every space of one device, and why they end."""
 
-    __slots__ = ("_aligned", "_known", "_refused", "_starts", "_stretches", "_unreadable", "holes")
+    __slots__ = ("_aligned", "_apart", "_known", "_refused", "_starts", "_stretches", "_unreadable", "holes")
 
     def __init__(
         self,
@@ -53,6 +54,7 @@ class Ground:
         unreadable: Mapping[str, list[Range]] | None = None,
         aligned: Mapping[str, list[Stretch]] | None = None,
         refused: Mapping[str, list[Range]] | None = None,
+        apart: Mapping[str, list[Range]] | None = None,
         holes: bool = False,
     ) -> None:
         self.holes, self._aligned = holes, aligned or {}
@@ -61,20 +63,30 @@ class Ground:
             space: without(merged(found), self._known.get(space, ())) for space, found in (unreadable or {}).items()
         }
         self._refused = {space: merged(found) for space, found in (refused or {}).items()}
+        self._apart = {space: merged(found) for space, found in (apart or {}).items()}
         self._stretches = {
-            space: tuple(self._cut(space, self._aligned.get(space, [])))
+            space: tuple(self._parted(space, self._cut(space, self._aligned.get(space, []))))
             for space in {*self._known, *self._unreadable, *self._refused}
         }
         self._starts = {space: [one.first for one in found] for space, found in self._stretches.items()}
 
-    def refusing(self, items: Iterable[Item]) -> "Ground":
-        """The same ground without addresses that a unit refused."""
-        refused: dict[str, list[Range]] = {}
-        for item in items:
-            refused.setdefault(item.space, []).append((item.address, item.end))
+    def refusing(self, items: Iterable[Item], *, apart: Iterable[Item] = ()) -> "Ground":
+        """The same ground without addresses that a unit refused; those in `apart` may be read, but not read along."""
         return Ground(
-            self._known, unreadable=self._unreadable, aligned=self._aligned, refused=refused, holes=self.holes
+            self._known,
+            unreadable=self._unreadable,
+            aligned=self._aligned,
+            refused=_by_space(items),
+            apart=_by_space(apart),
+            holes=self.holes,
         )
+
+    def _parted(self, space: str, stretches: Iterable[Stretch]) -> Iterator[Stretch]:
+        edges = sorted(edge for found in self._apart.get(space, ()) for edge in found)
+        for stretch in stretches:
+            inside = [edge for edge in edges if stretch.first < edge < stretch.end]
+            for first, end in pairwise([stretch.first, *inside, stretch.end]):
+                yield Stretch(first, end, stretch.align)
 
     def _cut(self, space: str, aligned: list[Stretch]) -> Iterator[Stretch]:
         allowed = [(0, ADDRESSES)] if self.holes else self._known.get(space, [])
@@ -110,13 +122,20 @@ class Ground:
         if self.stretch(before) == self.stretch(after):
             return ""
         space, gap = before.space, (before.end, after.address)
-        if _touches(self._refused.get(space, ()), gap):
+        if _touches(self._refused.get(space, ()), gap) or _touches(self._apart.get(space, ()), gap):
             return "refused"
         if _touches(self._unreadable.get(space, ()), gap):
             return "unreadable"
         if not self.holes and without([gap], self._known.get(space, ())):
             return "hole"
         return "alignment"
+
+
+def _by_space(items: Iterable[Item]) -> dict[str, list[Range]]:
+    found: dict[str, list[Range]] = {}
+    for item in items:
+        found.setdefault(item.space, []).append((item.address, item.end))
+    return found
 
 
 def _aligned(item: Item, align: int) -> Item:

@@ -180,7 +180,9 @@ class Session:
             if self._ground is None:
                 holes = self.protocol.read_holes
                 self._ground = ground_of(self.registers.values(), unused=self.unused, holes=holes)
-            ground = self._ground.refusing(self.absences.items()) if self.absences else self._ground
+            ground = self._ground
+            if self.absences:
+                ground = ground.refusing(self.absences.items(alone=True), apart=self.absences.items(alone=False))
             self.prepared[TERMS] = Terms(self.protocol.read_limits, ground, Cost.of(self.protocol, self.line))
         found: Terms = self.prepared[TERMS]
         return found

@@ -8,7 +8,7 @@ Each register that is called absent was refused alone. If a half is good, the ot
 without being asked for: one absent register among n takes between log2(n) and 2 log2(n) requests.
 """
 
-from collections.abc import Generator, Sequence
+from collections.abc import Generator, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from regscribe.runtime.errors import ExceptionAnswer, NoAnswer, RegscribeError
@@ -55,8 +55,10 @@ class Sieve:
             yield from self._sift(items, bad=True)
         if not self.heard:
             raise self.error
-        for item, error in (self.refused or self._never_read()).items():
+        for item, error in self.refused.items():
             self.session.absences.add(item, error)
+        for item in self._between():
+            self.session.absences.add(item, self.error, alone=False)
         self.session.prepared.clear()
         return tuple(self.words)
 
@@ -100,7 +102,9 @@ class Sieve:
         if self.silent >= MOST_SILENT and not self.heard:
             raise error
 
-    def _never_read(self) -> dict[Item, RegscribeError]:
-        """Where all items could be read, what was refused lies between them: addresses that only the block held."""
-        unread = (place for place, word in enumerate(self.words, self.block.address) if word is None)
-        return {Item(self.block.space, address, 1): self.error for address in unread}
+    def _between(self) -> Iterator[Item]:
+        """The addresses that were read along and are in no good request: what was refused may lie there."""
+        wanted = {address for item in self.block.items for address in range(item.address, item.end)}
+        for address, word in enumerate(self.words, self.block.address):
+            if word is None and address not in wanted:
+                yield Item(self.block.space, address, 1)
