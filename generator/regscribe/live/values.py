@@ -155,7 +155,7 @@ def _unit(text: str) -> str:
 
 
 def _member(register: Register[Any], members: type[IntEnum], plain: Plain) -> Any:  # noqa: ANN401 - a member
-    if isinstance(plain, (bool, list)) or (isinstance(plain, float) and plain != int(plain)):
+    if isinstance(plain, (bool, list)) or (isinstance(plain, float) and not plain.is_integer()):
         raise ValueRefused(register.path, f"{plain!r} names no member of {members.__name__}")
     text = str(int(plain) if isinstance(plain, float) else plain).strip()
     known: list[Any] = list(members)
