@@ -69,6 +69,14 @@ def test_programs_get_value_and_unit_of_each_register(cli: Cli, oven: str) -> No
     assert (found["format"], found["model"], found["map"], found["unit_id"]) == (1, "16C", "athena/series-c", 1)
 
 
+def test_a_text_of_the_device_does_not_steer_the_terminal(cli: Cli, serve: Callable[..., Any]) -> None:
+    with serve("athena/platinum-m300", "M300") as running:
+        running.device.poke("product_code", "\x1b[2J")
+        target = f"tcp:{running.host}:{running.port}?model=M300"
+        assert cli("read", target, "product_code").out == "product_code  \\x1b[2J\n"
+        assert cli("read", target, "product_code", "--value").out == "\\x1b[2J\n"
+
+
 @pytest.mark.parametrize(
     ("name", "said"),
     [

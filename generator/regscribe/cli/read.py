@@ -8,6 +8,7 @@ from typing import Any
 import click
 
 from regscribe.cli.completing import complete_register
+from regscribe.cli.excerpt import safe
 from regscribe.cli.failure import REFUSED, kind_of
 from regscribe.cli.output import print_json, show_table
 from regscribe.cli.target import HELP, opened, target_options
@@ -39,7 +40,7 @@ def command(*, target: Target, as_json: bool, wanted: tuple[str, ...], bare: boo
     if as_json:
         print_json(**heading(device, target), registers={one.name: plain(one) for one in found})
     elif bare:
-        sys.stdout.writelines(f"{one.text if one.error is None else ''}\n" for one in found)
+        sys.stdout.writelines(f"{safe(one.text) if one.error is None else ''}\n" for one in found)
         _complain(found)
     else:
         show_table(("REGISTER", "VALUE"), [(one.name, one.spelled) for one in found])
