@@ -65,6 +65,7 @@ def test_an_ascii_frame_has_two_characters_a_byte_a_colon_a_check_and_a_line_end
 
 def test_above_19200_baud_the_silence_is_a_fixed_time() -> None:
     assert silence(Line("", 115200), 3.5) == 0.00175
+    assert silence(Line("", 115200), 0) == 0
     assert silence(Line("", 19200), 3.5) == pytest.approx(3.5 * 10 / 19200)
 
 

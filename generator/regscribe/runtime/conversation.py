@@ -98,7 +98,7 @@ class Conversation:
         while True:
             while received and (found := self._found(received, asked)):
                 reply = self._reply(found, asked)
-                if reply is not None and (fits(asked.wire, reply) or self.framing.decisive):
+                if reply is not None and (self.framing.decisive or fits(asked.wire, reply)):
                     self._finished(received, asked)
                     return reply
                 wrong = reply or wrong

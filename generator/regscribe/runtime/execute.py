@@ -34,8 +34,9 @@ def carry_out(operation: Operation[T], link: Link, unit: int, session: Session |
                 asked = operation.send(reply)
     except StopIteration as done:
         return cast("T", done.value)
-    finally:
+    except BaseException:
         operation.close()
+        raise
 
 
 async def carry_out_async(operation: Operation[T], link: AsyncLink, unit: int, session: Session | None = None) -> T:
@@ -57,8 +58,9 @@ async def carry_out_async(operation: Operation[T], link: AsyncLink, unit: int, s
                 asked = operation.send(reply)
     except StopIteration as done:
         return cast("T", done.value)
-    finally:
+    except BaseException:
         operation.close()
+        raise
 
 
 def _retune(change: Retune, session: Session | None, link: Link | AsyncLink) -> None:

@@ -1,14 +1,15 @@
 """Where an answer begins and ends in the bytes that come. The only module of the runtime that imports pymodbus.
 
-Its framers build frames and check single ones (CRC, LRC, MBAP header). Which of the bytes are a frame is decided here:
-the framers drop what follows a bad frame, wait for ever on a foreign header, and find the wrong length in noise.
+Its framers build RTU and ASCII frames and check single ones (CRC, LRC). Which of the bytes are a frame is decided here:
+the framers drop what follows a bad frame and find the wrong length in noise. That of TCP waits for ever on a foreign
+header, so that header of seven bytes is read and written here.
 """
 
 import struct
 from abc import abstractmethod
 from typing import NamedTuple, Protocol
 
-from pymodbus.framer import FramerAscii, FramerRTU, FramerSocket
+from pymodbus.framer import FramerAscii, FramerRTU
 from pymodbus.pdu import DecodePDU
 
 EXCEPTION_BIT = 0x80
@@ -30,7 +31,6 @@ class Framing(Protocol):
     """One kind of frame. `decisive`: an answer names its request, so one that does not fit needs no waiting."""
 
     decisive: bool
-    wordy: float
 
     @abstractmethod
     def build(self, unit: int, pdu: bytes) -> bytes:
@@ -52,8 +52,6 @@ class Mbap:
     """Frames of Modbus TCP: a header with a transaction id, which tells an answer from a late or repeated one."""
 
     decisive = True
-    wordy = 1.0
-    _FRAMER = FramerSocket(_DECODER)
     _HEAD = struct.Struct(">HHHB")
     _LENGTHS = range(3, 256)
 
@@ -63,7 +61,7 @@ class Mbap:
     def build(self, unit: int, pdu: bytes) -> bytes:
         """The frame of a request, with the next transaction id."""
         self._transaction = self._transaction % 0xFFFF + 1
-        return self._FRAMER.encode(pdu, unit, self._transaction)
+        return self._HEAD.pack(self._transaction, 0, len(pdu) + 1, unit) + pdu
 
     def find(self, buffer: bytearray, unit: int, function: int) -> Found | None:  # noqa: ARG002 (the id tells more)
         """The next frame, whosever it is; ValueError for a header that is none."""
@@ -89,7 +87,6 @@ class Rtu:
     """Frames with a CRC. They have no mark at the beginning, so a sound one of the right unit is looked for."""
 
     decisive = False
-    wordy = 1.0
     _FRAMER = FramerRTU(_DECODER)
     _SHORTEST = 4
 
@@ -127,7 +124,6 @@ class Ascii:
     """Frames in hexadecimal text between a colon and a line end, with an LRC."""
 
     decisive = False
-    wordy = 2.0
     _FRAMER = FramerAscii(_DECODER)
     _START, _END = b":", b"\r\n"
     _SHORTEST = 9

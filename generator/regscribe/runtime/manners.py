@@ -31,7 +31,13 @@ class Manners:
     """
 
     def __init__(
-        self, line: "Line | None", gap: float, *, echo: bool | None, framing: "Framing", told: "Callable[[int, bytes], None]"
+        self,
+        line: "Line | None",
+        gap: float,
+        *,
+        echo: bool | None,
+        framing: "Framing",
+        told: "Callable[[int, bytes], None]",
     ) -> None:
         self.line, self.gap, self.echo = line, gap, echo
         self.late = Late()
