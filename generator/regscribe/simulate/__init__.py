@@ -10,6 +10,7 @@ from regscribe.simulate.running import Running, in_thread, simulate
 from regscribe.simulate.servers import Server
 from regscribe.simulate.service import Service, Transport, serve, start
 from regscribe.simulate.station import Foreign
+from regscribe.simulate.telling import Told, tell
 from regscribe.simulate.thermal import ThermalProcess
 from regscribe.simulate.values import HIGH_FAULT, LOW_FAULT, Fault
 
@@ -29,10 +30,12 @@ __all__ = [
     "SimulatedDevice",
     "SimulatorError",
     "ThermalProcess",
+    "Told",
     "Transport",
     "find_map",
     "in_thread",
     "serve",
     "simulate",
     "start",
+    "tell",
 ]

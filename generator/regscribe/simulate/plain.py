@@ -24,14 +24,31 @@ def show(state: State, register: Register) -> Plain:
     stored = state.stored(register.path)
     if isinstance(stored, str):
         return stored.rstrip("\0 ")
+    return shown(state, register, stored)
+
+
+def shown(state: State, register: Register, stored: Fraction) -> Plain:
+    """Return what a stored number of a register means now."""
     if register.kind in {Kind.FLAGS, Kind.FIELDS}:
         return _names(register, stored)
-    value = state.peek(register.path)
+    value = state.meant(register, stored)
     if isinstance(value, str):
         return value
     if register.kind is Kind.BOOLEAN:
         return bool(value)
     return _named(register, value)
+
+
+def spell(state: State, register: Register, stored: Fraction) -> str:
+    """Return the same for people: `150.5 °F`, `RUN`, `alarm_1, alarm_2`."""
+    plain = shown(state, register, stored)
+    if isinstance(plain, list):
+        return ", ".join(plain) or "none"
+    text = (
+        f"{plain:.10g}" if isinstance(plain, float) else str(plain).lower() if isinstance(plain, bool) else str(plain)
+    )
+    unit = state.choose(register.unit) if isinstance(plain, int | float) else ""
+    return f"{text} {unit}" if unit else text
 
 
 def set_to(state: State, register: Register, plain: object) -> None:

@@ -190,8 +190,10 @@ class State(Meaning):
         stored = self.stored(register.path)
         if isinstance(stored, str):
             return stored.rstrip("\0 ")
-        if field is not None:
-            return field_value(stored, field)
+        return self.meant(register, stored) if field is None else field_value(stored, field)
+
+    def meant(self, register: Register, stored: Fraction) -> Value:
+        """Return the value of use of a stored number, or the id of the sentinel that it is."""
         sentinel = next((each.id for each in register.sentinels if each.stored == stored), None)
         if sentinel is not None:
             return sentinel
