@@ -19,7 +19,7 @@ FACTORY = "factory"
 
 @click.command(
     name="diff",
-    epilog="Examples: regscribe diff oven oven.yaml; regscribe diff old.yaml new.yaml; regscribe diff oven factory\n\n"
+    epilog="Example: regscribe diff oven oven.yaml; regscribe diff old.yaml new.yaml; regscribe diff oven factory\n\n"
     "Exit code 0: nothing differs, 1: something does, 2: wrong usage or file, 3: nobody answers.",
 )
 @click.argument("left", shell_complete=complete_target)
