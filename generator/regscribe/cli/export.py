@@ -57,9 +57,11 @@ def command(*, maps: tuple[str, ...], form: str, **options: object) -> int:
     The format collectd takes one MAP and a --model, and prints a configuration of its modbus plugin.
     """
     asked = _Asked(**options)  # type: ignore[arg-type]  # click has checked the types
-    paths = [find_map(maps[0])] if form == "collectd" and _is_one(maps, asked) else find_maps(maps)
-    if form != "collectd":
+    if form == "collectd":
+        _demand_options(maps, asked)
+    else:
         _refuse_options(asked, form)
+    paths = [find_map(maps[0])] if form == "collectd" else find_maps(maps)
     compiled = [compile_map(path) for path in paths]
     found = [diagnostic for one in compiled for diagnostic in one.diagnostics]
     show(findings(found), stream=sys.stderr)
@@ -80,11 +82,10 @@ def _text(form: str, register_maps: Sequence[RegisterMap], asked: _Asked) -> str
     return csv_text(register_maps) if form == "csv" else json_text(register_maps)
 
 
-def _is_one(maps: Sequence[str], asked: _Asked) -> bool:
+def _demand_options(maps: Sequence[str], asked: _Asked) -> None:
     if len(maps) != 1 or asked.model is None or asked.place is None:
         message = "--format collectd polls one device: name one MAP, its --model, and where it answers (--at)"
         raise click.UsageError(message)
-    return True
 
 
 def _refuse_options(asked: _Asked, form: str) -> None:

@@ -13,6 +13,9 @@ from independent.families import MAPS, Family
 from regscribe.cli.export import command
 
 TYPES = Path("/usr/share/collectd/types.db")
+LIFE = "300"
+"""Seconds after which collectd is ended, should this process be gone."""
+
 LAST = 10
 """Seconds that collectd has to write its last values when it is ended."""
 
@@ -54,7 +57,7 @@ def polling(configurations: Sequence[str], folder: Path) -> Iterator[Path]:
     main.write_text(_main(folder, data), encoding="utf-8")
     for place, text in enumerate(configurations):
         (folder / f"{place}.modbus.conf").write_text(text, encoding="utf-8")
-    process = subprocess.Popen(["/usr/sbin/collectd", "-f", "-C", str(main)])  # noqa: S603 (a fixed program, no shell)
+    process = subprocess.Popen(["timeout", LIFE, "/usr/sbin/collectd", "-f", "-C", str(main)])  # noqa: S603, S607 (fixed, no shell)
     try:
         yield data
         assert process.poll() is None, "collectd ended by itself"

@@ -6,6 +6,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+IDLE = "300"
+"""Seconds without a byte after which socat ends by itself, should this process be gone."""
+
 PATIENCE = 10.0
 """Seconds that socat has to make its ends."""
 
@@ -32,7 +35,7 @@ def _pty(end: Path) -> str:
 
 @contextmanager
 def _socat(*addresses: str, ends: tuple[Path, ...]) -> Iterator[None]:
-    process = subprocess.Popen(["socat", *addresses], stderr=subprocess.PIPE)  # noqa: S603, S607 (fixed, no shell)
+    process = subprocess.Popen(["socat", "-T", IDLE, *addresses], stderr=subprocess.PIPE)  # noqa: S603, S607 (fixed, no shell)
     try:
         until = time.monotonic() + PATIENCE
         while not all(end.exists() for end in ends):

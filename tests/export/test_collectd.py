@@ -1,0 +1,137 @@
+"""The collectd export polls each number with the type, scale and order of one state of the device, or says why not."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+
+from regscribe.emit.export import Poll, collectd_text
+from regscribe.model import (
+    Access,
+    Case,
+    CodeRange,
+    Condition,
+    Conversion,
+    Decimals,
+    Kind,
+    Order,
+    OrderFromRegister,
+    Register,
+    RegisterMap,
+    Sentinel,
+    Space,
+    View,
+    WireType,
+    always,
+)
+from regscribe.model import (
+    Test as Ask,
+)
+from regscribe.model.reference import Surroundings
+
+Only = Callable[[Register], RegisterMap]
+POLL = Poll(name="oven", unit=7, host="10.0.0.7", port=1502)
+NOTHING = Surroundings()
+
+
+def register(wire: WireType = WireType.INT16, kind: Kind = Kind.NUMBER, **more: object) -> Register:
+    view = View("base", Space.HOLDING, 9, wire, words=wire.words)
+    settings = {"access": Access.READ, "views": (view,), **more}
+    return Register(id="level", path="level", name="Level", kind=kind, **settings)  # type: ignore[arg-type]  # keywords
+
+
+def text(register_map: RegisterMap, known: Surroundings = NOTHING, poll: Poll = POLL) -> str:
+    return collectd_text(register_map, register_map.models[0], poll, known)
+
+
+def block(register_map: RegisterMap, known: Surroundings = NOTHING) -> list[str]:
+    lines = [line.strip() for line in text(register_map, known).splitlines()]
+    return lines[lines.index('<Data "oven.level">') : lines.index("</Data>")]
+
+
+def test_a_number_is_read_at_its_address_with_its_type(only: Only) -> None:
+    lines = block(only(register()))
+    assert {"RegisterBase 9", "RegisterType Int16", "RegisterCmd ReadHolding", 'Instance "level"'} <= set(lines)
+    assert not any(line.startswith(("Scale", "Shift")) for line in lines)
+
+
+def test_the_device_is_named_once_with_all_that_is_collected(only: Only) -> None:
+    lines = [line.strip() for line in text(only(register())).splitlines()]
+    assert lines[lines.index('<Host "oven">') :] == [
+        '<Host "oven">',
+        'Address "10.0.0.7"',
+        'Port "1502"',
+        "Interval 10",
+        "<Slave 7>",
+        'Collect "oven.level"',
+        "</Slave>",
+        "</Host>",
+        "</Plugin>",
+    ]
+
+
+def test_a_serial_device_has_a_speed(only: Only) -> None:
+    poll = Poll(name="oven", unit=7, device='/dev/tty"USB', baud=19200)
+    found = text(only(register()), poll=poll)
+    assert 'Device "/dev/tty\\"USB"' in found
+    assert "Baudrate 19200" in found
+    assert "Address" not in found
+
+
+@pytest.mark.parametrize(
+    ("multiply", "add", "scale", "shift"),
+    [
+        (Fraction(1, 10), Fraction(0), "Scale 0.1", None),
+        (Fraction(1, 10), Fraction(-19999, 10), "Scale 0.1", "Shift -1999.9"),
+        (Fraction(1, 3), Fraction(0), "Scale 0.3333333333333333", None),
+        (Fraction(1, 10**7), Fraction(0), "Scale 0.0000001", None),
+    ],
+)
+def test_scale_and_shift_are_decimals_without_exponent(
+    only: Only, multiply: Fraction, add: Fraction, scale: str, shift: str | None
+) -> None:
+    lines = block(only(register(scale=always(Conversion(multiply=multiply, add=add)))))
+    assert scale in lines
+    assert [line for line in lines if line.startswith("Shift")] == ([shift] if shift else [])
+
+
+def test_decimals_of_another_register_are_those_of_the_state(only: Only) -> None:
+    shared = only(register(scale=always(Conversion(decimals=Decimals("dp")))))
+    assert "Scale 0.01" in block(shared, Surroundings({"dp": Fraction(2)}))
+    assert "left out: level - its scale depends on dp, which has no default" in text(shared)
+
+
+def test_a_state_without_a_scale_is_left_out(only: Only) -> None:
+    when = Condition((Ask("mode", codes=(CodeRange(Fraction(1), Fraction(1)),)),))
+    shared = only(register(scale=(Case(when, Conversion()),)))
+    assert "left out: level - no scale is stated for this state" in text(shared, Surroundings({"mode": Fraction(2)}))
+
+
+def test_the_word_order_is_that_of_the_state(only: Only) -> None:
+    ordering = OrderFromRegister("order", ((0, Order.BIG), (1, Order.LITTLE)))
+    view = View("ieee", Space.INPUT, 4, WireType.FLOAT32, words=2, word_order=ordering)
+    shared = only(register(views=(view,)))
+    assert "RegisterType Float" in block(shared, Surroundings({"order": Fraction(0)}))
+    assert {"RegisterType FloatLE", "RegisterCmd ReadInput"} <= set(block(shared, Surroundings({"order": Fraction(1)})))
+    assert "left out: level - its word order depends on order" in text(shared)
+
+
+def test_the_preferred_view_counts_with_its_factor(only: Only) -> None:
+    base = View("base", Space.HOLDING, 9, WireType.INT16)
+    tenfold = View("x10", Space.HOLDING, 1009, WireType.INT16, factor=Fraction(10), preferred=True)
+    assert {"RegisterBase 1009", "Scale 0.1"} <= set(block(only(register(views=(base, tenfold)))))
+
+
+def test_a_type_that_the_plugin_does_not_read_is_left_out_with_the_reason(only: Only) -> None:
+    double = register(WireType.FLOAT64)
+    assert "left out: level - the plugin does not read float64 in the holding space" in text(only(double))
+    view = replace(register(WireType.INT64).base, word_order=Order.LITTLE)
+    swapped = register(WireType.INT64, Kind.INTEGER, views=(view,))
+    assert "no int64 with the least significant word first" in text(only(swapped))
+
+
+def test_texts_are_no_numbers_and_faults_are_remarked(only: Only) -> None:
+    assert "level" not in text(only(register(WireType.STRING, Kind.STRING)))
+    faulty = register(sentinels=(Sentinel(Fraction(-32768), "sensor\nlow", "LOW"),))
+    assert any(line.startswith("# no value") and "sensor low" in line for line in block(only(faulty)))
