@@ -161,7 +161,7 @@ def begun(bus: Any, op: Op) -> Any:
         "write": lambda: getattr(device, path).write(value, confirm=True),
         "change": lambda: getattr(device, path).change(lambda _: value, confirm=True),
         "configure": lambda: device.configure(dict(op.values), confirm=True),
-        "command": lambda: getattr(device.commands, path)(),
+        "command": lambda: getattr(device.commands, path)(confirm=True),
         "loopback": lambda: device.loopback(value),
         "broadcast": lambda: bus.broadcast(driver.registers[path], value, state={"places": 1}),
         "open": bus.open,

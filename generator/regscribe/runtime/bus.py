@@ -156,8 +156,10 @@ class Bus(_Common[BareDevice]):
         with ExitStack() as held:
             for unit in self.units:
                 held.enter_context(self.link.lock.of(unit))
-            self.link.call(ALL_UNITS, timed)
-            self._forget()
+            try:
+                self.link.call(ALL_UNITS, timed)
+            finally:  # broken off, it may have been carried out
+                self._forget()
 
 
 class AsyncBus(_Common[AsyncBareDevice]):
@@ -219,5 +221,7 @@ class AsyncBus(_Common[AsyncBareDevice]):
         async with AsyncExitStack() as held:
             for unit in self.units:
                 await held.enter_async_context(self.link.lock.of(unit))
-            await self.link.call(ALL_UNITS, timed)
-            self._forget()
+            try:
+                await self.link.call(ALL_UNITS, timed)
+            finally:  # as above
+                self._forget()

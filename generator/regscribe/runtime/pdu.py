@@ -46,13 +46,15 @@ def _write(function: int, address: int, words: tuple[int, ...]) -> bytes:
 
 
 def decode(request: Request, pdu: bytes) -> Reply:
-    """The answer that `pdu` spells; what is too short or has a wrong byte count has no words, so it fits no request."""
+    """The answer that `pdu` spells; what has a wrong length or byte count has no words, so it fits no request."""
     code = pdu[0]
     if code in WORD_READS and len(pdu) > 1 and pdu[1] == len(pdu) - 2 and not pdu[1] % 2:
         return Reply(code, WORDS[pdu[1] // 2].unpack_from(pdu, 2))
     data = pdu[1:]
-    if code & EXCEPTION_BIT:
-        return Reply(code & ~EXCEPTION_BIT, exception=(data[0] if data else 0) or UNKNOWN_EXCEPTION)
+    if code & EXCEPTION_BIT and len(data) == 1:
+        return Reply(code & ~EXCEPTION_BIT, exception=data[0] or UNKNOWN_EXCEPTION)
+    if code & EXCEPTION_BIT:  # a good answer with one bit flipped looks like that: it is no refusal
+        return Reply(code)
     if code in BIT_READS and data and data[0] == len(data) - 1:
         return Reply(code, _bits(data[1:], request.quantity))
     if code in WORD_READS or code in BIT_READS:
