@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 
@@ -48,6 +49,7 @@ from regscribe.model import (
     Writable,
     always,
 )
+from regscribe.pipeline import compile_map
 
 R, RW, W = Access.READ, Access.READ_WRITE, Access.WRITE
 SILENT = 0
@@ -256,3 +258,11 @@ def bit_device() -> RegisterMap:
     )
     protocol = Protocol(functions=(1, 2, 3, 4, 5, 6, 7, 8, 15, 16, 22, 23), broadcast=(5,))
     return family((Model(name="IO", class_name="IO", registers=registers),), protocol)
+
+
+@pytest.fixture(scope="session")
+def furnace() -> RegisterMap:
+    """A controller by a map in YAML: memories, commands with effects, followers, an alarm and a process."""
+    compiled = compile_map(Path(__file__).with_name("furnace.yaml"))
+    assert compiled.map is not None, compiled.diagnostics
+    return compiled.map
