@@ -211,6 +211,7 @@ def _served_anew(stops: list[Stop], reaches: Sequence[Reach]) -> int:
 
 
 def _requests(trail: Trail) -> Iterator[Request]:
-    while trail:
-        request, trail = trail
-        yield request
+    left = trail
+    while left is not None:
+        yield left[0]
+        left = left[1]
