@@ -24,19 +24,20 @@ ROOMS = {
     "evidence": {"model", "emit"},
     "simulate": {"model", "source", "shipped", "pipeline"},
     "runtime": set[str](),
-    "live": {"model", "source", "schema", "runtime"},
-    "programs": {"model", "source", "schema", "runtime", "live", "emit"},
-    "settings": {"source", "schema", "runtime", "live"},
+    "files": {"source", "schema"},
+    "live": {"model", "source", "schema", "runtime", "files"},
+    "programs": {"model", "source", "schema", "runtime", "live", "files", "emit"},
+    "settings": {"runtime", "live", "files"},
     "testing": {"runtime"},
     "pytest_plugin": {"model", "simulate"},
     "pipeline": {"model", "source", "schema", "compose", "lower", "checks"},
     "cli": {"model", "source", "schema", "compose", "lower", "checks", "emit", "evidence", "simulate", "pipeline"}
-    | {"runtime", "live", "settings", "programs", "shipped"},
+    | {"runtime", "files", "live", "settings", "programs", "shipped"},
 }
 """Which other rooms a room may import."""
 
 OWNERS = {
-    "yaml": {"source", "settings", "simulate"},
+    "yaml": {"source", "files", "simulate"},
     "jsonschema": {"schema"},
     "jinja2": {"emit"},
     "click": {"cli"},

@@ -14,8 +14,6 @@ LOCAL = Path("regscribe.yaml")
 VARIABLE = "REGSCRIBE_CONFIG"
 """The environment variable that names a configuration."""
 
-MOST_ERRORS = 5
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Entry:
@@ -62,15 +60,12 @@ def _read(path: Path) -> Config:
     if not path.is_file():
         message = f"there is no configuration {path}"
         raise TargetError(message)
-    from regscribe import schema, source  # noqa: PLC0415 - yaml and jsonschema: 150 ms that only a configuration needs
+    from regscribe import files  # noqa: PLC0415 - yaml and jsonschema: 150 ms that only a configuration needs
 
-    document, found = source.load(path)
-    if document is not None:
-        found = schema.validate(document, language="devices")
-    if document is None or found:
-        lines = [f"{one.span}: {one.message}{f' ({one.help})' if one.help else ''}" for one in found[:MOST_ERRORS]]
-        more = [f"and {len(found) - MOST_ERRORS} more"] if len(found) > MOST_ERRORS else []
-        raise TargetError("\n".join([*lines, *more]))
+    try:
+        document = files.read(path, language="devices", what="configuration")
+    except files.FileError as error:
+        raise TargetError(str(error)) from None
     folder = path.resolve().parent
     packages = tuple(_package(folder, name) for name in document.data.get("packages", ()))
     devices = {name: _entry(given) for name, given in (document.data.get("devices") or {}).items()}

@@ -3,6 +3,9 @@
 from decimal import Decimal, InvalidOperation
 from fractions import Fraction
 
+MOST_DIGITS = 400
+"""Beyond the largest and the smallest number of 64 bits; a few characters must not ask for gigabytes of digits."""
+
 
 def exact(text: str | float | Fraction | Decimal) -> Fraction:
     """The exact number that `text` spells; a float counts as its shortest decimal (25.1 is 251/10).
@@ -18,6 +21,9 @@ def exact(text: str | float | Fraction | Decimal) -> Fraction:
         raise ValueError(message) from None
     if not number.is_finite():
         message = f"{text!r} is not a finite number"
+        raise ValueError(message)
+    if abs(number.adjusted()) > MOST_DIGITS and number:
+        message = f"{str(text)[:40]!r} has more than {MOST_DIGITS} digits before or behind the point"
         raise ValueError(message)
     return Fraction(number)
 

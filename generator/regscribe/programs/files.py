@@ -1,26 +1,17 @@
 """Programs as YAML files: read with line and column of each mistake, written to be read and edited by people."""
 
-import json
-import re
 from collections.abc import Mapping
 from decimal import Decimal
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from regscribe import schema, source
+from regscribe import files
 from regscribe.live.errors import TargetError
 from regscribe.programs.model import Amount, Final, Program, Segment, Setting, setting
 from regscribe.programs.structure import Where
 from regscribe.source import Document
 
 LANGUAGE = "program"
-MOST_ERRORS = 20
-PLAIN = re.compile(r"[A-Za-z][A-Za-z0-9_./-]*(?: [A-Za-z0-9_./-]+)*")
-QUIET = re.compile(r"-?[0-9.]+ [A-Za-z°%µΩ/]+[0-9]?")
-"""Texts and amounts that need no quotes in YAML."""
-
-WORDS = frozenset({"true", "false", "null"})
-"""Texts that would be something else without quotes."""
 
 
 class File(NamedTuple):
@@ -36,15 +27,10 @@ class File(NamedTuple):
 
 def load(path: str | Path) -> File:
     """Read a file; TargetError for one that cannot be read, and for its mistakes with their places."""
-    if not Path(path).is_file():
-        message = f"there is no file {path}"
-        raise TargetError(message)
-    document, found = source.load(Path(path))
-    if document is not None:
-        found = schema.validate(document, language=LANGUAGE)
-    if document is None or found:
-        lines = [f"{one.span}: {one.message}{f' ({one.help})' if one.help else ''}" for one in found[:MOST_ERRORS]]
-        raise TargetError("\n".join(lines))
+    try:
+        document = files.read(Path(path), language=LANGUAGE, what="program")
+    except files.FileError as error:
+        raise TargetError(str(error)) from None
     return File(_program(document.data["program"]), document)
 
 
@@ -121,22 +107,12 @@ def _given(items: Mapping[str, Any]) -> dict[str, Any]:
 
 def dump(program: Program, *, remarks: tuple[str, ...] = ()) -> str:
     """A program as a YAML file that `load` reads back; `remarks` become comments at the top."""
-    lines = [*(f"# {remark}" for remark in remarks), "format: 1", "program:"]
-    for key, value in plain(program).items():
-        if isinstance(value, list):
-            lines.append(f"  {key}:{'' if value else ' []'}")
-            lines += [f"    - {_text(one)}" for one in value]
-        else:
-            lines.append(f"  {key}: {_text(value)}")
-    return "\n".join(lines) + "\n"
+    data = {key: _lines(value) for key, value in plain(program).items()}
+    return files.dump({"format": 1, "program": data}, remarks=remarks)
 
 
-def _text(value: Any) -> str:  # noqa: ANN401 - of `plain`
+def _lines(value: Any) -> Any:  # noqa: ANN401 - of `plain`
+    """A segment on one line."""
     if isinstance(value, Mapping):
-        return f"{{{', '.join(f'{key}: {_text(one)}' for key, one in value.items())}}}"
-    text = str(value)
-    if isinstance(value, int | float) or QUIET.fullmatch(text):
-        return text
-    if PLAIN.fullmatch(text) and text.lower() not in WORDS:
-        return text
-    return json.dumps(text, ensure_ascii=False)  # a text in quotes is the same in YAML
+        return files.OneLine(value)
+    return [_lines(one) for one in value] if isinstance(value, list) else value

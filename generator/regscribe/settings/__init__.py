@@ -8,9 +8,8 @@ from regscribe.settings.factory import factory
 from regscribe.settings.fitting import KINDS, Fit, Misfit, fit
 from regscribe.settings.restoring import Restored, restore
 from regscribe.settings.saved import Backup, BackupError, Origin, Saved, UnfitError
-from regscribe.settings.store import save
 from regscribe.settings.taking import backup, saved
-from regscribe.settings.text import load, to_text
+from regscribe.settings.text import load, save, to_text
 
 __all__ = [
     "KINDS",

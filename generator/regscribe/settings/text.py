@@ -5,48 +5,11 @@ from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
-import yaml
-
-from regscribe import schema, source
+from regscribe import files
+from regscribe.files import FileError, OneLine, dump, read
 from regscribe.settings.saved import FORMAT, Backup, BackupError, Origin, Saved
 
-MOST_ERRORS = 5
-MOST_BYTES = 8_000_000
-"""A backup of the largest device has 200 kB; a file beyond this is none."""
-
-_HEAD = "# Settings of a device, written by regscribe; `regscribe restore` writes them back.\n"
-
-
-class _Dumper(yaml.SafeDumper):
-    """One setting a line, texts in quotes that a YAML 1.2 reader would take for something else."""
-
-    def ignore_aliases(self, data: object) -> bool:  # noqa: ARG002 (pyyaml's signature)
-        """No anchors: equal values stay readable."""
-        return True
-
-
-class _Line(dict[str, Any]):
-    """A mapping that stands on one line."""
-
-
-def _line(dumper: yaml.SafeDumper, data: _Line) -> yaml.Node:
-    return dumper.represent_mapping("tag:yaml.org,2002:map", data.items(), flow_style=True)
-
-
-def _text(dumper: yaml.SafeDumper, data: str) -> yaml.Node:
-    plain = _stays_text(data)
-    return dumper.represent_scalar("tag:yaml.org,2002:str", data, style=None if plain else '"')
-
-
-def _stays_text(data: str) -> bool:
-    try:
-        return isinstance(source.resolve(data), str)
-    except source.NumberFormError:
-        return False
-
-
-_Dumper.add_representer(_Line, _line)
-_Dumper.add_representer(str, _text)
+_HEAD = "Settings of a device, written by regscribe; `regscribe restore` writes them back."
 
 
 def to_text(backup: Backup) -> str:
@@ -64,13 +27,11 @@ def to_text(backup: Backup) -> str:
     settings = {
         group: {path: _entry(saved) for path, saved in members.items()} for group, members in backup.groups.items()
     }
-    data = {"format": FORMAT, "backup": head, "settings": settings}
-    body: str = yaml.dump(data, Dumper=_Dumper, sort_keys=False, allow_unicode=True, width=1 << 20)
-    return _HEAD + body
+    return dump({"format": FORMAT, "backup": head, "settings": settings}, remarks=(_HEAD,))
 
 
-def _entry(saved: Saved) -> _Line:
-    entry = _Line()
+def _entry(saved: Saved) -> OneLine:
+    entry = OneLine()
     if saved.value is not None:
         entry["value"] = saved.value
     for key, value in (("unit", saved.unit), ("error", saved.error)):
@@ -83,24 +44,20 @@ def _entry(saved: Saved) -> _Line:
     return entry
 
 
+def save(path: Path, text: str) -> None:
+    """Write a backup; where that fails (a full disk) BackupError, and a file that was there before is as it was."""
+    try:
+        files.save(path, text)
+    except FileError as error:
+        raise BackupError(str(error)) from None
+
+
 def load(path: Path) -> Backup:
     """The backup in a file; BackupError says with line and column what is wrong with one that is none."""
     try:
-        size = path.stat().st_size
-    except OSError as error:
-        message = f"{path} cannot be read: {error.strerror}"
-        raise BackupError(message) from None
-    if size > MOST_BYTES:
-        message = f"{path} has {size} bytes: a backup has at most {MOST_BYTES}"
-        raise BackupError(message)
-    document, found = source.load(path)
-    if document is not None:
-        found = schema.validate(document, language="backup")
-    if document is None or found:
-        lines = [f"{one.span}: {one.message}{f' ({one.help})' if one.help else ''}" for one in found[:MOST_ERRORS]]
-        more = [f"and {len(found) - MOST_ERRORS} more"] if len(found) > MOST_ERRORS else []
-        raise BackupError("\n".join([f"{path} is no backup:", *lines, *more]))
-    return _backup(document.data)
+        return _backup(read(path, language="backup", what="backup").data)
+    except FileError as error:
+        raise BackupError(str(error)) from None
 
 
 def _backup(data: Mapping[str, Any]) -> Backup:

@@ -5,11 +5,11 @@ import tempfile
 from contextlib import suppress
 from pathlib import Path
 
-from regscribe.settings.saved import BackupError
+from regscribe.files.reading import FileError
 
 
 def save(path: Path, text: str) -> None:
-    """Write a file; where that fails (a full disk) BackupError, and a file that was there before is as it was."""
+    """Write a file; where that fails (a full disk) FileError, and a file that was there before is as it was."""
     temporary = ""
     try:
         descriptor, temporary = tempfile.mkstemp(prefix=f".{path.name[:100]}.", dir=path.parent)
@@ -23,7 +23,7 @@ def save(path: Path, text: str) -> None:
         with suppress(OSError):
             Path(temporary).unlink()
         message = f"{path} cannot be written ({error.strerror or error}); nothing of it was changed"
-        raise BackupError(message) from None
+        raise FileError(message) from None
 
 
 def _mode(path: Path) -> int:

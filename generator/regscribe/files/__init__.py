@@ -1,0 +1,11 @@
+"""Files that people write besides maps: backups, programs, configurations, states of simulated devices.
+
+`read` checks one against its JSON Schema, `dump` makes YAML that reads back as it was, `save` writes whole or not at
+all. Every mistake is a FileError with its place.
+"""
+
+from regscribe.files.dumping import OneLine, dump
+from regscribe.files.reading import FileError, read
+from regscribe.files.saving import save
+
+__all__ = ["FileError", "OneLine", "dump", "read", "save"]
