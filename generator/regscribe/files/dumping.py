@@ -21,7 +21,7 @@ class _Dumper(yaml.SafeDumper):
 
     def increase_indent(self, flow: bool = False, indentless: bool = False) -> None:  # noqa: ARG002, FBT001, FBT002 (as above)
         """Put the items of a list to the right of their key."""
-        super().increase_indent(flow, False)
+        super().increase_indent(flow, indentless=False)
 
 
 def _one_line(dumper: yaml.SafeDumper, data: OneLine) -> yaml.Node:
