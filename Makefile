@@ -37,6 +37,10 @@ bench: $(INSTALLED) ## measure against the budgets and against other tools, side
 mutate: $(INSTALLED) ## break scales, codes, addresses, orders and limits: the tests must notice each
 	$(BIN)/python tests/mutate/run.py
 
+MINUTES ?= 2
+soak: $(INSTALLED) ## drive the drivers over bad lines for MINUTES=.. and report operations, faults, errors, wrong values
+	@SOAK_MINUTES=$(MINUTES) $(BIN)/pytest -q tests/fire/test_soak.py
+
 sessions: $(INSTALLED) ## carry out the sessions of docs/cli.md, settings.md and programs.md anew and write what they print
 	$(BIN)/python tests/live/sessions.py
 

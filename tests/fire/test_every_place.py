@@ -6,7 +6,7 @@ from contextlib import contextmanager
 
 import pytest
 
-from regscribe.runtime import NotWritten, RegscribeError, Retry
+from regscribe.runtime import NoAnswer, NotWritten, RegscribeError, Retry, WrongAnswer
 from regscribe.runtime.conversation import Conversation
 from regscribe.runtime.frames import framing_for
 from regscribe.runtime.request import Reply, Request, verify
@@ -155,7 +155,8 @@ SHORTEST = {"tcp": 11, "rtu-tcp": 7, "ascii-tcp": 15}
 @pytest.mark.parametrize("transport", SHORTEST)
 def test_a_disconnection_at_every_byte_of_an_answer(transport: str, kind: str) -> None:
     with line(transport, kind) as (far, side):
-        for at in range(0, SHORTEST[transport] + 1, 1 if kind == "sync" else 5):
+        places = range(0, SHORTEST[transport] + 1, 1 if kind == "sync" else 5)
+        for at in places:
             far.faults.plan(Fault.HANGUP, at=at)
             good(side, far)
             far.faults.plan(Fault.HANGUP, at=at)
@@ -165,7 +166,7 @@ def test_a_disconnection_at_every_byte_of_an_answer(transport: str, kind: str) -
             assert arrived or at >= SHORTEST[transport], found
             assert found.error is None or isinstance(found.error, NotWritten)
             assert far.executed[1, "holding", 0, 200 + at] == arrived
-        assert far.faults.injected[Fault.HANGUP] > at
+        assert far.faults.injected[Fault.HANGUP] > len(places)
 
 
 @pytest.mark.parametrize("transport", ["tcp", "rtu-tcp", "ascii-tcp"])
@@ -219,3 +220,33 @@ def test_a_task_that_is_cancelled_while_others_wait_lets_them_go_on(transport: s
             assert [one.error for one in others] == [None, None]
             assert first.cancelled or first.error is None
         good(side, far)
+
+
+@pytest.mark.parametrize("framing", ["tcp", "rtu", "ascii"])
+@pytest.mark.parametrize("kind", ANSWERS)
+def test_the_sound_answer_of_another_unit_is_never_taken(kind: str, framing: str) -> None:
+    request, answer = ANSWERS[kind]
+    for unit in (0, 1, UNIT - 1, UNIT + 1, 247, 255):
+        found = heard(framing, request, framing_for(framing).build(unit, answer))
+        assert isinstance(found, (WrongAnswer, NoAnswer)), (unit, found)
+
+
+@pytest.mark.parametrize("kind", ANSWERS)
+def test_the_sound_answer_to_another_transaction_is_never_taken(kind: str) -> None:
+    request, answer = ANSWERS[kind]
+    other = framing_for("tcp")
+    for _ in range(20):
+        frame = other.build(UNIT, answer)
+        found = heard("tcp", request, frame)
+        assert int.from_bytes(frame[:2], "big") == 1 or isinstance(found, NoAnswer), found
+
+
+@pytest.mark.parametrize("transport", ["tcp", "rtu-tcp", "pty"])
+def test_the_answer_to_an_earlier_request_is_never_taken(transport: str) -> None:
+    with line(transport, "sync") as (far, side):
+        for unit, path in itertools.product((1, 2), ("setpoint", "inside", "second_setpoint", "rate", "cycle")):
+            good(side, far, path, unit)
+            far.devices[unit].poke(path, 100 * unit + len(path))
+            far.faults.plan(Fault.STALE)
+            good(side, far, path, unit)
+        assert far.faults.injected[Fault.STALE] > 5
