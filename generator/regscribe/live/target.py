@@ -16,6 +16,7 @@ from regscribe.runtime.link import serial
 from regscribe.runtime.trace import Tracer
 
 LAST_UNIT = 255
+MOST_DIGITS = 9
 USUAL_UNIT = 1
 GIVEN = "given."
 KEYS = ("unit", "model")
@@ -179,7 +180,7 @@ def _with(target: Target, text: str, more: Mapping[str, str]) -> Target:
             message = f"{text}: {unknown('setting', key, [*KEYS, *links.KEYS, f'{GIVEN}ID'])}"
             raise TargetError(message)
     unit = more.get("unit", str(USUAL_UNIT))
-    if not unit.isascii() or not unit.isdigit() or int(unit[:9]) > LAST_UNIT:
+    if not unit.isascii() or not unit.isdigit() or len(unit) > MOST_DIGITS or int(unit) > LAST_UNIT:
         message = f"{text}: unit={unit}: a unit id is 0 to {LAST_UNIT}"
         raise TargetError(message)
     given = {key.removeprefix(GIVEN): value for key, value in more.items() if key.startswith(GIVEN)}

@@ -14,6 +14,9 @@ from regscribe.simulate.transport import Events, LineTransport
 FAREWELL = 0.5
 """Seconds that a client has to take the last answers when its connection is closed."""
 
+RTU_CHUNK = 512
+"""As `CHUNK`, in RTU: bytes without any sound frame take long to look through, and the others wait meanwhile."""
+
 LOOKS = 4
 """How often in the time of an idle client it is looked for."""
 
@@ -60,7 +63,7 @@ class TcpServer(_Accompanied):
         self.port = 0
         self.path = ""
         self.manners = manners
-        self.buffer = memoryview(bytearray(CHUNK))
+        self.buffer = memoryview(bytearray(RTU_CHUNK if framing is Framing.RTU else CHUNK))
         self._station = station
         self._framing = framing
         self._most = most
