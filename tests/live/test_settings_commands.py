@@ -1,5 +1,6 @@
 import json
 import os
+import re
 import signal
 from collections.abc import Callable
 from errno import ENOSPC
@@ -98,6 +99,43 @@ def test_a_file_that_is_no_backup_is_told_with_its_place(cli: Cli, oven: str, fo
     assert "wrong.yaml:3:20" in result.err
     assert "did you mean" in result.err
     assert cli("restore", oven, "none.yaml").code == 2
+
+
+def test_ctrl_c_during_a_clone_stops_it_at_all_devices(cli: Cli, serve: Serve, start: Start) -> None:
+    with serve() as one:
+        for name in ("input_filter", "display_filter", "output_1_cycle_time", "output_2_cycle_time"):
+            one.device.poke(name, 9)
+        cli("backup", name_of(one), "one.yaml")
+    waiting: list[Any] = []
+
+    async def slow(exchange: Any) -> bytes:
+        if exchange.request.pdu[0] in {6, 16} and waiting:
+            waiting.pop().send_signal(signal.SIGINT)
+        frame: bytes = exchange.frame
+        return frame
+
+    with serve(delivery=slow) as first, serve() as second:
+        process = start("clone", "one.yaml", name_of(first), name_of(second), "--confirm")
+        waiting.append(process)
+        out, err = process.communicate(timeout=30)
+        assert (process.returncode, second.device.peek("input_filter")) == (4, 5), out
+        assert f"{second.port}: not begun: it holds what it held\n" in err
+        assert f"{first.port}: Run the same command again: it goes on where this one was.\n" in err
+        assert re.search(r"configure: stopped by Ctrl-C\. equal: \d+ registers; ", err)
+
+
+def test_a_clone_that_breaks_off_in_a_device_says_so_by_its_exit_code(cli: Cli, serve: Serve) -> None:
+    with serve() as one:
+        one.device.poke("input_filter", 9)
+        cli("backup", name_of(one), "one.yaml")
+
+    def refusing(request: Any, act: Callable[[], bytes | None]) -> bytes | None:
+        return bytes([request.pdu[0] | 0x80, 4]) if request.pdu[0] in {6, 16} else act()
+
+    with serve(arrival=refusing) as bad, serve() as good:
+        result = cli("clone", "one.yaml", name_of(bad), name_of(good), "--confirm", "--json")
+        devices = json.loads(result.out)["devices"]
+        assert (result.code, devices[0]["error"]["exit_code"], good.device.peek("input_filter")) == (4, 4, 9)
 
 
 def test_ctrl_c_during_a_restore_says_what_was_written_and_a_second_run_completes_it(

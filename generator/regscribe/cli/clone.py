@@ -1,6 +1,5 @@
 """`regscribe clone`: copy the settings of one device, or of a backup, to others."""
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -8,7 +7,7 @@ import click
 
 from regscribe import settings
 from regscribe.cli.completing import complete_target
-from regscribe.cli.failure import REFUSED, Failure
+from regscribe.cli.failure import REFUSED, UNKNOWN_STATE, Failure
 from regscribe.cli.failure import told as target_told
 from regscribe.cli.output import print_json, remark
 from regscribe.cli.restore import said, tell_rest
@@ -22,6 +21,7 @@ from regscribe.cli.settled import (
     telling,
     told,
 )
+from regscribe.cli.shield import Shield, shielded
 from regscribe.cli.target import CONFIG, JSON, PACKAGE, opened, understood
 from regscribe.live.target import Target
 from regscribe.settings import Backup
@@ -40,7 +40,7 @@ class Options(NamedTuple):
     name="clone",
     epilog="Example: regscribe clone oven oven2 oven3 --dry-run\n\n"
     "Exit code 0: all done, 1: a device did not take them (each is told), 2: wrong usage or file, 3: the source is "
-    "silent.",
+    "silent, 4: it broke off in a device (the message says what was written), 130: Ctrl-C between two devices.",
 )
 @click.argument("source", shell_complete=complete_target)
 @click.argument("targets", nargs=-1, required=True, metavar="TARGET...", shell_complete=complete_target)
@@ -67,20 +67,18 @@ def command(  # noqa: PLR0913 - the options of the command
 ) -> int:
     """Copy the settings of SOURCE, a device or a backup file, to each TARGET.
 
-    Never the address, line, calibration and the like, unless included. A device that fails does not stop the others.
+    Never the address, line, calibration and the like, unless included. A device that fails does not stop the others;
+    Ctrl-C does.
     """
     with target_told():
         wanted = [understood(text, config=config, packages=packages) for text in targets]
     backup = _source(source, packages, config)
     options = Options(include, partial, dry_run, confirm)
-    results = []
-    for result in _each(wanted, backup, options, quiet=as_json):
-        results.append(result)
-        if stop and "error" in result:
-            break
+    with shielded() as shield:
+        results = _results(wanted, backup, options, shield, stop=stop, quiet=as_json)
     if as_json:
         print_json(source=source, dry_run=dry_run, devices=results)
-    return REFUSED if len(results) < len(wanted) or any("error" in one for one in results) else 0
+    return _code(results, shield)
 
 
 def _source(text: str, packages: tuple[str, ...], config: str | None) -> Backup:
@@ -92,18 +90,40 @@ def _source(text: str, packages: tuple[str, ...], config: str | None) -> Backup:
         return taken(device, str(target.link))
 
 
-def _each(targets: list[Target], backup: Backup, options: Options, *, quiet: bool) -> Iterator[dict[str, Any]]:
+def _results(
+    targets: list[Target], backup: Backup, options: Options, shield: Shield, *, stop: bool, quiet: bool
+) -> list[dict[str, Any]]:
+    """What became of each device; after Ctrl-C, or with `stop` after a failure, the rest is not begun."""
+    results: list[dict[str, Any]] = []
     for target in targets:
+        if shield.interrupted or (stop and results and "error" in results[-1]):
+            results.append(_error(target, "not begun: it holds what it held", "not-begun", REFUSED, quiet=quiet))
+            stop = True
+            continue
         try:
-            yield {"target": str(target), **_onto(target, backup, options, quiet=quiet)}
+            results.append({"target": str(target), **_onto(target, backup, options, shield, quiet=quiet)})
         except Failure as error:
-            if not quiet:
-                remark(f"{target}: {error.message}")
-            yield {"target": str(target), "error": {"kind": error.kind, "message": error.message}}
+            results.append(_error(target, error.message, error.kind, error.exit_code, quiet=quiet))
+    return results
 
 
-def _onto(target: Target, backup: Backup, options: Options, *, quiet: bool) -> dict[str, Any]:
-    with opened(target, identity=True) as device, told(), telling(f"cloning to {target}", backup) as tell:
+def _error(target: Target, message: str, kind: str, code: int, *, quiet: bool) -> dict[str, Any]:
+    if not quiet:
+        for line in message.splitlines():
+            remark(f"{target}: {line}")
+    return {"target": str(target), "error": {"kind": kind, "message": message, "exit_code": code}}
+
+
+def _code(results: list[dict[str, Any]], shield: Shield) -> int:
+    """The exit code: what is worst for the one who looks after the devices."""
+    codes = {one["error"]["exit_code"] for one in results if "error" in one}
+    if UNKNOWN_STATE in codes:
+        return UNKNOWN_STATE
+    return shield.code or (REFUSED if codes else 0)
+
+
+def _onto(target: Target, backup: Backup, options: Options, shield: Shield, *, quiet: bool) -> dict[str, Any]:
+    with opened(target, identity=True) as device, told(), telling(f"cloning to {target}", backup, shield) as tell:
         done = device.run(
             settings.restore(
                 type(device),

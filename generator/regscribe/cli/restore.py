@@ -16,6 +16,7 @@ from regscribe.cli.settled import (
     telling,
     told,
 )
+from regscribe.cli.shield import shielded
 from regscribe.cli.target import HELP, checked_identity, opened, target_options
 from regscribe.live.target import Target
 from regscribe.runtime import BareDevice
@@ -29,7 +30,7 @@ what the device holds already is skipped, everything is read back. When it break
 was. Address, line, calibration and the like stay as they are unless included.\n\n{HELP}""",
     epilog="Example: regscribe restore oven oven.yaml --dry-run\n\n"
     "Exit code 0: done, 1: the file does not fit, or a value is refused; nothing was written, 2: wrong usage or file, "
-    "3: nobody answers, 4: it broke off; the message says what was written.",
+    "3: nobody answers, 4: it broke off; the message says what was written, 130: Ctrl-C came too late to stop it.",
 )
 @target_options
 @click.argument("path", type=click.Path(path_type=Path, dir_okay=False), metavar="FILE")
@@ -51,18 +52,18 @@ def command(
 ) -> int:
     """Bring a device to the settings of a backup."""
     backup = loaded(path)
-    with opened(target, identity=identity) as device, told(), telling(f"restoring {target}", backup) as tell:
-        done = device.run(
-            settings.restore(
+    with opened(target, identity=identity) as device, told(), shielded() as shield:
+        with telling(f"restoring {target}", backup, shield) as tell:
+            task = settings.restore(
                 type(device), backup, include=include, partial=partial, dry_run=dry_run, confirm=confirm, tell=tell
             )
-        )
+            done = device.run(task)
         if as_json:
             print_json(**heading(device, target), file=str(path), dry_run=dry_run, **said(device, done))
         else:
             show_changes(device, done.report.changes)
             tell_rest(done, dry_run=dry_run)
-    return 0
+    return shield.code
 
 
 def said(device: BareDevice, done: Restored) -> dict[str, object]:

@@ -11,7 +11,7 @@ from regscribe import settings
 from regscribe.cli.failure import REFUSED, UNKNOWN_STATE, USAGE, Failure
 from regscribe.cli.output import show_table
 from regscribe.cli.progress import Advance, progress
-from regscribe.cli.shield import Shield, shielded
+from regscribe.cli.shield import Shield
 from regscribe.live.values import as_text
 from regscribe.runtime import BareDevice, NotConfigured
 from regscribe.runtime.report import Change, Fate, Progress, Teller
@@ -44,16 +44,17 @@ def told() -> Iterator[None]:
 
 
 @contextmanager
-def telling(label: str, backup: settings.Backup) -> Iterator[Teller]:
+def telling(label: str, backup: settings.Backup, shield: Shield) -> Iterator[Teller]:
     """A bar while settings are written; Ctrl-C breaks off between two requests, a second one at once."""
-    with shielded() as shield, progress(sum(1 for _ in backup.settings()), label) as advance:
+    with progress(sum(1 for _ in backup.settings()), label) as advance:
         yield _teller(shield, advance)
 
 
 def _teller(shield: Shield, advance: Advance) -> Teller:
     def tell(state: Progress) -> None:
         if shield.interrupted:
-            raise Stopped
+            message = "stopped by Ctrl-C"
+            raise Stopped(message)
         advance(f"{state.done} of {state.total}: {state.what}")
 
     return tell

@@ -7,6 +7,10 @@ from typing import Any, NamedTuple
 Words = tuple[int, ...]
 
 
+MOST_EQUAL = 5
+"""More registers that held their value already are counted, not named: what is to be looked after stands out."""
+
+
 class Fate(StrEnum):
     """What became of one value.
 
@@ -101,11 +105,16 @@ class WriteReport(NamedTuple):
 
     @property
     def told(self) -> str:
-        """The report in words: which registers and commands have which fate."""
+        """The report in words: which registers and commands have which fate (many that were equal are counted)."""
         groups = {fate: self.paths(fate) for fate in Fate if self.paths(fate)}
-        parts = [f"{fate}: {', '.join(paths)}" for fate, paths in groups.items()]
+        parts = [f"{fate}: {_listed(fate, paths)}" for fate, paths in groups.items()]
         parts += [f"{command}: {_COMMAND[fate]}" for command, fate in self.commands.items()]
         return "; ".join(parts) or "nothing to write"
+
+
+def _listed(fate: Fate, paths: tuple[str, ...]) -> str:
+    """The names; of many registers that were only looked at, how many they are."""
+    return f"{len(paths)} registers" if fate is Fate.EQUAL and len(paths) > MOST_EQUAL else ", ".join(paths)
 
 
 _COMMAND = {
