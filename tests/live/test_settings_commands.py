@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from regscribe import settings
 from regscribe.simulate import Running
 
 Cli = Callable[..., Any]
@@ -78,6 +79,24 @@ def test_files_and_devices_and_the_factory_are_compared_by_name_and_unit(cli: Cl
         assert cli("diff", "after.yaml", oven).code == 0
         (found,) = json.loads(cli("diff", oven, "factory", "--json").out)["differences"]
         assert (found["left"], found["right"]) == ({"value": 9, "unit": "0.1 s"}, {"value": 5, "unit": "0.1 s"})
+
+
+def test_a_device_whose_manual_gives_no_defaults_is_not_said_to_be_as_delivered(cli: Cli, serve: Serve) -> None:
+    with serve("athena/platinum-c10-m10", "C10") as one:
+        result = cli("diff", name_of(one, "C10"), "factory")
+        assert (result.code, "the manual of the C10 gives no defaults" in result.err) == (2, True)
+
+
+def test_settings_without_a_default_are_named_where_others_have_one(
+    cli: Cli, oven: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole = settings.factory
+    monkeypatch.setattr(
+        settings, "factory", lambda driver: {key: one for key, one in whole(driver).items() if key != "input_filter"}
+    )
+    result = cli("diff", oven, "factory")
+    assert (result.code, "not compared, for the manual gives no default: input_filter\n" in result.err) == (0, True)
+    assert json.loads(cli("diff", oven, "factory", "--json").out)["not_compared"] == ["input_filter"]
 
 
 def test_a_clone_sets_each_device_and_a_silent_one_stops_none_of_the_others(cli: Cli, serve: Serve) -> None:

@@ -20,7 +20,8 @@ FACTORY = "factory"
 @click.command(
     name="diff",
     epilog="Example: regscribe diff oven oven.yaml; regscribe diff old.yaml new.yaml; regscribe diff oven factory\n\n"
-    "Exit code 0: nothing differs, 1: something does, 2: wrong usage or file, 3: nobody answers.",
+    "Exit code 0: nothing differs, 1: something does, 2: wrong usage or file, or a manual without defaults, 3: nobody "
+    "answers.",
 )
 @click.argument("left", shell_complete=complete_target)
 @click.argument("right", shell_complete=complete_target)
@@ -40,11 +41,15 @@ def command(*, left: str, right: str, stays: bool, packages: tuple[str, ...], co
     first = _side(right if left == FACTORY else left, packages, config)
     second = _factory(first, packages) if FACTORY in (left, right) else _side(right, packages, config)
     one, other = (second, first) if left == FACTORY else (first, second)
-    found = settings.differences(one, other, stays=stays, missing=FACTORY not in (left, right))
+    factory = FACTORY in (left, right)
+    found = settings.differences(one, other, stays=stays, missing=not factory)
+    blind = _without_default(first, second, stays=stays) if factory else []
     if as_json:
-        print_json(left=one.name, right=other.name, differences=[_plain(each) for each in found])
+        print_json(left=one.name, right=other.name, differences=[_plain(each) for each in found], not_compared=blind)
     else:
         _show(one, other, found)
+        if blind:
+            remark(f"not compared, for the manual gives no default: {', '.join(blind)}")
     return REFUSED if found else 0
 
 
@@ -60,7 +65,15 @@ def _side(text: str, packages: tuple[str, ...], config: str | None) -> Side:
 def _factory(side: Side, packages: tuple[str, ...]) -> Side:
     with target_told():
         driver = catalogue.find(f"{side.map_id}:{side.model}", packages).driver
-    return Side(f"{side.model} as delivered", side.map_id, side.model, settings.factory(driver))
+    defaults = settings.factory(driver)
+    if not defaults:
+        message = f"the manual of the {side.model} gives no defaults: compare with a backup of a device as delivered"
+        raise Failure(message, kind="no-defaults", code=USAGE)
+    return Side(f"{side.model} as delivered", side.map_id, side.model, defaults)
+
+
+def _without_default(side: Side, factory: Side, *, stays: bool) -> list[str]:
+    return [path for path, one in side.settings.items() if path not in factory.settings and (stays or not one.stays)]
 
 
 def _show(one: Side, other: Side, found: tuple[Difference, ...]) -> None:
