@@ -241,7 +241,7 @@ def test_a_line_of_a_capture_that_is_very_long_takes_a_moment(text: str) -> None
 BACKUP = """\
 format: 1
 backup:
-  {map: athena/series-c, map_sha256: 0123456789abcdef, model: 16C, unit: 1, link: "tcp:h", taken: "2026-01-01T00:00:00Z"}
+  {map: athena/series-c, map_sha256: 0123456789abcdef, model: 16C, unit: 1, link: "tcp:h", taken: "2026-01-01T00:00Z"}
 settings:
   setpoints:
     setpoint_eeprom: {value: 150.5, unit: "°F", raw: [1505]}
