@@ -1,5 +1,6 @@
 """States of devices in files: saved and loaded, from backups of real devices too; nothing else is taken for one."""
 
+import contextlib
 import struct
 from collections.abc import Callable
 from fractions import Fraction
@@ -162,7 +163,6 @@ def test_any_document_is_taken_or_refused(furnace: RegisterMap, values: dict[str
         document | {"in_effect": more, "wear": more},
         {"format": 1, "backup": {}, "settings": more},
     ):
-        try:
+        with contextlib.suppress(SimulatorError):
             device.restore(found)
-        except SimulatorError as error:
-            assert len(str(error)) < 2000
+        assert device.snapshot()["state"]["map"] == "acme/furnace"

@@ -51,8 +51,11 @@ def lines(requests: Requests) -> None:
     def write(exchange: Exchange) -> None:
         told = tell(requests.devices, exchange)
         mark = "" if told.good else f": {told.outcome}"
-        sys.stdout.write(f"{_clock(time.time())} unit {told.unit} {told.verb} {told.what}{mark}"[:LONGEST] + "\n")
-        sys.stdout.flush()
+        try:
+            sys.stdout.write(f"{_clock(time.time())} unit {told.unit} {told.verb} {told.what}{mark}"[:LONGEST] + "\n")
+            sys.stdout.flush()
+        except BrokenPipeError:  # the reader went away; the clients stay
+            requests.each = None
 
     requests.each = write
 
