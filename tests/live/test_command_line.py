@@ -153,10 +153,23 @@ def test_a_view_that_is_none_says_which_there_are(cli: Cli, oven: str) -> None:
     assert (result.code, "did you mean `x10`?" in result.err) == (2, True)
 
 
+def test_an_array_is_told_from_a_register_that_can_be_written(cli: Cli, oven: str) -> None:
+    result = cli("write", oven, "segments[1]", "5")
+    assert (
+        result.code,
+        "`segments[1]` is not one register of 16C but several: segments[1].ramp_time," in result.err,
+    ) == (
+        2,
+        True,
+    )
+
+
 def test_a_value_that_is_too_fine_is_rounded_only_on_demand(cli: Cli, oven: str) -> None:
     refused = cli("write", oven, "setpoint_ram", "100.26", "--view", "x10")
     assert (refused.code, "--rounded" in refused.err) == (1, True)
-    assert cli("write", oven, "setpoint_ram", "100.26", "--view", "x10", "--rounded").code == 0
+    said = cli("write", oven, "setpoint_ram", "100.26", "--view", "x10", "--rounded")
+    assert (said.code, said.out) == (0, "setpoint_ram  100.3 °F\n")
+    assert json.loads(cli("write", oven, "setpoint_ram", "98.765432", "--rounded", "--json").out)["value"] == 98.765434
 
 
 def test_a_dry_run_shows_the_words_and_writes_nothing(cli: Cli, oven: str, running: Running) -> None:
@@ -247,6 +260,8 @@ def test_a_command_is_shown_and_not_sent_in_a_dry_run(cli: Cli, oven: str, runni
     assert cli("command", oven, "load_defaults", "--confirm", "--dry-run").out == "16  7000  0055 005C\n"
     assert [pdu for pdu in running.requests if pdu[0] == 16] == []
     assert "did you mean `load_defaults`?" in cli("command", oven, "load_default").err
+    said = json.loads(cli("command", oven, "load_defaults", "--confirm", "--dry-run", "--json").out)
+    assert (said["sent"], said["requests"]) == (False, [{"function": 16, "address": 7000, "words": [0x55, 0x5C]}])
 
 
 def test_a_device_tells_what_it_is(cli: Cli, running: Running) -> None:

@@ -6,7 +6,7 @@ from regscribe.cli.completing import complete_command
 from regscribe.cli.failure import told
 from regscribe.cli.output import print_json, remark, show_table
 from regscribe.cli.read import heading
-from regscribe.cli.requests import show_requests
+from regscribe.cli.requests import plain_requests, show_requests
 from regscribe.cli.shield import shielded
 from regscribe.cli.target import HELP, checked_identity, opened, target_options
 from regscribe.live import names
@@ -20,7 +20,8 @@ from regscribe.runtime import BareDevice, Command, operations
     name="command",
     help=f"Send a command of the map; without NAME list them (nothing is sent then).\n\n{HELP}",
     epilog="Example: regscribe command oven clear_latched_alarms\n\n"
-    "Exit code 0: done, 1: refused (also for want of --confirm), 2: wrong usage, 3: nobody answers.",
+    "Exit code 0: done, 1: refused (also for want of --confirm), 2: wrong usage, 3: nobody answers, 4: the "
+    "answer was lost, and nobody knows whether it was carried out.",
 )
 @target_options
 @click.argument("name", required=False, shell_complete=complete_command)
@@ -42,7 +43,8 @@ def command(*, target: Target, as_json: bool, name: str | None, confirm: bool, d
         unsent = dry(device).written if dry_run else []
         device.run(operations.run(found, confirm=confirm))
     if as_json:
-        print_json(**heading(device, target), command=name, sent=not dry_run)
+        requests = {"requests": plain_requests(unsent)} if dry_run else {}
+        print_json(**heading(device, target), command=name, sent=not dry_run, **requests)
     elif dry_run:
         show_requests(unsent)
     else:

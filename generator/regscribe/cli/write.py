@@ -13,6 +13,7 @@ from regscribe.cli.target import HELP, checked_identity, opened, target_options
 from regscribe.live import names, values
 from regscribe.live.dry import Written, dry
 from regscribe.live.errors import TargetError, unknown
+from regscribe.live.reading import held_of
 from regscribe.live.target import Target
 from regscribe.runtime import BareDevice, Register, ValueRefused, operations
 from regscribe.runtime.request import Request
@@ -62,6 +63,8 @@ def command(  # noqa: PLR0913 - the options of the command
         register = check(type(device))
         unit = device.run(operations.read_unit(register))
         meant = values.parse(register, value, current_unit=unit)
+        if rounded:
+            meant = device.run(held_of(register, meant, view))
         if dry_run:
             unsent = _unsent(device, register, meant, view=view, rounded=rounded, confirm=confirm)
         else:

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
-from regscribe.live.errors import TargetError, unknown
+from regscribe.live.errors import MOST_NAMED, TargetError, unknown
 from regscribe.runtime import Command, Group, Register, Section
 from regscribe.runtime.device import AsyncBareDevice, BareDevice
 
@@ -27,6 +27,10 @@ def register_named(driver: Driver, name: str) -> Register[Any]:
     """The one register of that path; TargetError says which was probably meant."""
     if name in driver.registers:
         return driver.registers[name]
+    below = [path for path in driver.registers if path.startswith((f"{name}.", f"{name}["))] if name else []
+    if below:
+        message = f"`{name}` is not one register of {driver.model} but several: {', '.join(below[:MOST_NAMED])}"
+        raise TargetError(message)
     raise TargetError(unknown("register", name, _nearest(name, driver.registers), where=f"in {driver.model}"))
 
 

@@ -5,6 +5,8 @@ from typing import Any, NamedTuple
 
 from regscribe.live.values import Plain, as_text, show
 from regscribe.runtime import Register, RegscribeError, Snapshot, operations
+from regscribe.runtime.errors import ValueNotDecodable
+from regscribe.runtime.reads import know
 from regscribe.runtime.session import Operation, Session, Task
 from regscribe.runtime.spec import choose, registers_of
 
@@ -36,6 +38,27 @@ def readings(registers: Sequence[Register[Any]]) -> Task[tuple[Reading, ...]]:
         snapshot = yield from operations.read_many(list(wanted.values()))(session)
         state = _values(snapshot)
         return tuple(_reading(register, snapshot, state, session.givens) for register in registers)
+
+    return task
+
+
+def held_of(register: Register[Any], value: Any, view: str | None) -> Task[Any]:  # noqa: ANN401 - of any register
+    """What a device will hold once `value` is written in `view`, rounded to what that view can carry.
+
+    Nothing is written; registers that decide the scale are read. Raises what encoding raises.
+    """
+
+    def task(session: Session) -> Operation[Any]:
+        chosen = register.view(view)
+        state = {
+            **(yield from know(session, register.needs(chosen))),
+            **(yield from know(session, register.limit_needs)),
+        }
+        words = register.encode(value, view=chosen.name, state=state, givens=session.givens, rounded=True)
+        try:
+            return register.decode(words, view=chosen.name, state=state, givens=session.givens)
+        except ValueNotDecodable:  # the end of the view's range, which reading takes for "this or beyond"
+            return value
 
     return task
 
