@@ -252,6 +252,7 @@ def test_a_link_that_cannot_be_opened_is_tried_twice_however_many_times_reads_ar
     with serving(units) as server:
         device = Athena16C.tcp("127.0.0.1", port=server.port, unit=1, retry=Retry(reads=9, pause=0))
         device.open()
+        device.controller_id.read()
     time.sleep(0.02)
     tried: list[int] = []
 
@@ -265,3 +266,75 @@ def test_a_link_that_cannot_be_opened_is_tried_twice_however_many_times_reads_ar
         device.controller_id.read()
     device.close()
     assert len(tried) == 2
+
+
+@contextmanager
+def curt(heard: list[bytes]) -> Iterator[int]:
+    """A server that answers one request of each connection, with words that are 0, and closes it."""
+    with socket.create_server(("127.0.0.1", 0)) as server:
+
+        def serve() -> None:
+            while True:
+                connection, _ = server.accept()
+                with connection:
+                    request = connection.recv(100)
+                    if request == b"stop":
+                        return
+                    if request:
+                        heard.append(request)
+                        count = 2 * request[11]
+                        data = request[6:8] + bytes([count]) + bytes(count) if request[7] == 3 else request[6:]
+                        connection.sendall(request[:4] + len(data).to_bytes(2, "big") + data)
+
+        thread = threading.Thread(target=serve)
+        thread.start()
+        try:
+            yield server.getsockname()[1]
+        finally:
+            with socket.create_connection(server.getsockname()) as last:
+                last.sendall(b"stop")
+            thread.join()
+
+
+@pytest.mark.parametrize("kind", ["sync", "async"])
+def test_a_server_that_closes_after_each_answer_is_talked_to_all_the_same(kind: str) -> None:
+    """Each request opens the link anew, under each operation."""
+
+    async def talk(port: int) -> tuple[float, int]:
+        async with AsyncAthena16C.tcp("127.0.0.1", port=port, unit=1) as device:
+            return await device.setpoint_ram.read(), device.link.epoch
+
+    with curt([]) as port:
+        if kind == "async":
+            value, opened = asyncio.run(talk(port))
+        else:
+            with Athena16C.tcp("127.0.0.1", port=port, unit=1) as device:
+                value, opened = device.setpoint_ram.read(), device.link.epoch
+    assert value == 0
+    assert 2 <= opened <= 20
+
+
+@pytest.mark.parametrize("kind", ["sync", "async"])
+def test_a_write_to_a_connection_that_the_server_just_closed_is_sent_over_a_new_one(kind: str) -> None:
+    heard: list[bytes] = []
+
+    async def talk(port: int) -> tuple[int, ...]:
+        link = links.async_tcp("127.0.0.1", port=port)
+        await link.open()
+        await link.call(1, Request(3, 28))
+        await asyncio.sleep(0.002)  # less than an answer is trusted for
+        found = (await link.call(1, WRITE)).words
+        await link.close()
+        return found
+
+    with curt(heard) as port:
+        if kind == "async":
+            assert asyncio.run(talk(port)) == (7,)
+        else:
+            link = links.tcp("127.0.0.1", port=port)
+            link.open()
+            link.call(1, Request(3, 28))
+            time.sleep(0.002)  # as above
+            assert link.call(1, WRITE).words == (7,)
+            link.close()
+    assert [one[7] for one in heard] == [3, 6]

@@ -80,29 +80,33 @@ def _timed(asked: Request, session: Session | None, link: Link | AsyncLink) -> R
 def run(task: Task[T], session: Session, link: Link) -> T:
     """Carry out the operation of a device, alone among those of its unit.
 
-    If the link was opened anew under an operation that only read, the device may be another one: it is run again.
+    If the link was opened anew under an operation that only read, the device may be another one: it is run once more.
     """
     with link.lock.of(session.unit):
-        while True:
-            session.begin(link)
-            try:
-                value = carry_out(task(session), link, session.unit, session)
-            except NoAnswer:
-                session.doubt()
-                raise
-            if session.wrote or session.epoch == link.epoch:
-                return value
+        value = _once(task, session, link)
+        return value if session.wrote or session.epoch == link.epoch else _once(task, session, link)
+
+
+def _once(task: Task[T], session: Session, link: Link) -> T:
+    session.begin(link)
+    try:
+        return carry_out(task(session), link, session.unit, session)
+    except NoAnswer:
+        session.doubt()
+        raise
 
 
 async def run_async(task: Task[T], session: Session, link: AsyncLink) -> T:
     """As `run`, for asyncio."""
     async with link.lock.of(session.unit):
-        while True:
-            session.begin(link)
-            try:
-                value = await carry_out_async(task(session), link, session.unit, session)
-            except NoAnswer:
-                session.doubt()
-                raise
-            if session.wrote or session.epoch == link.epoch:
-                return value
+        value = await _once_async(task, session, link)
+        return value if session.wrote or session.epoch == link.epoch else await _once_async(task, session, link)
+
+
+async def _once_async(task: Task[T], session: Session, link: AsyncLink) -> T:
+    session.begin(link)
+    try:
+        return await carry_out_async(task(session), link, session.unit, session)
+    except NoAnswer:
+        session.doubt()
+        raise

@@ -51,10 +51,8 @@ def decode(request: Request, pdu: bytes) -> Reply:
     if code in WORD_READS and len(pdu) > 1 and pdu[1] == len(pdu) - 2 and not pdu[1] % 2:
         return Reply(code, WORDS[pdu[1] // 2].unpack_from(pdu, 2))
     data = pdu[1:]
-    if code & EXCEPTION_BIT and len(data) == 1:
-        return Reply(code & ~EXCEPTION_BIT, exception=data[0] or UNKNOWN_EXCEPTION)
-    if code & EXCEPTION_BIT:  # a good answer with one bit flipped looks like that: it is no refusal
-        return Reply(code)
+    if code & EXCEPTION_BIT:  # a good answer with one bit flipped has more than one byte: it is no refusal
+        return Reply(code & ~EXCEPTION_BIT, exception=data[0] or UNKNOWN_EXCEPTION) if len(data) == 1 else Reply(code)
     if code in BIT_READS and data and data[0] == len(data) - 1:
         return Reply(code, _bits(data[1:], request.quantity))
     if code in WORD_READS or code in BIT_READS:

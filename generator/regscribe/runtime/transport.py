@@ -25,7 +25,7 @@ USUAL_GAP = 3.5
 """Characters of silence between frames, by the standard."""
 
 TRUST_SECONDS = 0.01
-"""So long after an answer a connection is not looked at before it is used: servers close idle ones."""
+"""So long after an answer a connection is not looked at before a read: servers close idle ones."""
 
 Place = tuple[str, int] | Line
 """Host and port, or a serial line."""
@@ -104,8 +104,11 @@ class _Base:
         self._renewing = False
         return wire
 
-    def _usable(self) -> Wire | None:
-        """The open wire; None if there is none, it broke, or unasked bytes came since the last request."""
+    def _usable(self, request: Request) -> Wire | None:
+        """The open wire; None if there is none, it broke, or unasked bytes came since the last request.
+
+        A write to a connection that the server had closed before would leave open whether it was carried out.
+        """
         if not self.opened:
             message = f"{self.name} is not open: use the driver in a `with` statement, or call open()"
             raise LinkLost(message)
@@ -113,7 +116,7 @@ class _Base:
             return None
         if self._tuned != self.line:
             self._drop(renew=True)
-        elif self._tuned is None and time.monotonic() > self._trusted_until:
+        elif self._tuned is None and (time.monotonic() > self._trusted_until or not request.reads):
             try:
                 if self._wire.read():
                     self._drop(renew=True)
@@ -174,7 +177,7 @@ class SyncTransport(_Base):
     def call(self, unit: int, request: Request) -> Reply:
         """Send one request once; see `Link.call`."""
         with self.lock.line:
-            wire = self._usable() or self._connect()
+            wire = self._usable(request) or self._connect()
             steps = self._talk.exchange(wire, unit, self._timed(request))
             try:
                 return _carried(steps, wire)
@@ -224,7 +227,7 @@ class AsyncTransport(_Base):
     async def call(self, unit: int, request: Request) -> Reply:
         """Send one request once; see `Link.call`."""
         async with self.lock.line:
-            wire = self._usable() or await self._connect()
+            wire = self._usable(request) or await self._connect()
             steps = self._talk.exchange(wire, unit, self._timed(request))
             try:
                 return await _carried_async(steps, wire)
