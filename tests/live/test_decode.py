@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from regscribe.cli.decode import command
 from regscribe.live import catalogue
 from regscribe.live.capture import RECEIVED, SENT, captured
 from regscribe.live.decode import Decoded, Decoder
@@ -132,7 +133,12 @@ def test_a_repeated_request_is_no_answer() -> None:
 def test_what_another_unit_or_function_sends_is_no_answer() -> None:
     ask = rtu("01031F440002").hex()
     for foreign in (rtu("02030443168000"), rtu("01040443168000")):
-        assert [one.kind for one in decoded([ask, foreign.hex()])] == ["request", "request"]
+        _, second = decoded([ask, foreign.hex()])
+        assert (second.address, second.items, "to a request that is not in the capture" in second.what) == (
+            None,
+            (),
+            True,
+        )
 
 
 def test_an_answer_without_its_request_is_told_as_such() -> None:
@@ -164,3 +170,23 @@ def test_any_bytes_are_decoded_without_an_error(parts: list[bytes], direction: s
 @given(st.lists(st.text(), max_size=4))
 def test_any_text_can_be_searched_for_frames(lines: list[str]) -> None:
     decoded(lines)
+
+
+@pytest.mark.parametrize(
+    ("frame", "told"),
+    [
+        ("018302", "exception 02"),
+        ("0103020002", "function 03, to a request that is not in the capture"),
+        ("01030400004316", "function 03, to a request that is not in the capture"),
+        ("01101F440002", "function 16, to a request that is not in the capture"),
+        ("010722", "function 07, to a request that is not in the capture"),
+    ],
+)
+def test_an_answer_alone_is_not_taken_for_a_request(frame: str, told: str) -> None:
+    (one,) = decoded([rtu(frame).hex(" ")])
+    assert (one.kind, one.what[: len(told)], one.address, one.complaint) == ("response", told, None, "")
+
+
+def test_the_frame_in_the_help_is_sound() -> None:
+    (frame,) = re.findall(r"decode 16C ([0-9A-F ]+)\n", command.epilog or "")
+    assert [(one.address, one.complaint) for one in decoded([frame])] == [(4000, "")]

@@ -29,6 +29,8 @@ SPACES = {function: space for space, function in READ_FUNCTIONS.items()} | {
 WRITES = frozenset({WRITE_COIL, WRITE_REGISTER, WRITE_COILS, WRITE_REGISTERS})
 BITS = frozenset({"coil", "discrete"})
 ON = 0xFF00
+HEAD = 4
+"""Bytes of an address with a quantity or a value."""
 STANDARD = {
     1: "illegal function",
     2: "illegal data address",
@@ -112,7 +114,7 @@ class Decoder:
         if direction != SENT and asked and self._answers(frame, asked, sure=direction == RECEIVED):
             self._asked = None
             return self._answer(frame, asked)
-        if direction == RECEIVED:
+        if direction == RECEIVED or (direction != SENT and _is_answer(frame)):
             return self._unasked(frame)
         self._asked = _asked(frame, self.first)
         return self._request(frame, self._asked)
@@ -221,12 +223,23 @@ def _index(driver: Driver) -> dict[tuple[str, int], list[tuple[Register[Any], Vi
     return found
 
 
+def _is_answer(frame: Frame) -> bool:
+    """Whether a frame can be nothing but an answer, by its form."""
+    function, data = frame.pdu[0], frame.pdu[1:]
+    if function & EXCEPTION or function == READ_STATUS:
+        return bool(data)
+    if function in {WRITE_COILS, WRITE_REGISTERS}:
+        return len(data) == HEAD
+    return function in SPACES and function not in WRITES and len(data) != HEAD and data[:1] == bytes([len(data) - 1])
+
+
 def _asked(frame: Frame, first: int) -> Asked | None:
     """The request of a frame; None for one of another form."""
     function, data = frame.pdu[0], frame.pdu[1:]
     if function == READ_STATUS:
         return Asked(frame.unit, function, 0, 1, ())
-    if len(data) < 4 or function not in {*SPACES, LOOPBACK}:  # noqa: PLR2004 - an address and a quantity or value
+    short, exact = len(data) < HEAD, len(data) == HEAD or function in {WRITE_COILS, WRITE_REGISTERS, LOOPBACK}
+    if short or not exact or function not in {*SPACES, LOOPBACK}:
         return None
     address, number = struct.unpack(">HH", data[:4])
     if function == LOOPBACK:
