@@ -53,7 +53,7 @@ BASES: dict[str, Callable[[], list[Example]]] = {
     "fdc": lambda: [
         cut(
             "fdc/series-100",
-            groups={"input", "output_2", "process", "command"},
+            groups={"input", "output_1", "output_2", "process", "command"},
             dropped=["BTC-8100", "BTC-4100", "BTC-7100", "C91"],
             without={"examples"},
         )
@@ -63,7 +63,7 @@ BASES: dict[str, Callable[[], list[Example]]] = {
             "athena/series-c",
             groups={"communication", "unit_of_measure", "input", "display", "ramp_soak"},
             dropped=["16C", "25C"],
-            without={"examples", "commands", "waivers", "identify"},
+            without={"examples", "commands", "waivers", "identify", "uses", "programs"},
         )
     ],
     "rules": lambda: small(several=False),

@@ -37,7 +37,7 @@ class _Asked:
 
 @click.command(
     name="export",
-    epilog="Examples: regscribe export fdc/series-100 --format csv > series-100.csv\n\n"
+    epilog="Example: regscribe export fdc/series-100 --format csv > series-100.csv\n\n"
     "regscribe export athena/series-c --format collectd --model 16C --at 10.0.0.7:502 > modbus.conf\n\n"
     "Exit code 0: done, 1: errors in a map (nothing is printed to standard output), 2: wrong usage.",
 )
