@@ -152,3 +152,16 @@ def test_a_table_on_a_full_disk_ends_with_a_whole_round(tmp_path: Path) -> None:
     count = log.base.execute("select count(*) from readings").fetchone()  # type: ignore[attr-defined]  # as above
     log.close()
     assert (count, done < 10_000) == ((done * len(READINGS),), True)
+
+
+@pytest.mark.parametrize("text", ["=1+1", "@SUM(A1)", "+cmd|' /C calc'!A0", "-2+3+cmd|' /C calc'!A0", "\t=1"])
+def test_a_spreadsheet_calculates_nothing_of_what_a_device_says(text: str, tmp_path: Path) -> None:
+    said = Round(1, START, 0.1, (Reading("label", text, text, "", None),), frozenset(), None, late=False)
+    last = written(tmp_path / "log.csv", said).read_text(encoding="utf-8").splitlines()[-1]
+    assert f"'{text}" in last
+
+
+@pytest.mark.parametrize("text", ["-1999..9999", "+5 V", "-", "150.5"])
+def test_what_a_spreadsheet_shows_as_it_is_stays_as_it_is(text: str, tmp_path: Path) -> None:
+    said = Round(1, START, 0.1, (Reading("label", text, text, "", None),), frozenset(), None, late=False)
+    assert f"label,{text}," in written(tmp_path / "log.csv", said).read_text(encoding="utf-8")

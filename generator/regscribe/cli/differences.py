@@ -9,6 +9,7 @@ from dataclasses import replace
 from regscribe.cli.excerpt import safe
 from regscribe.cli.terminal import Piece
 from regscribe.cli.text import count
+from regscribe.emit.text import cell
 from regscribe.evidence import Comparison, Difference, Place
 
 HEADER = ("what", "model", "space", "address", "id", "name", "column", "ours", "theirs", "line")
@@ -118,9 +119,10 @@ def as_csv(found: Comparison) -> str:
     for what, places in (("only_ours", found.only_ours), ("only_theirs", found.only_theirs)):
         writer.writerows((what, *_head(place), "", "", "", place.line or "") for place in places)
     for one in found.differences:
-        writer.writerow(("differs", *_head(one.place), one.column, one.ours, one.theirs, one.place.line or ""))
+        sides = (one.column, cell(one.ours), cell(one.theirs))
+        writer.writerow(("differs", *_head(one.place), *sides, one.place.line or ""))
     return buffer.getvalue()
 
 
 def _head(place: Place) -> tuple[str, ...]:
-    return (place.model, place.space, place.address, place.id, place.name)
+    return (cell(place.model), cell(place.space), cell(place.address), cell(place.id), cell(place.name))

@@ -9,6 +9,7 @@ from dataclasses import astuple, dataclass, fields, replace
 from regscribe.emit.text import (
     bits_words,
     cases_words,
+    cell,
     conversion_words,
     labels_of,
     limit_words,
@@ -76,7 +77,7 @@ def csv_text(maps: Iterable[RegisterMap]) -> str:
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
     writer.writerow(COLUMNS)
-    writer.writerows(astuple(row) for row in rows(maps))
+    writer.writerows(map(cell, astuple(row)) for row in rows(maps))
     return buffer.getvalue()
 
 

@@ -8,6 +8,7 @@ import csv
 import io
 import json
 import os
+import re
 import sqlite3
 from abc import abstractmethod
 from contextlib import suppress
@@ -20,6 +21,7 @@ from regscribe.live.watch import Round
 
 COLUMNS = ("time", "device", "register", "value", "unit", "error")
 TABLE = "readings"
+FORMULA = re.compile(r"[=@\t\r]|[+-].*[(|!=]", re.DOTALL)
 READ_AT_ONCE = 1 << 16
 
 
@@ -130,7 +132,7 @@ class _Csv(_Text):
 
     def lines(self, one: Round) -> bytes:
         text = io.StringIO()
-        csv.writer(text, lineterminator="\n").writerows(_rows(one, self.device))
+        csv.writer(text, lineterminator="\n").writerows(map(_shown, row) for row in _rows(one, self.device))
         return text.getvalue().encode()
 
 
@@ -189,6 +191,11 @@ def _rows(one: Round, device: str) -> list[tuple[Any, ...]]:
 
 def _cell(one: Reading) -> Any:  # noqa: ANN401 - a plain value
     return one.text if isinstance(one.value, list) else one.value
+
+
+def _shown(value: Any) -> Any:  # noqa: ANN401 - as above
+    """A cell of a spreadsheet; a text that it would calculate instead of showing it gets an apostrophe before it."""
+    return f"'{value}" if isinstance(value, str) and FORMULA.match(value) else value
 
 
 def _unwritten(path: Path, what: str, error: Exception) -> LogError:
