@@ -153,6 +153,23 @@ def test_a_view_that_is_none_says_which_there_are(cli: Cli, oven: str) -> None:
     assert (result.code, "did you mean `x10`?" in result.err) == (2, True)
 
 
+def test_a_unit_that_is_not_behind_the_gateway_does_not_answer(cli: Cli, oven: str) -> None:
+    result = cli("read", oven, "setpoint_ram", "--unit", "9", "--json")
+    said = json.loads(result.out)["error"]
+    assert (result.code, said["exit_code"]) == (3, 3)
+    assert said["message"].endswith("exception 11 (gateway target device failed to respond)")
+
+
+def test_a_refusal_that_decides_nothing_is_not_called_a_lost_answer(cli: Cli, serve: Callable[..., Any]) -> None:
+    def failing(request: Any, act: Callable[[], bytes | None]) -> bytes | None:
+        return bytes([request.pdu[0] | 0x80, 4]) if request.pdu[0] in {5, 6, 16} else act()
+
+    with serve("athena/platinum-x5000", "X5000", arrival=failing) as running:
+        result = cli("write", f"tcp:{running.host}:{running.port}?model=X5000", "auto_manual", "MANUAL")
+    assert (result.code, "lost" in result.err) == (4, False)
+    assert "exception 04 (server device failure)); it holds AUTO, and the device" in result.err
+
+
 def test_an_array_is_told_from_a_register_that_can_be_written(cli: Cli, oven: str) -> None:
     result = cli("write", oven, "segments[1]", "5")
     assert (

@@ -14,8 +14,8 @@ from typing import IO, Any
 import click
 
 from regscribe.live.errors import TargetError
-from regscribe.runtime import LinkLost, NoAnswer, PartialWrite, RegscribeError
-from regscribe.runtime.errors import LeftAt, NotApplied, NotConfigured, ReadBackDiffers, WriteUnknown
+from regscribe.runtime import ExceptionAnswer, LinkLost, NoAnswer, PartialWrite, RegscribeError
+from regscribe.runtime.errors import GATEWAY, LeftAt, NotApplied, NotConfigured, ReadBackDiffers, WriteUnknown
 
 REFUSED, USAGE, SILENT, UNKNOWN_STATE = 1, 2, 3, 4
 
@@ -66,7 +66,8 @@ def code_of(error: RegscribeError) -> int:
     """The exit code of an error of a driver."""
     if isinstance(error, UNSETTLED):
         return UNKNOWN_STATE
-    return SILENT if isinstance(error, (LinkLost, NoAnswer)) else REFUSED
+    behind_gateway = isinstance(error, ExceptionAnswer) and error.code in GATEWAY and not error.name
+    return SILENT if behind_gateway or isinstance(error, (LinkLost, NoAnswer)) else REFUSED
 
 
 def kind_of(error: RegscribeError) -> str:

@@ -10,6 +10,7 @@ from regscribe.live.names import Driver, commands_of
 from regscribe.live.reading import unit_of
 from regscribe.live.values import Plain, as_text, show
 from regscribe.runtime import Register, RegscribeError, View
+from regscribe.runtime.errors import STANDARD
 from regscribe.runtime.request import (
     LOOPBACK,
     READ_FUNCTIONS,
@@ -31,18 +32,6 @@ BITS = frozenset({"coil", "discrete"})
 ON = 0xFF00
 HEAD = 4
 """Bytes of an address with a quantity or a value."""
-STANDARD = {
-    1: "illegal function",
-    2: "illegal data address",
-    3: "illegal data value",
-    4: "server device failure",
-    5: "acknowledge",
-    6: "server device busy",
-    8: "memory parity error",
-    10: "gateway path unavailable",
-    11: "gateway target device failed to respond",
-}
-"""The names of exception codes where the device's manual gives none (Modbus Application Protocol V1.1b3, section 7)."""
 
 
 class Item(NamedTuple):

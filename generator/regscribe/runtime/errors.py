@@ -56,13 +56,30 @@ class NoAnswer(RegscribeError, TimeoutError):  # noqa: N818 (as above)
         super().__init__(f"unit {unit} gave no answer to function {function:02d} at address {address} in {seconds:g} s")
 
 
+STANDARD = {
+    1: "illegal function",
+    2: "illegal data address",
+    3: "illegal data value",
+    4: "server device failure",
+    5: "acknowledge",
+    6: "server device busy",
+    8: "memory parity error",
+    10: "gateway path unavailable",
+    11: "gateway target device failed to respond",
+}
+"""The names of exception codes where the device's manual gives none (Modbus Application Protocol V1.1b3, section 7)."""
+GATEWAY = frozenset({10, 11})
+"""Exceptions of a gateway, not of the device: nobody answered behind it."""
+
+
 class ExceptionAnswer(RegscribeError):  # noqa: N818 (as above)
-    """The device answered with exception `code`; `name` and `meaning` are the device's own."""
+    """The device answered with exception `code`; `name` and `meaning` are the device's own, "" where it has none."""
 
     def __init__(self, *, unit: int, function: int, address: int, code: int, name: str, meaning: str) -> None:
         self.unit, self.function, self.address = unit, function, address
         self.code, self.name, self.meaning = code, name, meaning
-        said = f" ({name}: {meaning})" if meaning else f" ({name})" if name else ""
+        usual = name or STANDARD.get(code, "")
+        said = f" ({name}: {meaning})" if meaning else f" ({usual})" if usual else ""
         super().__init__(
             f"unit {unit} refused function {function:02d} at address {address} with exception {code:02d}{said}"
         )

@@ -105,25 +105,29 @@ def fate_of_lost(
 ) -> Operation[WriteFailed | None]:
     """What became of a write of one register whose answer was lost: None if it was carried out, else the error."""
     register, view = target
+    open_still = "the answer leaves it open" if isinstance(cause, ExceptionAnswer) else "the answer was lost"
     if register.access != "rw":
-        return lost(WriteUnknown, register.path, f"the answer was lost ({cause}), and it cannot be read back", cause)
+        return lost(WriteUnknown, register.path, f"{open_still} ({cause}), and it cannot be read back", cause)
     found = yield from look_back(session, [target], cause)
     if found is None:
-        return lost(WriteUnknown, register.path, f"the answer was lost ({cause}), and reading back fails too", cause)
+        return lost(WriteUnknown, register.path, f"{open_still} ({cause}), and reading back fails too", cause)
     read = found[register.path]
     if same(register, view, read, sent, state, session):
         return None
-    held, asked = (meaning(register, view, words, state, session) for words in (read, sent))
+    held, asked = (_spelled(meaning(register, view, words, state, session)) for words in (read, sent))
     if steady(register):
-        return lost(
-            NotWritten, register.path, f"the answer was lost ({cause}); it holds {held!r}, not {asked!r}", cause
-        )
+        return lost(NotWritten, register.path, f"{open_still} ({cause}); it holds {held}, not {asked}", cause)
     return lost(
         WriteUnknown,
         register.path,
-        f"the answer was lost ({cause}); it holds {held!r}, and the device changes it by itself",
+        f"{open_still} ({cause}); it holds {held}, and the device changes it by itself",
         cause,
     )
+
+
+def _spelled(value: object) -> str:
+    """A value for a message; members of enums by name."""
+    return getattr(value, "name", None) or repr(value)
 
 
 def steady(register: Register[Any]) -> bool:
