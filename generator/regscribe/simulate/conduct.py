@@ -64,7 +64,7 @@ class Conduct:
         for register in state.blueprint.model.registers:
             if register.shadows:
                 self._copy(state.register(register.shadows), register)
-            elif register.persistence == RAM:
+            elif register.persistence == RAM and not source_of(register, state):
                 state.store(register.path, state.blueprint.stored[register.path])
         if self.controller is not None:
             self.controller.reset()
