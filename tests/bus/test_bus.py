@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+from regscribe.model import RegisterMap
 from regscribe.runtime import AsyncBus, Bus, ValueRefused
 from regscribe.runtime.request import Request
 from regscribe.runtime.session import Pause
@@ -190,6 +191,17 @@ def test_after_a_broadcast_the_line_is_left_alone_until_all_units_are_done(units
         device.loopback()
     longest = Athena16C.protocol.latencies[6].maximum / 1000
     assert sent[1] - sent[0] >= longest + 8 * 10 / 9600
+
+
+@pytest.mark.parametrize("transport", ["tcp", "pty"])
+def test_a_bus_and_its_broadcasts_count_addresses_as_the_units_do(platinum: RegisterMap, transport: str) -> None:
+    devices = [SimulatedDevice(platinum, "M5000", unit=unit, addressing="jbus") for unit in (1, 2)]
+    with serving(devices, transport=transport) as server, bus_of(Bus, server, addressing="jbus") as bus:
+        for unit in (1, 2):
+            bus.device(AthenaM5000, unit=unit)
+        bus.broadcast(AthenaM5000.safety_output, -20)
+        assert [device.safety_output.read() for device in bus] == [-20, -20]
+    assert [device.peek("safety_output") for device in devices] == [-20, -20]
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ import pytest
 from regscribe.runtime import AsyncBus, Retry
 from regscribe.runtime import link as links
 from regscribe.runtime.request import Request
+from regscribe.runtime.wires import wait
 from regscribe.simulate import SimulatedDevice
 from regscribe_devices.athena.series_c import AsyncAthena16C
 
@@ -113,3 +114,40 @@ def test_closing_while_a_request_is_under_way_waits_for_its_end(far: FarEnd) -> 
         return (await reading).words
 
     assert asyncio.run(talk()) == (28,)
+
+
+def test_a_thread_that_is_interrupted_leaves_the_line_in_order(far: FarEnd, monkeypatch: pytest.MonkeyPatch) -> None:
+    far.plan = lambda request: [(0.1, value_of(request))]
+    sent: list[Any] = []
+    link = links.serial(far.path, baud=115200, timeout=2, echo=False, retry=Retry(0), trace=sent.append)
+    link.open()
+
+    def interrupted(wire: Any, seconds: float) -> bool:
+        if sent:
+            raise KeyboardInterrupt
+        return wait(wire, seconds)
+
+    with monkeypatch.context() as patched:
+        patched.setattr("regscribe.runtime.transport.wait", interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            link.call(1, Request(3, 28))
+    assert link.call(2, Request(3, 29)).words == (29,)
+    assert link.call(1, Request(3, 30)).words == (30,)
+    link.close()
+
+
+def test_a_tracer_that_fails_does_not_break_the_link(far: FarEnd) -> None:
+    far.plan = lambda request: [(0.0, value_of(request))]
+    failing = iter([True])
+
+    def trace(_: Any) -> None:
+        if next(failing, False):
+            message = "the disk is full"
+            raise ValueError(message)
+
+    link = links.serial(far.path, baud=115200, timeout=2, echo=False, trace=trace)
+    link.open()
+    with pytest.raises(ValueError, match="disk is full"):
+        link.call(1, Request(3, 28))
+    assert link.call(1, Request(3, 29)).words == (29,)
+    link.close()

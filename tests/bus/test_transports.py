@@ -117,3 +117,20 @@ def test_a_strict_device_hears_every_request_because_of_the_silence(athena: Regi
 def test_a_setting_that_does_not_exist_is_refused(wrong: dict[str, Any]) -> None:
     with pytest.raises(ValueError, match=r"framing|addressing|timeout"):
         links.serial("/dev/null", baud=9600, **wrong)
+
+
+@pytest.mark.parametrize("kind", ["sync", "async"])
+def test_a_port_that_the_system_cannot_wait_for_is_looked_at_again_and_again(athena: RegisterMap, kind: str) -> None:
+    """As on Windows; here a serial port of a terminal server, which pyserial reaches by a URL."""
+    with simulate(athena, "16C", unit=1, transport="rtu-tcp") as running:
+        port = f"socket://{running.host}:{running.port}"
+
+        async def talk() -> int:
+            async with AsyncAthena16C.rtu(port, unit=1) as device:
+                return await device.controller_id.read()
+
+        if kind == "async":
+            assert asyncio.run(talk()) == 1
+        else:
+            with Athena16C.rtu(port, unit=1) as device:
+                assert device.controller_id.read() == 1
