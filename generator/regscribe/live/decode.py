@@ -219,7 +219,8 @@ def _is_answer(frame: Frame) -> bool:
         return bool(data)
     if function in {WRITE_COILS, WRITE_REGISTERS}:
         return len(data) == HEAD
-    return function in SPACES and function not in WRITES and len(data) != HEAD and data[:1] == bytes([len(data) - 1])
+    counted = bool(data) and data[0] == len(data) - 1
+    return function in SPACES and function not in WRITES and len(data) != HEAD and counted
 
 
 def _asked(frame: Frame, first: int) -> Asked | None:
