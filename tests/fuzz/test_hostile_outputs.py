@@ -1,0 +1,232 @@
+"""What maps, devices and files say stays text in backups, logs, pictures, tables and configurations of others."""
+
+import csv
+import io
+import json
+import os
+import re
+import sqlite3
+import sys
+import time
+from collections.abc import Callable, Iterator
+from datetime import UTC, datetime
+from decimal import Decimal
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree as ET
+
+import pytest
+import yaml
+
+from regscribe import emit
+from regscribe.cli import output
+from regscribe.emit import python
+from regscribe.emit.export import Poll, collectd_text, csv_text
+from regscribe.live.decode import Decoder
+from regscribe.live.frames import Frame
+from regscribe.live.log import open_log
+from regscribe.live.reading import Reading
+from regscribe.live.watch import Round
+from regscribe.model import RegisterMap
+from regscribe.model.reference import Surroundings
+from regscribe.pipeline import compile_map
+from regscribe.programs.files import dump as program_text
+from regscribe.programs.files import load as load_program
+from regscribe.programs.model import Amount, Program, Segment
+from regscribe.programs.picture import picture
+from regscribe.runtime import tcp
+from regscribe.settings import text as backups
+from regscribe.settings.taking import backup
+from regscribe.simulate import simulate
+
+from .test_hostile import CANARY, REFUSED, hostile_map, texts
+
+COLLECTD = re.compile(
+    r'\s*(#.*|LoadPlugin modbus|</?Plugin( modbus)?>|<(Data|Host) "(?:[^"\\]|\\.)*">|</(Data|Host|Slave)>|<Slave \d+>|'
+    r'(Instance|Collect|Address|Port|Type) "(?:[^"\\]|\\.)*"|(RegisterBase|Interval|Baudrate) \d+|'
+    r"Register(Type|Cmd) \w+|(Scale|Shift) -?[\d.]+)?"
+)
+FORMULA = re.compile(r"[=@\t\r]|[+-].*[(|!=]", re.DOTALL)
+SPREADSHEET = ("=1+1", "@SUM(A1)", "+cmd|' /C calc'!A0", '=HYPERLINK("http://x","y")')
+TERMINAL = (
+    "\x1b[31mred",
+    "\x1b]0;title\x07",
+    "\x9b2J",
+    "\r\nnext",
+    "a\x08\x08b",
+    "\u202eabc",
+    "[bold]x[/bold]",
+    "[link=http://x]y[/link]",
+)
+
+
+def with_program(hostile: str) -> dict[str, Any]:
+    """The hostile map, with a program, effects and what a simulator is told."""
+    made, new = hostile_map(hostile), texts(hostile)
+    about = {"name": new(), "description": new(), "source": new()}
+    steps = [{"at": 20 + at, "id": name, "access": "rw", **about} for at, name in enumerate(("soak", "ramp", "stay"))]
+    steps[1]["unit"] = steps[2]["unit"] = "min"
+    rows = {"id": "rows", **about, "repeat": "1..2", "stride": 10, "registers": steps}
+    made["groups"][1] = {"id": "more", **about, "registers": [rows]}
+    made["commands"]["reset"]["effects"] = [{"set": {"level": 1}}]
+    made["groups"][0]["registers"][0]["stays"] = "calibration"
+    made["programs"] = {
+        "recipe": {**about, "segments": {"array": "rows", "setpoint": "soak", "ramp": "ramp", "soak": "stay"}}
+    }
+    return made
+
+
+@pytest.fixture(scope="module")
+def maps(
+    hostile: tuple[str, ...], as_yaml: Callable[[Any], str], tmp_path_factory: pytest.TempPathFactory
+) -> list[RegisterMap]:
+    path = tmp_path_factory.mktemp("hostile") / "example" / "controller.yaml"
+    path.parent.mkdir()
+    found = []
+    for text in (*hostile, *SPREADSHEET, *TERMINAL):
+        path.write_text(as_yaml(with_program(text)), encoding="utf-8", newline="")
+        compiled = compile_map(path)
+        assert compiled.map or REFUSED & {one.rule for one in compiled.diagnostics}, (text, compiled.diagnostics)
+        found += [compiled.map] if compiled.map else []
+    return found
+
+
+def driver_of(register_map: RegisterMap) -> Any:
+    ((_, code),) = python.render(register_map).items()
+    names: dict[str, Any] = {"__name__": "driver"}
+    exec(code, names)  # noqa: S102 - what this test is about
+    return names[register_map.models[0].class_name]
+
+
+def test_programs_of_hostile_text_are_part_of_a_driver_that_executes_nothing(maps: list[RegisterMap]) -> None:
+    for register_map in maps:
+        driver = driver_of(register_map)
+        assert [one.id for one in driver.setpoint_programs] == ["recipe"]
+    assert CANARY not in os.environ
+
+
+def test_a_backup_of_hostile_units_reads_back_as_it_was_taken(maps: list[RegisterMap], tmp_path: Path) -> None:
+    path = tmp_path / "backup.yaml"
+    for register_map in maps[::4]:
+        givens: dict[str, Any] = {"codes": frozenset({1}), "cooled": True}
+        with simulate(register_map, "Big", givens=givens) as running:
+            link = tcp(running.host, port=running.port, timeout=2.0)
+            with driver_of(register_map)(link, unit=running.device.unit, **givens) as device:
+                taken = device.run(backup(type(device), link="tcp:h"))
+        text = backups.to_text(taken)
+        backups.save(path, text)
+        assert backups.load(path) == taken
+        assert yaml.safe_load(text)["format"] == 1
+    assert CANARY not in os.environ
+
+
+@pytest.mark.parametrize("text", [*SPREADSHEET, *TERMINAL, "', x); DROP TABLE readings; --", '"', "a,b", "\n"])
+def test_a_log_holds_what_a_device_says_as_text(text: str, tmp_path: Path) -> None:
+    readings = (Reading("label", text, text, text, None),)
+    said = Round(1, datetime(2026, 1, 1, tzinfo=UTC), 0.1, readings, frozenset(), None, late=False)
+    for ending in ("csv", "jsonl", "sqlite"):
+        log = open_log(tmp_path / f"log.{ending}", "oven")
+        log.write(said)
+        log.close()
+    with (tmp_path / "log.csv").open(newline="", encoding="utf-8") as file:
+        row = list(csv.reader(file))[1]
+    assert set(row[3:5]) <= {text, f"'{text}"}
+    assert not any(FORMULA.match(cell) for cell in row)
+    assert json.loads((tmp_path / "log.jsonl").read_text("utf-8"))["registers"]["label"]["value"] == text
+    base = sqlite3.connect(tmp_path / "log.sqlite")
+    assert base.execute("SELECT value, unit FROM readings").fetchall() == [(text, text)]
+    base.close()
+
+
+def test_the_csv_export_of_hostile_text_holds_no_formula(maps: list[RegisterMap]) -> None:
+    for row in csv.reader(io.StringIO(csv_text(maps), newline="")):
+        assert [cell for cell in row if FORMULA.match(cell)] == []
+
+
+def test_a_collectd_configuration_of_hostile_text_holds_its_own_directives_only(maps: list[RegisterMap]) -> None:
+    for register_map in maps:
+        poll = Poll(name=register_map.title, unit=1, host=register_map.title)
+        text = collectd_text(register_map, register_map.models[0], poll, Surroundings())
+        assert [line for line in text.split("\n") if not COLLECTD.fullmatch(line)] == []
+
+
+def test_a_picture_of_a_hostile_program_is_sound_and_holds_nothing_active(
+    hostile: tuple[str, ...], tmp_path: Path
+) -> None:
+    for text in (*hostile, *TERMINAL):
+        unit = " ".join(text.split())[:20]
+        segment = Segment(to=Amount(Decimal(5), unit), ramp=Amount(Decimal(1), "min"), outputs={text or "x": text})
+        program = Program(name=text, segments=(segment,))
+        for element in ET.fromstring(picture(program)).iter():  # noqa: S314 - our own text
+            assert element.tag.rpartition("}")[2] not in {"script", "foreignObject", "image", "iframe", "a"}
+            assert not [name for name, _ in element.items() if name.startswith("on") or name.endswith("href")]
+        path = tmp_path / "program.yaml"
+        path.write_text(program_text(program), encoding="utf-8")
+        assert yaml.safe_load(path.read_text(encoding="utf-8"))["format"] == 1
+        assert load_program
+
+
+@pytest.mark.parametrize("is_terminal", [False, True])
+@pytest.mark.parametrize("text", TERMINAL)
+def test_a_table_shows_control_characters_and_markup_instead_of_obeying(
+    text: str, *, is_terminal: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shown = io.StringIO()
+    monkeypatch.setattr(shown, "isatty", lambda: is_terminal, raising=False)
+    monkeypatch.setattr(sys, "stdout", shown)
+    monkeypatch.setenv("TERM", "dumb")
+    monkeypatch.setenv("NO_COLOR", "1")
+    output.show_table(("name", "value"), [("level", text)], title=text)
+    lines = shown.getvalue().split("\n")
+    assert all(line.isprintable() for line in lines), lines
+    for mark in re.findall(r"\[/?\w+[^\]\x07]*\]", text):
+        assert mark in shown.getvalue()
+
+
+def test_what_was_captured_of_a_hostile_map_is_decoded_into_text(maps: list[RegisterMap]) -> None:
+    for register_map in maps[::4]:
+        decoder = Decoder(driver_of(register_map))
+        for at in range(10):
+            asked = bytes([3, 0, at, 0, 1])
+            decoder.feed(Frame("rtu", 1, asked, asked), "sent")
+            answer = bytes([3, 2, 0, 2])
+            assert decoder.feed(Frame("rtu", 1, answer, answer), "received")
+
+
+LONG = "x" * 1_000_000
+LONG_PLACES: dict[str, Callable[[dict[str, Any]], Any]] = {
+    "description of the map": lambda made: made.update(description=LONG),
+    "title": lambda made: made["map"].update(title=LONG),
+    "name": lambda made: made["groups"][0]["registers"][1].update(name=LONG),
+    "label": lambda made: made["enums"]["kinds"]["1"].update(label=LONG),
+    "unit": lambda made: made["groups"][0]["registers"][1].update(unit=LONG),
+    "note": lambda made: made["notes"].append(LONG),
+    "meaning of an exception": lambda made: made["protocol"]["exceptions"]["2"].update(meaning=LONG),
+    "danger of a command": lambda made: made["commands"]["reset"].update(danger=LONG),
+    "name of a program": lambda made: made["programs"]["recipe"].update(name=LONG),
+}
+
+
+def rendered(register_map: RegisterMap) -> Iterator[tuple[str, str]]:
+    yield from emit.render(register_map).items()
+
+
+@pytest.mark.parametrize("place", LONG_PLACES)
+def test_a_text_of_a_megabyte_is_refused_with_a_place_or_rendered_in_a_moment(
+    place: str, as_yaml: Callable[[Any], str], tmp_path: Path
+) -> None:
+    made = with_program("plain")
+    LONG_PLACES[place](made)
+    path = tmp_path / "example" / "controller.yaml"
+    path.parent.mkdir()
+    path.write_text(as_yaml(made), encoding="utf-8")
+    begun = time.process_time()
+    compiled = compile_map(path)
+    if compiled.map is None:
+        (found, *_) = compiled.diagnostics
+        assert found.span.line
+        assert len(found.message) < 5000
+    else:
+        assert all(text for _, text in rendered(compiled.map))
+        driver_of(compiled.map)
+    assert time.process_time() - begun < 20
