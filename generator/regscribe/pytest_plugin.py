@@ -2,7 +2,7 @@
 
     def test_the_oven_heats(simulated):
         oven = simulated("athena/series-c", "16C")
-        with Athena16C.tcp(oven.host, port=oven.port) as controller:
+        with Athena16C.tcp(oven.host, port=oven.port, unit=1) as controller:
             ...
 
 Nothing of regscribe is imported before a test asks for a device.

@@ -119,6 +119,13 @@ def test_the_computer_setpoint_is_lost_without_power(name: str, model: str) -> N
     assert device.wear == {"local_setpoint": 2}
 
 
+def test_an_equal_value_is_not_written_to_the_eeprom_again() -> None:  # 5.6
+    platinum = SimulatedDevice(find_map("athena/platinum-m300"), "M300")
+    for word in (500, 500, 510, 510):
+        ask(platinum, 6, 4, word)
+    assert platinum.wear == {"local_setpoint": 2}
+
+
 def test_a_write_at_the_second_address_is_one_to_the_computer_setpoint() -> None:  # 8.3 note 1
     device = SimulatedDevice(find_map("athena/platinum-m300"), "M300")
     ask(device, 6, 3, 700)

@@ -32,6 +32,7 @@ def protocol_of(node: Node | None) -> Protocol:
         read_bits=whole_of(limits, "read_bits", plain.read_bits),
         write_bits=whole_of(limits, "write_bits", plain.write_bits),
         read_holes=truth_of(node, "read_holes"),
+        spares_memory=truth_of(node, "spares_memory"),
         faults=_faults(node.child("faults")),
         exceptions=tuple(_exception(each) for _, each in items_of(node, "exceptions")),
         latencies=tuple(_latency(each) for _, each in items_of(node, "latency")),

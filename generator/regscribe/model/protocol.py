@@ -82,6 +82,7 @@ class Protocol:
     """What the device accepts: function codes, unit ids, most words (or bits) in a request, holes and faults.
 
     `read_holes`: whether a read may run over addresses of no register (a planner may then bridge gaps).
+    `spares_memory`: whether a write of what lasting memory holds already leaves the memory alone.
     `alike`: function codes that do the same (2 reads coils as 1 does); registers stand in the space of one of them.
     """
 
@@ -94,6 +95,7 @@ class Protocol:
     read_bits: int = 2000
     write_bits: int = 1968
     read_holes: bool = False
+    spares_memory: bool = False
     faults: Faults = Faults()
     exceptions: tuple[ExceptionCode, ...] = ()
     latencies: tuple[Latency, ...] = ()

@@ -31,9 +31,10 @@ class Conduct:
     def written(self, register: Register, before: Stored) -> None:
         """A write was taken: it wears memory, may wait for a command, and may change other registers."""
         path, state = register.path, self._state
-        if register.persistence in LASTING:
-            self.wear[path] += 1
         after = state.stored(path)
+        spared = after == before and state.blueprint.register_map.protocol.spares_memory
+        if register.persistence in LASTING and not spared:
+            self.wear[path] += 1
         if register.apply and after != before:
             state.hold_back(path, before)
         if register.rescales and after != before:

@@ -58,6 +58,7 @@ def _requests(protocol: Protocol) -> Iterable[tuple[str, Md]]:
     if BIT_FUNCTIONS & set(protocol.functions):
         yield "Most bits in a request", md(f"{protocol.read_bits} to read, {protocol.write_bits} to write")
     yield "Reading over unused addresses", md("allowed" if protocol.read_holes else "not relied upon")
+    yield "Writing what is there already", md("spares the lasting memory" if protocol.spares_memory else "")
 
 
 def _function(code: int) -> str:
