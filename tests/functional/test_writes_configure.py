@@ -417,6 +417,47 @@ def test_asyncio_drivers_configure_as_well(kiln: Any, device: SimulatedDevice, d
     assert len(asyncio.run(talk()).written) == len(MANY) - 1
 
 
+@pytest.mark.parametrize("arrives", [True, False])
+def test_a_cancelled_task_tells_what_it_left_and_the_next_one_completes_it(
+    kiln: Any,
+    device: SimulatedDevice,
+    direct: Any,
+    arrives: bool,  # noqa: FBT001 (a parameter of the test)
+) -> None:
+    values = {"setpoint": 100, "horn": 1}
+
+    class Hanging(direct):  # type: ignore[misc] # a class from a fixture
+        writes, hung = 0, asyncio.Event()
+
+        async def call(self, unit: int, request: Any) -> Any:
+            self.writes += request.function in WRITES
+            if self.writes != 2 or self.hung.is_set():
+                return super().call(unit, request)
+            if arrives:
+                super().call(unit, request)
+            self.hung.set()
+            return await asyncio.Event().wait()
+
+    async def talk() -> None:
+        from regscribe.runtime.turns import AsyncTurns  # noqa: PLC0415 (beside its only use)
+
+        link = Hanging(device)
+        link.lock = AsyncTurns()
+        controller = kiln.module.AsyncKilnOne(link, unit=1)
+        task = asyncio.create_task(controller.configure(values, confirm=True))
+        await link.hung.wait()
+        task.cancel()
+        with pytest.raises(asyncio.CancelledError) as caught:
+            await task
+        left = controller.session.broken_off
+        assert (len(left.written), len(left.unknown), {*left.written, *left.unknown}) == (1, 1, {*values})
+        assert f"written: {left.written[0]}; unknown: {left.unknown[0]}" in caught.value.__notes__[0]
+        await controller.configure(values, confirm=True)
+        assert {path: device.peek(path) for path in values} == values
+
+    asyncio.run(talk())
+
+
 def test_registers_know_what_stays_and_in_which_order_groups_are_written(kiln: Any) -> None:
     cls = kiln.driver("One")
     assert cls.own_address.stays == "address"

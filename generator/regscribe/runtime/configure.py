@@ -70,11 +70,15 @@ def configure(
         work.plan(changes)  # all of it is known, whatever comes of it
         steps = _Steps(session, work, targets, rounded=rounded, verify=verify)
         try:
-            yield from steps.all(sight._replace(state=state))
-        except GeneratorExit:
+            try:
+                yield from steps.all(sight._replace(state=state))
+            except GeneratorExit:
+                raise
+            except BaseException as error:  # noqa: BLE001 (raised again, with what became of everything)
+                yield from _broken(work, error, undo=undo)
+        except GeneratorExit:  # cancelled, or Ctrl-C while a request was under way: nothing can be sent any more
+            session.broken_off = work.report()
             raise
-        except BaseException as error:  # noqa: BLE001 (raised again, with what became of everything)
-            yield from _broken(work, error, undo=undo)
         finally:
             session.forget()
         _spare(session, work)
@@ -140,6 +144,9 @@ class _Steps:
                 continue
             try:
                 yield from follow(self.session, (one.register, one.view), change.sent, sight.state)
+            except GeneratorExit:
+                self.work.mark(change.register, Fate.UNKNOWN)
+                raise
             except RegscribeError as error:
                 self.work.mark(change.register, _fate(error))
                 raise

@@ -34,8 +34,8 @@ def carry_out(operation: Operation[T], link: Link, unit: int, session: Session |
                 asked = operation.send(reply)
     except StopIteration as done:
         return cast("T", done.value)
-    except BaseException:
-        operation.close()
+    except BaseException as error:
+        _break_off(operation, error, session)
         raise
 
 
@@ -58,9 +58,20 @@ async def carry_out_async(operation: Operation[T], link: AsyncLink, unit: int, s
                 asked = operation.send(reply)
     except StopIteration as done:
         return cast("T", done.value)
-    except BaseException:
-        operation.close()
+    except BaseException as error:
+        _break_off(operation, error, session)
         raise
+
+
+def _break_off(operation: Operation[T], error: BaseException, session: Session | None) -> None:
+    """End an operation that is cancelled or interrupted; what it leaves half done is noted at the error."""
+    if session is None:
+        operation.close()
+        return
+    before = session.broken_off
+    operation.close()
+    if session.broken_off is not None and session.broken_off is not before:
+        error.add_note(f"configure was broken off in the middle: {session.broken_off.told}")
 
 
 def _retune(change: Retune, session: Session | None, link: Link | AsyncLink) -> None:

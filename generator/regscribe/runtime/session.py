@@ -11,7 +11,7 @@ from regscribe.runtime.ground import Ground, ground_of
 from regscribe.runtime.line import Line
 from regscribe.runtime.plan import Limits, Terms
 from regscribe.runtime.policy import Retry
-from regscribe.runtime.report import Wear
+from regscribe.runtime.report import Wear, WriteReport
 from regscribe.runtime.request import Meanings, Reply, Request, verify
 from regscribe.runtime.timing import response_seconds
 
@@ -115,12 +115,13 @@ class Session:
     `prepared` caches requests and decoders made under that memory, so it goes whenever the memory changes. `line` is
     the link's serial line (None over TCP), `retry` what is tried again (None: as the link has it), `wrote` whether the
     operation under way has sent anything but reads. `unused` addresses (space, first, last) read as 0; `absences` are
-    those that this unit refused.
+    those that this unit refused. `broken_off` is the report of the last `configure` that a cancelled task or Ctrl-C
+    ended in the middle, where nothing could be undone.
     """
 
     __slots__ = (
-        "_ground", "_timed", "_tries", "absences", "addressing", "commands", "epoch", "givens", "groups", "line",
-        "memory", "prepared", "protocol", "registers", "retry", "unit", "unused", "wear", "wrote",
+        "_ground", "_timed", "_tries", "absences", "addressing", "broken_off", "commands", "epoch", "givens", "groups",
+        "line", "memory", "prepared", "protocol", "registers", "retry", "unit", "unused", "wear", "wrote",
     )  # fmt: skip # one name a line says no more
 
     def __init__(
@@ -148,6 +149,7 @@ class Session:
         self.addressing = "modbus"
         self.retry: Retry | None = None
         self.wrote = False
+        self.broken_off: WriteReport | None = None
         self._tries = Retry()
         self._timed: dict[Request, Request] = {}
         self.unused, self.absences = unused, Absences()

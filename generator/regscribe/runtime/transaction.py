@@ -113,6 +113,11 @@ class Transaction:
         sent = Sent(request.function, request.address, request.words, paths)
         try:
             yield from session.exchange(request)
+        except GeneratorExit:  # cancelled while the request was under way
+            for path in paths:
+                self.mark(path, Fate.UNKNOWN)
+            self.requests.append(sent._replace(fate=Fate.UNKNOWN))
+            raise
         except RegscribeError as error:
             yield from self._judge(batch, error)
             fates = {self.changes[path].fate for path in paths}
@@ -220,6 +225,9 @@ class Transaction:
         for batch in batches(self.session, [self._piece(self.changes[path], words)]):
             try:
                 yield from self.session.exchange(batch.request)
+            except GeneratorExit:
+                self.mark(path, Fate.UNKNOWN)
+                raise
             except RegscribeError as error:
                 if not is_lost(error):
                     raise
