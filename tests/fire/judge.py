@@ -18,7 +18,7 @@ from regscribe.runtime import (
     WriteUnknown,
 )
 from regscribe.runtime.report import Fate
-from regscribe.simulate.faults import Fault
+from regscribe.simulate.faults import LineFault
 
 from .world import STALL, UNITS, Far, Op, Outcome, Written, furnace
 
@@ -38,7 +38,7 @@ class Tally:
     """What a run was like."""
 
     operations: Counter[str] = field(default_factory=Counter)
-    faults: Counter[Fault] = field(default_factory=Counter)
+    faults: Counter[LineFault] = field(default_factory=Counter)
     errors: Counter[str] = field(default_factory=Counter)
     wrong: list[str] = field(default_factory=list)
     exchanges: int = 0

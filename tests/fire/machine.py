@@ -8,7 +8,7 @@ from typing import Any
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, rule
 
-from regscribe.simulate.faults import USUAL, Fault
+from regscribe.simulate.faults import USUAL, LineFault
 
 from .judge import READABLE, TALLY, Truth
 from .world import SIDES, TIMEOUT, UNITS, Far, Op, Outcome, SyncSide, furnace
@@ -60,7 +60,7 @@ class UnderFire(RuleBasedStateMachine):
 
     transport, kind = "tcp", "sync"
     rate = 0.12
-    kinds: tuple[Fault, ...] = USUAL
+    kinds: tuple[LineFault, ...] = USUAL
     judging = True
 
     def __init__(self) -> None:

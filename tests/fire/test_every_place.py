@@ -10,7 +10,7 @@ from regscribe.runtime import NoAnswer, NotWritten, RegscribeError, Retry, Wrong
 from regscribe.runtime.conversation import Conversation
 from regscribe.runtime.frames import framing_for
 from regscribe.runtime.request import Reply, Request, verify
-from regscribe.simulate.faults import USUAL, Fault
+from regscribe.simulate.faults import USUAL, LineFault
 
 from .world import FRAMINGS, SIDES, Far, Op, SyncSide
 
@@ -157,16 +157,16 @@ def test_a_disconnection_at_every_byte_of_an_answer(transport: str, kind: str) -
     with line(transport, kind) as (far, side):
         places = range(0, SHORTEST[transport] + 1, 1 if kind == "sync" else 5)
         for at in places:
-            far.faults.plan(Fault.HANGUP, at=at)
+            far.faults.plan(LineFault.HANGUP, at=at)
             good(side, far)
-            far.faults.plan(Fault.HANGUP, at=at)
+            far.faults.plan(LineFault.HANGUP, at=at)
             found = side.perform(Op("write", 1, (("setpoint", 200 + at),)))
             # a connection that ended behind a whole answer is noticed at the next request only, which never arrived
             arrived = int(found.error is None or not isinstance(found.error, NotWritten))
             assert arrived or at >= SHORTEST[transport], found
             assert found.error is None or isinstance(found.error, NotWritten)
             assert far.executed[1, "holding", 0, 200 + at] == arrived
-        assert far.faults.injected[Fault.HANGUP] > len(places)
+        assert far.faults.injected[LineFault.HANGUP] > len(places)
 
 
 @pytest.mark.parametrize("transport", ["tcp", "rtu-tcp", "ascii-tcp"])
@@ -181,7 +181,7 @@ def test_every_fault_alone_gives_the_value_or_an_error_and_passes(transport: str
             assert far.executed[2, "holding", 2, number + 1] <= 1
             far.faults.calm()
             good(side, far)
-        missing = {Fault.FOREIGN_TRANSACTION} if transport != "tcp" else set()
+        missing = {LineFault.FOREIGN_TRANSACTION} if transport != "tcp" else set()
         assert set(USUAL) - set(far.faults.injected) <= missing
 
 
@@ -247,6 +247,6 @@ def test_the_answer_to_an_earlier_request_is_never_taken(transport: str) -> None
         for unit, path in itertools.product((1, 2), ("setpoint", "inside", "second_setpoint", "rate", "cycle")):
             good(side, far, path, unit)
             far.devices[unit].poke(path, 100 * unit + len(path))
-            far.faults.plan(Fault.STALE)
+            far.faults.plan(LineFault.STALE)
             good(side, far, path, unit)
-        assert far.faults.injected[Fault.STALE] > 5
+        assert far.faults.injected[LineFault.STALE] > 5

@@ -18,7 +18,7 @@ from regscribe.runtime import AsyncBus, Bus, Retry, link
 from regscribe.runtime.trace import SENT, Trace
 from regscribe.simulate import Exchange, Request, Service, SimulatedDevice, Transport, start
 from regscribe.simulate.connection import Patience, Piece
-from regscribe.simulate.faults import EXCEPTION_BIT, USUAL, Fault, Faults
+from regscribe.simulate.faults import EXCEPTION_BIT, USUAL, Faults, LineFault
 from regscribe.simulate.framing import Framing
 
 FURNACE = Path(__file__).parent / "furnace.yaml"
@@ -76,10 +76,10 @@ def furnace() -> tuple[RegisterMap, ModuleType]:
 class Far:
     """Simulated units behind a line with faults, served by a thread of their own; `executed` counts words written."""
 
-    def __init__(self, transport: str, *, seed: int, rate: float, kinds: Sequence[Fault] = USUAL) -> None:
+    def __init__(self, transport: str, *, seed: int, rate: float, kinds: Sequence[LineFault] = USUAL) -> None:
         register_map, _ = furnace()
         self.devices = {unit: SimulatedDevice(register_map, "One", unit=unit) for unit in UNITS}
-        able = [kind for kind in kinds if kind is not Fault.HANGUP or transport != "pty"]
+        able = [kind for kind in kinds if kind is not LineFault.HANGUP or transport != "pty"]
         self.faults = Faults(FRAMINGS[transport], rate=rate, late=LATE, seed=seed, kinds=able)
         self.executed: Counter[Written] = Counter()
         self.asked = time.time()

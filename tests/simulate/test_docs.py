@@ -3,6 +3,7 @@
 import doctest
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -26,9 +27,17 @@ def test_the_session_of_the_page_runs() -> None:
 
 def test_the_test_of_the_page_runs(pytester: pytest.Pytester, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")
-    (test,) = blocks("python")
+    test, _ = blocks("python")
     pytester.makepyfile(test.replace("...  # what the program does", "controller.setpoint_ram.read()"))
     pytester.runpytest_subprocess("-p", "regscribe.pytest_plugin").assert_outcomes(passed=1)
+
+
+def test_the_bad_line_of_the_page_loses_an_answer_and_no_value() -> None:
+    _, shown = blocks("python")
+    names: dict[str, Any] = {}
+    exec(shown, names)  # noqa: S102 - our own page
+    assert list(names["faults"].injected.values()) == [1]
+    assert names["device"].device.peek("setpoint_ram") == 151
 
 
 def test_the_options_of_the_page_exist() -> None:

@@ -28,7 +28,7 @@ MBAP_COMPARED = 7
 SPLIT_SECONDS, CHATTER_SECONDS = 0.002, 0.001
 
 
-class Fault(StrEnum):
+class LineFault(StrEnum):
     """What happens to a request and its answer.
 
     `REQUEST_LOST` and `REFUSED` keep the request from the device; after all others it was carried out. `FORGED` flips
@@ -57,36 +57,43 @@ class Fault(StrEnum):
     FALSIFIED = "value falsified"
 
 
-UNDETECTABLE = frozenset({Fault.FALSIFIED})
-USUAL = tuple(fault for fault in Fault if fault not in UNDETECTABLE)
+UNDETECTABLE = frozenset({LineFault.FALSIFIED})
+USUAL = tuple(fault for fault in LineFault if fault not in UNDETECTABLE)
 
 
 class Faults:
     """Faults of one service, one for about every `rate` of its exchanges; safe to read from any thread.
 
+    `framing` is mbap (Modbus TCP), rtu or ascii, as the service has it.
     `late` is in seconds: longer than the client's timeout, shorter than its patience with late answers. `kinds` may
     hold `HANGUP` only where a line can hang up (TCP). `injected` counts the faults, `exchanges` all exchanges; in
     `forgeries` are the faults that no client could have detected.
     """
 
     def __init__(
-        self, framing: Framing, *, rate: float = 0.2, late: float = 1.5, seed: int = 0, kinds: Iterable[Fault] = USUAL
+        self,
+        framing: Framing | str,
+        *,
+        rate: float = 0.2,
+        late: float = 1.5,
+        seed: int = 0,
+        kinds: Iterable[LineFault] = USUAL,
     ) -> None:
         self.rate, self.late = rate, late
         self.kinds = tuple(kinds)
-        self.injected: Counter[Fault] = Counter()
+        self.injected: Counter[LineFault] = Counter()
         self.exchanges = 0
         self.forgeries: list[Exchange] = []
-        self._framing = framing
-        self._framer = framer_for(framing)
+        self._framing = Framing(framing)
+        self._framer = framer_for(self._framing)
         self._random = Random(seed)  # noqa: S311 - repeatable, and no secret
-        self._planned: deque[tuple[Fault | None, int | None]] = deque()
-        self._chosen: dict[int, tuple[Fault | None, int | None]] = {}
+        self._planned: deque[tuple[LineFault | None, int | None]] = deque()
+        self._chosen: dict[int, tuple[LineFault | None, int | None]] = {}
         self._earlier: deque[Exchange] = deque(maxlen=KEPT)
         self._storm = 0
         self._lock = Lock()
 
-    def plan(self, *faults: Fault | None, at: int | None = None) -> None:
+    def plan(self, *faults: LineFault | None, at: int | None = None) -> None:
         """Give the next exchanges these faults (None: none), before chance decides again.
 
         `at` is the byte at which an answer is cut or the line hangs up, or the bit that is flipped.
@@ -105,18 +112,18 @@ class Faults:
         with self._lock:
             self.exchanges += 1
             fault, at = self._choose()
-            if (fault is Fault.REFUSED or self._storm) and request.unit:
+            if (fault is LineFault.REFUSED or self._storm) and request.unit:
                 self._storm = self._storm - 1 if self._storm else STORM - 1
-                self.injected[Fault.REFUSED] += 1
+                self.injected[LineFault.REFUSED] += 1
                 return bytes([request.pdu[0] | EXCEPTION_BIT, at or self._random.choice(STORM_CODES)])
-            if fault is Fault.REQUEST_LOST:
+            if fault is LineFault.REQUEST_LOST:
                 self.injected[fault] += 1
                 return None
             if request.unit:
                 self._chosen[id(request)] = (fault, at)
         return act()
 
-    def _choose(self) -> tuple[Fault | None, int | None]:
+    def _choose(self) -> tuple[LineFault | None, int | None]:
         if self._planned:
             return self._planned.popleft()
         return (self._random.choice(self.kinds) if self._random.random() < self.rate else None), None
@@ -133,14 +140,14 @@ class Faults:
         self._earlier.append(exchange)
         return (Piece(exchange.frame),) if spoilt is None else spoilt
 
-    def _spoil(self, fault: Fault, exchange: Exchange, at: int | None) -> Sequence[Piece] | None:
+    def _spoil(self, fault: LineFault, exchange: Exchange, at: int | None) -> Sequence[Piece] | None:
         """What is sent instead of the frame; None where this fault does not fit this answer."""
         if fault in CUTS:
             frame = exchange.frame
             return CUTS[fault](self, frame, self._random.randrange(len(frame)) if at is None else at)
-        if fault is Fault.FLIPPED:
+        if fault is LineFault.FLIPPED:
             return self._flipped(exchange, at)
-        return self._stale(exchange) if fault is Fault.STALE else self._rewritten(fault, exchange, at)
+        return self._stale(exchange) if fault is LineFault.STALE else self._rewritten(fault, exchange, at)
 
     def noise(self) -> bytes:
         """Some bytes."""
@@ -170,16 +177,18 @@ class Faults:
             return mine.transaction == its.transaction
         return (mine.unit, mine.pdu[0]) == (its.unit, its.pdu[0])
 
-    def _rewritten(self, fault: Fault, exchange: Exchange, at: int | None) -> Sequence[Piece] | None:
+    def _rewritten(self, fault: LineFault, exchange: Exchange, at: int | None) -> Sequence[Piece] | None:
         request, answer = exchange.request, exchange.answer or b""
         unit, transaction, chance = request.unit, request.transaction, self._random
-        if fault is Fault.FOREIGN_UNIT:
+        if fault is LineFault.FOREIGN_UNIT:
             unit = chance.choice([one for one in range(1, 248) if one != unit])
-        elif fault is Fault.FOREIGN_TRANSACTION and self._framing is Framing.MBAP:
+        elif fault is LineFault.FOREIGN_TRANSACTION and self._framing is Framing.MBAP:
             transaction = (transaction + chance.randrange(1, 1 << 16)) % (1 << 16)
-        elif fault is Fault.FOREIGN_FUNCTION:
+        elif fault is LineFault.FOREIGN_FUNCTION:
             answer = bytes([chance.choice([one for one in FUNCTIONS if one != request.pdu[0]])]) + answer[1:]
-        elif fault in {Fault.FORGED, Fault.FALSIFIED} and (places := _places(answer, compared=fault is Fault.FORGED)):
+        elif fault in {LineFault.FORGED, LineFault.FALSIFIED} and (
+            places := _places(answer, compared=fault is LineFault.FORGED)
+        ):
             answer = _flip(answer, chance.choice(places) if at is None else places[at % len(places)], chance)
         else:
             return None
@@ -188,16 +197,16 @@ class Faults:
         return (Piece(self._framer.answer(Request(unit, request.pdu, transaction), answer)),)
 
 
-CUTS: dict[Fault, Callable[[Faults, bytes, int], Sequence[Piece]]] = {
-    Fault.LOST: lambda *_: (),
-    Fault.LATE: lambda faults, frame, _: (Piece(frame, faults.late),),
-    Fault.TWICE: lambda _, frame, __: (Piece(frame * 2),),
-    Fault.CUT: lambda _, frame, at: (Piece(frame[:at]),),
-    Fault.EXTENDED: lambda faults, frame, _: (Piece(frame + faults.noise()),),
-    Fault.SPLIT: lambda _, frame, at: (Piece(frame[:at]), Piece(frame[at:], SPLIT_SECONDS)),
-    Fault.NOISE: lambda faults, frame, _: (Piece(faults.noise() + frame),),
-    Fault.CHATTER: lambda faults, frame, _: (Piece(frame), Piece(faults.noise(), CHATTER_SECONDS)),
-    Fault.HANGUP: lambda _, frame, at: (Piece(frame[:at], hangup=True),),
+CUTS: dict[LineFault, Callable[[Faults, bytes, int], Sequence[Piece]]] = {
+    LineFault.LOST: lambda *_: (),
+    LineFault.LATE: lambda faults, frame, _: (Piece(frame, faults.late),),
+    LineFault.TWICE: lambda _, frame, __: (Piece(frame * 2),),
+    LineFault.CUT: lambda _, frame, at: (Piece(frame[:at]),),
+    LineFault.EXTENDED: lambda faults, frame, _: (Piece(frame + faults.noise()),),
+    LineFault.SPLIT: lambda _, frame, at: (Piece(frame[:at]), Piece(frame[at:], SPLIT_SECONDS)),
+    LineFault.NOISE: lambda faults, frame, _: (Piece(faults.noise() + frame),),
+    LineFault.CHATTER: lambda faults, frame, _: (Piece(frame), Piece(faults.noise(), CHATTER_SECONDS)),
+    LineFault.HANGUP: lambda _, frame, at: (Piece(frame[:at], hangup=True),),
 }
 """What needs nothing but the frame: what is sent, given a place in it."""
 
