@@ -1,6 +1,7 @@
 """A curve in the terminal."""
 
 from collections.abc import Sequence
+from typing import Any
 
 HEIGHT = 12
 LEAST_WIDTH, MARGIN = 20, 16
@@ -13,7 +14,7 @@ def chart(title: str, seconds: Sequence[float], values: Sequence[float], *, unit
         return ""
     import plotille  # type: ignore[import-untyped]  # noqa: PLC0415 - it ships no types; only a chart needs it
 
-    figure = plotille.Figure()
+    figure: Any = plotille.Figure()
     figure.width, figure.height = max(width - MARGIN, LEAST_WIDTH), HEIGHT
     figure.color_mode, figure.with_colors = "names", False
     low, high = min(values), max(values)

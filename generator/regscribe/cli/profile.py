@@ -70,7 +70,7 @@ def curve(found: Profile) -> None:
 def _figure(columns: int, rows: int) -> Any:  # noqa: ANN401 - plotille ships no types
     import plotille  # type: ignore[import-untyped]  # noqa: PLC0415 - as above; only a curve needs it
 
-    figure = plotille.Figure()
+    figure: Any = plotille.Figure()
     figure.width, figure.height = max(columns, 1) * COLUMNS, max(rows, 2)
     figure.color_mode, figure.with_colors = "names", False
     figure.register_label_formatter(float, _label)

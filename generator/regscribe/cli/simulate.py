@@ -5,7 +5,7 @@ import re
 import signal
 import sys
 from pathlib import Path
-from typing import TypedDict, Unpack
+from typing import Any, TypedDict, Unpack
 
 import click
 
@@ -163,7 +163,7 @@ async def _serve(devices: list[SimulatedDevice], service: Service, drawn: Reques
         if task.done():
             task.result()
     finally:
-        every = [each for each in (task, stop, view) if each is not None]
+        every: list[asyncio.Task[Any]] = [each for each in (task, stop, view) if each is not None]
         for each in every:
             each.cancel()
         await asyncio.gather(*every, return_exceptions=True)

@@ -65,6 +65,7 @@ def command(  # noqa: PLR0913 - the options of the command
         meant = values.parse(register, value, current_unit=unit)
         if rounded:
             meant = device.run(held_of(register, meant, view))
+        unsent: list[Written] = []
         if dry_run:
             unsent = _unsent(device, register, meant, view=view, rounded=rounded, confirm=confirm)
         else:

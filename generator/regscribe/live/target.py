@@ -110,7 +110,8 @@ def link_of(target: Target) -> Link:
     link, seconds = target.link, target.link.timeout or IDENTIFY_SECONDS
     if not link.serial:
         return tcp(link.host, timeout=seconds, trace=target.trace, **link.settings())
-    return serial(link.device, timeout=seconds, trace=target.trace, **{"baud": USUAL_BAUD, **link.settings()})
+    line: dict[str, Any] = {"baud": USUAL_BAUD, **link.settings()}
+    return serial(link.device, timeout=seconds, trace=target.trace, **line)
 
 
 def packages_of(target: Target) -> tuple[ModuleType, ...]:

@@ -57,7 +57,8 @@ def check(place: Place, program: Program, *, beyond_limits: bool = False) -> Tas
             except RegscribeError as error:
                 problems.append(Problem(one.where, label(place, one.where), str(error)))
             else:
-                planned.append(Planned(one.part, one.register, value, one.where))
+                made = Planned(one.part, one.register, value, one.where)  # pyright: ignore[reportArgumentType] # a register is a descriptor, but no attribute of this tuple
+                planned.append(made)
         order = {part: number for number, part in enumerate(place.spec.order)}
         return Checked(tuple(sorted(planned, key=lambda one: order[one.part])), tuple(_sorted(problems)))
 

@@ -79,7 +79,8 @@ class _Structure:
         self, part: str, path: str, setting: Setting, where: Where, segment: int = 0, *, time: bool = False
     ) -> None:
         limited = self.place.spec.setpoint_limits is not None and where[-1] == "to"
-        self.asked.append(Wanted(part, self.place.register(path, segment), setting, where, time, limited))
+        found = self.place.register(path, segment)
+        self.asked.append(Wanted(part, found, setting, where, time, limited))  # pyright: ignore[reportArgumentType] # a register is a descriptor, but no attribute of this tuple
 
     def _lacks(self, key: str) -> None:
         self._wrong((key,), f"the {self.place.model} has no such setting: remove `{key}`")

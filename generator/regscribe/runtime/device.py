@@ -227,9 +227,11 @@ def _usual(protocol: Protocol, line: SerialSettings) -> dict[str, Any]:
 
 def serial_link(protocol: Protocol, port: str, **line: Unpack[SerialSettings]) -> Link:
     """A serial link with the settings that the manual gives as default, unless `line` says otherwise."""
-    return links.serial(**{**_usual(protocol, line), "port": port})
+    settings: dict[str, Any] = {**_usual(protocol, line), "port": port}
+    return links.serial(**settings)
 
 
 def async_serial_link(protocol: Protocol, port: str, **line: Unpack[SerialSettings]) -> AsyncLink:
     """As `serial_link`, for asyncio."""
-    return links.async_serial(**{**_usual(protocol, line), "port": port})
+    settings: dict[str, Any] = {**_usual(protocol, line), "port": port}
+    return links.async_serial(**settings)

@@ -54,7 +54,7 @@ def follow(session: Session, target: Target, words: Words, state: State) -> Oper
     yield from _free(session, target, governs, words, old)
     marks = (yield from _marks(session)) if governs.setting == "addressing" else {}
     cause = yield from _told(session, target, words, governs)
-    move = _Move(register, target, words, state, old, marks)
+    move = _Move(register, target, words, state, old, marks)  # pyright: ignore[reportArgumentType] # a register is a descriptor, but no attribute of this tuple
     yield from _found(session, move, [] if governs.since == LATER else new, cause, called(value))
 
 

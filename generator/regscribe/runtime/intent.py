@@ -53,7 +53,7 @@ def wanted(session: Session, values: Mapping[Any, Any]) -> list[Wanted]:
     for key, value in values.items():
         try:
             register = _register(session, key)
-            found[register.path] = Wanted(register, value)
+            found[register.path] = Wanted(register, value)  # pyright: ignore[reportArgumentType] # a register is a descriptor, but no attribute of this tuple
         except ValueRefused as refusal:
             refusals.append(refusal)
     refuse(refusals)

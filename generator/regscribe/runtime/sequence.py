@@ -147,4 +147,4 @@ def _batch(session: Session, pieces: list[Piece]) -> Batch:
 
 def piece(register: Register[Any], change: Change) -> Piece:
     """What a change of a register writes."""
-    return Piece(register, register.view(change.view), change.sent)
+    return Piece(register, register.view(change.view), change.sent)  # pyright: ignore[reportArgumentType] # a register is a descriptor, but no attribute of this tuple

@@ -74,7 +74,7 @@ class Transaction:
 
     def _piece(self, change: Change, words: Words) -> Piece:
         register = self.register(change.register)
-        return Piece(register, register.view(change.view), words)
+        return Piece(register, register.view(change.view), words)  # pyright: ignore[reportArgumentType] # a register is a descriptor, but no attribute of this tuple
 
     # --- sending
 

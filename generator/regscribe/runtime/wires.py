@@ -35,12 +35,14 @@ class Wire(Protocol):
 
     def read(self) -> bytes:
         """What has come, perhaps nothing; OSError (for a closed connection too) if it is broken."""
+        raise NotImplementedError
 
     def write(self, data: bytes) -> None:
         """Send all of it; OSError if it is broken or takes no more."""
 
     def waiting(self) -> bool:
         """Whether bytes have come; for ports that the system cannot wait for."""
+        raise NotImplementedError
 
     def close(self) -> None:
         """Close it; never fails."""
@@ -83,7 +85,7 @@ class SerialWire:
     """A serial port of this machine, held by this process alone."""
 
     def __init__(self, port: serial.SerialBase) -> None:
-        self._port = port
+        self._port: Any = port  # pyserial's base has less than each of its ports
         self.descriptor = port.fileno() if os.name == "posix" and hasattr(port, "fd") else -1
 
     def read(self) -> bytes:

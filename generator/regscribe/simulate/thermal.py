@@ -37,7 +37,9 @@ class ThermalProcess:
     def __post_init__(self) -> None:
         for name in ("ambient", "gain", "cooling", "time_constant", "dead_time", "noise", "resolution", "start"):
             value = getattr(self, name)
-            if not (value is None and name == "start") and (isinstance(value, str) or not math.isfinite(value)):
+            if value is None and name == "start":
+                continue
+            if not isinstance(value, (int, float)) or not math.isfinite(value):
                 message = f"process: {name} {value!r} is no number"
                 raise SimulatorError(message)
         _positive("gain", self.gain, "with no gain, no output changes the process value")
