@@ -13,7 +13,7 @@ from fractions import Fraction
 import pytest
 
 from regscribe.model import Latency, RegisterMap, Serial
-from regscribe.simulate import Line, Running, SimulatedDevice, SimulatorError, simulate
+from regscribe.simulate import Line, Running, SimulatedDevice, SimulatorError, find_map, simulate
 from regscribe.simulate.framing import Request, RtuFramer
 from regscribe.simulate.latency import Pace, factor_of
 
@@ -64,6 +64,13 @@ def test_latencies_lie_between_the_limits_and_a_seed_repeats_them(controller: Re
     assert series[0] == series[1] != series[2]
     assert all(0.005 <= seconds <= 0.1 for seconds in series[0])
     assert len(set(series[0])) > 1
+
+
+def test_a_device_under_another_address_takes_as_long() -> None:
+    device = SimulatedDevice(find_map("athena/series-c"), "16C")
+    pace = Pace([device], SLOW, factor=1.0)
+    device.handle(struct.pack(">BHH", 6, 4081, 5))
+    assert (pace.seconds(Request(5, READ_ONE)) >= 0.005, pace.seconds(Request(1, READ_ONE))) == (True, 0)
 
 
 @pytest.mark.parametrize(("given", "factor"), [("off", 0), ("real", 1), (0.5, 0.5), ("0.25", 0.25), (0, 0)])

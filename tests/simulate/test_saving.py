@@ -98,6 +98,13 @@ def test_a_backup_of_a_device_is_a_state(tmp_path: Path) -> None:
             assert restored.peek("setpoint_ram") == Fraction("150.5")
 
 
+def test_a_loaded_state_does_not_change_the_unit(write: Callable[[str], Path]) -> None:
+    device = SimulatedDevice(find_map("athena/series-c"), "16C", unit=3)
+    device.load(write("format: 1\nstate: {map: athena/series-c, model: 16C}\nvalues: {controller_id: 9}\n"))
+    assert device.handle(struct.pack(">BHH", 6, 2, 100)) is not None
+    assert (device.unit, device.peek("controller_id")) == (3, 3)
+
+
 def test_a_backup_with_bit_fields_and_affine_scales_is_a_state(tmp_path: Path) -> None:
     givens = {"linear_inputs": {16}}
     with simulate("fdc/series-100", "C21", givens=givens) as running:

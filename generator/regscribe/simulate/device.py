@@ -116,9 +116,13 @@ class SimulatedDevice:
             return saving.snapshot(self.state, self.unit, self._conduct.wear)
 
     def restore(self, document: Mapping[str, Any]) -> None:
-        """Set the device to a snapshot, or to a backup of a real one. SimulatorError if it is of another model."""
+        """Set the device to a snapshot, or to a backup of a real one; it answers as the same unit as before.
+
+        Raises SimulatorError if it is of another model.
+        """
         with self._lock:
             self._conduct.wear.update(saving.restore(self.state, document))
+            self._tuning.keep()
 
     def save(self, path: str | Path) -> None:
         """Write what the device holds to a YAML file. SimulatorError if that fails."""
@@ -129,6 +133,7 @@ class SimulatedDevice:
         document = saving.load(Path(path))
         with self._lock:
             self._conduct.wear.update(saving.restore(self.state, document, name=str(path)))
+            self._tuning.keep()
 
     def power_cycle(self) -> None:
         """Take power away and give it back: RAM is restored from lasting memory, where the map says what from."""

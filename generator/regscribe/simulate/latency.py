@@ -67,16 +67,16 @@ class Pace:
     `gap` is in seconds.
     """
 
-    __slots__ = ("_gap", "_units")
+    __slots__ = ("_devices", "_gap")
 
     def __init__(self, devices: Sequence[SimulatedDevice], line: Line, *, factor: float, gap: float = 0.0) -> None:
         self._gap = gap
-        self._units = {
-            device.unit: Thought(device.register_map.protocol, line, factor, f"{device.seed} {device.unit}")
+        self._devices = [
+            (device, Thought(device.register_map.protocol, line, factor, f"{device.seed} {device.unit}"))
             for device in devices
-        }
+        ]
 
     def seconds(self, request: Request) -> float:
         """Return the seconds from the end of the request to the start of the answer."""
-        thought = self._units.get(request.unit)
+        thought = next((thought for device, thought in self._devices if device.unit == request.unit), None)
         return self._gap + (thought.seconds(request.pdu) if thought is not None else 0.0)

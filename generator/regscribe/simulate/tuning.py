@@ -22,9 +22,15 @@ class Tuning:
         self._state, self.unit, self.first = state, unit, first_address(addressing)
         registers = state.blueprint.model.registers
         self._governing = tuple((each, each.governs) for each in registers if each.governs is not None)
+        self._known: dict[str, Fraction | str] = {}
+        self.keep()
+
+    def keep(self) -> None:
+        """Talk on as now, whatever was put into the registers: they show it."""
+        addressing = next(name for name, first in FIRST_ADDRESSES.items() if first == self.first)
         for register, governs in self._governing:
             self._show(register, governs, addressing)
-        self._known: dict[str, Fraction | str] = {each.path: state.stored(each.path) for each, _ in self._governing}
+        self._known.update((each.path, self._state.stored(each.path)) for each, _ in self._governing)
 
     def _show(self, register: Register, governs: Governs, addressing: str) -> None:
         if governs.setting is Setting.ADDRESS:
