@@ -1,17 +1,24 @@
 """Every bit, every byte, every await: what chance may miss, one after the other."""
 
+import asyncio
 import itertools
+import os
+import threading
+import tty
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
 
 import pytest
 
-from regscribe.runtime import NoAnswer, NotWritten, RegscribeError, Retry, WrongAnswer
+from regscribe.runtime import LinkLost, NoAnswer, NotWritten, RegscribeError, Retry, WrongAnswer, link
 from regscribe.runtime.conversation import Conversation
 from regscribe.runtime.frames import framing_for
 from regscribe.runtime.request import Reply, Request, verify
 from regscribe.simulate.faults import USUAL, LineFault
 
+from .machine import descriptors
 from .world import FRAMINGS, SIDES, Far, Op, SyncSide
 
 UNIT = 17
@@ -250,3 +257,77 @@ def test_the_answer_to_an_earlier_request_is_never_taken(transport: str) -> None
             far.faults.plan(LineFault.STALE)
             good(side, far, path, unit)
         assert far.faults.injected[LineFault.STALE] > 5
+
+
+def unplugged(request: bytes, answer: bytes, at: int, path: Path) -> threading.Thread:
+    """A serial adapter at `path` that is pulled out behind byte `at` of its answer, and put in again at once."""
+
+    def plug() -> int:
+        ours, theirs = os.openpty()
+        tty.setraw(theirs)
+        path.unlink(missing_ok=True)
+        path.symlink_to(os.ttyname(theirs))
+        kept.append(theirs)
+        return ours
+
+    def take(adapter: int) -> None:
+        received = b""
+        while len(received) < len(request):
+            received += os.read(adapter, 100)
+
+    def serve() -> None:
+        take(first)
+        os.write(first, answer[:at])
+        second = plug()
+        os.close(kept.pop(0))
+        os.close(first)
+        take(second)
+        os.write(second, answer)
+        done.wait(5)
+        os.close(second)
+        os.close(kept.pop())
+
+    kept: list[int] = []
+    done = threading.Event()
+    first = plug()
+    thread = threading.Thread(target=serve, daemon=True)
+    thread.done = done  # type: ignore[attr-defined] # whoever waits for it says when
+    thread.start()
+    return thread
+
+
+@pytest.mark.parametrize("kind", ["sync", "async"])
+def test_an_adapter_that_is_pulled_out_at_every_byte_of_an_answer_is_opened_again(kind: str, tmp_path: Path) -> None:
+    request, answer = framed("rtu", b"\x03\x00\x1c\x00\x01"), framed("rtu", b"\x03\x02\x12\x34")
+    before = descriptors()
+    for at in range(len(answer)):
+        path = tmp_path / f"adapter{at}"
+        far = unplugged(request, answer, at, path)
+        assert asked_twice(kind, str(path)) == (0x1234,)
+        far.done.set()  # type: ignore[attr-defined] # as above
+        far.join(5)
+    assert descriptors() == before
+
+
+def asked_twice(kind: str, path: str) -> tuple[int, ...]:
+    """The words of a read that is tried again after the link was lost."""
+    how: dict[str, Any] = {"baud": 115200, "timeout": 0.2, "echo": False}
+
+    async def talk() -> tuple[int, ...]:
+        made = link.async_serial(path, **how)
+        await made.open()
+        with pytest.raises(LinkLost):
+            await made.call(UNIT, Request(3, 28))
+        found = (await made.call(UNIT, Request(3, 28))).words
+        await made.close()
+        return found
+
+    if kind == "async":
+        return asyncio.run(talk())
+    made = link.serial(path, **how)
+    made.open()
+    with pytest.raises(LinkLost):
+        made.call(UNIT, Request(3, 28))
+    found = made.call(UNIT, Request(3, 28)).words
+    made.close()
+    return found
