@@ -17,6 +17,9 @@ FAREWELL = 0.5
 RTU_CHUNK = 512
 """As `CHUNK`, in RTU: bytes without any sound frame take long to look through, and the others wait meanwhile."""
 
+ACCEPTING = 5
+"""Rounds of the event loop, at most, from accepting a client to its first call-back."""
+
 LOOKS = 4
 """How often in the time of an idle client it is looked for."""
 
@@ -91,7 +94,7 @@ class TcpServer(_Accompanied):
         """Stop accepting, then end the clients."""
         await self._part()
         if self._listener is not None:
-            self._listener.close()
+            await _close(self._listener)
         if self._looking is not None:
             self._looking.cancel()
         leaving = [client.dismiss() for client in tuple(self._clients)]
@@ -123,6 +126,16 @@ class TcpServer(_Accompanied):
         for client in [each for each in self._clients if loop.time() - each.heard > idle]:
             self.dismiss(client)
         self._looking = loop.call_later(idle / LOOKS, self._look)
+
+
+async def _close(listener: asyncio.Server) -> None:
+    """Accept nobody any more, and let those in who were accepted a moment ago: a closed server would leak them."""
+    loop = asyncio.get_running_loop()
+    for listening in listener.sockets:
+        loop.remove_reader(listening.fileno())
+    for _ in range(ACCEPTING):
+        await asyncio.sleep(0)
+    listener.close()
 
 
 class TcpClient(asyncio.BufferedProtocol):
