@@ -5,8 +5,9 @@ import re
 import shlex
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
+from typing import Any
 
 import click
 import pytest
@@ -15,10 +16,11 @@ from regscribe.cli.app import regscribe
 from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map
 from regscribe.simulate import Service, SimulatedDevice, simulate, start
+from regscribe_devices.athena.series_c import Athena16C
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
-SERIES_C, SERIES_100, X5000, BUS = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
+SERIES_C, SERIES_100, X5000, BUS, TEST = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
 COMMANDS = re.findall(r"^regscribe [^#\n]+", README, re.MULTILINE)
 
 
@@ -49,6 +51,13 @@ def test_the_bus_of_the_readme_runs() -> None:
         exec(BUS.replace('rtu("/dev/ttyUSB0", baud=9600)', f'tcp("127.0.0.1", port={port})'), names)  # noqa: S102 - our own README
         assert oven.peek("input_filter") == 9
         assert names["report"].written == ("setpoint_high_limit", "input_filter")  # type: ignore[attr-defined]  # of exec
+
+
+def test_the_test_of_the_readme_runs() -> None:
+    names: dict[str, Any] = {"Athena16C": Athena16C}
+    exec(TEST.replace("...  ", "controller.input_type.read()"), names)  # noqa: S102 - our own README
+    with ExitStack() as stack:
+        names["test_heating_stops_when_the_sensor_breaks"](lambda *which: stack.enter_context(simulate(*which)))
 
 
 @contextmanager
