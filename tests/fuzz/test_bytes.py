@@ -27,7 +27,7 @@ from regscribe.settings import text as backups
 from regscribe.settings.differing import differences, side
 from regscribe.settings.fitting import fit
 from regscribe.settings.saved import BackupError
-from regscribe.simulate import SimulatedDevice
+from regscribe.simulate import SimulatedDevice, SimulatorError
 from regscribe.simulate.connection import MOST_WAITING, Connection, Manners
 from regscribe.simulate.framing import LONGEST_PDU, Framing, Request, framer_for
 from regscribe.simulate.station import Station
@@ -244,7 +244,7 @@ backup:
   {map: athena/series-c, map_sha256: 0123456789abcdef, model: 16C, unit: 1, link: "tcp:h", taken: "2026-01-01T00:00Z"}
 settings:
   setpoints:
-    setpoint_eeprom: {value: 150.5, unit: "°F", raw: [1505]}
+    setpoint_eeprom_and_ram: {value: 150.5, unit: "°F", raw: [1505]}
     holdback: {value: 3}
 """
 CONFIG = """\
@@ -261,9 +261,29 @@ program:
     - {to: 500 °C, ramp: 1:30, soak: 2:00}
   final: {to: 20 °C}
 """
+STATE = """\
+format: 1
+state: {map: athena/series-c, model: 16C}
+values: {setpoint_ram: 150.5, operating_mode: MANUAL, "segments[1].ramp_time": 3}
+wear: {setpoint_eeprom_and_ram: 3}
+in_effect: {holdback: 2}
+"""
+
+
+def into_a_device(path: Path) -> SimulatedDevice:
+    """A simulated device in the state of a file."""
+    found = SimulatedDevice(athena(), "16C", unit=1)
+    found.load(path)
+    assert found.handle(b"\x03\x00\x00\x00\x05")
+    found.snapshot()
+    return found
+
+
 LOADERS: dict[str, tuple[str, Callable[[Path], Any], type[Exception]]] = {
     "backup": (BACKUP, backups.load, BackupError),
     "configuration": (CONFIG, config.load, TargetError),
+    "state": (STATE, into_a_device, SimulatorError),
+    "state from a backup": (BACKUP, into_a_device, SimulatorError),
     "program": (PROGRAM, programs.load, TargetError),
 }
 SPOILERS = [
