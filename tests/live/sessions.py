@@ -24,7 +24,7 @@ from regscribe.pipeline import compile_map
 from regscribe.simulate import Running, simulate
 
 ROOT = Path(__file__).parents[2]
-PAGES = tuple(ROOT / "docs" / name for name in ("cli.md", "settings.md", "programs.md"))
+PAGES = (ROOT / "README.md", *(ROOT / "docs" / name for name in ("cli.md", "settings.md", "programs.md")))
 BLOCK = re.compile(r"^```(\w+)([^\n]*)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 START = datetime(2026, 11, 22, 10, 0, 0, tzinfo=UTC)
 TIME = re.compile(r"20\d\d-\d\d-\d\dT\d\d:\d\d:\d\d(?:\.\d\d\d)?Z")

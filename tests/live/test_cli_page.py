@@ -25,7 +25,7 @@ def sessions() -> ModuleType:
     return module
 
 
-@pytest.mark.parametrize("name", ["cli.md", "settings.md", "programs.md"])
+@pytest.mark.parametrize("name", ["README.md", "cli.md", "settings.md", "programs.md"])
 def test_the_sessions_of_the_page_print_what_stands_there(
     sessions: Any, compiled: Any, folder: Path, name: str
 ) -> None:
