@@ -178,3 +178,10 @@ def test_a_file_for_another_device_is_said_to_be_one(cli: Cli, oven: Oven, folde
     said = cli("validate", oven.target, "other.yaml")
 
     assert (said.code, "made for athena/platinum-m5000 M5000; this is athena/series-c 16C" in said.err) == (0, True)
+
+
+def test_a_drawing_is_told_to_programs_too(cli: Cli, folder: Path) -> None:
+    (folder / "glaze.yaml").write_text(SERIES_C, encoding="utf-8")
+    said = json.loads(cli("draw", "glaze.yaml", "--svg", "glaze.svg", "--json").out)
+    assert (said["file"], said["svg"], len(said["program"]["segments"])) == ("glaze.yaml", "glaze.svg", 3)
+    assert "<svg" in (folder / "glaze.svg").read_text(encoding="utf-8")

@@ -7,11 +7,12 @@ from typing import Any, TypeVar, cast
 
 import click
 
+from regscribe import files
 from regscribe.cli.failure import REFUSED, UNKNOWN_STATE, Failure, code_of, kind_of, told
 from regscribe.cli.output import print_json, remark, show_table
 from regscribe.cli.profile import show_program
 from regscribe.cli.read import heading
-from regscribe.cli.target import HELP, checked_identity, opened, target_options
+from regscribe.cli.target import HELP, JSON, checked_identity, opened, target_options
 from regscribe.live import catalogue
 from regscribe.live.errors import TargetError
 from regscribe.live.target import Target
@@ -220,14 +221,17 @@ _act("reset", "End a program that runs or is held.")
 )
 @file_argument
 @click.option("--svg", type=click.Path(path_type=Path), metavar="FILE", help="Write the picture here.")
-def draw(*, file: Path, svg: Path | None) -> int:
+@JSON
+def draw(*, file: Path, svg: Path | None, as_json: bool) -> int:
     """Draw a file."""
     with told():
         given = load(file).program
     first = _first(given)
     if svg:
         _save(svg, picture(given, first=first))
-    else:
+    if as_json:
+        print_json(file=str(file), svg=str(svg or ""), program=plain(given))
+    elif not svg:
         show_program(given, first=first)
     return 0
 
@@ -243,14 +247,10 @@ def _first(given: Program) -> int:
 
 def _save(path: Path, text: str) -> None:
     """Write a file whole or not at all."""
-    part = path.with_name(f".{path.name}.part")
     try:
-        part.write_text(text, encoding="utf-8")
-        part.replace(path)
-    except OSError as error:
-        part.unlink(missing_ok=True)
-        message = f"cannot write {path}: {error}"
-        raise Failure(message, kind="file", code=REFUSED) from None
+        files.save(path, text)
+    except files.FileError as error:
+        raise Failure(str(error), kind="file", code=REFUSED) from None
 
 
 def _fits(given: File, here: Place) -> None:
