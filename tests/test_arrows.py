@@ -22,7 +22,7 @@ ROOMS = {
     "checks": {"model", "source", "schema", "compose", "lower"},
     "emit": {"model", "schema"},
     "evidence": {"model", "emit"},
-    "simulate": {"model", "source", "shipped", "pipeline"},
+    "simulate": {"model", "source", "files", "shipped", "pipeline"},
     "runtime": set[str](),
     "files": {"source", "schema"},
     "live": {"model", "source", "schema", "runtime", "files"},
@@ -37,7 +37,7 @@ ROOMS = {
 """Which other rooms a room may import."""
 
 OWNERS = {
-    "yaml": {"source", "files", "simulate"},
+    "yaml": {"source", "files"},
     "jsonschema": {"schema"},
     "jinja2": {"emit"},
     "click": {"cli"},

@@ -5,15 +5,11 @@ state: {map: athena/series-c, model: 16C, unit: 1}
 values: {setpoint_ram: 150.5, operating_mode: MANUAL}
 """
 
-import contextlib
-import os
-import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import yaml
-
+from regscribe import files
 from regscribe.simulate.blueprint import Stored
 from regscribe.simulate.errors import SimulatorError
 from regscribe.simulate.following import sources_of
@@ -48,17 +44,11 @@ def _in_effect(state: State, path: str, former: Stored) -> Plain:
 
 def save(path: Path, document: Mapping[str, Any]) -> None:
     """Write a state; where that fails, SimulatorError, and a file that was there before is as it was."""
-    text = yaml.safe_dump(dict(document), sort_keys=False, allow_unicode=True, width=1 << 20)
-    temporary = ""
+    remark = "State of a simulated device; `regscribe simulate --state` loads it."
     try:
-        descriptor, temporary = tempfile.mkstemp(prefix=f".{path.name[:100]}.", dir=path.parent)
-        with os.fdopen(descriptor, "w", encoding="utf-8") as file:
-            file.write(f"# State of a simulated device; `regscribe simulate --state` loads it.\n{text}")
-        Path(temporary).replace(path)
-    except OSError as problem:
-        with contextlib.suppress(OSError):
-            Path(temporary).unlink()
-        message = f"cannot write the state to {path}: {problem.strerror or problem}"
+        files.save(path, files.dump(document, remarks=(remark,)))
+    except files.FileError as problem:
+        message = f"cannot write the state: {problem}"
         raise SimulatorError(message) from None
 
 
