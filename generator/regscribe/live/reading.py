@@ -36,7 +36,7 @@ def readings(registers: Sequence[Register[Any]]) -> Task[tuple[Reading, ...]]:
         for register in registers:
             wanted.update((path, session.registers[path]) for path in unit_needs(register))
         snapshot = yield from operations.read_many(list(wanted.values()))(session)
-        state = _values(snapshot)
+        state = snapshot.valid
         return tuple(_reading(register, snapshot, state, session.givens) for register in registers)
 
     return task
@@ -80,16 +80,6 @@ def unit_of(register: Register[Any], state: Mapping[str, Any], givens: Mapping[s
 def reason(error: RegscribeError, name: str) -> str:
     """What an error says, without the name that stands beside it already."""
     return str(error).removeprefix(f"{name}: ")
-
-
-def _values(snapshot: Snapshot) -> dict[str, Any]:
-    found = {}
-    for path in snapshot:
-        try:
-            found[path] = snapshot[path]
-        except RegscribeError:
-            continue
-    return found
 
 
 def _reading(

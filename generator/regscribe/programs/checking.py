@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 from regscribe.programs.model import Program
 from regscribe.programs.place import Place
 from regscribe.programs.structure import Problem, Where, label, wanted
-from regscribe.programs.values import Bench, needs, readable
+from regscribe.programs.values import Bench, needs
 from regscribe.runtime import Register, RegscribeError, ValueRefused, operations
 from regscribe.runtime.session import Operation, Session, Task
 
@@ -42,7 +42,7 @@ def check(place: Place, program: Program, *, beyond_limits: bool = False) -> Tas
         asked, problems = wanted(place, program)
         paths = {path for one in asked for path in needs(one.register)} | set(place.spec.setpoint_limits or ())
         snapshot = yield from operations.read_many([session.registers[path] for path in sorted(paths)])(session)
-        bench = Bench(place, readable(snapshot), session.givens, program.time_unit or "")
+        bench = Bench(place, snapshot.valid, session.givens, program.time_unit or "")
         planned = []
         for one in asked:
             if one.time and not _countable(place, program):

@@ -5,7 +5,7 @@ from typing import Any
 
 from regscribe.programs.model import FOREVER, Final, Program, Segment, Setting
 from regscribe.programs.place import Place
-from regscribe.programs.values import Bench, needs, readable
+from regscribe.programs.values import Bench, needs
 from regscribe.runtime import Register, Snapshot, operations
 from regscribe.runtime.session import Operation, Session, Task
 
@@ -18,7 +18,7 @@ def read(place: Place) -> Task[Program]:
         others = {path: session.registers[path] for one in own.values() for path in sorted(needs(one))}
         snapshot = yield from operations.read_many(list({**others, **own}.values()))(session)
         unit = _time_unit(place, snapshot)
-        return _Reader(place, snapshot, Bench(place, readable(snapshot), session.givens, unit)).program()
+        return _Reader(place, snapshot, Bench(place, snapshot.valid, session.givens, unit)).program()
 
     return task
 

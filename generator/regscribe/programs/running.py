@@ -5,7 +5,7 @@ from typing import Literal
 
 from regscribe.programs.model import Setting
 from regscribe.programs.place import Place
-from regscribe.programs.values import Bench, needs, readable
+from regscribe.programs.values import Bench, needs
 from regscribe.runtime import ProgramAction, RegscribeError, ValueRefused, operations
 from regscribe.runtime.session import Operation, Session, Task
 
@@ -45,7 +45,7 @@ def status(place: Place) -> Task[State]:
             one.path: one for one in registers.values()
         }
         snapshot = yield from operations.read_many(list(wanted.values()))(session)
-        found = readable(snapshot)
+        found = snapshot.valid
         bench = Bench(place, found, session.givens)
         values = {path: found.get(one.path) for path, one in registers.items()}
         code = values.get(spec.status.register) if spec.status else None
@@ -117,7 +117,7 @@ def _ready(place: Place) -> Task[None]:
             when, reason = place.spec.requires
             paths = list(dict.fromkeys(test.register for test in when if test.register))
             snapshot = yield from operations.read_many([session.registers[path] for path in paths])(session)
-            state = readable(snapshot)
+            state = snapshot.valid
             if not all(test.holds(state, session.givens) for test in when):
                 now = ", ".join(f"{path} is {_shown(state[path])}" for path in paths)
                 raise ValueRefused(place.name, f"{reason}; now {now}")

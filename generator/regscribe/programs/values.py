@@ -10,7 +10,7 @@ from regscribe.live import values
 from regscribe.live.reading import unit_needs, unit_of
 from regscribe.programs.model import RAW, SECONDS, Amount, Setting
 from regscribe.programs.place import Place
-from regscribe.runtime import Register, RegscribeError, Snapshot, ValueRefused
+from regscribe.runtime import Register, ValueRefused
 from regscribe.runtime.spec import Givens
 
 NO_UNIT = "the number has no unit"
@@ -24,17 +24,6 @@ def is_raw(register: Register[Any]) -> bool:
 def needs(register: Register[Any]) -> set[str]:
     """The registers that decide the unit, the scale and the limits of a register."""
     return {*unit_needs(register), *register.needs(register.view()), *register.limit_needs}
-
-
-def readable(snapshot: Snapshot) -> dict[str, Any]:
-    """The values of a snapshot, without what could not be decoded."""
-    found = {}
-    for path in snapshot:
-        try:
-            found[path] = snapshot[path]
-        except RegscribeError:
-            continue
-    return found
 
 
 @dataclass(frozen=True, slots=True)

@@ -48,6 +48,11 @@ class Snapshot(Mapping[str, Any]):
         return dict(self._values)
 
     @property
+    def valid(self) -> dict[str, Any]:
+        """The values, by path, of the registers that hold one."""
+        return {path: value for path, value in self._values.items() if not isinstance(value, RegscribeError)}
+
+    @property
     def errors(self) -> dict[str, RegscribeError]:
         """The registers that hold no value, with why."""
         return {path: value for path, value in self._values.items() if isinstance(value, RegscribeError)}

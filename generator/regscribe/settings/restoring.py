@@ -11,7 +11,7 @@ from regscribe.runtime.report import Teller, WriteReport
 from regscribe.runtime.session import Operation, Session, Task
 from regscribe.settings.fitting import Fit, Misfit, fit
 from regscribe.settings.saved import Backup, UnfitError
-from regscribe.settings.taking import values_of, writable
+from regscribe.settings.taking import writable
 
 MOST_NAMED = 8
 """Misfits that a message lists before it says how many more there are."""
@@ -70,7 +70,7 @@ def _present(session: Session, driver: Driver) -> Operation[dict[str, Any]]:
     for register in writable(driver):
         paths.update(dict.fromkeys((*unit_needs(register), *register.needs(register.view()))))
     snapshot = yield from operations.read_many([session.registers[path] for path in paths])(session)
-    return values_of(snapshot)
+    return snapshot.valid
 
 
 def _refuse(found: Fit) -> None:

@@ -65,16 +65,10 @@ def saved(registers: Sequence[Register[Any]]) -> Task[dict[str, Saved]]:
         for register in registers:
             wanted.update((path, session.registers[path]) for path in unit_needs(register))
         snapshot = yield from operations.read_many(list(wanted.values()))(session)
-        state = values_of(snapshot)
+        state = snapshot.valid
         return {register.path: _saved(register, snapshot, state, session.givens) for register in registers}
 
     return task
-
-
-def values_of(snapshot: Snapshot) -> dict[str, Any]:
-    """The values of a snapshot without the registers that hold none."""
-    failed = snapshot.errors
-    return {path: snapshot[path] for path in snapshot if path not in failed}
 
 
 def _saved(register: Register[Any], snapshot: Snapshot, state: Mapping[str, Any], givens: Mapping[str, Any]) -> Saved:
