@@ -244,9 +244,15 @@ def test_what_was_changed_since_the_factory_is_what_differs_from_the_manuals_def
 
 def test_a_setting_without_a_value_is_kept_with_its_words_and_the_reason(serve: Serve) -> None:
     with serve("athena/series-c", "16C") as bench:
-        bench.device.state.store("display_unit_of_measure", 9)
+        bench.device.state.store("ieee_register_ordering", 9)
         kept = dict(take(bench.driver).settings())
-    assert kept["display_unit_of_measure"].raw == (9,)
+        filter_ = kept["input_filter"]
+        assert (filter_.value, filter_.raw) == (None, bench.device.peek_words("input_filter", "ieee"))
+        assert "ieee_register_ordering" in filter_.error
+        with pytest.raises(UnfitError, match="input_filter: the file has no value for it"):
+            bring(bench.driver, take(bench.driver))
+        snapshot = bench.driver.read(type(bench.driver).input_filter, type(bench.driver).input_type)
+        assert list(snapshot.valid) == ["input_type"]
 
 
 def test_an_asyncio_driver_backs_up_and_restores_too(serve: Serve) -> None:
