@@ -4,7 +4,7 @@
 # format 1, map sha256 5018ecd2a7241550
 
 from regscribe.runtime import (
-    UINT16,
+    UINT8,
     AsyncDevice,
     Device,
     Flags,
@@ -80,7 +80,7 @@ __all__ = [
     "Status",
 ]
 
-_STATUS_UINT8 = (View("base", UINT16, space="status"),)
+_STATUS_UINT8 = (View("base", UINT8, space="status"),)
 # addresses that read as 0
 _UNUSED = (
     ("coil", 0, 2),

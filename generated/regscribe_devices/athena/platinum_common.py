@@ -4,6 +4,7 @@
 # format 1, map sha256 d96298f5d8237a14
 
 from regscribe.runtime import (
+    BIT,
     INT16,
     UINT16,
     AsyncPart,
@@ -76,7 +77,7 @@ _PROTOCOL = Protocol(
     },
     broadcast=(5, 6, 15, 16),
 )
-_COIL_BIT = (View("base", UINT16, space="coil"),)
+_COIL_BIT = (View("base", BIT, space="coil"),)
 _INT16 = word(INT16)
 # value of the stored x: x/10
 _SCALE = (((), Conversion(multiply="0.1")),)

@@ -4,7 +4,7 @@
 # format 1, map sha256 0bf689cd31203e0f
 
 from regscribe.runtime import (
-    UINT16,
+    UINT8,
     AsyncDevice,
     Device,
     Flags,
@@ -99,7 +99,7 @@ __all__ = [
     "TimerMode",
 ]
 
-_STATUS_UINT8 = (View("base", UINT16, space="status"),)
+_STATUS_UINT8 = (View("base", UINT8, space="status"),)
 # addresses that read as 0
 _UNUSED = (
     ("coil", 1, 1),

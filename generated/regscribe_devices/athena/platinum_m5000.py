@@ -4,7 +4,7 @@
 # format 1, map sha256 a2c48ecd9b29ceae
 
 from regscribe.runtime import (
-    UINT16,
+    UINT8,
     Array,
     AsyncDevice,
     AsyncPart,
@@ -146,7 +146,7 @@ _PROTOCOL = Protocol(
     },
     broadcast=(5, 6, 15, 16),
 )
-_STATUS_UINT8 = (View("base", UINT16, space="status"),)
+_STATUS_UINT8 = (View("base", UINT8, space="status"),)
 _MANUAL_MODE = (Is("auto_man", ((1, 1),)),)
 _WRITABLE = (_MANUAL_MODE, "the output can be written in manual mode only")
 # addresses that read as 0

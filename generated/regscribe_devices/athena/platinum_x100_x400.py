@@ -4,7 +4,7 @@
 # format 1, map sha256 6798d60c257e98a7
 
 from regscribe.runtime import (
-    UINT16,
+    UINT8,
     Array,
     AsyncDevice,
     AsyncPart,
@@ -115,7 +115,7 @@ __all__ = [
     "TimerMode",
 ]
 
-_STATUS_UINT8 = (View("base", UINT16, space="status"),)
+_STATUS_UINT8 = (View("base", UINT8, space="status"),)
 _MANUAL_MODE = (Is("auto_man", ((1, 1),)),)
 _WRITABLE = (_MANUAL_MODE, "the output can be written in manual mode only (and if the Auto/Man option is fitted)")
 # addresses that read as 0

@@ -4,7 +4,7 @@
 # format 1, map sha256 56a115f9fe65207c
 
 from regscribe.runtime import (
-    UINT16,
+    UINT8,
     Array,
     AsyncDevice,
     AsyncPart,
@@ -108,7 +108,7 @@ __all__ = [
     "UnitOfInput",
 ]
 
-_STATUS_UINT8 = (View("base", UINT16, space="status"),)
+_STATUS_UINT8 = (View("base", UINT8, space="status"),)
 _MANUAL_MODE = (Is("auto_manual", ((1, 1),)),)
 _WRITABLE = (_MANUAL_MODE, "the output can be written in manual mode only")
 _DANGER_5 = "the controller may count all addresses one higher (JBUS) or lower (Modbus) from now on"

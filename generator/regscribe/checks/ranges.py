@@ -68,7 +68,7 @@ def sentinels_twice(register: Register, _: Scope) -> Iterator[Finding]:
         for key in (("stored", one.stored), ("id", one.id)):
             other = seen.setdefault(key, one)
             if other is not one:
-                message = f'has sentinels {show(other.stored)} ("{other.label}") and {show(one.stored)} ("{one.label}")'
+                message = f'has sentinels {other.spelled} ("{other.label}") and {one.spelled} ("{one.label}")'
                 yield Finding.at(register, f"{message}, which cannot be told apart", "correct one of them")
                 break
 

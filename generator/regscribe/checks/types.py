@@ -3,10 +3,24 @@
 from collections.abc import Iterator
 from fractions import Fraction
 
-from regscribe.checks.carrying import Fit, best_fit, end_values, ends_of, listed, numbers, widest
+from regscribe.checks.carrying import Fit, best_fit, end_values, ends_of, factors, listed, numbers, widest
 from regscribe.checks.registry import Finding, Scope, register_rule, warning
-from regscribe.model import IDENTITY, Kind, Number, Range, Register, Rule, WireType, show
-from regscribe.model.reference import RefusedError, UnknownValueError, choose, limits
+from regscribe.model import (
+    IDENTITY,
+    Kind,
+    NotANumber,
+    Number,
+    Order,
+    Range,
+    Register,
+    Rule,
+    Sentinel,
+    Space,
+    View,
+    WireType,
+    show,
+)
+from regscribe.model.reference import RefusedError, UnknownValueError, choose, limits, sentinel_number
 
 WORDS_OF_BITS = {Kind.FLAGS, Kind.FIELDS}
 UNSCALED = {Kind.ENUM, Kind.FLAGS, Kind.FIELDS, Kind.STRING, Kind.VERSION, Kind.BOOLEAN}
@@ -38,24 +52,87 @@ def default_outside_type(register: Register, _: Scope) -> Iterator[Finding]:
 )
 def special_outside_type(register: Register, _: Scope) -> Iterator[Finding]:
     """Try each special value as the ranges count it."""
-    of_range = [case.then for case in register.range] or [Range(())]
     for special in register.specials:
-        values = tuple(value for one in of_range for value in end_values(one, special.code))
-        if best_fit(register, values) is Fit.TOO_LARGE:
-            message = f'has special value {show(special.code)} ("{special.label}"), outside {ends_of(register)}'
+        values = tuple(
+            special.code / factor for case in register.special_scale for factor in factors(case.then.decimals)
+        )
+        fit = best_fit(register, values)
+        if fit is not Fit.EXACT:
+            shown = f'has special value {show(special.code)} ("{special.label}")'
+            message = {
+                Fit.TOO_LARGE: f"{shown}, outside {ends_of(register)}",
+                Fit.TOO_FINE: f"{shown}, which its words cannot spell exactly",
+            }[fit]
             yield Finding.at(register, message, HELP_TYPE)
 
 
 @register_rule(
-    Rule("RS0422", "Sentinel outside the type", "A fault number that no view can spell hides the fault for ever.")
+    Rule("RS0422", "Sentinel outside the type", "A view that cannot spell a fault would show a number in its place.")
 )
 def sentinel_outside_type(register: Register, _: Scope) -> Iterator[Finding]:
-    """Try each sentinel, a stored number, in every view."""
+    """Try each sentinel, a stored number, in every view; one that saturates shows its end, which is no value either."""
     for sentinel in register.sentinels:
-        wires = [(view.type, sentinel.stored * view.factor) for view in register.views]
-        if not any(kind.is_float or kind.minimum <= wire <= kind.maximum for kind, wire in wires):
-            message = f'has sentinel {show(sentinel.stored)} ("{sentinel.label}"), outside {ends_of(register)}'
+        lacking = [view for view in register.views if not _reports(view, sentinel)]
+        if lacking:
+            where = f"view {lacking[0].name} ({lacking[0].type})" if len(register.views) > 1 else ends_of(register)
+            message = f'has sentinel {sentinel.spelled} ("{sentinel.label}"), outside {where}'
             yield Finding.at(register, message, "correct the sentinel or the type")
+
+
+def _reports(view: View, sentinel: Sentinel) -> bool:
+    if isinstance(sentinel.stored, NotANumber):
+        return view.type.is_float
+    number = sentinel.stored * view.factor
+    clipped = view.saturates and not view.type.minimum <= number <= view.type.maximum
+    return clipped or sentinel_number(view, sentinel) is not None
+
+
+@register_rule(
+    Rule("RS0601", "Sentinel that is a value too", "One code cannot be both a setting and the report of a fault.")
+)
+def sentinel_is_code(register: Register, _: Scope) -> Iterator[Finding]:
+    """Compare sentinels with the codes of an enum and with true and false; a text and a bit have none to spare."""
+    if register.sentinels and (register.kind is Kind.STRING or register.base.space.is_bits):
+        message = (
+            f"is of kind {register.kind} in {register.base.space} and has sentinels, which none of its values can be"
+        )
+        yield Finding.at(register, message, "remove the sentinels")
+        return
+    codes: dict[object, str] = {
+        Fraction(member.code): member.label for member in (register.enum.members if register.enum else ())
+    }
+    codes |= {Fraction(0): "false", Fraction(1): "true"} if register.kind is Kind.BOOLEAN else {}
+    for sentinel in register.sentinels:
+        if sentinel.stored in codes:
+            message = f'has {sentinel.spelled} as "{codes[sentinel.stored]}" and as the fault "{sentinel.label}"'
+            yield Finding.at(register, message, "remove one of them")
+
+
+BITS, STATUS = {Space.COIL, Space.DISCRETE}, {Space.STATUS}
+_OF_SPACE = {WireType.BIT: BITS, WireType.UINT8: STATUS}
+"""The types that do not stand in words, and where they stand."""
+
+
+@register_rule(
+    Rule(
+        "RS0602",
+        "Type that the space cannot hold",
+        "A coil or discrete input is one bit, function 07 gives one byte, all other addresses hold words of 16 bits.",
+    )
+)
+def type_and_space(register: Register, _: Scope) -> Iterator[Finding]:
+    """Compare the type of each view with its space, and its orders where there is nothing to order."""
+    for view in register.views:
+        spaces = _OF_SPACE.get(view.type, {Space.HOLDING, Space.INPUT})
+        if view.space not in spaces:
+            message = (
+                f"has view {view.name} of type {view.type} in {view.space}, which is in {' or '.join(sorted(spaces))}"
+            )
+            help_ = "a flag in a word is `flags: {0: ...}` or `kind: boolean`, a number of words is in holding or input"
+            yield Finding.at(register, message, f"correct `type` or `space`; {help_}")
+        elif spaces in (BITS, STATUS) and (view.word_order, view.byte_order) != (Order.BIG, Order.BIG):
+            message = f"has an order of words or bytes in {view.space}, where a value has no words"
+            yield Finding.at(register, message, "remove `word_order` and `byte_order`")
 
 
 @register_rule(

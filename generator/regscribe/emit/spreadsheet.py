@@ -165,7 +165,7 @@ def _values(register: Register) -> dict[str, str]:
     """Codes with a meaning: enum members, special values, and stored numbers that are faults."""
     codes = {str(code): one_line(label) for code, label in labels_of(register.enum).items()}
     codes |= {show(special.code): one_line(special.label) for special in register.specials}
-    return codes | {show(sentinel.stored): one_line(sentinel.label) for sentinel in register.sentinels}
+    return codes | {sentinel.spelled: one_line(sentinel.label) for sentinel in register.sentinels}
 
 
 def _bit_label(field: BitField) -> str:

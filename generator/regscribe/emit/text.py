@@ -238,7 +238,7 @@ def special_words(special: Special, wording: Wording = PLAIN) -> str:
 
 def sentinel_words(sentinel: Sentinel, wording: Wording = PLAIN) -> str:
     """`-32768 = sensor low`: a stored number that is no value."""
-    return f"{show(sentinel.stored)} = {wording.text(one_line(sentinel.label))}"
+    return f"{sentinel.spelled} = {wording.text(one_line(sentinel.label))}"
 
 
 def default_words(register: Register, wording: Wording = PLAIN) -> str:

@@ -4,11 +4,11 @@ import re
 import unicodedata
 from collections.abc import Iterable, Sequence
 from decimal import Decimal, InvalidOperation
-from enum import IntEnum
+from enum import Enum
 from typing import Any
 
 from regscribe.live.errors import meant
-from regscribe.runtime import Bit, Choice, Field, Flags, Register, ValueRefused, Word
+from regscribe.runtime import Bit, Choice, Field, Flags, Register, SpecialNumber, ValueRefused, Word
 
 Plain = str | int | float | bool | list[str]
 """A value without Python's types: numbers, members and special values by name, the names of set flags."""
@@ -21,8 +21,8 @@ _TRUE, _FALSE = frozenset({"true", "on", "yes", "1"}), frozenset({"false", "off"
 
 def show(register: Register[Any], value: Any) -> Plain:  # noqa: ANN401 - a value of any register
     """A value of use as `parse` takes it: a number, a text, a name, the names of set flags, `part=value` of fields."""
-    if isinstance(value, Choice):
-        return value.name
+    if isinstance(value, (Choice, SpecialNumber)):
+        return str(value.name)
     if isinstance(value, Flags):
         return [*(member.name or "" for member in type(value) if member in value), *_unnamed(value)]
     if isinstance(value, Word):
@@ -154,7 +154,7 @@ def _unit(text: str) -> str:
     return unicodedata.normalize("NFKC", _UNITS.get(folded.casefold(), folded))
 
 
-def _member(register: Register[Any], members: type[IntEnum], plain: Plain) -> Any:  # noqa: ANN401 - a member
+def _member(register: Register[Any], members: type[Enum], plain: Plain) -> Any:  # noqa: ANN401 - a member
     if isinstance(plain, (bool, list)) or (isinstance(plain, float) and not plain.is_integer()):
         raise ValueRefused(register.path, f"{plain!r} names no member of {members.__name__}")
     text = str(int(plain) if isinstance(plain, float) else plain).strip()

@@ -7,7 +7,8 @@ from regscribe.lower.node import Node, brief
 from regscribe.lower.rules import REVERSED, WRONG_SORT
 from regscribe.model import exact, show
 
-_ENDS = re.compile(r"\s*([+-]?[0-9]{1,30}(?:\.[0-9]{1,30})?)\s*\.\.\s*([+-]?[0-9]{1,30}(?:\.[0-9]{1,30})?)\s*")
+_NUMBER = r"([+-]?[0-9]{1,30}(?:\.[0-9]{1,30})?(?:[eE][+-]?[0-9]{1,3})?)"
+_ENDS = re.compile(rf"\s*{_NUMBER}\s*\.\.\s*{_NUMBER}\s*")
 
 
 def ends(node: Node) -> tuple[Fraction, Fraction]:
@@ -25,11 +26,14 @@ def unordered(node: Node) -> tuple[Fraction, Fraction]:
     if node.is_number:
         return node.number(), node.number()
     match = _ENDS.fullmatch(node.value) if node.is_text else None
-    if match is None:
-        shown = f"`{brief(node.text())}`" if node.is_text else "this"
-        node.report(WRONG_SORT, f"{shown} is no range", remedy="write two numbers as a..b, for example -10..250.5")
-        return Fraction(0), Fraction(0)
-    return exact(match[1]), exact(match[2])
+    if match is not None:
+        try:
+            return exact(match[1]), exact(match[2])
+        except ValueError:  # an exponent beyond those of all types
+            pass
+    shown = f"`{brief(node.text())}`" if node.is_text else "this"
+    node.report(WRONG_SORT, f"{shown} is no range", remedy="write two numbers as a..b, for example -10..250.5")
+    return Fraction(0), Fraction(0)
 
 
 def whole_ends(node: Node) -> tuple[int, int]:

@@ -8,7 +8,7 @@ from regscribe.lower.rules import IDLE_VARIANT, UNKNOWN_MODEL
 NOT_SETTINGS = frozenset({"variants", "models", "except"})
 _NUMERIC = frozenset({"scale", "decimals", "multiply", "add", "range", "range_decimals", "unit"})
 _RIVALS = (
-    (frozenset({"views"}), frozenset({"type", "length"})),
+    (frozenset({"views"}), frozenset({"type", "length", "word_order", "byte_order", "functions"})),
     (frozenset({"type"}), frozenset({"views"})),
     (frozenset({"scale"}), frozenset({"decimals", "multiply", "add"})),
     (frozenset({"decimals"}), frozenset({"scale", "multiply", "add"})),

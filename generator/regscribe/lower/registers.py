@@ -1,6 +1,7 @@
 """One register of one model, from the keys that count for it."""
 
 from dataclasses import replace
+from fractions import Fraction
 
 from regscribe.lower.conditions import condition
 from regscribe.lower.enums import enum_of, fields_of
@@ -9,13 +10,26 @@ from regscribe.lower.governs import governs_of
 from regscribe.lower.limits import range_of
 from regscribe.lower.node import Node, text_of
 from regscribe.lower.rules import NO_ACCESS, UNKNOWN_COMMAND
-from regscribe.lower.scales import NOT_STATED, Scaling, scale_of
+from regscribe.lower.scales import NOT_STATED, Scaling, decimals_rule, scale_of
 from regscribe.lower.scope import Scope
 from regscribe.lower.tree import Entry
 from regscribe.lower.units import rescaled, unit_of
 from regscribe.lower.values import default_of, sentinels_of, specials_of, version_of
 from regscribe.lower.views import views_of
-from regscribe.model import IDENTITY, Access, Case, Inferred, Kind, Register, View, WireType, Writable
+from regscribe.model import (
+    IDENTITY,
+    Access,
+    Case,
+    Cases,
+    Conversion,
+    Inferred,
+    Kind,
+    Register,
+    View,
+    WireType,
+    Writable,
+    always,
+)
 from regscribe.model.name import has_mark, indexed
 
 _BY_KEY = {"enum": Kind.ENUM, "flags": Kind.FLAGS, "fields": Kind.FIELDS, "version": Kind.VERSION}
@@ -48,6 +62,7 @@ def register_of(entry: Entry, everywhere: Scope) -> Register:
         unit_id=unit_id,
         range=range_of(entry, scaling, scope),
         specials=specials_of(entry),
+        special_scale=_special_scale(entry, scope),
         sentinels=sentinels_of(entry),
         default=default_of(entry, kind, enum),
         enum=enum,
@@ -94,10 +109,17 @@ def kind_of(entry: Entry, views: tuple[View, ...], scaling: tuple[Scaling, ...])
 
 def _has_fractions(entry: Entry, views: tuple[View, ...], scaling: tuple[Scaling, ...]) -> bool:
     return (
-        any(view.type.is_float for view in views)
+        any(view.type.is_float or (1 / (view.factor or Fraction(1))).denominator != 1 for view in views)
         or any(part.conversion != IDENTITY for part in scaling)
-        or any(special.means is not None and special.means.denominator != 1 for special in specials_of(entry))
+        or any((special.means or special.code).denominator != 1 for special in specials_of(entry))
     )
+
+
+def _special_scale(entry: Entry, scope: Scope) -> Cases[Conversion]:
+    """What makes a value of use of a special value's code: the decimals that divide the range divide it as well."""
+    rule = entry.settings.get("range_decimals")
+    divides = any(special.code for special in specials_of(entry))  # 0 stays 0
+    return decimals_rule(rule, scope) if rule and divides else always(IDENTITY)
 
 
 def _text(entry: Entry, key: str) -> str:

@@ -37,6 +37,7 @@ UNKNOWN_GROUP = "RS0332"
 UNKNOWN_SET = "RS0333"
 SET_IN_ITSELF = "RS0334"
 NO_MODULE = "RS0335"
+IDLE_LENGTH = "RS0336"
 
 _NAMES = "A name must mean something, or the driver would look up what does not exist."
 
@@ -48,7 +49,11 @@ RULES: tuple[Rule, ...] = (
     Rule(UNKNOWN_MEMBER, "Unknown enum member or special value", "A code by name must be one that the map gives."),
     Rule(UNKNOWN_VIEWS, "Unknown view set", _NAMES),
     Rule(UNKNOWN_CONDITION, "Unknown condition", _NAMES),
-    Rule(TYPE_BESIDE_VIEWS, "Type beside views", "Each view has a type of its own; another one would not count."),
+    Rule(
+        TYPE_BESIDE_VIEWS,
+        "Type, order or functions beside views",
+        "Each view has a type, orders and functions of its own; others beside the view set would not count.",
+    ),
     Rule(UNKNOWN_SCALE, "Unknown scale", _NAMES),
     Rule(UNKNOWN_DECIMALS, "Unknown decimals rule", _NAMES),
     Rule(UNKNOWN_UNIT, "Unknown unit", "A mistyped unit would be believed, so a map declares units that are uncommon."),
@@ -78,6 +83,7 @@ RULES: tuple[Rule, ...] = (
     Rule(UNKNOWN_SET, "Unknown set", _NAMES),
     Rule(SET_IN_ITSELF, "Set that contains itself", "A set within itself would have no end."),
     Rule(NO_MODULE, "Map id with a Python keyword", "Python cannot import a module that has the name of a keyword."),
+    Rule(IDLE_LENGTH, "Length of a number", "A type says how many words a number takes; only a text has a length."),
 )
 
 DEPENDS_ON_MAP = frozenset(

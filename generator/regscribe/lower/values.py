@@ -7,7 +7,7 @@ from regscribe.lower.names import identifier, unknown
 from regscribe.lower.node import Node, text_of
 from regscribe.lower.rules import BAD_DEFAULT, BAD_VERSION
 from regscribe.lower.tree import Entry
-from regscribe.model import Enum, Kind, Sentinel, Special
+from regscribe.model import NAN, Enum, Kind, Sentinel, Special
 
 _VERSION = re.compile(r"[0-9]{1,12}(\.[0-9]{1,12}){0,12}")
 
@@ -32,7 +32,7 @@ def sentinels_of(entry: Entry) -> tuple[Sentinel, ...]:
 
 def _sentinel(node: Node) -> Sentinel:
     label, name = _named(node)
-    return Sentinel(stored=node.key_number(), label=label, id=name)
+    return Sentinel(stored=NAN if node.key == NAN.value else node.key_number(), label=label, id=name)
 
 
 def _named(node: Node) -> tuple[str, str]:

@@ -5,11 +5,12 @@ from fractions import Fraction
 
 from regscribe.lower.ends import whole_ends
 from regscribe.lower.node import Node, elements_of, text_of, truth_of, whole_of
-from regscribe.lower.rules import TYPE_BESIDE_VIEWS, UNKNOWN_VIEWS, WRONG_SORT
+from regscribe.lower.rules import IDLE_LENGTH, TYPE_BESIDE_VIEWS, UNKNOWN_VIEWS, WRONG_SORT
 from regscribe.lower.scope import Scope, path_of
 from regscribe.lower.tree import Entry
 from regscribe.model import Order, OrderFromRegister, Rounding, Space, View, WireType
 
+_OF_EACH_VIEW = ("type", "word_order", "byte_order", "functions")
 _DEFAULT_TYPES = {Space.COIL: WireType.BIT, Space.DISCRETE: WireType.BIT, Space.STATUS: WireType.UINT8}
 
 
@@ -23,17 +24,28 @@ class Home:
 
 
 def views_of(entry: Entry, scope: Scope) -> tuple[View, ...]:
-    """The views of a register, the base view first; RS0306 for an unknown view set."""
+    """The views of a register, the base view first; RS0306 for an unknown view set, RS0336 for an idle length."""
+    views = _views_of(entry, scope)
+    length = entry.settings.get("length")
+    if length and not any(view.type is WireType.STRING for view in views):
+        message = (
+            f"`{entry.id}` has a `length`, but its type is {', '.join(dict.fromkeys(view.type for view in views))}"
+        )
+        length.report(IDLE_LENGTH, message, remedy="remove `length`, or write `type: string`", at_key=True)
+    return views
+
+
+def _views_of(entry: Entry, scope: Scope) -> tuple[View, ...]:
     settings = entry.settings
     space = settings["space"].choice(Space, Space.HOLDING) if "space" in settings else Space.HOLDING
     length = settings["length"].whole() if "length" in settings else 1
     home = Home(space, _at(entry), length)
     if "views" not in settings:
         return (_single(entry, home, scope),)
-    if "type" in settings:
-        message = f"`{entry.id}` has a `type` beside the view set `{settings['views'].value}`"
-        settings["type"].report(
-            TYPE_BESIDE_VIEWS, message, remedy="drop one: the views have types of their own", at_key=True
+    for key in (key for key in _OF_EACH_VIEW if key in settings):
+        message = f"`{entry.id}` has `{key}` beside the view set `{settings['views'].value}`"
+        settings[key].report(
+            TYPE_BESIDE_VIEWS, message, remedy=f"drop one: each view says its own `{key}`", at_key=True
         )
     view_set = scope.named(settings["views"], "views", rule=UNKNOWN_VIEWS, what="view set")
     return (set_at(view_set, home, scope) if view_set else ()) or (_single(entry, home, scope),)

@@ -45,6 +45,7 @@ from regscribe.model.register import Access, Array, Group, Inferred, Kind, Regis
 from regscribe.model.section import chapters_of, renumbered
 from regscribe.model.value import (
     IDENTITY,
+    NAN,
     BitField,
     Conversion,
     Decimals,
@@ -52,6 +53,7 @@ from regscribe.model.value import (
     Interval,
     Limit,
     Member,
+    NotANumber,
     Number,
     Open,
     Range,
@@ -65,6 +67,7 @@ from regscribe.model.wire import Order, OrderFromRegister, Rounding, Space, View
 __all__ = [
     "ALWAYS",
     "IDENTITY",
+    "NAN",
     "SILENCE",
     "USUAL_PROTOCOL",
     "Access",
@@ -102,6 +105,7 @@ __all__ = [
     "Manual",
     "Member",
     "Model",
+    "NotANumber",
     "Notation",
     "Number",
     "OnOff",

@@ -69,8 +69,9 @@ class Register:
 
     `id` is its Python name inside its owner, `path` its name in the model (`segments[3].soak_level`).
     `views[0]` is the base view; `aliases` are further addresses that transmit the base view.
-    `scale` goes from the stored value to the value of use; `default` is a value of use: a number (an enum's code, a
-    word's bits), a text, or None where the manual gives none. `section` is where the manual describes it.
+    `scale` goes from the stored value to the value of use, `special_scale` from the code of a special value to its
+    value of use (the decimals that divide the range); `default` is a value of use: a number (an enum's code, a word's
+    bits), a text, or None where the manual gives none. `section` is where the manual describes it.
     `rescales` names the unit (of the map's units) whose registers the device converts when this one is written.
     `unlock` and `apply` name commands that must precede and follow a write.
     `stays` is why the value must not be copied to another device (`address`, `line`, `calibration`, `identity`,
@@ -98,6 +99,7 @@ class Register:
     unit_id: str = ""
     range: Cases[Range] = ()
     specials: tuple[Special, ...] = ()
+    special_scale: Cases[Conversion] = field(default_factory=lambda: always(IDENTITY))
     sentinels: tuple[Sentinel, ...] = ()
     default: Fraction | str | None = None
     enum: Enum | None = None
@@ -132,6 +134,16 @@ class Register:
     def preferred(self) -> View:
         """The view that drivers use unless told otherwise."""
         return next((view for view in self.views if view.preferred), self.views[0])
+
+    @property
+    def faults(self) -> tuple[Fraction, ...]:
+        """The stored numbers that are faults, without that which is no number."""
+        return tuple(one.stored for one in self.sentinels if isinstance(one.stored, Fraction))
+
+    @property
+    def fractional(self) -> bool:
+        """Whether a value may have a fraction: a number, or a float whose scale the manual does not state."""
+        return self.kind is Kind.NUMBER or (self.kind is Kind.RAW and any(view.type.is_float for view in self.views))
 
     @property
     def bits(self) -> int:

@@ -1,10 +1,12 @@
 """What a number means: scales, limits, special values, sentinels, enums and bit fields."""
 
 from dataclasses import dataclass
+from enum import Enum as Enumeration
 from fractions import Fraction
 
 from regscribe.model.condition import Cases, Condition
 from regscribe.model.diagnostic import NOWHERE, Span
+from regscribe.model.number import show
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +77,8 @@ class Range:
 class Special:
     """A value with a meaning of its own, allowed beside the range: 0 = off.
 
-    `code` is the value as the range counts; `means` is the number it stands for, if it stands for one (0 = 0.2 s).
+    `code` is the value as the range counts: where `range_decimals` divide the range, they divide it too. `means` is the
+    number it stands for, if it stands for one (0 = 0.2 s).
     """
 
     code: Fraction
@@ -84,13 +87,30 @@ class Special:
     means: Fraction | None = None
 
 
+class NotANumber(Enumeration):
+    """Any IEEE 754 pattern that is no number, as what a device sends in place of a value."""
+
+    NAN = "nan"
+
+
+NAN = NotANumber.NAN
+
+
 @dataclass(frozen=True, slots=True)
 class Sentinel:
-    """A stored number that is a fault and no value: -32768 = sensor low."""
+    """A stored number that is a fault and no value: -32768 = sensor low; `NAN`: no number at all.
 
-    stored: Fraction
+    It counts before any scale, and whatever the kind of the register: for bits, as the number that the type spells.
+    """
+
+    stored: Fraction | NotANumber
     label: str
     id: str
+
+    @property
+    def spelled(self) -> str:
+        """The stored number as decimal text, or `nan`."""
+        return self.stored.value if isinstance(self.stored, NotANumber) else show(self.stored)
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,7 @@ Nothing here imports the compiler; pymodbus is loaded when a link is made.
 """
 
 from regscribe.runtime.bus import AsyncBus, Bus
-from regscribe.runtime.choices import Bit, Choice, Field, Flags, Word
+from regscribe.runtime.choices import Bit, Choice, Field, Flags, SpecialNumber, Word
 from regscribe.runtime.device import (
     AsyncBareDevice,
     AsyncDevice,
@@ -50,6 +50,7 @@ from regscribe.runtime.kinds import (
     number_or,
     number_with,
     raw,
+    raw_float,
     text,
     version,
     word_of,
@@ -78,14 +79,16 @@ from regscribe.runtime.spec import (
     word,
 )
 from regscribe.runtime.trace import Trace, Tracer
-from regscribe.runtime.wire import FLOAT32, FLOAT64, INT16, INT32, INT64, UINT16, UINT32, UINT64
+from regscribe.runtime.wire import BIT, FLOAT32, FLOAT64, INT16, INT32, INT64, UINT8, UINT16, UINT32, UINT64
 
 __all__ = [
+    "BIT",
     "FLOAT32",
     "FLOAT64",
     "INT16",
     "INT32",
     "INT64",
+    "UINT8",
     "UINT16",
     "UINT32",
     "UINT64",
@@ -152,6 +155,7 @@ __all__ = [
     "SerialSettings",
     "SetpointProgram",
     "Snapshot",
+    "SpecialNumber",
     "TcpSettings",
     "Trace",
     "Tracer",
@@ -181,6 +185,7 @@ __all__ = [
     "number_or",
     "number_with",
     "raw",
+    "raw_float",
     "serial_link",
     "tcp",
     "text",

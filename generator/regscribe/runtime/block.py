@@ -6,11 +6,11 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from regscribe.runtime import codec
-from regscribe.runtime.errors import NotDecodable, RegscribeError, ValueNotDecodable
+from regscribe.runtime.errors import RegscribeError, ValueNotDecodable
 from regscribe.runtime.plan import Block
 from regscribe.runtime.request import Request
 from regscribe.runtime.spec import View
-from regscribe.runtime.wire import LITTLE
+from regscribe.runtime.wire import BIG, LITTLE
 
 if TYPE_CHECKING:
     from regscribe.runtime.register import Register
@@ -85,7 +85,7 @@ def _split(placed: Sequence[Placed]) -> tuple[list[Placed], list[Placed]]:
     end = 0
     for one in placed:
         register, view, start = one
-        plain = register.kind.name != "string" and view.space not in codec.BIT_SPACES
+        plain = register.kind.name != "string" and view.space not in codec.BIT_SPACES and view.byte_order == BIG
         (together if plain and start >= end else alone).append(one)
         end = max(end, start + view.words)
     return together, alone
@@ -121,9 +121,9 @@ def _converter(
         _known(register, view, unknown)
         if view.words > 1:
             view.word_order(register.path, session.memory)
-        return codec.reader(register, view, session.memory, session.givens)
     except ValueNotDecodable as error:
-        return _always(error)
+        return codec.always(error)
+    return codec.reader(register, view, session.memory, session.givens, unknown)
 
 
 def _decoder(
@@ -131,22 +131,16 @@ def _decoder(
 ) -> Callable[[Any], Any]:
     try:
         _known(register, view, unknown)
-        return codec.decoder(register, view, session.memory, session.givens)
+        return codec.decoder(register, view, session.memory, session.givens, unknown)
     except ValueNotDecodable as error:
-        return _always(error)
+        return codec.always(error)
 
 
 def _known(register: "Register[Any]", view: View, unknown: Mapping[str, RegscribeError]) -> None:
-    for path in register.needs(view) if unknown else ():
+    """Refuse a value of unknown word order; an unknown scale is the reader's matter, for which faults come first."""
+    for path in view.needs() if unknown else ():
         if path in unknown:
-            raise NotDecodable(register.path, f"its meaning depends on {path}: {unknown[path]}")
-
-
-def _always(error: ValueNotDecodable) -> Callable[[Any], Any]:
-    def fail(_: object) -> Any:
-        raise error
-
-    return fail
+            raise codec.depends_on(register, path, unknown)
 
 
 def _caught(convert: Callable[[Any], Any], given: Any) -> Any:

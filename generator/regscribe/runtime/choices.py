@@ -1,7 +1,7 @@
 """Values with names: enums whose unknown codes survive, flags that keep unknown bits, words of bit fields."""
 
 from collections.abc import Iterator
-from enum import IntEnum, IntFlag
+from enum import Enum, IntEnum, IntFlag
 from typing import Any, ClassVar, Generic, Self, TypeVar, overload
 
 V = TypeVar("V")
@@ -34,6 +34,20 @@ class Choice(IntEnum):
         unknown._name_, unknown._value_ = f"UNKNOWN_{value}", value
         unknown.label, unknown.description, unknown.known = f"unknown code {value}", "", False
         return unknown
+
+
+class SpecialNumber(float, Enum):
+    """Special values some of which have a fraction: members are numbers that carry the manual's `label`."""
+
+    label: str
+    description: str
+
+    def __new__(cls, code: float, label: str = "", description: str = "") -> Self:
+        """Make a member of the number `code`."""
+        member = float.__new__(cls, code)
+        member._value_ = code
+        member.label, member.description = label, description
+        return member
 
 
 class Flags(IntFlag):

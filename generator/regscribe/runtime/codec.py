@@ -2,19 +2,31 @@
 
 import math
 import struct
-from collections.abc import Callable, Sequence
+import sys
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from regscribe.runtime.errors import NotDecodable, Saturated, SensorFault, ValueNotDecodable, ValueRefused
-from regscribe.runtime.spec import Conversion, Givens, Limits, Ref, State, Text, View, choose
-from regscribe.runtime.wire import LITTLE, ROUNDINGS, exact, shortest, show
+from regscribe.runtime.spec import Conversion, Converter, Givens, Limits, Ref, State, Text, View, choose
+from regscribe.runtime.wire import LITTLE, ROUNDINGS, brief, exact, shortest, show
 
 if TYPE_CHECKING:
     from regscribe.runtime.register import Register
 
 BIT_SPACES = frozenset({"coil", "discrete", "status"})
 """Spaces whose values come as one number, not as words: bits, and the byte of function 07."""
+
+NAN = "nan"
+"""How a sentinel says that it is any float that is no number."""
+
+Unknown = Mapping[str, object]
+"""Registers of no known value, by path, and why."""
+
+NOTHING: Unknown = MappingProxyType({})
+
+LARGEST_FLOAT = Fraction(sys.float_info.max)
 
 PATTERNS = frozenset({"flags", "fields"})
 """Kinds whose words are patterns of bits: never negative, whatever the type of the view."""
@@ -41,28 +53,70 @@ def _conversion(register: "Register[Any]", state: State, givens: Givens) -> tupl
     return found, power(register.path, found.decimals, found.at_most, state)
 
 
-def arrange(view: View, name: str, words: Sequence[int], state: State) -> Sequence[int]:
-    """`words` between wire order and most-significant-first (the same step both ways)."""
-    if view.words > 1 and view.word_order(name, state) == LITTLE:
-        return words[::-1]
+Words = Sequence[int]
+
+
+def arranger(view: View, name: str, state: State) -> Callable[[Words], Words]:
+    """What turns words from wire order to most-significant-first under the present `state`; the same step both ways."""
+    backward = view.words > 1 and view.word_order(name, state) == LITTLE
+    if view.byte_order == LITTLE:
+        return _backward_and_swapped if backward else _swapped
+    return _backward if backward else _as_they_are
+
+
+def _as_they_are(words: Words) -> Words:
     return words
 
 
-def reader(register: "Register[Any]", view: View, state: State, givens: Givens) -> Callable[[Any], Any]:
+def _backward(words: Words) -> Words:
+    return words[::-1]
+
+
+def _swapped(words: Words) -> Words:
+    return [(word & 0xFF) << 8 | word >> 8 for word in words]
+
+
+def _backward_and_swapped(words: Words) -> Words:
+    return _swapped(words[::-1])
+
+
+def reader(
+    register: "Register[Any]",
+    view: View,
+    state: State,
+    givens: Givens,
+    unknown: Unknown = NOTHING,
+    *,
+    named: bool = True,
+) -> Converter:
     """A function from a wire number of `view` to a value of use, under the present `state`.
 
-    It raises Saturated, SensorFault or NotDecodable for numbers that are no values.
+    It raises Saturated, SensorFault or NotDecodable for numbers that are no values. A fault is a fault even where no
+    scale holds, or where a register that the scale depends on is `unknown` (its path, and why). A special value is
+    returned as its member; without `named` as the number that it is, which is how conditions and limits count it.
     """
-    if register.kind.name in PATTERNS:
-        make, mask = register.kind.make, (1 << 16 * view.words) - 1
-        return lambda wire: make(wire & mask)
-    if register.kind.coded:
-        return register.kind.make
-    conversion, divisor = _conversion(register, state, givens)
-    factor, multiply, add = Fraction(view.factor), Fraction(conversion.multiply), Fraction(conversion.add)
-    slope, offset = multiply / factor / divisor, add / divisor
-    scaled = _ieee(register, view, slope, offset) if view.type.is_float else _whole(register, slope, offset)
-    return _guarded(register, view, factor, _with_specials(register, scaled))
+    try:
+        for path in register.scale_needs if unknown else ():
+            if path in unknown:
+                raise depends_on(register, path, unknown)
+        convert = _with_specials(register, view, state, givens, named=named)
+    except ValueNotDecodable as error:
+        convert = always(error)
+    return _guarded(register, view, convert)
+
+
+def depends_on(register: "Register[Any]", path: str, unknown: Unknown) -> NotDecodable:
+    """What a value is whose meaning depends on a register of no known value."""
+    return NotDecodable(register.path, f"its meaning depends on {path}: {unknown[path]}")
+
+
+def always(error: ValueNotDecodable) -> Converter:
+    """A reader of what cannot be read: it raises `error`."""
+
+    def fail(_: object) -> NoReturn:
+        raise error
+
+    return fail
 
 
 def same(wire: int) -> int:
@@ -70,11 +124,25 @@ def same(wire: int) -> int:
     return wire
 
 
-def _whole(register: "Register[Any]", slope: Fraction, offset: Fraction) -> Callable[[int], Any]:
+def _scaled(register: "Register[Any]", view: View, state: State, givens: Givens) -> Converter:
+    if register.kind.name in PATTERNS:
+        make, mask = register.kind.make, view.type.maximum - view.type.minimum
+        return lambda wire: make(wire & mask)
+    if register.kind.coded:
+        return register.kind.make
+    conversion, divisor = _conversion(register, state, givens)
+    factor, multiply, add = Fraction(view.factor), Fraction(conversion.multiply), Fraction(conversion.add)
+    slope, offset = multiply / factor / divisor, add / divisor
+    return _ieee(register, view, slope, offset) if view.type.is_float else _whole(register, view, slope, offset)
+
+
+def _whole(register: "Register[Any]", view: View, slope: Fraction, offset: Fraction) -> Callable[[int], Any]:
     # int / int is correctly rounded in Python, so (a x wire + b) / c is the float nearest to the exact value
     scale = math.lcm(slope.denominator, offset.denominator)
     a, b = int(slope * scale), int(offset * scale)
     if register.kind.make is float:
+        if max(abs(slope * end + offset) for end in (view.type.minimum, view.type.maximum)) > LARGEST_FLOAT:
+            return lambda wire: _float(register, Fraction(a * wire + b, scale))
         if b:
             return lambda wire: (a * wire + b) / scale
         return (lambda wire: wire / scale) if a == 1 else (lambda wire: a * wire / scale)
@@ -89,65 +157,124 @@ def _no_fraction(register: "Register[Any]", value: Fraction) -> int:
     return value.numerator
 
 
+def _float(register: "Register[Any]", value: Fraction) -> float:
+    try:
+        return float(value)
+    except OverflowError:
+        raise NotDecodable(register.path, f"{show(value)} is beyond every float of a program") from None
+
+
 def _ieee(register: "Register[Any]", view: View, slope: Fraction, offset: Fraction) -> Callable[[float], Any]:
     def scaled(wire: float) -> Any:
         if not math.isfinite(wire):
             raise NotDecodable(register.path, f"the {view.name} view holds {wire}, which is no number")
         value = Fraction(shortest(wire, view.type)) * slope + offset
-        return float(value) if register.kind.make is float else _no_fraction(register, value)
+        return _float(register, value) if register.kind.make is float else _no_fraction(register, value)
 
     return scaled
 
 
-def _with_specials(register: "Register[Any]", scaled: Callable[[Any], Any]) -> Callable[[Any], Any]:
+def _on_wire(view: View, stored: Fraction) -> float | None:
+    """The number that is unpacked from what a view sends for `stored`; None if the view cannot carry it."""
+    exactly = stored * Fraction(view.factor)
+    if view.type.is_float:
+        try:
+            return view.type.nearest(exactly)
+        except OverflowError:
+            return None
+    fits = exactly.denominator == 1 and view.type.minimum <= exactly <= view.type.maximum
+    return exactly.numerator if fits else None
+
+
+def _specials(register: "Register[Any]", state: State, givens: Givens) -> dict[Fraction, tuple[Any, Fraction]]:
+    """Of each special value, by its code as a value of use: its member (None where it has none) and its number."""
     special, means = register.kind.special, register.kind.means
     if special is None and not means:
+        return {}
+    chosen: Conversion | None = choose(register.special_scale, state, givens)
+    if chosen is None:
+        raise NotDecodable(register.path, "no decimals of the manual hold for its special values")
+    divisor = power(register.path, chosen.decimals, chosen.at_most, state)
+    found = {exact(member.value) / divisor: member for member in special or ()}
+    meant = {Fraction(code) / divisor: Fraction(number) for code, number in means.items()}
+    return {code: (member, code) for code, member in found.items()} | {
+        code: (None, number) for code, number in meant.items()
+    }
+
+
+def _with_specials(register: "Register[Any]", view: View, state: State, givens: Givens, *, named: bool) -> Converter:
+    scaled = _scaled(register, view, state, givens)
+    specials = _specials(register, state, givens)
+    if not specials:
         return scaled
-    codes: dict[float, Any] = {code: float(Fraction(text)) for code, text in means.items()}
-    codes |= {member.value: member for member in special or () if member.value not in codes}
+    conversion, divisor = _conversion(register, state, givens)
+    multiply, add = Fraction(conversion.multiply), Fraction(conversion.add)
+    shown: dict[float | None, Any] = {}
+    for code, (member, number) in specials.items():
+        wire = _on_wire(view, (code * divisor - add) / multiply)
+        shown[wire] = register.kind.make(number) if member is None or not named else member
+    shown.pop(None, None)
+    return lambda wire: shown[wire] if wire in shown else scaled(wire)
 
-    def named(wire: Any) -> Any:
-        value = scaled(wire)
-        return codes.get(value, value)
 
-    return named
+Faults = dict[float | None, tuple[str, str]]
+"""By the number on the wire, as it is unpacked: id and label of a fault; None stands for a float that is no number."""
 
 
-def _guarded(
-    register: "Register[Any]", view: View, factor: Fraction, scaled: Callable[[Any], Any]
-) -> Callable[[Any], Any]:
+def _faults(register: "Register[Any]", view: View) -> Faults:
+    found: Faults = {}
+    for stored, name, label in register.sentinels:
+        wire = None if stored == NAN else _on_wire(view, Fraction(stored))
+        if wire is not None or stored == NAN:
+            found[wire] = (name, label)
+    return found
+
+
+def _fault(faults: Faults, wire: float) -> tuple[str, str] | None:
+    return faults.get(None if math.isnan(wire) else wire)
+
+
+def _guarded(register: "Register[Any]", view: View, scaled: Converter) -> Converter:
     ends = (view.type.minimum, view.type.maximum) if view.saturates else ()
-    faults = {Fraction(stored) * factor: (name, label) for stored, name, label in register.sentinels}
+    faults = _faults(register, view)
     if not ends and not faults:
         return scaled
 
     def checked(wire: Any) -> Any:
         if wire in ends:
-            also = f" (or {' or '.join(label for _, label in faults.values())})" if faults else ""
+            also = f" (or {' or '.join(label for *_, label in register.sentinels)})" if register.sentinels else ""
             raise Saturated(register.path, f"the {view.name} view stands at its end, {wire}{also}: read another view")
-        if wire in faults:
-            raise SensorFault(register.path, *faults[wire])
+        fault = _fault(faults, wire)
+        if fault:
+            raise SensorFault(register.path, *fault)
         return scaled(wire)
 
     return checked
 
 
-def decoder(register: "Register[Any]", view: View, state: State, givens: Givens) -> Callable[[Sequence[int]], Any]:
-    """A function from the words of `view` (in wire order) to a value of use, under the present `state`.
+def decoder(
+    register: "Register[Any]",
+    view: View,
+    state: State,
+    givens: Givens,
+    unknown: Unknown = NOTHING,
+    *,
+    named: bool = True,
+) -> Callable[[Sequence[int]], Any]:
+    """A function from the words of `view` (in wire order) to a value of use, under the present `state`; see `reader`.
 
     It raises ValueNotDecodable with the words in it.
     """
-    if register.kind.name == "string":
-        return lambda words: _text(register, view, words)
-    make = register.kind.make
-    if view.space in BIT_SPACES:
-        return lambda words: make(words[0])
-    backward = view.words > 1 and view.word_order(register.path, state) == LITTLE
-    unpack, convert = view.type.unpack, reader(register, view, state, givens)
+    convert = (
+        _text_reader(register)
+        if register.kind.name == "string"
+        else _number_reader(view, reader(register, view, state, givens, unknown, named=named))
+    )
+    arrange = arranger(view, register.path, state)
 
     def decode(words: Sequence[int]) -> Any:
         try:
-            return convert(unpack(words[::-1] if backward else words))
+            return convert(arrange(words))
         except ValueNotDecodable as error:
             error.words = tuple(words)
             raise
@@ -155,24 +282,34 @@ def decoder(register: "Register[Any]", view: View, state: State, givens: Givens)
     return decode
 
 
-def decode(register: "Register[Any]", view: View, words: Sequence[int], state: State, givens: Givens) -> Any:
-    """The value of use that `words` (in wire order) spell; ValueNotDecodable carries the words."""
+def _number_reader(view: View, convert: Converter) -> Callable[[Words], Any]:
+    unpack = view.type.unpack
+    return lambda words: convert(unpack(words))
+
+
+def decode(
+    register: "Register[Any]", view: View, words: Sequence[int], state: State, givens: Givens, *, named: bool = True
+) -> Any:
+    """The value that `words` (in wire order) spell; ValueNotDecodable carries the words. `named`: see `reader`."""
     if len(words) != view.words:
         message = f"{register.path} has {view.words} words in its {view.name} view, not {len(words)}"
         raise ValueError(message)
     try:
-        return decoder(register, view, state, givens)(words)
+        return decoder(register, view, state, givens, named=named)(words)
     except ValueNotDecodable as error:
         error.words = tuple(words)
         raise
 
 
-def _text(register: "Register[Any]", view: View, words: Sequence[int]) -> str:
-    raw = struct.pack(f"{'<' if view.byte_order == LITTLE else '>'}{len(words)}H", *words)
-    try:
-        return raw.decode("ascii").rstrip("\0 ")
-    except UnicodeDecodeError:
-        raise NotDecodable(register.path, f"{raw.hex(' ')} is no ASCII text") from None
+def _text_reader(register: "Register[Any]") -> Callable[[Sequence[int]], str]:
+    def text(words: Sequence[int]) -> str:
+        raw = struct.pack(f">{len(words)}H", *words)
+        try:
+            return raw.decode("ascii").rstrip("\0 ")
+        except UnicodeDecodeError:
+            raise NotDecodable(register.path, f"{raw.hex(' ')} is no ASCII text") from None
+
+    return text
 
 
 def encode(
@@ -182,30 +319,35 @@ def encode(
 
     With `rounded`, a value finer than the view can carry is rounded by the view's rule instead of refused.
     """
+    arrange = arranger(view, register.path, state)
     if register.kind.name == "string":
-        return _from_text(register, view, value)
-    amount = _amount(register, value)
+        return tuple(arrange(_from_text(register, view, value)))
+    amount, special = _amount(register, value, state, givens)
     if not register.kind.coded:
-        _within_limits(register, amount, state, givens)
+        if not special:
+            _within_limits(register, amount, state, givens)
         stored = _stored(register, amount, state, givens, rounded=rounded)
         if not rounded:
             _carried(register, view, amount, stored, state, givens)
         amount = stored
-    elif register.kind.name == "boolean" or view.space == "coil":
-        return (int(amount),)
-    return tuple(arrange(view, register.path, _wire_words(register, view, amount, rounded=rounded), state))
+    words = _wire_words(register, view, amount, rounded=rounded)
+    fault = _fault(_faults(register, view), view.type.unpack(words))
+    if fault:
+        raise ValueRefused(register.path, f"{brief(value)} is how the device reports {fault[1]}")
+    return tuple(arrange(words))
 
 
-def _amount(register: "Register[Any]", value: object) -> Fraction:
-    if isinstance(value, register.kind.special or ()):
-        return Fraction(int(value))
+def _amount(register: "Register[Any]", value: object, state: State, givens: Givens) -> tuple[Fraction, bool]:
+    """`value` as an exact value of use, and whether it is a special value, which no range limits."""
+    specials = _specials(register, state, givens)
+    for code, (member, _) in specials.items():
+        if value is member and member is not None:
+            return code, True
     amount = register.kind.number(register.path, value)
-    return next((Fraction(code) for code, text in register.kind.means.items() if Fraction(text) == amount), amount)
-
-
-def _is_special(register: "Register[Any]", amount: Fraction) -> bool:
-    special = register.kind.special
-    return amount in register.kind.means or (special is not None and any(amount == member for member in special))
+    for code, (member, number) in specials.items():
+        if amount == number and member is None:
+            return code, True
+    return amount, amount in specials
 
 
 def _limit(bound: Text | Ref | None, divisor: int, state: State) -> Fraction | None:
@@ -217,7 +359,7 @@ def _limit(bound: Text | Ref | None, divisor: int, state: State) -> Fraction | N
 
 
 def _within_limits(register: "Register[Any]", amount: Fraction, state: State, givens: Givens) -> None:
-    if not register.range or _is_special(register, amount):
+    if not register.range:
         return
     limits: Limits | None = choose(register.range, state, givens)
     if limits is None:
@@ -242,9 +384,6 @@ def _stored(register: "Register[Any]", amount: Fraction, state: State, givens: G
             if not rounded:
                 raise ValueRefused(register.path, f"{show(amount)} is finer than the resolution {show(abs(step))}")
             stored = ROUNDINGS["half_up"](steps) * Fraction(conversion.step)
-    for fault, _, label in register.sentinels:
-        if stored == Fraction(fault):
-            raise ValueRefused(register.path, f"{show(amount)} is how the device reports {label}")
     return stored
 
 
@@ -269,33 +408,34 @@ def _wire_words(register: "Register[Any]", view: View, stored: Fraction, *, roun
     if view.type.is_float:
         return _float_words(register, view, exactly, rounded=rounded)
     wire = ROUNDINGS[view.rounding](exactly)
-    if register.kind.name in PATTERNS and view.type.maximum < wire < 1 << 16 * view.words:
-        wire -= 1 << 16 * view.words
     low, high = view.type.minimum + view.saturates, view.type.maximum - view.saturates
+    if register.kind.name in PATTERNS:  # never negative, whatever the type
+        low, high = 0, view.type.maximum - view.type.minimum
     if not low <= wire <= high:
-        raise ValueRefused(register.path, f"{wire} on the wire lies outside {low} to {high} of the {view.name} view")
+        raise ValueRefused(
+            register.path, f"{show(Fraction(wire))} on the wire lies outside {low} to {high} of the {view.name} view"
+        )
+    if wire > view.type.maximum:
+        wire -= high + 1
     return view.type.pack(wire)
 
 
 def _float_words(register: "Register[Any]", view: View, exactly: Fraction, *, rounded: bool) -> tuple[int, ...]:
     try:
-        words = view.type.pack(float(exactly))
+        there = view.type.nearest(exactly)
     except OverflowError:
-        raise ValueRefused(register.path, f"{float(exactly):g} is too large for {view.type.name}") from None
-    back = shortest(view.type.unpack(words), view.type)
-    if not back.is_finite():
-        raise ValueRefused(register.path, f"{float(exactly):g} is too large for {view.type.name}")
-    if Fraction(back) != exactly and not rounded:
+        raise ValueRefused(register.path, f"{show(exactly)} is too large for {view.type.name}") from None
+    back = shortest(there, view.type)
+    if exactly not in (Fraction(there), Fraction(back)) and not rounded:
         raise ValueRefused(
             register.path, f"finer than {view.type.name} can carry; the nearest number on the wire is {back}"
         )
-    return words
+    return view.type.pack(there)
 
 
 def _from_text(register: "Register[Any]", view: View, value: object) -> tuple[int, ...]:
     if not isinstance(value, str) or not value.isascii():
-        raise ValueRefused(register.path, f"{value!r} is no ASCII text")
+        raise ValueRefused(register.path, f"{brief(value)} is no ASCII text")
     if len(value) > 2 * view.words:
-        raise ValueRefused(register.path, f"{value!r} has {len(value)} characters; {2 * view.words} fit")
-    raw = value.ljust(2 * view.words).encode("ascii")
-    return struct.unpack(f"{'<' if view.byte_order == LITTLE else '>'}{view.words}H", raw)
+        raise ValueRefused(register.path, f"{brief(value)} has {len(value)} characters; {2 * view.words} fit")
+    return struct.unpack(f">{view.words}H", value.ljust(2 * view.words).encode("ascii"))

@@ -135,7 +135,7 @@ def intend(
         if register.rescales and change.fate is not Fate.EQUAL:
             converted |= dependent(session, register)
         converted.discard(register.path)
-        value = meaning(register, view, words, sight.state, session)
+        value = meaning(register, view, words, sight.state, session, named=False)
         sight.state[register.path] = one.value if value is None else value
     refuse(refusals)
     return changes

@@ -1,16 +1,18 @@
 """What a number is to a program: float, int, enum, flags, word, text, version or bool."""
 
 from collections.abc import Callable
+from enum import Enum
 from fractions import Fraction
 from typing import Any, Generic, NoReturn, TypeVar
 
-from regscribe.runtime.choices import Choice, Flags, Word
+from regscribe.runtime.choices import Choice, Flags, SpecialNumber, Word
 from regscribe.runtime.errors import NotDecodable, ValueRefused
 from regscribe.runtime.spec import Text
-from regscribe.runtime.wire import exact, show
+from regscribe.runtime.wire import brief, exact, show
 
 T = TypeVar("T")
 C = TypeVar("C", bound=Choice)
+S = TypeVar("S", bound=Choice | SpecialNumber)
 F = TypeVar("F", bound=Flags)
 W = TypeVar("W", bound=Word)
 
@@ -37,8 +39,8 @@ class Kind(Generic[T]):
         number: Callable[[str, Any], Fraction],
         *,
         coded: bool = False,
-        special: type[Choice] | None = None,
-        means: dict[int, Text] | None = None,
+        special: type[Enum] | None = None,
+        means: dict[Text, Text] | None = None,
     ) -> None:
         self.name, self.make, self.number, self.coded = name, make, number, coded
         self.special, self.means = special, means or {}
@@ -61,9 +63,10 @@ def _whole_number(register: str, value: Any) -> Fraction:
 number: Kind[float] = Kind("number", float, _any_number)
 integer: Kind[int] = Kind("integer", int, _whole_number)
 raw: Kind[int] = Kind("raw", int, _whole_number)
+raw_float: Kind[float] = Kind("raw", float, _any_number)
 
 
-def number_or(special: type[C], means: dict[int, Text] | None = None) -> "Kind[float | C]":
+def number_or(special: type[S], means: dict[Text, Text] | None = None) -> "Kind[float | S]":
     """A number with special values: a code in `means` stands for a number, the others are members of `special`."""
     return Kind("number", float, _any_number, special=special, means=means)
 
@@ -73,7 +76,7 @@ def integer_or(special: type[C]) -> "Kind[int | C]":
     return Kind("integer", int, _whole_number, special=special)
 
 
-def number_with(means: dict[int, Text]) -> Kind[float]:
+def number_with(means: dict[Text, Text]) -> Kind[float]:
     """A number some of whose codes stand for another number (0 for 0.2 s)."""
     return Kind("number", float, _any_number, means=means)
 
@@ -83,12 +86,12 @@ def choice(members: type[C]) -> Kind[C]:
 
     def code(register: str, value: Any) -> Fraction:
         if isinstance(value, bool) or not isinstance(value, int) or (isinstance(value, Choice) and not value.known):
-            raise ValueRefused(register, f"{value!r} is no member of {members.__name__}")
+            raise ValueRefused(register, f"{brief(value)} is no member of {members.__name__}")
         if isinstance(value, Choice) and not isinstance(value, members):
             raise ValueRefused(register, f"{value!r} belongs to {type(value).__name__}, not to {members.__name__}")
-        if not members(value).known:
+        if all(member.value != value for member in members):
             known = ", ".join(f"{member.value} {member.label}" for member in members)
-            raise ValueRefused(register, f"code {value} is none of {known}")
+            raise ValueRefused(register, f"code {brief(int(value))} is none of {known}")
         return Fraction(int(value))
 
     return Kind("enum", members, code, coded=True)
@@ -99,8 +102,8 @@ def flags(members: type[F]) -> Kind[F]:
 
     def code(register: str, value: Any) -> Fraction:
         if isinstance(value, bool) or not isinstance(value, int):
-            raise ValueRefused(register, f"{value!r} is no {members.__name__}")
-        unnamed = int(value) & ~int(members.named())
+            raise ValueRefused(register, f"{brief(value)} is no {members.__name__}")
+        unnamed = _any_number(register, int(value)).numerator & ~int(members.named())
         if unnamed:
             raise ValueRefused(register, f"bits 0x{unnamed:X} have no meaning in {members.__name__}")
         return Fraction(int(value))
@@ -113,15 +116,15 @@ def word_of(members: type[W]) -> Kind[W]:
 
     def code(register: str, value: Any) -> Fraction:
         if isinstance(value, bool) or not isinstance(value, int):
-            raise ValueRefused(register, f"{value!r} is no {members.__name__}")
-        return Fraction(int(value))
+            raise ValueRefused(register, f"{brief(value)} is no {members.__name__}")
+        return _any_number(register, int(value))
 
     return Kind("fields", members, code, coded=True)
 
 
 def _bit(register: str, value: Any) -> Fraction:
-    if value not in (0, 1):
-        raise ValueRefused(register, f"{value!r} is neither True nor False")
+    if not isinstance(value, int | float) or value not in (0, 1):
+        raise ValueRefused(register, f"{brief(value)} is neither True nor False")
     return Fraction(int(value))
 
 
@@ -143,7 +146,7 @@ def version(digits: int, group: int) -> Kind[str]:
     def code(register: str, value: Any) -> Fraction:
         packed = value.replace(".", "") if isinstance(value, str) else ""
         if not (packed.isascii() and packed.isdigit() and len(packed) == digits and make(int(packed)) == value):
-            raise ValueRefused(register, f"{value!r} is no version of {digits} digits in groups of {group}")
+            raise ValueRefused(register, f"{brief(value)} is no version of {digits} digits in groups of {group}")
         return Fraction(int(packed))
 
     return Kind("version", make, code, coded=True)
@@ -151,7 +154,7 @@ def version(digits: int, group: int) -> Kind[str]:
 
 def _no_number(register: str, value: Any) -> Fraction:
     if not isinstance(value, str):
-        raise ValueRefused(register, f"{value!r} is no text")
+        raise ValueRefused(register, f"{brief(value)} is no text")
     _refuse(value)  # texts are encoded from their characters, never through a number
 
 

@@ -90,12 +90,14 @@ def same(register: Register[Any], view: View, one: Words, other: Words, state: S
     return mine is not None and mine == its
 
 
-def meaning(register: Register[Any], view: View, words: Words | None, state: State, session: Session) -> Any:
-    """The value of words; None if they mean nothing, or are not known."""
+def meaning(
+    register: Register[Any], view: View, words: Words | None, state: State, session: Session, *, named: bool = True
+) -> Any:
+    """The value of words, special values as in `codec.reader`; None if they mean nothing, or are not known."""
     if words is None:
         return None
     try:
-        return codec.decode(register, view, words, state, session.givens)
+        return codec.decode(register, view, words, state, session.givens, named=named)
     except (ValueNotDecodable, KeyError):
         return None
 

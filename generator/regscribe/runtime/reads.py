@@ -70,7 +70,9 @@ def know(session: Session, paths: Iterable[str], *, fresh: bool = False, depth: 
         yield from know(session, register.needs(view), depth=depth + 1)
     found = yield from fetch(session, map(item_of, registers, views))
     values = {
-        register.path: codec.decode(register, view, found[item_of(register, view)], session.memory, session.givens)
+        register.path: codec.decode(
+            register, view, found[item_of(register, view)], session.memory, session.givens, named=False
+        )
         for register, view in zip(registers, views, strict=True)
     }
     for path, value in values.items():

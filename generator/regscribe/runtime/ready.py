@@ -94,7 +94,7 @@ def _value(
     register: "Register[Any]", place: Place, words: "Words", state: Mapping[str, Any], session: "Session"
 ) -> Any:
     try:
-        return codec.decode(register, place.view, words, state, session.givens)  # type: ignore[arg-type] # asked: `blind`
+        return codec.decode(register, place.view, words, state, session.givens, named=False)  # type: ignore[arg-type] # asked: `blind`
     except (ValueNotDecodable, KeyError):
         return MISSING
 

@@ -32,7 +32,8 @@ Sentinels = tuple[tuple[int | str, str, str], ...]
 class Register(Generic[T]):
     """What a device's register is: where it stands, what its words mean and when it may be written.
 
-    `at` is the n of its views' address formulas. `default` is the manual's, in values of use. `unit` is an engineering
+    `at` is the n of its views' address formulas. `special_scale` divides the codes of special values, as the range's
+    decimals divide its limits. `default` is the manual's, in values of use. `unit` is an engineering
     unit, or cases of them. `stays` is why the value must not be copied to another device (address, line, calibration,
     identity, counter, operation; "": it may be), `governs` what it sets of the line, `settle` for how many milliseconds
     after a write reading it back says nothing; `rescales` names the unit whose values the device converts then.
@@ -49,6 +50,7 @@ class Register(Generic[T]):
         kind: Kind[T],
         *,
         scale: Cases = SAME,
+        special_scale: Cases = SAME,
         range: Cases = (),  # noqa: A002 (the manuals' own word)
         default: float | str | None = None,
         unit: str | Cases = "",
@@ -67,6 +69,7 @@ class Register(Generic[T]):
     ) -> None:
         self.at, self.views, self.kind = at, views, kind
         self.scale, self.range, self.sentinels = scale, range, sentinels
+        self.special_scale = special_scale
         self.default, self.unit, self.section, self.aliases = default, unit, section, aliases
         self.writable, self.persistence = writable, persistence
         self.unlock, self.apply, self.danger = unlock, apply, danger
@@ -143,9 +146,9 @@ class Register(Generic[T]):
 
     @property
     def scale_needs(self) -> tuple[str, ...]:
-        """Registers that decide or set the scale."""
-        found: list[str] = list(registers_of(self.scale))
-        found += [conversion.decimals for _, conversion in self.scale if cast("Conversion", conversion).decimals]
+        """Registers that decide or set the scale, or that of special values."""
+        cases = cast("tuple[tuple[When, Conversion], ...]", (*self.scale, *self.special_scale))
+        found = [*registers_of(cases), *(conversion.decimals for _, conversion in cases if conversion.decimals)]
         return tuple(dict.fromkeys(found))
 
     def needs(self, view: View) -> tuple[str, ...]:

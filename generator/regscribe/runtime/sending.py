@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from regscribe.runtime.choices import Choice
+from regscribe.runtime.choices import Choice, SpecialNumber
 from regscribe.runtime.errors import ConditionNotMet, NotApplied, NotWritten, RegscribeError, ValueRefused, WriteUnknown
 from regscribe.runtime.errors import lost as failed
 from regscribe.runtime.lookback import is_lost
@@ -66,7 +66,7 @@ def _present(test: Is, state: State) -> tuple[str, str]:
 
 def called(value: Any) -> str:
     """A value in words: the name of an enum member, else as Python shows it."""
-    return value.name if isinstance(value, Choice) else repr(value)
+    return str(value.name) if isinstance(value, Choice | SpecialNumber) else repr(value)
 
 
 def condition_needs(register: Register[Any]) -> tuple[str, ...]:

@@ -7,7 +7,7 @@ from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from regscribe.runtime.errors import NotDecodable
-from regscribe.runtime.wire import BIG, WireType
+from regscribe.runtime.wire import BIG, WireType, exact
 
 State = Mapping[str, Any]
 """Known values of use by register path: numbers; an enum or a word of bits as its code."""
@@ -40,12 +40,15 @@ class Is(NamedTuple):
         if not self.register:
             return bool(givens[self.given])
         value = state[self.register]
+        if isinstance(value, str):  # a version counts as the number that its digits pack
+            value = int(value.replace(".", ""))
         if self.bits:
             low, high = self.bits
             value = (int(value) >> low) & ((1 << (high - low + 1)) - 1)
         if self.given:
             return value in givens[self.given]
-        return any(Fraction(low) <= value <= Fraction(high) for low, high in self.codes)
+        number = Fraction(value) if isinstance(value, int) else exact(value)
+        return any(Fraction(low) <= number <= Fraction(high) for low, high in self.codes)
 
 
 When = tuple[Is, ...]

@@ -1,11 +1,13 @@
 """The values that the manual gives as defaults, as if a device had been saved with them."""
 
+from fractions import Fraction
 from typing import Any
 
 from regscribe.live.names import Driver
 from regscribe.live.reading import unit_needs, unit_of
 from regscribe.live.values import show
 from regscribe.runtime import Register
+from regscribe.runtime.wire import exact
 from regscribe.settings.saved import Saved
 from regscribe.settings.taking import is_number, writable
 
@@ -23,11 +25,12 @@ def default_of(register: Register[Any]) -> Any:  # noqa: ANN401 (a value of any 
         return default
     if kind.coded:
         return kind.make(int(default))
-    if kind.special is not None and default in {member.value for member in kind.special}:
-        return kind.special(int(default))
-    if default in kind.means:
-        return kind.make(kind.means[int(default)])
-    return kind.make(default)
+    number = Fraction(default) if isinstance(default, str) else exact(default)
+    for member in kind.special or ():
+        if exact(member.value) == number:
+            return member
+    meant = (means for code, means in kind.means.items() if Fraction(code) == number)
+    return kind.make(Fraction(next(meant, number)))
 
 
 def _saved(register: Register[Any], value: Any, state: dict[str, Any]) -> Saved:  # noqa: ANN401 (as above)

@@ -6,13 +6,13 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from threading import Lock
 
-from regscribe.model import Model, OrderFromRegister, Register, RegisterMap, Space
+from regscribe.model import Model, NotANumber, OrderFromRegister, Register, RegisterMap, Space
 from regscribe.simulate.following import sources_of
 from regscribe.simulate.givens import Givens, GivenValue
 from regscribe.simulate.layout import Layout, Place, places_of
 
-Stored = Fraction | str
-"""What the device holds for a register: a number (an enum's code, a word's bits), or a text."""
+Stored = Fraction | str | NotANumber
+"""What the device holds for a register: a number (an enum's code, a word's bits), a text, or a float that is none."""
 
 Image = dict[Space, dict[int, int]]
 """What a read shows at each address."""

@@ -10,8 +10,8 @@ import struct
 from collections.abc import Sequence
 from fractions import Fraction
 
-from regscribe.model import Order, Rounding, View, WireType
-from regscribe.model.reference import NotFiniteError, ieee_bits, ieee_number, shortest
+from regscribe.model import NotANumber, Order, Rounding, View, WireType
+from regscribe.model.reference import NotFiniteError, ieee_bits, ieee_number, not_a_number, shortest
 
 _FLOAT_LARGEST = {WireType.FLOAT32: 0x7F7FFFFF, WireType.FLOAT64: 0x7FEFFFFFFFFFFFFF}
 _PAD = b"\0"
@@ -31,10 +31,12 @@ def round_to_whole(number: Fraction, rounding: Rounding) -> int:
             return math.floor(number + Fraction(1, 2))
 
 
-def encode(view: View, stored: Fraction | str, order: Order) -> tuple[int, ...]:
+def encode(view: View, stored: Fraction | str | NotANumber, order: Order) -> tuple[int, ...]:
     """Return the words (or the one bit, or the one status byte) that `view` shows while the device holds `stored`."""
     if view.type is WireType.STRING:
-        return _text_to_words(view, str(stored))
+        return _text_to_words(view, str(stored), order)
+    if isinstance(stored, NotANumber):
+        return _to_words(view, not_a_number(view.type).to_bytes(view.type.bits // 8, "big"), order)
     number = Fraction(stored) * view.factor
     if view.type.is_float:
         return _to_words(view, _float_bits(view.type, number).to_bytes(view.type.bits // 8, "big"), order)
@@ -51,7 +53,7 @@ def decode(view: View, words: Sequence[int], order: Order) -> Fraction | str | N
     A float stands for the shortest decimal that has its bits: 120.1 written is 120.1 stored, and 120.1 shown again.
     """
     if view.type is WireType.STRING:
-        return _words_to_text(view, words)
+        return _words_to_text(view, words, order)
     data = _to_bytes(view, words, order)
     if view.type.is_float:
         try:
@@ -84,10 +86,10 @@ def _to_bytes(view: View, words: Sequence[int], order: Order) -> bytes:
     return struct.pack(f">{len(ordered)}H", *ordered)
 
 
-def _text_to_words(view: View, text: str) -> tuple[int, ...]:
+def _text_to_words(view: View, text: str, order: Order) -> tuple[int, ...]:
     data = text.encode("latin-1", "replace")[: 2 * view.words].ljust(2 * view.words, _PAD)
-    return _to_words(view, data, Order.BIG)
+    return _to_words(view, data, order)
 
 
-def _words_to_text(view: View, words: Sequence[int]) -> str:
-    return _to_bytes(view, words, Order.BIG).decode("latin-1")
+def _words_to_text(view: View, words: Sequence[int], order: Order) -> str:
+    return _to_bytes(view, words, order).decode("latin-1")

@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Iterable
+from fractions import Fraction
 
 from regscribe.model import Command, Effect, Register
 from regscribe.simulate.blueprint import Stored
@@ -92,13 +93,13 @@ class Conduct:
             return
         origin = self._state.register(source)
         before = self._state.stored(source)
-        self._state.put(source, after if isinstance(after, str) else self._state.to_value(register, after))
+        self._state.put(source, self._state.to_value(register, after) if isinstance(after, Fraction) else after)
         if self._state.stored(source) != before:
             self.written(origin, before)
 
     def _value(self, register: Register) -> Stored:
         stored = self._state.stored(register.path)
-        return stored if isinstance(stored, str) else self._state.to_value(register, stored)
+        return self._state.to_value(register, stored) if isinstance(stored, Fraction) else stored
 
     def _rescale(self, register: Register, before: Stored, after: Stored) -> None:
         snapshot = Snapshot.under(self._state, register, before, after)

@@ -4,6 +4,7 @@ from fractions import Fraction
 
 from regscribe.model import Process, Ramp
 from regscribe.simulate.alarms import Watch
+from regscribe.simulate.blueprint import Stored
 from regscribe.simulate.control import Loop
 from regscribe.simulate.errors import SimulatorError
 from regscribe.simulate.settings import Settings, scale_of
@@ -39,7 +40,7 @@ class Controller:
         self._scale = scale_of(state.find(process.value)[0])
         self._put_before: dict[str, Fraction] = {}
         self._extremes: dict[str, float] = {}
-        self._value: tuple[Fraction | str, float | None] = ("", None)
+        self._value: tuple[Stored, float | None] = ("", None)
         self._shown = None if oven is None else self._show_temperature(oven)
 
     def reset(self) -> None:
@@ -102,12 +103,13 @@ class Controller:
                 self._shown = self._show_temperature(oven)
         return self._meant(self._state.stored(self._process.value))
 
-    def _meant(self, stored: Fraction | str) -> float | None:
+    def _meant(self, stored: Stored) -> float | None:
         """What a stored process value means; None for a fault of the sensor."""
         if stored != self._value[0]:
             register = self._state.register(self._process.value)
-            fault = isinstance(stored, str) or any(each.stored == stored for each in register.sentinels)
-            number = None if fault or isinstance(stored, str) else float(self._state.to_value(register, stored))
+            number = None
+            if isinstance(stored, Fraction) and stored not in register.faults:
+                number = float(self._state.to_value(register, stored))
             self._value = (stored, number)
         return self._value[1]
 
@@ -117,7 +119,7 @@ class Controller:
             self._put_before[path] = value
             self._state.put(path, value)
 
-    def _show_temperature(self, oven: Oven) -> Fraction | str:
+    def _show_temperature(self, oven: Oven) -> Stored:
         path = self._process.value
         self._put(path, _exact(oven.temperature))
         return self._state.stored(path)

@@ -19,7 +19,8 @@ def initial_value(register_map: RegisterMap, model: Model, register: Register, s
     if tests:
         return _identifying(register, tests)
     if register.default is not None:
-        return register.default
+        special = next((each for each in register.specials if each.code == register.default), None)
+        return state.special(register, special) if special else register.default
     if accepts(register, Fraction(0), state):
         return Fraction(0)
     if register.enum is not None and register.enum.members:

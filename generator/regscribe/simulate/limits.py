@@ -4,7 +4,20 @@ from abc import abstractmethod
 from fractions import Fraction
 from typing import Protocol
 
-from regscribe.model import Cases, Condition, Decimals, Enum, Interval, Kind, Limit, Number, Range, Reference, Register
+from regscribe.model import (
+    Cases,
+    Condition,
+    Decimals,
+    Enum,
+    Interval,
+    Kind,
+    Limit,
+    Number,
+    Range,
+    Reference,
+    Register,
+    Special,
+)
 from regscribe.simulate.givens import T
 from regscribe.simulate.values import field_value
 
@@ -25,6 +38,10 @@ class Present(Protocol):
         """Whether `condition` holds now."""
 
     @abstractmethod
+    def special(self, register: Register, special: Special) -> Fraction:
+        """Return the value of use of a special value's code."""
+
+    @abstractmethod
     def power(self, decimals: Decimals | None) -> int:
         """10 to the number of decimals that a register holds now."""
 
@@ -40,7 +57,7 @@ def accepts(register: Register, value: Fraction, state: Present) -> bool:
         return False
     if any(field.enum and not _is_member(field.enum, field_value(value, field)) for field in register.fields):
         return False
-    if any(special.code == value for special in register.specials):
+    if any(state.special(register, special) == value for special in register.specials):
         return True
     limits = state.choose(register.range)
     return limits is None or any(_within(each, value, limits, state) for each in limits.intervals)

@@ -14,6 +14,7 @@ from regscribe.model import (
     Order,
     Register,
     Rounding,
+    Special,
     View,
 )
 from regscribe.simulate import codec
@@ -64,9 +65,20 @@ class Meaning(ABC):
         """
         register, field = self.find(subject)
         stored = self.in_effect(register.path)
-        if isinstance(stored, str):
+        if not isinstance(stored, Fraction):
             return Fraction(0)
-        return self.to_value(register, stored) if field is None else field_value(stored, field)
+        return self.number(register, stored) if field is None else field_value(stored, field)
+
+    def number(self, register: Register, stored: Fraction) -> Fraction:
+        """Return the value of use of a stored number; of a special value that stands for a number that one."""
+        value = self.to_value(register, stored)
+        meant = (each.means for each in register.specials if self.special(register, each) == value)
+        return next((number for number in meant if number is not None), value)
+
+    def special(self, register: Register, special: Special) -> Fraction:
+        """Return the value of use of a special value's code: where decimals divide the range, they divide it too."""
+        scale = self.choose(register.special_scale) or IDENTITY
+        return special.code / self.power(scale.decimals)
 
     def to_value(self, register: Register, stored: Fraction) -> Fraction:
         """Turn a stored number into the value of use."""

@@ -4,7 +4,7 @@ from decimal import Decimal, InvalidOperation, localcontext
 from difflib import get_close_matches
 from fractions import Fraction
 
-from regscribe.model import BitField, Enum, Kind, Register
+from regscribe.model import BitField, Enum, Kind, NotANumber, Register
 from regscribe.simulate.errors import SimulatorError
 from regscribe.simulate.state import State
 from regscribe.simulate.values import field_value, with_field
@@ -27,8 +27,11 @@ def show(state: State, register: Register) -> Plain:
     return shown(state, register, stored)
 
 
-def shown(state: State, register: Register, stored: Fraction) -> Plain:
+def shown(state: State, register: Register, stored: Fraction | NotANumber) -> Plain:
     """Return what a stored number of a register means now."""
+    fault = state.fault(register, stored)
+    if fault or not isinstance(stored, Fraction):
+        return fault or "nan"
     if register.kind in {Kind.FLAGS, Kind.FIELDS}:
         return _names(register, stored)
     value = state.meant(register, stored)
@@ -36,10 +39,10 @@ def shown(state: State, register: Register, stored: Fraction) -> Plain:
         return value
     if register.kind is Kind.BOOLEAN:
         return bool(value)
-    return _named(register, value)
+    return _named(state, register, value)
 
 
-def spell(state: State, register: Register, stored: Fraction) -> str:
+def spell(state: State, register: Register, stored: Fraction | NotANumber) -> str:
     """Return the same for people: `150.5 °F`, `RUN`, `alarm_1, alarm_2`."""
     plain = shown(state, register, stored)
     if isinstance(plain, list):
@@ -88,9 +91,9 @@ def number(value: Fraction) -> int | float:
         return float(Decimal(value.numerator) / Decimal(value.denominator))
 
 
-def _named(register: Register, value: Fraction) -> str | int | float:
+def _named(state: State, register: Register, value: Fraction) -> str | int | float:
     members = {Fraction(each.code): each.id for each in register.enum.members} if register.enum else {}
-    names = members | {each.code: each.id for each in register.specials if each.means is None}
+    names = members | {state.special(register, each): each.id for each in register.specials if each.means is None}
     return names.get(value) or number(value)
 
 

@@ -43,10 +43,9 @@ class Snapshot:
 def _held(state: State, unit: str) -> Iterator[Held]:
     for register in state.blueprint.model.registers:
         stored = state.stored(register.path)
-        if register.unit_id != unit or isinstance(stored, str):
+        if register.unit_id != unit or not isinstance(stored, Fraction) or stored in register.faults:
             continue
-        special = {each.stored for each in register.sentinels} | {each.code for each in register.specials}
-        if stored not in special:
+        if state.to_value(register, stored) not in {state.special(register, each) for each in register.specials}:
             yield Held(register, state.choose(register.unit) or "", state.to_value(register, stored))
 
 

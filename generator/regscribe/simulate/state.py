@@ -4,8 +4,10 @@ from collections.abc import Mapping
 from fractions import Fraction
 
 from regscribe.model import (
+    NAN,
     Kind,
     Model,
+    NotANumber,
     Register,
     RegisterMap,
     Space,
@@ -89,7 +91,7 @@ class State(Meaning):
     def store(self, path: str, stored: Stored) -> None:
         """Set what the device holds for the register `path`, and with it all words that depend on it."""
         register = self._model.register(path)
-        self._stored[path] = stored if isinstance(stored, str) else self.quantise(register, stored)
+        self._stored[path] = self.quantise(register, stored) if isinstance(stored, Fraction) else stored
         self._show(register, self._image)
         if path not in self._pending:
             self._touch(path)
@@ -133,9 +135,9 @@ class State(Meaning):
         """Set a register or `register.field` to a value of use, as `poke` does, if it is not there already."""
         register, field = self.find(subject)
         stored = self.stored(register.path)
-        if field is None or isinstance(stored, str):
+        if field is None or not isinstance(stored, Fraction):
             new = self._to_stored(register, value)
-            new = new if isinstance(new, str) else self.quantise(register, new)
+            new = self.quantise(register, new) if isinstance(new, Fraction) else new
         else:
             new = with_field(stored, field, number_of(register, field, value))
         if new != stored:
@@ -168,9 +170,9 @@ class State(Meaning):
         if source:
             origin = self._model.register(source)
             found = self.in_effect(source)
-            alike = origin.scale == register.scale or isinstance(found, str)
+            alike = origin.scale == register.scale or not isinstance(found, Fraction)
             stored = found if alike else self.quantise(register, self.from_value(register, self.lookup(source)))
-        if has_followed_bits(register) and not isinstance(stored, str):
+        if has_followed_bits(register) and isinstance(stored, Fraction):
             stored = followed_bits(register, stored, self)
         return stored
 
@@ -190,17 +192,23 @@ class State(Meaning):
         stored = self.stored(register.path)
         if isinstance(stored, str):
             return stored.rstrip("\0 ")
-        return self.meant(register, stored) if field is None else field_value(stored, field)
+        if field is None or not isinstance(stored, Fraction):
+            return self.meant(register, stored)
+        return field_value(stored, field)
 
-    def meant(self, register: Register, stored: Fraction) -> Value:
-        """Return the value of use of a stored number, or the id of the sentinel that it is."""
-        sentinel = next((each.id for each in register.sentinels if each.stored == stored), None)
-        if sentinel is not None:
-            return sentinel
-        value = self.to_value(register, stored)
+    def fault(self, register: Register, stored: Stored) -> str:
+        """Return the id of the sentinel that a stored number is; empty where it is none."""
+        return next((each.id for each in register.sentinels if each.stored == stored), "")
+
+    def meant(self, register: Register, stored: Fraction | NotANumber) -> Value:
+        """Return the value of use of a stored number, or the id of the sentinel that it is (`nan` without one)."""
+        fault = self.fault(register, stored)
+        if fault or not isinstance(stored, Fraction):
+            return fault or NAN.value
         if register.kind is Kind.VERSION:
+            value = self.to_value(register, stored)
             return version_text(register, value) or value
-        return next((each.means for each in register.specials if each.code == value and each.means is not None), value)
+        return self.number(register, stored)
 
     def poke(self, path: str, value: Plain) -> None:
         """Set a register, or `register.field`, to a value of use, whatever its access and range (as a process would).
@@ -211,7 +219,7 @@ class State(Meaning):
         register, field = self.find(path)
         self._pending.pop(register.path, None)
         stored = self.stored(register.path)
-        if field is None or isinstance(stored, str):
+        if field is None or not isinstance(stored, Fraction):
             self.store(register.path, self._to_stored(register, value))
         else:
             self.store(register.path, with_field(stored, field, number_of(register, field, value)))
@@ -234,11 +242,13 @@ class State(Meaning):
         self._initial.add(register.path)
         value = initial_value(self.blueprint.register_map, self._model, register, self)
         stored = self._to_stored(register, value)
-        return stored if isinstance(stored, str) else self.quantise(register, stored)
+        return self.quantise(register, stored) if isinstance(stored, Fraction) else stored
 
     def _to_stored(self, register: Register, value: Plain) -> Stored:
         if register.kind is Kind.STRING:
             return str(value)
+        if isinstance(value, NotANumber):
+            return value
         if isinstance(value, Fault):
             return sentinel_of(register, value)
         if isinstance(value, str):
@@ -247,7 +257,8 @@ class State(Meaning):
                 return fault
             if register.kind is Kind.VERSION:
                 return exact(value.replace(".", ""))
-        return self.from_value(register, number_of(register, None, value))
+        specials = {each.id: self.special(register, each) for each in register.specials}
+        return self.from_value(register, number_of(register, None, value, specials))
 
     def _show(self, register: Register, image: Image) -> None:
         if not register.access.readable:

@@ -22,7 +22,7 @@ class Tuning:
         self._state, self.unit, self.first = state, unit, first_address(addressing)
         registers = state.blueprint.model.registers
         self._governing = tuple((each, each.governs) for each in registers if each.governs is not None)
-        self._known: dict[str, Fraction | str] = {}
+        self._known: dict[str, object] = {}
         self.keep()
 
     def keep(self) -> None:

@@ -1,14 +1,16 @@
 """Bit fields, names and versions: small, stateless steps between a stored number and what a person says."""
 
+from collections.abc import Mapping
 from decimal import Decimal
 from enum import StrEnum
 from fractions import Fraction
+from types import MappingProxyType
 
-from regscribe.model import BitField, Register, exact
+from regscribe.model import BitField, NotANumber, Register, exact
 from regscribe.simulate.errors import SimulatorError
 
-Plain = str | float | Fraction | Decimal
-"""What a test may hand in for a value: a number, or a text that spells or names one."""
+Plain = str | float | Fraction | Decimal | NotANumber
+"""What a test may hand in for a value: a number (or what a float is that is none), a text that spells or names one."""
 
 
 class Fault(StrEnum):
@@ -21,13 +23,14 @@ class Fault(StrEnum):
 LOW_FAULT, HIGH_FAULT = Fault.LOW, Fault.HIGH
 
 
-def sentinel_of(register: Register, fault: Fault) -> Fraction:
+def sentinel_of(register: Register, fault: Fault) -> Fraction | NotANumber:
     """Return the stored number of a fault; SimulatorError if the register has none."""
     if not register.sentinels:
         message = f"register {register.path!r} has no faults: the map gives it no sentinels"
         raise SimulatorError(message)
-    stored = [each.stored for each in register.sentinels]
-    return min(stored) if fault is Fault.LOW else max(stored)
+    if not register.faults:  # the only fault is what is no number
+        return register.sentinels[0].stored
+    return min(register.faults) if fault is Fault.LOW else max(register.faults)
 
 
 def field_value(word: Fraction, field: BitField) -> Fraction:
@@ -41,23 +44,24 @@ def with_field(word: Fraction, field: BitField, value: Fraction) -> Fraction:
     return Fraction(int(word) & ~(mask << field.low) | (int(value) & mask) << field.low)
 
 
-def number_of(register: Register, field: BitField | None, value: Plain) -> Fraction:
+def number_of(
+    register: Register, field: BitField | None, value: Plain, specials: Mapping[str, Fraction] = MappingProxyType({})
+) -> Fraction:
     """Return the number that `value` is or names: an enum member or a special value by its id, else decimals.
 
-    The number that a special value stands for counts as the special value.
-
-    Raises SimulatorError if it is neither.
+    `specials` are the special values as values of use, by id. The number that one stands for counts as the special
+    value. Raises SimulatorError if `value` is neither.
     """
     if isinstance(value, str):
         enum = field.enum if field else register.enum
         names = {each.id.lower(): Fraction(each.code) for each in enum.members} if enum else {}
-        names |= {} if field else {each.id.lower(): each.code for each in register.specials}
+        names |= {name.lower(): number for name, number in specials.items()}
         if value.lower() in names:
             return names[value.lower()]
     try:
-        number = exact(value)
+        number = exact("" if isinstance(value, NotANumber) else value)
     except ValueError:
         message = f"{value!r} is no value of {register.path!r}: give a number or the id of a value"
         raise SimulatorError(message) from None
-    means = {} if field else {each.means: each.code for each in register.specials if each.means is not None}
+    means = {each.means: specials[each.id] for each in register.specials if each.means is not None and specials}
     return means.get(number, number)

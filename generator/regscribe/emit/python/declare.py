@@ -8,7 +8,7 @@ from regscribe.emit.python.literals import docstring, exact, literal, plain
 from regscribe.emit.python.named import Content, enum_content, special_content, specials, word_content
 from regscribe.emit.python.specs import Specs
 from regscribe.emit.text import ACCESS, cases_words, listed, one_line, range_words
-from regscribe.model import Access, Case, Command, Kind, Register, show
+from regscribe.model import Access, Case, Command, Kind, NotANumber, Register, Sentinel, show
 
 SHOWN_CASES = 2
 """Ranges of more cases are left to the reference: a docstring is for a glance."""
@@ -17,8 +17,8 @@ DESCRIPTORS = {Access.READ: "ReadOnly", Access.READ_WRITE: "ReadWrite", Access.W
 
 NAMED = {Kind.ENUM: "choice", Kind.FLAGS: "flags", Kind.FIELDS: "word_of"}
 """The kinds whose values are of a class of their own, and the function of the runtime that takes it."""
-TYPES = {Kind.NUMBER: "float", Kind.STRING: "str", Kind.VERSION: "str", Kind.BOOLEAN: "bool"}
-"""What the values of a kind are to a type checker, if not `int`."""
+TYPES = {Kind.STRING: "str", Kind.VERSION: "str", Kind.BOOLEAN: "bool"}
+"""What the values of a kind are to a type checker, if neither `int` nor, where they may have a fraction, `float`."""
 
 
 class Names(Protocol):
@@ -43,7 +43,7 @@ class Declarations:
     def type(self, register: Register) -> str:
         """The type of the declaration: that of the register and of its values."""
         special = self._special(register) if specials(register) and not self._named(register) else ""
-        value = self._named(register) or TYPES.get(register.kind, "int")
+        value = self._named(register) or ("float" if register.fractional else TYPES.get(register.kind, "int"))
         return f"{DESCRIPTORS[register.access]}[{value}{special}]"
 
     def call(self, register: Register) -> Call:
@@ -55,6 +55,7 @@ class Declarations:
             specs.views(register),
             self._kind(register),
             scale=specs.scale(register),
+            special_scale=specs.special_scale(register),
             range=specs.range(register),
             default=_default(register),
             unit=specs.unit(register.unit),
@@ -73,7 +74,7 @@ class Declarations:
         )
 
     def _sentinels(self, register: Register) -> str | None:
-        rows = [group([exact(one.stored), literal(one.id), literal(one.label)]) for one in register.sentinels]
+        rows = [group([_stored(one), literal(one.id), literal(one.label)]) for one in register.sentinels]
         return self.specs.pool.share("sentinels", group(rows)) if rows else None
 
     def _writable(self, register: Register) -> str | None:
@@ -91,7 +92,9 @@ class Declarations:
                 return helper("text")
             case Kind.VERSION:
                 return f"{helper('version')}({register.version_digits}, {register.version_group})"
-        return self._numeric(register) if register.specials else helper(register.kind)
+        if register.specials:
+            return self._numeric(register)
+        return helper("raw_float" if register.kind is Kind.RAW and register.fractional else register.kind)
 
     def _named(self, register: Register) -> str:
         """The class of the values, if they have one of their own."""
@@ -106,13 +109,17 @@ class Declarations:
 
     def _numeric(self, register: Register) -> Expression:
         helper = self.specs.pool.helper
-        means = [(str(int(one.code)), exact(one.means)) for one in register.specials if one.means is not None]
+        means = [(exact(one.code), exact(one.means)) for one in register.specials if one.means is not None]
         if not specials(register):
             return call(helper("number_with"), mapping(means))
         special = self._special(register)
         if means:
             return call(helper("number_or"), special, mapping(means))
-        return f"{helper('number_or' if register.kind is Kind.NUMBER else 'integer_or')}({special})"
+        return f"{helper('number_or' if register.fractional else 'integer_or')}({special})"
+
+
+def _stored(sentinel: Sentinel) -> str:
+    return literal(sentinel.stored.value) if isinstance(sentinel.stored, NotANumber) else exact(sentinel.stored)
 
 
 def _default(register: Register) -> str | None:

@@ -2,10 +2,11 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
 
 from regscribe.emit.python.families import suffix
 from regscribe.emit.python.layout import INDENT, WIDTH, Call, call, group, lay, width
-from regscribe.emit.python.literals import camel, docstring, literal
+from regscribe.emit.python.literals import camel, docstring, literal, plain
 from regscribe.emit.python.names import free, taken
 from regscribe.emit.python.offer import Origin
 from regscribe.emit.text import member_words, one_line
@@ -139,9 +140,9 @@ def word_content(register: Register) -> Content:
     return ("word", register.id, tuple(parts))
 
 
-def specials(register: Register) -> list[tuple[int, str, str]]:
+def specials(register: Register) -> list[tuple[Fraction, str, str]]:
     """Special values that stand for no number: (code, id, label)."""
-    return [(int(one.code), one.id, one.label) for one in register.specials if one.means is None]
+    return [(one.code, one.id, one.label) for one in register.specials if one.means is None]
 
 
 def special_content(register: Register) -> Content:
@@ -149,10 +150,10 @@ def special_content(register: Register) -> Content:
     return ("special", register.id, tuple(specials(register)))
 
 
-def _members(members: Sequence[tuple[int, str, str, str]]) -> list[str]:
+def _members(members: Sequence[tuple[str, str, str, str]]) -> list[str]:
     lines: list[str] = []
     for code, name, label, description in members:
-        items = [str(code), literal(label), *([literal(description)] if description else [])]
+        items = [code, literal(label), *([literal(description)] if description else [])]
         written = f"{INDENT}{name.upper()} = {', '.join(items)}"
         lines += [written] if width(written) <= WIDTH else lay(group(items), head=f"{name.upper()} = ", depth=1)
     return lines
@@ -166,14 +167,15 @@ def _about(register: Register) -> str:
 def _enum_body(enum: Enum, about: str) -> list[str]:
     """The base class of an enum, its docstring (`about` unless it has a description of its own) and members."""
     about = one_line(enum.description) or about
-    members = [(member.code, member.id, member.label, member_words(member, enum)) for member in enum.members]
+    members = [(str(member.code), member.id, member.label, member_words(member, enum)) for member in enum.members]
     return ["Choice", *docstring(about, 1), "", *_members(members)]
 
 
 def _special_body(register: Register) -> list[str]:
     about = f"Special values of {_about(register)}"
-    members = [(code, name, label, "") for code, name, label in specials(register)]
-    return ["Choice", *docstring(about, 1), "", *_members(members)]
+    members = [(plain(code), name, label, "") for code, name, label in specials(register)]
+    whole = all(code.denominator == 1 for code, _, _ in specials(register))
+    return ["Choice" if whole else "SpecialNumber", *docstring(about, 1), "", *_members(members)]
 
 
 def _flags_body(register: Register) -> list[str]:

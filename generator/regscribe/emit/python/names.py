@@ -7,11 +7,12 @@ from regscribe.model import Array, Register, RegisterMap
 
 RUNTIME = tuple(
     """
-    FLOAT32 FLOAT64 INT16 INT32 INT64 UINT16 UINT32 UINT64 Array AsyncBareDevice AsyncDevice AsyncLink AsyncPart
-    BareDevice Bit Choice Command Conversion Device Field Flags Governs Group Identity Interval Is Latency Limits Link
-    OrderFrom Part ProgramAction ProgramFinal ProgramSegments ProgramStates Protocol ReadOnly ReadWrite Ref RegisterSet
-    Section SerialSettings SetpointProgram TcpSettings View Word WriteOnly async_serial_link async_tcp boolean choice
-    flags integer integer_or number number_or number_with raw serial_link tcp text version within word word_of
+    BIT FLOAT32 FLOAT64 INT16 INT32 INT64 UINT8 UINT16 UINT32 UINT64 Array AsyncBareDevice AsyncDevice AsyncLink
+    AsyncPart BareDevice Bit Choice Command Conversion Device Field Flags Governs Group Identity Interval Is Latency
+    Limits Link OrderFrom Part ProgramAction ProgramFinal ProgramSegments ProgramStates Protocol ReadOnly ReadWrite Ref
+    RegisterSet Section SerialSettings SetpointProgram SpecialNumber TcpSettings View Word WriteOnly async_serial_link
+    async_tcp boolean choice flags integer integer_or number number_or number_with raw raw_float serial_link tcp text
+    version within word word_of
     """.split()  # noqa: SIM905 (a column of quoted words is harder to keep in order)
 )
 """What a generated module may import from `regscribe.runtime`, in import order."""

@@ -59,12 +59,18 @@ class Specs:
 
     def scale(self, register: Register) -> Expression | None:
         """The cases of a scale; None for the identity."""
-        cases = register.scale
+        return self._scale(register.scale, "scale", "value of the stored x")
+
+    def special_scale(self, register: Register) -> Expression | None:
+        """The cases of the decimals of special values; None for the identity."""
+        return self._scale(register.special_scale, "special_scale", "value of the special code x")
+
+    def _scale(self, cases: Cases[Conversion], name: str, about: str) -> Expression | None:
         if cases == (Case(Condition(), IDENTITY),):
             return None
         words = cases_words(tuple(Case(case.when, conversion_words(case.then)) for case in cases))
         built = group([group([self.when(case.when), self._conversion(case.then)]) for case in cases])
-        return self.pool.share("scale", built, f"value of the stored x: {words}")
+        return self.pool.share(name, built, f"{about}: {words}")
 
     @staticmethod
     def _conversion(conversion: Conversion) -> Expression:
@@ -130,7 +136,7 @@ class Specs:
         if len(register.views) > 1:
             return self.pool.share("views", templates)
         if base == _plain(base):
-            return self.pool.share(base.type, call(self.pool.helper("word"), base.type.upper()))
+            return self.pool.share(base.type, call(self.pool.helper("word"), _type_name(base)))
         kind = base.type if base.space is Space.HOLDING else f"{base.space}_{base.type}"
         return self.pool.share(kind, templates)
 
@@ -149,8 +155,9 @@ def _plain(view: View) -> View:
     return View("base", Space.HOLDING, view.address, view.type, words=view.type.words, region=view.region)
 
 
-NUMERIC = {WireType.BIT: "UINT16", WireType.UINT8: "UINT16", WireType.STRING: "UINT16"}
-"""Types that the runtime carries in words of their own: a bit and a status byte are one number, text is words."""
+def _type_name(view: View) -> str:
+    """The runtime's name of a type; a text is words."""
+    return "UINT16" if view.type is WireType.STRING else view.type.upper()
 
 
 def _view(view: View, base: View) -> Call:
@@ -159,7 +166,7 @@ def _view(view: View, base: View) -> Call:
     return call(
         "View",
         literal(view.name),
-        NUMERIC.get(view.type, view.type.upper()),
+        _type_name(view),
         offset=str(offset) if offset else None,
         stride=str(view.stride) if view.stride != 1 else None,
         words=str(view.words) if view.words != 1 else None,

@@ -16,6 +16,7 @@ from regscribe.model.reference import (
     Surroundings,
     decode,
     encode,
+    special_value,
     word_order,
 )
 
@@ -69,16 +70,18 @@ def _words(register: Register, view: View, scale: Scale | None, situation: Situa
 
 def _in_order(view: View, bits: int, order: Order) -> tuple[int, ...]:
     words = tuple(bits >> 16 * place & 0xFFFF for place in reversed(range(view.type.words)))
+    if view.byte_order is Order.LITTLE:
+        words = tuple((word & 0xFF) << 8 | word >> 8 for word in words)
     return words if order is Order.BIG else words[::-1]
 
 
 def _decodes(register: Register, view: View, known: Surroundings, words: dict[tuple[int, ...], str]) -> Iterator[Json]:
     for sent, note in words.items():
         reading = decode(register, view, sent, known)
-        yield {"words": list(sent), **_outcome(register, reading), "note": note}
+        yield {"words": list(sent), **_outcome(register, reading, known), "note": note}
 
 
-def _outcome(register: Register, reading: Reading) -> Json:
+def _outcome(register: Register, reading: Reading, known: Surroundings) -> Json:
     if reading.meaning is Meaning.FAULT:
         return {"fault": reading.fault}
     if reading.meaning in {Meaning.SATURATED, Meaning.NOT_DECODABLE}:
@@ -87,16 +90,16 @@ def _outcome(register: Register, reading: Reading) -> Json:
     if reading.meaning is Meaning.UNKNOWN_MEMBER:
         return {**found, "unknown": True}
     if isinstance(reading.value, Fraction):
-        found |= _named(register, reading.value)
+        found |= _named(register, reading.value, known)
     return found
 
 
-def _named(register: Register, value: Fraction) -> Json:
+def _named(register: Register, value: Fraction, known: Surroundings) -> Json:
     if register.enum is not None:
         return {"member": next(member.id for member in register.enum.members if member.code == value)}
-    special = next((special for special in register.specials if special.code == value and special.means is None), None)
-    if special is not None:
-        return {"special": special.id}
+    for special in register.specials:
+        if special.means is None and special_value(register, special, known) == value:
+            return {"special": special.id}
     if register.kind is Kind.FLAGS:
         return {"flags": [bits.id for bits in register.fields if int(value) >> bits.low & 1]}
     if register.kind is Kind.FIELDS:
@@ -110,7 +113,7 @@ def _part(bits: BitField, word: int) -> int:
 
 def _writes(register: Register, view: View, scale: Scale | None, situation: Situation) -> Json:
     known, encodes, refuses = situation.known, [], []
-    for value, note in _offered(register, view, scale, full=situation.full):
+    for value, note in _offered(register, view, scale, situation):
         shown = value if isinstance(value, str) else show(value)
         try:
             encodes.append({"value": shown, "words": list(encode(register, view, value, known)), "note": note})
@@ -120,17 +123,17 @@ def _writes(register: Register, view: View, scale: Scale | None, situation: Situ
         encodes += _rounded(register, view, scale, known)
     found: Json = {"encode": encodes, "refuse": refuses}
     if situation.full and word_order(view, known) is not None:
-        found["domain"] = list(_domain(register, scale))
+        found["domain"] = list(_domain(register, scale, known))
     return found
 
 
 def _offered(
-    register: Register, view: View, scale: Scale | None, *, full: bool
+    register: Register, view: View, scale: Scale | None, situation: Situation
 ) -> Iterator[tuple[Fraction | str, str]]:
     if register.kind in {Kind.STRING, Kind.VERSION}:
         yield from offer.texts(register, view)
         return
-    yield from _once(offer.numbers(register, view, scale, full=full))
+    yield from _once(offer.numbers(register, view, scale, situation.known, full=situation.full))
 
 
 def _once(proposals: Iterator[Proposal]) -> Iterator[Proposal]:
@@ -141,7 +144,7 @@ def _once(proposals: Iterator[Proposal]) -> Iterator[Proposal]:
 
 
 def _rounded(register: Register, view: View, scale: Scale, known: Surroundings) -> Iterator[Json]:
-    if register.kind is not Kind.NUMBER:
+    if not register.fractional:
         return
     for value, note in _once(offer.rounded(scale)):
         try:
@@ -151,20 +154,20 @@ def _rounded(register: Register, view: View, scale: Scale, known: Surroundings) 
         yield {"value": show(value), "rounded": True, "words": list(words), "note": note}
 
 
-def _domain(register: Register, scale: Scale | None) -> Iterator[Json]:
+def _domain(register: Register, scale: Scale | None, known: Surroundings) -> Iterator[Json]:
     if register.kind is Kind.ENUM and register.enum is not None:
         yield from ({"low": str(member.code), "high": str(member.code)} for member in register.enum.members)
     if scale is None or register.kind in CODED or register.kind in {Kind.STRING, Kind.VERSION}:
         return
-    whole = Fraction(1) if register.kind is not Kind.NUMBER else Fraction(0)
+    whole = Fraction(0) if register.fractional else Fraction(1)
     step = max(abs(scale.slope) * scale.wire_step, whole)
     for low, high in scale.domain():
-        holes = [show(value) for value in _holes(register, scale) if low <= value <= high]
+        holes = [show(value) for value in _holes(register, scale, known) if low <= value <= high]
         stretch = {"low": show(low), "high": show(high), "step": show(step) if step else "", "except": holes}
         yield {key: value for key, value in stretch.items() if value}
 
 
-def _holes(register: Register, scale: Scale) -> list[Fraction]:
+def _holes(register: Register, scale: Scale, known: Surroundings) -> list[Fraction]:
     """Values inside the domain that do not come back: faults, and codes that stand for another number."""
-    faults = [scale.value(sentinel.stored) for sentinel in register.sentinels]
-    return faults + [special.code for special in register.specials if special.means is not None]
+    meant = (special_value(register, special, known) for special in register.specials if special.means is not None)
+    return [*map(scale.value, register.faults), *(value for value in meant if value is not None)]

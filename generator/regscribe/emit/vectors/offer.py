@@ -6,6 +6,7 @@ from fractions import Fraction
 from regscribe.emit.vectors.pick import Proposal, codes, field_codes
 from regscribe.emit.vectors.scale import Scale
 from regscribe.model import Kind, Register, View
+from regscribe.model.reference import Surroundings, special_value
 
 HALF, TENTH = Fraction(1, 2), Fraction(1, 10)
 TOO_FINE_FOR_FLOAT32 = Fraction("16777217")
@@ -14,7 +15,9 @@ BEYOND_FLOAT32 = Fraction(10**39)
 TEXTS = {"A": "one character", "": "empty", "\u00e9": "no ASCII"}
 
 
-def numbers(register: Register, view: View, scale: Scale | None, *, full: bool) -> Iterator[Proposal]:
+def numbers(
+    register: Register, view: View, scale: Scale | None, known: Surroundings, *, full: bool
+) -> Iterator[Proposal]:
     """Yield numbers to write; whether the device's map takes them is for the reference to say."""
     if register.kind in {Kind.ENUM, Kind.FLAGS, Kind.FIELDS, Kind.BOOLEAN}:
         yield from _coded(register)
@@ -25,7 +28,7 @@ def numbers(register: Register, view: View, scale: Scale | None, *, full: bool) 
         yield Proposal(Fraction(1), "no scale holds")
         return
     if full:
-        yield from _special(register, scale)
+        yield from _special(register, scale, known)
         yield from _around_limits(scale)
         if not scale.limits or None in (end for interval in scale.limits for end in interval):
             yield from _type_ends(view, scale)
@@ -43,15 +46,15 @@ def _coded(register: Register) -> Iterator[Proposal]:
     yield Proposal(Fraction(1 << register.bits), "one bit more than the type has")
 
 
-def _special(register: Register, scale: Scale) -> Iterator[Proposal]:
+def _special(register: Register, scale: Scale, known: Surroundings) -> Iterator[Proposal]:
     yield Proposal(Fraction(0), "zero")
     for special in register.specials:
         if special.means is None:
-            yield Proposal(special.code, f"special: {special.id}")
+            value = special_value(register, special, known)
+            yield from [] if value is None else [Proposal(value, f"special: {special.id}")]
         else:
             yield Proposal(special.means, f"special: {special.id} stands for this number")
-    for sentinel in register.sentinels:
-        yield Proposal(scale.value(sentinel.stored), f"how the device reports {sentinel.id}")
+    yield from (Proposal(scale.value(stored), "how the device reports a fault") for stored in register.faults)
 
 
 def _around_limits(scale: Scale) -> Iterator[Proposal]:

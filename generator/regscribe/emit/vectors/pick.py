@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from regscribe.emit.vectors.scale import Scale
-from regscribe.model import Kind, Register, View, WireType
+from regscribe.model import Kind, NotANumber, Register, View, WireType
 from regscribe.model.reference import ieee_bits
 
 Words = tuple[int, ...]
@@ -101,6 +101,8 @@ def _ends(view: View) -> Iterator[tuple[int, str]]:
 
 def _stored_numbers(register: Register, *, full: bool) -> Iterator[Proposal]:
     for sentinel in register.sentinels:
+        if isinstance(sentinel.stored, NotANumber):  # among the patterns of a float already
+            continue
         yield Proposal(sentinel.stored, f"fault: {sentinel.id}")
         yield from (Proposal(sentinel.stored + step, f"beside fault {sentinel.id}") for step in (-1, 1) if full)
     yield from codes(register)

@@ -115,7 +115,7 @@ def _names(register: Register) -> Json:
     if register.specials:
         found["specials"] = [_special(register, place) for place in range(len(register.specials))]
     if register.sentinels:
-        found["faults"] = [{"stored": show(one.stored), "id": one.id, "label": one.label} for one in register.sentinels]
+        found["faults"] = [{"stored": one.spelled, "id": one.id, "label": one.label} for one in register.sentinels]
     if register.fields:
         found["fields"] = [
             {"id": bits.id, "label": bits.label, "low": bits.low, "high": bits.high}

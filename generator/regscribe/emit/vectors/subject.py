@@ -50,9 +50,10 @@ class Questions:
 def questions_of(register: Register, view: View) -> Questions:
     """Return what must be known to read `view`, and to write it if it can be written."""
     ranges = register.range if register.access.writable else ()
-    decimals = [*(case.then.decimals for case in register.scale), *(case.then.decimals for case in ranges)]
+    scales = (*register.scale, *register.special_scale)
+    decimals = [*(case.then.decimals for case in scales), *(case.then.decimals for case in ranges)]
     return Questions(
-        (*(case.when for case in register.scale), *(case.when for case in ranges)),
+        (*(case.when for case in scales), *(case.when for case in ranges)),
         tuple(one for one in decimals if one),
         view.word_order if isinstance(view.word_order, OrderFromRegister) and view.words > 1 else None,
     )

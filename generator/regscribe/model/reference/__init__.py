@@ -4,11 +4,11 @@ Words -> wire number -> stored value -> value of use, and back. Nothing is cache
 written apart from it, so that neither inherits the other's mistakes.
 """
 
-from regscribe.model.reference.codec import decode, encode, version_text
-from regscribe.model.reference.ieee import NotFiniteError, ieee_bits, ieee_number, shortest
+from regscribe.model.reference.codec import decode, encode, sentinel_number, special_value, version_text
+from regscribe.model.reference.ieee import NotFiniteError, ieee_bits, ieee_number, not_a_number, shortest
 from regscribe.model.reference.known import NOTHING_KNOWN, Surroundings, choose, decimal_factor, holds, limits
 from regscribe.model.reference.outcome import Meaning, Reading, Reason, RefusedError, UnknownValueError
-from regscribe.model.reference.words import round_by, transmit, wire_number, word_order
+from regscribe.model.reference.words import carried, round_by, transmit, wire_number, word_order
 
 __all__ = [
     "NOTHING_KNOWN",
@@ -19,6 +19,7 @@ __all__ = [
     "RefusedError",
     "Surroundings",
     "UnknownValueError",
+    "carried",
     "choose",
     "decimal_factor",
     "decode",
@@ -27,8 +28,11 @@ __all__ = [
     "ieee_bits",
     "ieee_number",
     "limits",
+    "not_a_number",
     "round_by",
+    "sentinel_number",
     "shortest",
+    "special_value",
     "transmit",
     "version_text",
     "wire_number",

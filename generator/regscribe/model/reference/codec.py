@@ -4,12 +4,13 @@ from fractions import Fraction
 from math import floor
 
 from regscribe.model.number import show
+from regscribe.model.reference.ieee import ieee_bits
 from regscribe.model.reference.known import NOTHING_KNOWN, Surroundings, choose, decimal_factor, in_range
 from regscribe.model.reference.outcome import NOT_DECODABLE, SATURATED, Meaning, Reading, Reason, RefusedError
-from regscribe.model.reference.words import HALF, spelled, text_of, wire_number, word_order, words_of_text
+from regscribe.model.reference.words import HALF, carried, spelled, text_of, wire_number, word_order, words_of_text
 from regscribe.model.register import Kind, Register
-from regscribe.model.value import Conversion
-from regscribe.model.wire import Order, View, WireType
+from regscribe.model.value import NAN, Conversion, NotANumber, Sentinel, Special
+from regscribe.model.wire import View, WireType
 
 PATTERNS = frozenset({Kind.FLAGS, Kind.FIELDS})
 """Kinds whose value is a pattern of bits: no number, so it has neither sign nor scale."""
@@ -17,37 +18,64 @@ PATTERNS = frozenset({Kind.FLAGS, Kind.FIELDS})
 
 def decode(register: Register, view: View, words: tuple[int, ...], known: Surroundings = NOTHING_KNOWN) -> Reading:
     """Say what `words`, read from `view`, mean; raises UnknownValueError for a value that decides and is not known."""
-    if view.type is WireType.STRING:
-        text = text_of(view, words)
-        return NOT_DECODABLE if text is None else Reading(Meaning.VALUE, text)
     order = word_order(view, known)
-    number = None if order is None else wire_number(view, words, order)
-    if number is None:
+    if order is None:
+        return NOT_DECODABLE
+    if view.type is WireType.STRING:
+        text = text_of(view, words, order)
+        return NOT_DECODABLE if text is None else Reading(Meaning.VALUE, text)
+    return _of_number(register, view, wire_number(view, words, order), known)
+
+
+def _of_number(register: Register, view: View, number: Fraction | NotANumber | None, known: Surroundings) -> Reading:
+    if view.saturates and view.type.is_integer and number in {view.type.minimum, view.type.maximum}:
+        return SATURATED
+    for sentinel in register.sentinels:
+        if number is not None and number == sentinel_number(view, sentinel):
+            return Reading(Meaning.FAULT, fault=sentinel.id)
+    if not isinstance(number, Fraction):
         return NOT_DECODABLE
     if register.kind in PATTERNS:
         return Reading(Meaning.VALUE, number % (1 << view.type.bits))
-    if view.saturates and view.type.is_integer and number in {view.type.minimum, view.type.maximum}:
-        return SATURATED
-    stored = number / view.factor
-    for sentinel in register.sentinels:
-        if stored == sentinel.stored:
-            return Reading(Meaning.FAULT, fault=sentinel.id)
-    return _meaning(register, stored, known)
+    return _meaning(register, view, number, known)
 
 
-def _meaning(register: Register, stored: Fraction, known: Surroundings) -> Reading:
+def sentinel_number(view: View, sentinel: Sentinel) -> Fraction | NotANumber | None:
+    """Return the wire number by which a view reports a fault; None if it cannot."""
+    return NAN if isinstance(sentinel.stored, NotANumber) else carried(view, sentinel.stored * view.factor)
+
+
+def special_value(register: Register, special: Special, known: Surroundings) -> Fraction | None:
+    """Return the value of use that the code of a special value is as things stand; None if nobody can tell."""
+    conversion = choose(register.special_scale, known)
+    factor = None if conversion is None else decimal_factor(conversion.decimals, known)
+    return None if factor is None else special.code / factor
+
+
+def _meaning(register: Register, view: View, number: Fraction, known: Surroundings) -> Reading:
     conversion = choose(register.scale, known)
     factor = None if conversion is None else decimal_factor(conversion.decimals, known)
     if conversion is None or factor is None:
         return NOT_DECODABLE
-    value = (conversion.multiply * stored + conversion.add) / factor
     for special in register.specials:
-        if special.means is not None and value == special.code:
-            return Reading(Meaning.VALUE, special.means)
+        named = special_value(register, special, known)
+        if named is None:
+            return NOT_DECODABLE
+        if carried(view, (named * factor - conversion.add) / conversion.multiply * view.factor) == number:
+            return Reading(Meaning.VALUE, named if special.means is None else special.means)
+    return _of_kind(register, (conversion.multiply * number / view.factor + conversion.add) / factor)
+
+
+def _of_kind(register: Register, value: Fraction) -> Reading:
     if register.kind is Kind.VERSION:
         text = version_text(register, value)
         return NOT_DECODABLE if text is None else Reading(Meaning.VALUE, text)
-    if register.kind is not Kind.NUMBER and value.denominator != 1:
+    if register.kind is Kind.BOOLEAN:
+        return Reading(Meaning.VALUE, Fraction(value != 0))
+    if register.fractional:
+        beyond = ieee_bits(value, WireType.FLOAT64) is None  # no float of any program can hold it
+        return NOT_DECODABLE if beyond else Reading(Meaning.VALUE, value)
+    if value.denominator != 1:
         return NOT_DECODABLE
     if register.enum is not None and all(member.code != value for member in register.enum.members):
         return Reading(Meaning.UNKNOWN_MEMBER, value)
@@ -83,40 +111,46 @@ def encode(
 
     With `rounded`, a value between two wire numbers is rounded as the device rounds, else refused.
     """
-    if view.type is WireType.STRING:
-        return words_of_text(view, str(value))
-    number = version_number(register, value) if isinstance(value, str) else value
-    number = _checked(register, number, known)
-    if register.kind in PATTERNS:
-        return _pattern(view, number, known)
-    stored = _stored(register, number, known, rounded=rounded)
-    if any(stored == sentinel.stored for sentinel in register.sentinels):
-        raise RefusedError(Reason.SENTINEL, f"{show(stored)} is how the device reports a fault")
     order = word_order(view, known)
     if order is None:
         raise RefusedError(Reason.CONDITION, "the order of the words is not known")
-    return spelled(view, stored * view.factor, order, rounded=rounded)
+    if view.type is WireType.STRING:
+        return words_of_text(view, str(value), order)
+    number = version_number(register, value) if isinstance(value, str) else value
+    number = _checked(register, number, known)
+    pattern = register.kind in PATTERNS
+    stored = _pattern(view, number) if pattern else _stored(register, number, known, rounded=rounded)
+    words = spelled(view, stored * view.factor, order, rounded=rounded)
+    sent = wire_number(view, words, order)
+    if any(sent == sentinel_number(view, sentinel) for sentinel in register.sentinels):
+        raise RefusedError(Reason.SENTINEL, f"{show(stored)} is how the device reports a fault")
+    return words
 
 
-def _pattern(view: View, number: Fraction, known: Surroundings) -> tuple[int, ...]:
+def _pattern(view: View, number: Fraction) -> Fraction:
+    """Return the number that a pattern of bits is to the type of the view."""
     size = 1 << view.type.bits
     if not 0 <= number < size:
         raise RefusedError(Reason.TYPE, f"{show(number)} has more than {view.type.bits} bits")
-    signed = number - size if number > view.type.maximum else number
-    return spelled(view, signed, word_order(view, known) or Order.BIG, rounded=False)
+    return number - size if number > view.type.maximum else number
 
 
 def _checked(register: Register, value: Fraction, known: Surroundings) -> Fraction:
     for special in register.specials:
-        if special.means is not None and value == special.means:
-            return special.code
-    if any(value == special.code for special in register.specials):
-        return value
+        named = special_value(register, special, known)
+        if named is None:
+            raise RefusedError(Reason.CONDITION, "the decimals of special values are not known")
+        if value == (named if special.means is None else special.means):
+            return named
+        if special.means is not None and value == named:
+            return named
+    if register.kind is Kind.BOOLEAN and value not in {0, 1}:
+        raise RefusedError(Reason.TYPE, f"{show(value)} is neither 0 nor 1")
     if register.enum is not None and all(member.code != value for member in register.enum.members):
         raise RefusedError(Reason.MEMBER, f"{show(value)} is no member of {register.enum.id}")
     if register.kind is Kind.FLAGS:
         _check_bits(register, value)
-    if register.kind is not Kind.NUMBER and value.denominator != 1:
+    if not register.fractional and value.denominator != 1:
         raise RefusedError(Reason.TYPE, f"{show(value)} is no whole number")
     if not in_range(register, value, known):
         raise RefusedError(Reason.RANGE, f"{show(value)} lies outside the range")

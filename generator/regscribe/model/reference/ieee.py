@@ -39,6 +39,19 @@ def ieee_number(bits: int, wire_type: WireType) -> Fraction:
     return -size if negative else size
 
 
+def is_infinity(bits: int, wire_type: WireType) -> bool:
+    """Tell whether `bits` spell an infinity: all bits of the exponent, none of the fraction."""
+    form = FORMATS[wire_type]
+    size = bits % (1 << (form.fraction + form.exponent))
+    return size == ((1 << form.exponent) - 1) << form.fraction
+
+
+def not_a_number(wire_type: WireType) -> int:
+    """Return the usual pattern of no number: the exponent and the first bit of the fraction set (0x7FC00000)."""
+    form = FORMATS[wire_type]
+    return ((1 << (form.exponent + 1)) - 1) << (form.fraction - 1)
+
+
 def ieee_bits(number: Fraction, wire_type: WireType) -> int | None:
     """Return the bits of the nearest IEEE number, ties to the even one; None if that is infinity."""
     form = FORMATS[wire_type]

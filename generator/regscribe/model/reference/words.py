@@ -4,9 +4,17 @@ from fractions import Fraction
 from math import floor, trunc
 
 from regscribe.model.number import show
-from regscribe.model.reference.ieee import NotFiniteError, ieee_bits, ieee_number, shortest
+from regscribe.model.reference.ieee import (
+    NotFiniteError,
+    ieee_bits,
+    ieee_number,
+    is_infinity,
+    not_a_number,
+    shortest,
+)
 from regscribe.model.reference.known import NOTHING_KNOWN, Surroundings
 from regscribe.model.reference.outcome import Reason, RefusedError
+from regscribe.model.value import NAN, NotANumber
 from regscribe.model.wire import Order, Rounding, View
 
 HALF = Fraction(1, 2)
@@ -34,45 +42,65 @@ def word_order(view: View, known: Surroundings) -> Order | None:
     return next((order for listed, order in view.word_order.codes if listed == code), None)
 
 
-def _bits_of(view: View, words: tuple[int, ...], order: Order) -> int:
+def _bytes_in_order(view: View, words: tuple[int, ...], order: Order) -> list[int]:
+    """Return the bytes of words on the wire, the most significant (or the first letter) first."""
     in_order = words if order is Order.BIG else tuple(reversed(words))
+    pairs = [divmod(word, 256) for word in in_order]
+    return [byte for high, low in pairs for byte in ((high, low) if view.byte_order is Order.BIG else (low, high))]
+
+
+def _words_in_order(view: View, raw: list[int], order: Order) -> tuple[int, ...]:
+    """Return the words on the wire of bytes that stand the most significant (or the first letter) first."""
+    pairs = [(raw[place], raw[place + 1]) for place in range(0, len(raw), 2)]
+    words = tuple(
+        256 * first + second if view.byte_order is Order.BIG else 256 * second + first for first, second in pairs
+    )
+    return words if order is Order.BIG else tuple(reversed(words))
+
+
+def _bits_of(view: View, words: tuple[int, ...], order: Order) -> int:
     bits = 0
-    for word in in_order:
-        bits = bits * 65536 + word
+    for byte in _bytes_in_order(view, words, order):
+        bits = bits * 256 + byte
     return bits % (1 << view.type.bits)
 
 
 def _words_of(view: View, bits: int, order: Order) -> tuple[int, ...]:
-    most_first = tuple((bits >> (16 * place)) % 65536 for place in reversed(range(view.type.words)))
-    return most_first if order is Order.BIG else tuple(reversed(most_first))
+    raw = [(bits >> (8 * place)) % 256 for place in reversed(range(2 * view.type.words))]
+    return _words_in_order(view, raw, order)
 
 
-def wire_number(view: View, words: tuple[int, ...], order: Order) -> Fraction | None:
-    """Return the number that the words spell; None for an IEEE pattern that is none (infinity, not a number)."""
+def wire_number(view: View, words: tuple[int, ...], order: Order) -> Fraction | NotANumber | None:
+    """Return the number that the words spell: of IEEE patterns NAN for those of no number, None for an infinity."""
     bits = _bits_of(view, words, order)
     if view.type.is_float:
         try:
             return shortest(ieee_number(bits, view.type), view.type)
         except NotFiniteError:
-            return None
+            return None if is_infinity(bits, view.type) else NAN
     return Fraction(bits if bits <= view.type.maximum else bits - (1 << view.type.bits))
 
 
-def text_of(view: View, words: tuple[int, ...]) -> str | None:
+def carried(view: View, number: Fraction) -> Fraction | None:
+    """Return the number that reading `number` from the wire of a view gives; None if the view cannot carry it."""
+    if view.type.is_float:
+        bits = ieee_bits(number, view.type)
+        return None if bits is None else shortest(ieee_number(bits, view.type), view.type)
+    fits = number.denominator == 1 and view.type.minimum <= number <= view.type.maximum
+    return number if fits else None
+
+
+def text_of(view: View, words: tuple[int, ...], order: Order) -> str | None:
     """Return the ASCII text in `words` without what fills it up; None if it is no ASCII."""
-    pairs = (divmod(word, 256) for word in words)
-    raw = bytes(byte for high, low in pairs for byte in ((high, low) if view.byte_order is Order.BIG else (low, high)))
-    raw = raw.rstrip(b"\x00 ")
+    raw = bytes(_bytes_in_order(view, words, order)).rstrip(b"\x00 ")
     return raw.decode("ascii") if raw.isascii() else None
 
 
-def words_of_text(view: View, text: str) -> tuple[int, ...]:
+def words_of_text(view: View, text: str, order: Order) -> tuple[int, ...]:
     """Return the words of an ASCII text, filled up with blanks; RefusedError if it does not fit."""
     if not text.isascii() or len(text) > 2 * view.words:
         raise RefusedError(Reason.TYPE, f"{text!r} does not fit {2 * view.words} ASCII characters")
-    raw = text.encode("ascii").ljust(2 * view.words)
-    first, second = (0, 1) if view.byte_order is Order.BIG else (1, 0)
-    return tuple(256 * raw[2 * word + first] + raw[2 * word + second] for word in range(view.words))
+    return _words_in_order(view, list(text.encode("ascii").ljust(2 * view.words)), order)
 
 
 def spelled(view: View, number: Fraction, order: Order, *, rounded: bool) -> tuple[int, ...]:
@@ -81,7 +109,8 @@ def spelled(view: View, number: Fraction, order: Order, *, rounded: bool) -> tup
         bits = ieee_bits(number, view.type)
         if bits is None:
             raise RefusedError(Reason.TYPE, f"{show(number)} is beyond {view.type}")
-        if not rounded and shortest(ieee_number(bits, view.type), view.type) != number:
+        carried = ieee_number(bits, view.type)
+        if not rounded and number not in (carried, shortest(carried, view.type)):
             raise RefusedError(Reason.RESOLUTION, f"{show(number)} is finer than {view.type}")
         return _words_of(view, bits, order)
     if number.denominator != 1 and not rounded:
@@ -93,7 +122,7 @@ def spelled(view: View, number: Fraction, order: Order, *, rounded: bool) -> tup
     return _words_of(view, whole % (1 << view.type.bits), order)
 
 
-def transmit(view: View, stored: Fraction, known: Surroundings = NOTHING_KNOWN) -> tuple[int, ...]:
+def transmit(view: View, stored: Fraction | NotANumber, known: Surroundings = NOTHING_KNOWN) -> tuple[int, ...]:
     """Return the words that a device which holds `stored` sends: rounded by the view, clipped if the view saturates.
 
     Raises RefusedError for a number that the view cannot carry.
@@ -101,6 +130,8 @@ def transmit(view: View, stored: Fraction, known: Surroundings = NOTHING_KNOWN) 
     order = word_order(view, known)
     if order is None:
         raise RefusedError(Reason.CONDITION, "the order of the words is not known")
+    if isinstance(stored, NotANumber):
+        return _words_of(view, not_a_number(view.type), order)
     number = stored * view.factor
     if view.type.is_integer:
         whole = round_by(view.rounding, number)
