@@ -12,12 +12,16 @@ Ask = tuple[Condition, ...]
 
 @dataclass(slots=True)
 class Asked:
-    """The conditions of one set of cases: who has them first, what they decide, and the verdict over all models."""
+    """The conditions of one set of cases: who has them first, what they decide, and the verdict over all models.
+
+    `faulty`: whatever has them can report a fault, which needs no scale.
+    """
 
     subject: str
     span: Span
     what: str
     found: Verdict
+    faulty: bool = True
 
 
 def _cases_of(register: Register) -> Iterator[tuple[str, Ask]]:
@@ -46,6 +50,7 @@ def _collected(scopes: tuple[Scope, ...]) -> list[tuple[Ask, Asked]]:
                 now = verdict(ask, scope)
                 asked = every.setdefault((what, ask), Asked(register.path, register.span, what, now))
                 asked.found = _either(asked.found, now)
+                asked.faulty &= bool(register.sentinels)
     return [(ask, asked) for (_, ask), asked in every.items()]
 
 
@@ -109,7 +114,8 @@ def not_covered(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
     """Look for a state in which none of the cases of a scale or a range holds; units may be absent."""
     seen: set[Ask] = set()
     for ask, asked in _asked(scopes):
-        if asked.what in {"scale", "range"} and asked.found.uncovered and ask not in seen:
+        excused = asked.what == "scale" and asked.faulty  # in such a state there may be nothing but the fault
+        if asked.what in {"scale", "range"} and asked.found.uncovered and ask not in seen and not excused:
             seen.add(ask)
             message = f"`{asked.subject}`: no case of the {asked.what} holds when {asked.found.uncovered}"
             help_text = "end with a case without `when`, or give the tested registers the range or enum they have"

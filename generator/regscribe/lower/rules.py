@@ -38,6 +38,7 @@ UNKNOWN_SET = "RS0333"
 SET_IN_ITSELF = "RS0334"
 NO_MODULE = "RS0335"
 IDLE_LENGTH = "RS0336"
+DIVIDED = "RS0337"
 
 _NAMES = "A name must mean something, or the driver would look up what does not exist."
 
@@ -84,6 +85,11 @@ RULES: tuple[Rule, ...] = (
     Rule(SET_IN_ITSELF, "Set that contains itself", "A set within itself would have no end."),
     Rule(NO_MODULE, "Map id with a Python keyword", "Python cannot import a module that has the name of a keyword."),
     Rule(IDLE_LENGTH, "Length of a number", "A type says how many words a number takes; only a text has a length."),
+    Rule(
+        DIVIDED,
+        "Condition on a special value that decimals divide",
+        "With each number of decimals it is another number, and a condition compares numbers.",
+    ),
 )
 
 DEPENDS_ON_MAP = frozenset(

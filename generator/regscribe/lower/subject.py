@@ -6,7 +6,7 @@ from fractions import Fraction
 from regscribe.lower.enums import code_anywhere, enum_for, fields_of
 from regscribe.lower.names import unknown
 from regscribe.lower.node import Node, text_of
-from regscribe.lower.rules import UNKNOWN_FIELD, UNKNOWN_MEMBER
+from regscribe.lower.rules import DIVIDED, UNKNOWN_FIELD, UNKNOWN_MEMBER
 from regscribe.lower.scope import Scope
 from regscribe.lower.tree import Entry
 from regscribe.model.name import snake
@@ -50,11 +50,19 @@ def code_of_text(node: Node, subject: Subject, scope: Scope) -> Fraction:
         known = [member.id.lower() for member in enum.members]
     for name, code_node in special_ids(subject.entry):
         if name == text.lower() and not subject.field:
+            _undivided(node, subject.entry, code_node)
             return code_node.key_number()
         known.append(name)
     where = f"{subject.name}.{subject.field}" if subject.field else subject.name
     unknown(node, UNKNOWN_MEMBER, "member or special value", text, known, of=where)
     return Fraction(0)
+
+
+def _undivided(node: Node, entry: Entry, code_node: Node) -> None:
+    """Report a special value that is another number with each number of decimals."""
+    if "range_decimals" in entry.settings and code_node.key_number():
+        message = f"`{node.text()}` of `{entry.id}` is divided as the range is, so it is no one number"
+        node.report(DIVIDED, message, remedy="ask for a value, or for the register that holds the decimals as well")
 
 
 def special_ids(entry: Entry) -> list[tuple[str, Node]]:

@@ -153,7 +153,7 @@ class Bench:
 
 def _declaration(register: Register[Any]) -> tuple[object, ...]:
     """Return all that the codec looks at; two registers with equal declarations cannot differ in it."""
-    scaling = (register.scale, register.range, register.sentinels)
+    scaling = (register.scale, register.special_scale, register.range, register.sentinels)
     return (register.views, id(register.kind), register.access, *scaling)
 
 

@@ -5,6 +5,7 @@ The same tree gives the same result: the examples are derived from the test, not
 
 import math
 from collections.abc import Sequence
+from decimal import Context, Decimal
 from fractions import Fraction
 from typing import Any
 
@@ -175,7 +176,7 @@ def _inside(trial: Trial, stretch: dict[str, Any]) -> st.SearchStrategy[Any]:
 
 def _few_digits(value: Fraction) -> Fraction:
     """Cut a number to the digits that every float32 keeps."""
-    return Fraction(f"{value.numerator / value.denominator:.{SIGNIFICANT}g}")
+    return Fraction(Context(prec=SIGNIFICANT).divide(Decimal(value.numerator), Decimal(value.denominator)))
 
 
 def others(trial: Trial) -> st.SearchStrategy[Any]:

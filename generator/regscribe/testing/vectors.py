@@ -49,5 +49,8 @@ def number(text: str) -> int | float | Fraction:
     exactly = Fraction(text)
     if exactly.denominator == 1:
         return exactly.numerator
-    nearest = exactly.numerator / exactly.denominator
+    try:
+        nearest = exactly.numerator / exactly.denominator
+    except OverflowError:  # beyond every float
+        return exactly
     return nearest if Fraction(repr(nearest)) == exactly else exactly

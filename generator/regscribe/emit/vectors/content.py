@@ -6,7 +6,7 @@ from typing import Any
 
 from regscribe.emit.vectors import offer
 from regscribe.emit.vectors.pick import Proposal, wire_bits
-from regscribe.emit.vectors.scale import Scale, scale_now
+from regscribe.emit.vectors.scale import LARGEST, Scale, scale_now
 from regscribe.emit.vectors.situation import Situation
 from regscribe.model import BitField, Kind, Order, Register, View, WireType, show
 from regscribe.model.reference import (
@@ -64,7 +64,7 @@ def _words(register: Register, view: View, scale: Scale | None, situation: Situa
             (0xC3A9,) * view.words: "no ASCII",
         }
     order = word_order(view, situation.known) or Order.BIG
-    bits = wire_bits(register, view, scale, full=situation.full)
+    bits = wire_bits(register, view, scale, situation.known, full=situation.full)
     return {_in_order(view, pattern, order): note for pattern, note in bits.items()}
 
 
@@ -161,7 +161,9 @@ def _domain(register: Register, scale: Scale | None, known: Surroundings) -> Ite
         return
     whole = Fraction(0) if register.fractional else Fraction(1)
     step = max(abs(scale.slope) * scale.wire_step, whole)
-    for low, high in scale.domain():
+    widest = LARGEST[WireType.FLOAT64]  # what a program reads as a float
+    for lowest, highest in scale.domain():
+        low, high = (max(lowest, -widest), min(highest, widest)) if register.fractional else (lowest, highest)
         holes = [show(value) for value in _holes(register, scale, known) if low <= value <= high]
         stretch = {"low": show(low), "high": show(high), "step": show(step) if step else "", "except": holes}
         yield {key: value for key, value in stretch.items() if value}

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from regscribe.emit.vectors.scale import Scale
 from regscribe.model import Kind, NotANumber, Register, View, WireType
-from regscribe.model.reference import ieee_bits
+from regscribe.model.reference import Surroundings, ieee_bits, special_value
 
 Words = tuple[int, ...]
 
@@ -58,13 +58,16 @@ ORDERED = 0x0123456789ABCDEF
 """Its bytes all differ, so that a wrong order of words or bytes shows."""
 
 
-def wire_bits(register: Register, view: View, scale: Scale | None, *, full: bool) -> dict[int, str]:
+def wire_bits(
+    register: Register, view: View, scale: Scale | None, known: Surroundings, *, full: bool
+) -> dict[int, str]:
     """Return bits of the wire number to decode (two's complement, most significant first) with their notes."""
     found: dict[int, str] = {}
     mask = (1 << view.type.bits) - 1
     for bits, note in _patterns(view, full=full):
         found.setdefault(bits & mask, note)
-    numbers = [*_stored_numbers(register, full=full), *(scale.stored_limits() if scale and full else ())]
+    numbers = [*_stored_numbers(register, full=full), *(_scaled_numbers(register, scale, known) if scale else ())]
+    numbers += scale.stored_limits() if scale and full else ()
     for stored, note in numbers:
         pattern = _bits(view, stored * view.factor)
         if pattern is not None:
@@ -109,6 +112,13 @@ def _stored_numbers(register: Register, *, full: bool) -> Iterator[Proposal]:
     if register.kind in {Kind.FLAGS, Kind.FIELDS}:
         yield from (Proposal(Fraction(1 << bit), f"bit {bit} alone") for bit in range(min(register.bits, 64)))
         yield from field_codes(register)
+
+
+def _scaled_numbers(register: Register, scale: Scale, known: Surroundings) -> Iterator[Proposal]:
+    for special in register.specials:
+        value = special_value(register, special, known)
+        if value is not None:
+            yield Proposal(scale.stored(value), f"special: {special.id}")
 
 
 def codes(register: Register) -> Iterator[Proposal]:

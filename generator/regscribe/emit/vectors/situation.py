@@ -61,7 +61,7 @@ class Finder:
         tries = tries_of(self._map, model, questions_of(register, view))
         asked = tuple(tries.values.items()), tuple(tries.givens.items()), tuple(tries.parts.items())
         ranges = register.range if register.access.writable else ()
-        key = (register.scale, ranges, register.kind, view.word_order, view.words, asked)
+        key = (register.scale, register.special_scale, ranges, register.kind, view.word_order, view.words, asked)
         if key not in self._known:
             self._known[key] = _situations(tries, register, view)
         return self._known[key]
@@ -145,12 +145,18 @@ def _index(cases: Cases[T], known: Surroundings) -> int:
     return next((index for index, case in enumerate(cases) if holds(case.when, known)), -1)
 
 
+def _special_factor(register: Register, known: Surroundings) -> object:
+    conversion = choose(register.special_scale, known)
+    return conversion and decimal_factor(conversion.decimals, known)
+
+
 def _signature(register: Register, known: Surroundings) -> object:
     conversion = choose(register.scale, known)
     limits_now = choose(register.range, known) if register.access.writable else None
     return (
         _index(register.scale, known),
         conversion and decimal_factor(conversion.decimals, known),
+        _special_factor(register, known),
         _index(register.range, known) if register.access.writable else 0,
         limits_now and decimal_factor(limits_now.decimals, known),
     )
@@ -162,7 +168,8 @@ def _meaning(register: Register, known: Surroundings) -> object:
     factor = conversion and decimal_factor(conversion.decimals, known)
     scale = (conversion.multiply / factor, conversion.add / factor, conversion.step) if conversion and factor else None
     limits_now = choose(register.range, known) if register.access.writable else None
-    return scale, limits_now and limits_now.intervals, limits_now and decimal_factor(limits_now.decimals, known)
+    limits = limits_now and limits_now.intervals, limits_now and decimal_factor(limits_now.decimals, known)
+    return scale, limits, _special_factor(register, known)
 
 
 def _with_limits(register: Register, situation: Situation) -> Situation:
