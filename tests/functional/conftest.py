@@ -1,7 +1,10 @@
 """Small YAML -> generate -> import -> talk to the simulator: what every test here does."""
 
+import asyncio
 import importlib.util
 import itertools
+import re
+import struct
 from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
@@ -16,7 +19,7 @@ from regscribe.runtime import LinkLost, NoAnswer, WrongAnswer, pdu
 from regscribe.runtime.line import Line
 from regscribe.runtime.policy import NEVER
 from regscribe.runtime.request import Request
-from regscribe.runtime.turns import Turns
+from regscribe.runtime.turns import AsyncTurns, Turns
 
 OVEN = (Path(__file__).parent / "oven.yaml").read_text(encoding="utf-8")
 """A made-up controller with every hard fact of the real manuals in a few registers."""
@@ -57,6 +60,7 @@ def load(path: Path, name: str) -> ModuleType:
 
 
 _numbers = itertools.count()
+WRITE_ONE, WRITE_SEVERAL = 6, 16
 
 
 @pytest.fixture(scope="session")
@@ -98,7 +102,8 @@ class DirectLink:
 
     def __init__(self, device: Any, *, fate: dict[int, str] | None = None, writes_only: bool = False) -> None:
         self.device, self.fate, self.writes_only = device, fate or {}, writes_only
-        self.epoch, self.lock, self.timeout, self.retry = 1, Turns(), 1.0, NEVER
+        self.epoch, self.timeout, self.retry = 1, 1.0, NEVER
+        self.lock: Any = Turns()
         self.line: Any = Line("", 9600)
         self.addressing = "modbus"
         self.count, self.log = 0, list[Request]()
@@ -143,3 +148,103 @@ class DirectLink:
 def direct() -> type[DirectLink]:
     """The link without a line."""
     return DirectLink
+
+
+class Words:
+    """A device of nothing but words: `holds` by address, as an independent reader of the standard would serve them.
+
+    It answers functions 03, 04, 06 and 16 from the bytes of a request, and keeps what was written.
+    """
+
+    def __init__(self, holds: dict[int, int], *, unit: int = 1) -> None:
+        self.unit, self.holds = unit, dict(holds)
+
+    def handle(self, pdu: bytes) -> bytes:
+        """The answer to a request, both without address and checksum."""
+        function, first, count = struct.unpack(">BHH", pdu[:5])
+        if function == WRITE_ONE:
+            self.holds[first] = count
+            return pdu
+        addresses = range(first, first + count)
+        if function == WRITE_SEVERAL:
+            self.holds.update(zip(addresses, struct.unpack(f">{count}H", pdu[6:]), strict=True))
+            return pdu[:5]
+        words = [self.holds.get(address, 0) for address in addresses]
+        return struct.pack(f">BB{count}H", function, 2 * count, *words)
+
+
+class AsyncDirectLink(DirectLink):
+    """The link without a line for asyncio."""
+
+    def __init__(self, device: Any) -> None:
+        super().__init__(device)
+        self.lock = AsyncTurns()
+
+    async def open(self) -> None:  # type: ignore[override] # what asyncio drivers await
+        """Nothing to open."""
+
+    async def close(self) -> None:  # type: ignore[override] # as above
+        """Nothing to close."""
+
+    async def call(self, unit: int, request: Request) -> Any:
+        """As `DirectLink.call`."""
+        return super().call(unit, request)
+
+
+class Talk:
+    """A driver of the only model of a map in front of words, and the same for asyncio.
+
+    `sent` are the requests of the synchronous driver as (function, address, count or words).
+    """
+
+    def __init__(self, built: Built, holds: dict[int, int]) -> None:
+        self.words = Words(holds)
+        name = built.map.models[0].class_name
+        self.link = DirectLink(self.words)
+        self.driver = getattr(built.module, name)(self.link, unit=1)
+        self.other = getattr(built.module, f"Async{name}")(AsyncDirectLink(self.words), unit=1)
+
+    @property
+    def sent(self) -> list[tuple[int, ...]]:
+        """What was asked for and written so far, in the order of sending."""
+        return [(one.function, one.address, *(one.words or (one.quantity,))) for one in self.link.log]
+
+    def read(self, path: str) -> Any:
+        """The value of a register by its path: as the two drivers read it alone, in its element, and in a snapshot."""
+        whole = self.driver.read()[path]
+        found = [attribute(self.driver, path).read(), asyncio.run(_awaited(attribute(self.other, path).read()))]
+        element, dot, name = path.rpartition(".")
+        if dot:
+            found += [attribute(self.driver, element).read()[name]]
+            found += [asyncio.run(_awaited(attribute(self.other, element).read()))[name]]
+        assert found == [whole] * len(found), "the ways to read a register disagree"
+        return whole
+
+    def unit(self, path: str) -> str:
+        """The unit of a register as the device is configured, as both drivers tell it."""
+        told = str(attribute(self.driver, path).read_unit())
+        assert told == asyncio.run(_awaited(attribute(self.other, path).read_unit()))
+        return told
+
+
+async def _awaited(awaitable: Any) -> Any:
+    return await awaitable
+
+
+def attribute(driver: Any, path: str) -> Any:
+    """The attribute `a[3].b` of a driver."""
+    for name, index in re.findall(r"(\w+)(?:\[(\d+)\])?", path):
+        driver = getattr(driver, name)[int(index)] if index else getattr(driver, name)
+    return driver
+
+
+@pytest.fixture(scope="session")
+def talk(build: Callable[[str], Built]) -> Callable[..., Talk]:
+    """Compile a map of one model and talk to a device that holds words, by address."""
+    known: dict[str, Built] = {}
+
+    def make(text: str, holds: dict[int, int]) -> Talk:
+        known[text] = known.get(text) or build(text)
+        return Talk(known[text], holds)
+
+    return make

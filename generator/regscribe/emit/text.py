@@ -36,6 +36,7 @@ from regscribe.model import (
     Test,
     show,
 )
+from regscribe.model.name import OPEN
 
 ACCESS = {Access.READ: "read only", Access.READ_WRITE: "read and write", Access.WRITE: "write only"}
 ORDER = {Order.BIG: "most significant word first", Order.LITTLE: "least significant word first"}
@@ -47,6 +48,8 @@ ROUNDING = {
     Rounding.NONE: "",
 }
 OTHERWISE = "otherwise"
+LETTERS = "ijklmn"
+"""Stand for the indices of arrays, from the outermost on."""
 
 T = TypeVar("T")
 
@@ -59,12 +62,18 @@ def _condition_name(condition: Condition) -> str:
     return condition.name or condition_words(condition)
 
 
+def spelled(path: str) -> str:
+    """A register's path in words: letters for the indices that are those of the register that speaks of it."""
+    first, *rest = path.split(OPEN)
+    return first + "".join(f"[{letter}]{part}" for letter, part in zip(LETTERS, rest, strict=False))
+
+
 @dataclass(frozen=True, slots=True)
 class Wording:
     """How the parts of a phrase that come from the map are written: free text, register paths, conditions."""
 
     text: Callable[[str], str] = _same
-    register: Callable[[str], str] = _same
+    register: Callable[[str], str] = spelled
     condition: Callable[[Condition], str] = _condition_name
 
 

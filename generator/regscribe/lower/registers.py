@@ -134,11 +134,13 @@ def _name(entry: Entry) -> str:
     return f"{name} {'.'.join(map(str, index))}"
 
 
-def folded(register: Register, entry: Entry) -> Register:
-    """A register of an array's first element as one of all elements: named without an index, marks as they are."""
-    if not entry.place.index:
-        return register
+def folded(entry: Entry, everywhere: Scope) -> Register:
+    """A register of an array's first element as one of all elements.
+
+    It is named without an index, marks as they are, and what it refers to in its own element has empty brackets.
+    """
     name, symbol, printed = (_text(entry, key) for key in ("name", "symbol", "printed"))
+    register = register_of(entry, replace(everywhere, folded=True))
     return replace(register, name=name, symbol=symbol, printed=printed)
 
 

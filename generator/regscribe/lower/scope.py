@@ -8,6 +8,7 @@ from regscribe.lower.presence import Models
 from regscribe.lower.rules import OTHER_MODELS, UNKNOWN_REGISTER
 from regscribe.lower.tree import Entry
 from regscribe.model import Enum, Related
+from regscribe.model.name import opened
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,7 +17,8 @@ class Scope:
 
     `homes` are the models that have a register of a path. `viewer` is the register that refers: a name means a sibling
     in the same element of an array before a register elsewhere. `lenient`: what is looked up belongs to no register
-    yet, so a name is good if any model and any element has it.
+    yet, so a name is good if any model and any element has it. `folded`: the viewer stands for that register of all
+    elements, so a sibling in the same element is found under a path with empty brackets, `channels[].decimals`.
     """
 
     map: Node
@@ -26,6 +28,7 @@ class Scope:
     homes: dict[str, Models]
     viewer: Entry | None = None
     lenient: bool = False
+    folded: bool = False
     enums: dict[str, Enum] = field(default_factory=dict)
 
     @property
@@ -40,8 +43,8 @@ class Scope:
     def find(self, name: str) -> Entry | None:
         """The register of this name on this model, None if there is none."""
         for prefix in self.prefixes:
-            if f"{prefix}{name}" in self.entries:
-                return self.entries[f"{prefix}{name}"]
+            if found := self.entries.get(f"{prefix}{name}"):
+                return replace(found, path=f"{opened(prefix)}{name}") if self.folded else found
         return self.entries.get(name)
 
     def named(self, node: Node, table: str, *, rule: str, what: str) -> Node | None:

@@ -7,6 +7,7 @@ from fractions import Fraction
 from regscribe.model.behaviour import Effect, Process
 from regscribe.model.condition import Condition
 from regscribe.model.diagnostic import NOWHERE, Span
+from regscribe.model.name import ways_to_say
 from regscribe.model.program import SetpointProgram
 from regscribe.model.protocol import USUAL_PROTOCOL, Protocol
 from regscribe.model.register import Array, Group, Register
@@ -115,9 +116,13 @@ class Model:
     span: Span = NOWHERE
 
     def register(self, path: str) -> Register:
-        """Find a register by its path; KeyError if this model has none of that name."""
+        """Find a register by its path; KeyError if this model has none of that name.
+
+        Of one in "the same element" of an array (`channels[].mode`), that of the first element.
+        """
         if not self.by_path:
-            self.by_path.update({register.path: register for register in self.registers})
+            named = [(way, register) for register in self.registers for way in ways_to_say(register.path)]
+            self.by_path.update(reversed(named))
         return self.by_path[path]
 
 

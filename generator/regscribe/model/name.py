@@ -1,10 +1,13 @@
 """Identifiers and indexed names, made of the manual's names."""
 
 import re
+from collections.abc import Iterator
 
 _RUN = re.compile(r"[A-Za-z0-9]+")
 _MARK = re.compile(r"\{[ij]\}")
 _LETTERS = "ij"
+_INDEX = re.compile(r"\[\d+\]")
+OPEN = "[]"
 
 
 def snake(text: str) -> str:
@@ -29,3 +32,17 @@ def indexed(text: str, index: tuple[int, ...]) -> str:
 def has_mark(text: str) -> bool:
     """Whether an index stands somewhere in the name."""
     return _MARK.search(text) is not None
+
+
+def opened(path: str, depth: int = 0) -> str:
+    """A path with empty brackets for its first `depth` indices (0: for all): that of "the same element" of an array.
+
+    `programs[2].segments[1].ramp` said in any element of `programs` is `programs[].segments[1].ramp`.
+    """
+    return _INDEX.sub(OPEN, path, count=depth)
+
+
+def ways_to_say(path: str) -> Iterator[str]:
+    """The path, and what those call it who stand in the same element of the arrays around it."""
+    yield path
+    yield from (opened(path, depth) for depth in range(1, path.count("[") + 1))

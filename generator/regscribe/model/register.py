@@ -155,8 +155,9 @@ class Register:
 class Array:
     """A repeated structure: element i stands `stride` steps after element i-1, from `first` on, `count` of them.
 
-    `members` are the registers (and arrays) of the *first* element; a step is one unit of a register's `at`, which a
-    view may stretch (an IEEE view moves by 2 a step: `View.stride`).
+    `members` are the registers (and arrays) of the *first* element; what one of them refers to in its own element has
+    empty brackets in place of the index (`channels[].decimals`), as it differs from element to element. A step is one
+    unit of a register's `at`, which a view may stretch (an IEEE view moves by 2 a step: `View.stride`).
     """
 
     id: str

@@ -10,7 +10,7 @@ from regscribe.runtime.configure import ConfigureOptions
 from regscribe.runtime.execute import run, run_async
 from regscribe.runtime.line import Line
 from regscribe.runtime.link import AsyncLink, LineSettings, Link, LinkSettings
-from regscribe.runtime.parts import AsyncPart, Command, Group, Part, Section, groups_of
+from regscribe.runtime.parts import AsyncPart, Catalogue, Command, Group, Part, Section, groups_of
 from regscribe.runtime.program import SetpointProgram
 from regscribe.runtime.register import Register
 from regscribe.runtime.report import Wear, WriteReport
@@ -44,7 +44,7 @@ class _Common:
     identity: ClassVar[tuple[Identity, ...]] = ()
     setpoint_programs: ClassVar[tuple[SetpointProgram, ...]] = ()
     _unused: ClassVar[tuple[tuple[str, int, int], ...]] = ()
-    registers: ClassVar[Mapping[str, Register[Any]]]
+    registers = Catalogue(whole=True)
     session: Session
 
     def _begin(self, unit: int, givens: Mapping[str, Any]) -> None:
@@ -73,7 +73,7 @@ class _Common:
             if isinstance(one, Group):
                 found += one.registers(self.session.registers)
             else:
-                found.append(one if isinstance(one, Register) else one.register)
+                found.append(self.session.own(one if isinstance(one, Register) else one.register))
         return found
 
     def __repr__(self) -> str:

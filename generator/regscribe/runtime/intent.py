@@ -69,12 +69,17 @@ def refuse(refusals: Sequence[ValueRefused]) -> None:
 
 
 def _register(session: Session, key: Any) -> Register[Any]:
-    path = key if isinstance(key, str) else getattr(key, "register", key).path
+    declared: Register[Any] | None = None if isinstance(key, str) else getattr(key, "register", key)
+    path = declared.path if declared else key
     register: Register[Any] | None = session.registers.get(path)
     if register is None:
         near = get_close_matches(path, session.registers, n=SUGGESTED)
         meant = f": did you mean {' or '.join(near)}?" if near else ""
         raise ValueRefused(path, f"the device has no such register{meant}")
+    try:
+        register = session.own(declared or register)
+    except ValueError as error:
+        raise ValueRefused(path, str(error)) from None
     if register.access == "r":
         raise ValueRefused(path, "the register is read-only")
     return register

@@ -16,19 +16,26 @@ P = TypeVar("P", bound="Part")
 A = TypeVar("A", bound="AsyncPart")
 
 
-class _Catalogue:
+class Catalogue:
     """A class attribute: every register of a part by path, array elements included.
 
     They stand in the order of the manual, which is that of a driver's groups; without groups, in that of declaration.
+    In a `whole` device each path is complete, so that "the same element" of an array has a meaning.
     """
+
+    def __init__(self, *, whole: bool = False) -> None:
+        self.whole = whole
 
     def __get__(self, instance: object, owner: type) -> Mapping[str, Register[Any]]:
         cached: Mapping[str, Register[Any]] | None = vars(owner).get("_catalogue")
         if cached is None:
             found = sorted(_registers(owner), key=_place(owner))
-            cached = MappingProxyType({path: register.cited(owner) for path, register in found})
+            cached = MappingProxyType({path: self._made(register, owner) for path, register in found})
             owner._catalogue = cached  # type: ignore[attr-defined] # noqa: SLF001 (its own cache)
         return cached
+
+    def _made(self, register: Register[Any], owner: type) -> Register[Any]:
+        return (register.closed() if self.whole else register).cited(owner)
 
 
 def _place(owner: type) -> Callable[[tuple[str, object]], int]:
@@ -44,16 +51,11 @@ def _registers(owner: type) -> Iterator[tuple[str, Register[Any]]]:
         if isinstance(declared, Register):
             yield name, declared
         elif isinstance(declared, Array):
+            inside = list(_registers(declared.element))
             for index in range(declared.first, declared.first + declared.count):
-                prefix = f"{name}[{index}]"
-                for path, register in _registers(declared.element):
-                    yield f"{prefix}.{path}", _moved(register, declared.steps(index), f"{prefix}.{path}")
-
-
-def _moved(register: Register[Any], steps: int, path: str) -> Register[Any]:
-    moved = register.shifted(steps, "")
-    moved.path = path
-    return moved
+                for path, register in inside:
+                    there = f"{name}[{index}].{path}"
+                    yield there, register.moved(declared.steps(index), there)
 
 
 _GROUPS: dict[type, Mapping[str, "Group"]] = {}
@@ -75,20 +77,23 @@ def _declared(owner: type, *kinds: type) -> dict[str, Any]:
 
 
 def _here(part: "Part | AsyncPart", register: Register[T]) -> Register[T]:
+    """A register as the device has it that this part belongs to."""
     if part._prefix:  # noqa: SLF001 (parts are one family)
-        moved = register.shifted(part._steps, part._prefix)  # noqa: SLF001 (as above)
-        return moved.cited(type(part._device))  # noqa: SLF001 (as above)
+        return _everything(part)[f"{part._prefix}.{register.id}"]  # noqa: SLF001 (as above)
     return register.seen(type(part)) if part._sections else register  # noqa: SLF001 (as above)
 
 
 def _placed(part: "Part | AsyncPart") -> dict[str, Register[Any]]:
-    steps, prefix = part._steps, part._prefix  # noqa: SLF001 (parts are one family)
-    device = type(part._device)  # noqa: SLF001 (as above)
+    every, prefix = _everything(part), part._prefix  # noqa: SLF001 (as above)
     return {
-        path: _moved(register, steps, f"{prefix}.{path}").cited(device) if prefix else register
+        path: every[f"{prefix}.{path}"] if prefix else register
         for path, register in type(part).registers.items()
         if register.access != "w"
     }
+
+
+def _everything(part: "Part | AsyncPart") -> Mapping[str, Register[Any]]:
+    return type(part._device).registers  # noqa: SLF001 (as above)
 
 
 class Part:
@@ -98,14 +103,13 @@ class Part:
     that have another number in the manual of this device.
     """
 
-    registers = _Catalogue()
+    registers = Catalogue()
     _sections: ClassVar[Mapping[str, Mapping[str, str]]] = {}
     _device: "BareDevice"
-    _steps = 0
     _prefix = ""
 
-    def __init__(self, device: "BareDevice", steps: int = 0, prefix: str = "") -> None:
-        self._device, self._steps, self._prefix = device, steps, prefix
+    def __init__(self, device: "BareDevice", prefix: str = "") -> None:
+        self._device, self._prefix = device, prefix
 
     def bind(self, register: Register[T], sync: Any, _: object) -> Any:
         """Make a register an attribute of this part."""
@@ -127,14 +131,13 @@ class Part:
 class AsyncPart:
     """As `Part`, for asyncio."""
 
-    registers = _Catalogue()
+    registers = Catalogue()
     _sections: ClassVar[Mapping[str, Mapping[str, str]]] = {}
     _device: "AsyncBareDevice"
-    _steps = 0
     _prefix = ""
 
-    def __init__(self, device: "AsyncBareDevice", steps: int = 0, prefix: str = "") -> None:
-        self._device, self._steps, self._prefix = device, steps, prefix
+    def __init__(self, device: "AsyncBareDevice", prefix: str = "") -> None:
+        self._device, self._prefix = device, prefix
 
     def bind(self, register: Register[T], _: object, awaitable: Any) -> Any:
         """Make a register an attribute of this part."""
@@ -201,8 +204,7 @@ class Array(Generic[P, A]):
         inside = f"{instance._prefix}." if instance._prefix else ""  # noqa: SLF001 (parts are one family)
 
         def element(index: int) -> Any:
-            steps = instance._steps + self.steps(index)  # noqa: SLF001 (as above)
-            return make(instance._device, steps, f"{inside}{self.id}[{index}]")  # noqa: SLF001 (as above)
+            return make(instance._device, f"{inside}{self.id}[{index}]")  # noqa: SLF001 (as above)
 
         return Elements(element, self.first, self.count)
 

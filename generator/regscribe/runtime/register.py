@@ -1,9 +1,10 @@
 """The declaration of a register: one descriptor that serves synchronous and asynchronous drivers."""
 
 from collections.abc import Sequence
+from functools import cached_property
 from typing import TYPE_CHECKING, Generic, Never, Self, TypeVar, cast, overload
 
-from regscribe.runtime import codec
+from regscribe.runtime import codec, element
 from regscribe.runtime.bound import AsyncReadable, AsyncReadWritable, AsyncWritable, Readable, ReadWritable, Writable
 from regscribe.runtime.errors import ValueRefused
 from regscribe.runtime.kinds import Kind
@@ -101,11 +102,29 @@ class Register(Generic[T]):
         other.__dict__ = self.__dict__.copy()
         return other
 
-    def shifted(self, steps: int, prefix: str) -> Self:
-        """The same register of another array element: `steps` further on, its path below `prefix`."""
+    @cached_property
+    def is_open(self) -> bool:
+        """Whether it speaks of others in the same element of an array, as the declaration of all elements does."""
+        return element.is_open((self.views, self.scale, self.range, self.unit, self.writable))
+
+    def moved(self, steps: int, path: str) -> Self:
+        """The same register of another array element: `steps` further on, at this path."""
+        _ = self.is_open  # found out before the copy is made, so that all elements share the answer
         other = self._copy()
-        other.at, other.path = self.at + steps, f"{prefix}.{self.id}"
-        other.aliases = tuple(alias + steps for alias in self.aliases)
+        other.at, other.path = self.at + steps, path
+        stride = self.views[0].stride
+        other.aliases = tuple(alias + steps * stride for alias in self.aliases)
+        return other
+
+    def closed(self) -> Self:
+        """The same register where the path is whole: what it says of the same element is said of that at its path."""
+        if not self.is_open:
+            return self
+        other = self._copy()
+        other.views, other.scale, other.range, other.unit, other.writable = element.closed(
+            (self.views, self.scale, self.range, self.unit, self.writable), self.path
+        )
+        other.is_open = False
         return other
 
     def cited(self, owner: type) -> Self:

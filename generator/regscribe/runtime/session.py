@@ -17,6 +17,7 @@ from regscribe.runtime.timing import response_seconds
 
 if TYPE_CHECKING:
     from regscribe.runtime.link import AsyncLink, Link
+    from regscribe.runtime.register import Register
 
 T = TypeVar("T")
 
@@ -154,6 +155,18 @@ class Session:
         self._timed: dict[Request, Request] = {}
         self.unused, self.absences = unused, Absences()
         self._ground: Ground | None = None
+
+    def own(self, register: "Register[Any]") -> "Register[Any]":
+        """The register of this device that a declaration means.
+
+        ValueError for one of another device, or of the elements of an array as such, which stands nowhere.
+        """
+        found: Register[Any] | None = self.registers.get(register.path)
+        if found is register or (found and (found.at, found.views) == (register.at, register.views)):
+            return found
+        message = f"{register.path} at {register.at} is no register of this device; one of an array's element is taken"
+        message = f"{message} from the driver itself, as driver.elements[1].{register.id}"
+        raise ValueError(message)
 
     def remember(self, path: str, value: object) -> None:
         """Keep the value of a register that others depend on."""

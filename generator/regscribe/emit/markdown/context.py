@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from regscribe.emit.markdown.escape import Md, code, escape, lines, link, md, slug
 from regscribe.emit.markdown.merge import Shared, Stated, T
 from regscribe.emit.markdown.outline import Node, leaves, outline, pattern
-from regscribe.emit.text import Wording, condition_words, one_line
-from regscribe.model import Condition, Model, Register, RegisterMap, Space, Units
+from regscribe.emit.text import Wording, condition_words, one_line, spelled
+from regscribe.model import Array, Condition, Model, Register, RegisterMap, Space, Units
 
 SPACES = {
     Space.HOLDING: "Holding registers",
@@ -39,7 +39,7 @@ class Context:
 
     def register(self, path: str) -> Md:
         """Return a register's path as code, with a link to its details."""
-        return link(code(path), self.anchor("register", pattern(path)))
+        return link(code(spelled(path)), self.anchor("register", pattern(path)))
 
     def command(self, name: str) -> Md:
         """Return a command's id as code, with a link to its details."""
@@ -51,7 +51,8 @@ class Context:
 
     def condition(self, condition: Condition, model: Model) -> Md:
         """Return a condition's name with a link to its meaning, or its words."""
-        if condition.name and condition.name in self.conditions:
+        listed = self.conditions.get(condition.name)
+        if listed and listed[1] == condition:  # in an array, the same name may ask for registers of the same element
             return link(condition.name.replace("_", " "), self.anchor("condition", condition.name))
         return Md(condition_words(condition, model, self.wording(model)))
 
@@ -89,7 +90,7 @@ def context(register_map: RegisterMap) -> Context:
 def _units(register_map: RegisterMap) -> dict[str, tuple[Model, Units]]:
     found: dict[str, tuple[Model, Units]] = {}
     for model in register_map.models:
-        for register in model.registers:
+        for register in _folded(model.members):
             if register.unit_id and len(register.unit) > 1:
                 found.setdefault(register.unit_id, (model, register.unit))
     return found
@@ -120,10 +121,19 @@ def _anchors(keys: Iterable[str]) -> dict[str, str]:
 
 def _conditions(register_map: RegisterMap) -> Iterator[tuple[Model, Condition]]:
     for model in register_map.models:
-        for register in model.registers:
+        for register in _folded(model.members):
             yield from ((model, condition) for condition in conditions_of(register))
     for identity in register_map.identity:
         yield register_map.models[0], identity.when
+
+
+def _folded(members: Iterable[Register | Array]) -> Iterator[Register]:
+    """Yield all registers, those of arrays once for all elements."""
+    for member in members:
+        if isinstance(member, Array):
+            yield from _folded(member.members)
+        else:
+            yield member
 
 
 def conditions_of(register: Register) -> Iterator[Condition]:

@@ -9,9 +9,9 @@ from regscribe.emit.markdown.details import bits, by_condition, elements, values
 from regscribe.emit.markdown.escape import Md, code, escape, join, link, md, prose
 from regscribe.emit.markdown.facts import facts, indices
 from regscribe.emit.markdown.merge import Shared, merge
-from regscribe.emit.markdown.outline import LETTERS, Branch, Leaf, Node, lettered
+from regscribe.emit.markdown.outline import Branch, Leaf, Node, lettered
 from regscribe.emit.markdown.page import Entry, Section, Table, Titled, table
-from regscribe.emit.text import one_line
+from regscribe.emit.text import LETTERS, one_line
 from regscribe.model import Command, Group, Register, Step
 
 HEADING = "####"

@@ -6,10 +6,11 @@ from functools import partial
 from regscribe.emit.markdown.behaviour import difference, follows, shadows
 from regscribe.emit.markdown.context import Context, by_model
 from regscribe.emit.markdown.escape import Md, code, escape, join, lines, link, md, prose
-from regscribe.emit.markdown.outline import LETTERS, Leaf, formula
+from regscribe.emit.markdown.outline import Leaf, formula
 from regscribe.emit.markdown.page import Table, table
 from regscribe.emit.text import (
     ACCESS,
+    LETTERS,
     ROUNDING,
     cases_words,
     conversion_words,

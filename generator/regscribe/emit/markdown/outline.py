@@ -5,10 +5,10 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from regscribe.emit.markdown.merge import Shared, merge
+from regscribe.emit.text import LETTERS
 from regscribe.model import Array, Model, Register, View
 
 INDEX = re.compile(r"\[\d+\]")
-LETTERS = "ijklmn"
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,8 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from regscribe.emit.markdown.outline import LETTERS, Branch, Leaf, leaves
+from regscribe.emit.markdown.outline import Branch, Leaf, leaves
+from regscribe.emit.text import LETTERS
 from regscribe.model import Array, View
 
 SHOWN = 3
