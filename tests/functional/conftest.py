@@ -198,7 +198,7 @@ class Talk:
     """
 
     def __init__(self, built: Built, holds: dict[int, int]) -> None:
-        self.words = Words(holds)
+        self.built, self.words = built, Words(holds)
         name = built.map.models[0].class_name
         self.link = DirectLink(self.words)
         self.driver = getattr(built.module, name)(self.link, unit=1)

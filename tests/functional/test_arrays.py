@@ -2,11 +2,18 @@
 
 import copy
 from collections.abc import Callable
+from fractions import Fraction
+from pathlib import Path
 from typing import Any
 
 import pytest
 
+from regscribe.emit import markdown
+from regscribe.emit.vectors import document
 from regscribe.runtime import ConditionNotMet, NotDecodable, ValueRefused
+from regscribe.simulate import SimulatedDevice, simulate
+from regscribe.testing import Bench, Vectors
+from regscribe.testing.reads import wrong_requests, wrong_values
 
 Talking = Callable[[str, dict[int, int]], Any]
 
@@ -318,3 +325,84 @@ def test_reading_an_attribute_of_an_element_makes_no_register(talk: Talking, mon
 
     assert bound.register is device.driver.registers["programs[2].segments[7].level"]
     assert made == []
+
+
+EVERY = [DECIMALS, SCALE, UNIT, ORDER, LIMIT, RANGES, WRITABLE, NESTED, OUTRIGHT, BESIDE, VIEWS]
+
+
+@pytest.mark.parametrize("text", EVERY, ids=range(len(EVERY)))
+def test_the_vectors_of_a_map_hold_for_its_driver_in_every_element(talk: Talking, text: str) -> None:
+    device = talk(text, {})
+    written = document(device.built.map)
+    vectors = Vectors(
+        map_id=written["map"],
+        models=tuple(written["models"]),
+        sets=tuple(written["sets"]),
+        protocol=written["protocol"],
+        commands=tuple(written["commands"]),
+    )
+    driver = type(device.driver)
+    bench = Bench(driver, vectors)
+
+    bench.check_registers()
+    bench.check_decoding()
+    bench.check_encoding()
+    bench.check_refusals()
+    bench.check_conditions_of_writing()
+    readable = [register for register in driver.registers.values() if register.access != "w"]
+    for code in (0, 1):
+        assert wrong_requests(driver, readable) == wrong_values(driver, readable, seed=7, code=code) == []
+
+
+def test_the_simulator_and_the_driver_agree_in_every_element(talk: Talking) -> None:
+    built = talk(RANGES, {}).built
+    with (
+        simulate(built.map, "One", unit=1) as server,
+        built.driver("One").tcp(server.host, port=server.port, unit=1) as driver,
+    ):
+        for number in (1, 2, 3):
+            server.device.poke(f"channels[{number}].places", number - 1)
+            server.device.poke(f"channels[{number}].value", 5)
+            server.device.poke(f"channels[{number}].kind", number % 2)
+
+        assert [element.value.read() for element in driver.channels] == [5, 5, 5]
+        assert [element.value.read_raw() for element in driver.channels] == [(5,), (50,), (500,)]
+        driver.channels[3].value.write(9.99)
+        assert server.device.peek("channels[3].value") == Fraction("9.99")
+        driver.channels[2].other.write(9)
+        with pytest.raises(ValueRefused):
+            driver.channels[2].other.write(99)
+
+
+FOLLOWING = array(
+    "- {at: 0, name: Shown, access: r, follows: [{when: {source: 1}, is: one}, {is: two}]}\n"
+    "- {at: 1, name: Source}\n- {at: 2, name: One, persistence: eeprom}\n- {at: 3, name: Two}\n"
+    "- {at: 4, name: Working, shadows: one}\n"
+    "- {at: 5, name: Status, access: r, type: uint16, flags: {0: {label: chosen, follows: {source: 1}}}}"
+)
+
+
+def test_what_follows_or_shadows_in_the_simulator_is_in_the_same_element(talk: Talking) -> None:
+    device = SimulatedDevice(talk(FOLLOWING, {}).built.map, "One", unit=1)
+    for number in (1, 2, 3):
+        for name, value in (("source", number % 2), ("one", 10 * number), ("two", 10 * number + 1)):
+            device.poke(f"channels[{number}].{name}", value)
+
+    assert [device.peek(f"channels[{number}].shown") for number in (1, 2, 3)] == [10, 21, 30]
+    assert [device.peek(f"channels[{number}].status") for number in (1, 2, 3)] == [1, 0, 1]
+    device.power_cycle()
+    assert [device.peek(f"channels[{number}].working") for number in (1, 2, 3)] == [10, 20, 30]
+
+
+def test_the_docs_and_docstrings_spell_a_sibling_with_the_letter_of_its_element(talk: Talking) -> None:
+    limits = talk(LIMIT, {}).built
+    nested = talk(NESTED, {}).built
+
+    assert "channels[i].low to channels[i].high" in Path(limits.module.__file__).read_text(encoding="utf-8")
+    page = markdown.render(limits.map)["docs/test/array.md"]
+    assert "`channels[i].low`" in page
+    assert "channels[1].low`" not in page.partition("Address of every element")[0]
+    page = markdown.render(nested.map)["docs/test/array.md"]
+    for path in ("programs[i].segments[j].places", "programs[i].digits", "programs[i].segments[5].places"):
+        assert path in page
+    assert "programs[1].limit" in page

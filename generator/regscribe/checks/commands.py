@@ -34,7 +34,8 @@ def _holding(scope: Scope) -> list[Stretch]:
     return found if isinstance(found, list) else []
 
 
-def _touched(step: Step, scope: Scope) -> Iterator[Stretch]:
+def touched(step: Step, scope: Scope) -> Iterator[Stretch]:
+    """The stretches of registers that a step writes to, in whole or in part."""
     last = step.address + len(step.words) - 1
     every = _holding(scope)
     start = bisect_left(every, step.address - LONGEST, key=attrgetter("first"))
@@ -52,7 +53,7 @@ def _touched(step: Step, scope: Scope) -> Iterator[Stretch]:
 def step_on_read_only(scope: Scope) -> Iterator[Finding]:
     """Look at the access of every register that a step touches."""
     for command, step in requests(scope):
-        for stretch in _touched(step, scope):
+        for stretch in touched(step, scope):
             if not stretch.register.access.writable:
                 register: Register = stretch.register
                 related = Related(f"`{register.path}` has access {register.access}", register.span)
@@ -75,7 +76,7 @@ def step_into_the_middle(scope: Scope) -> Iterator[Finding]:
             if space is Space.HOLDING and first <= high and last >= low:
                 message = f"writes {first}..{last}, but {low}..{high} are reserved"
                 yield _at(command, message, "correct the step's address")
-        for stretch in _touched(step, scope):
+        for stretch in touched(step, scope):
             if stretch.first < first or stretch.last > last:
                 related = Related(f"`{stretch.register.path}` takes {stretch}", stretch.register.span)
                 message = f"writes {first}..{last}, a part of `{stretch.register.path}` ({stretch}) only"

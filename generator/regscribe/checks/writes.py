@@ -3,6 +3,7 @@
 from collections import defaultdict
 from collections.abc import Iterator
 
+from regscribe.checks.commands import touched
 from regscribe.checks.registry import Finding, Scope, map_rule, model_rule, register_rule, warning
 from regscribe.model import Command, Group, Register, Related, Rule
 
@@ -76,6 +77,46 @@ def _circle(command: Command, register: Register) -> Finding:
     related = (Related(f"`{register.path}` has {how}: {command.id}", register.span),)
     message = f"command `{command.id}` writes `{register.path}`, which needs `{command.id}` to {how} it"
     return Finding(command.id, command.span, message, f"remove `{how}` from the register, or the step", related)
+
+
+@register_rule(
+    Rule(
+        "RS0630",
+        "Unlocked in another element",
+        "A command writes the same registers whichever element of an array it is run for.",
+    )
+)
+def unlocked_elsewhere(register: Register, scope: Scope) -> Iterator[Finding]:
+    """Find commands before or after a write in an array that write to another element of it."""
+    for how, name in (("unlock", register.unlock), ("apply", register.apply)):
+        for other in _written(name, scope) if name and register.index else ():
+            if _another_element(register, other):
+                message = f"has {how}: {name}, which writes `{other.path}`, in another element"
+                help_text = f"leave out `{how}` and say in its `description` what must be written: programs do it"
+                related = Related(f"`{name}` writes `{other.path}`, whatever the element", other.span)
+                yield Finding.at(register, message, help_text, related)
+                break
+
+
+def _written(command: str, scope: Scope) -> list[Register]:
+    """The registers that the steps of a command write; worked out once for a model."""
+    key = ("written", command)
+    if key not in scope.memo:
+        steps = [step for one in scope.model.commands if one.id == command for step in one.steps if step.words]
+        scope.memo[key] = [stretch.register for step in steps for stretch in touched(step, scope)]
+    found = scope.memo[key]
+    return found if isinstance(found, list) else []
+
+
+def _another_element(register: Register, other: Register) -> bool:
+    """Whether two registers stand in different elements of an array that is around both."""
+    mine, its = (zip(one.array.split("."), one.index, strict=False) for one in (register, other))
+    for (array, index), (name, number) in zip(mine, its, strict=False):
+        if array != name:
+            return False
+        if index != number:
+            return True
+    return False
 
 
 @register_rule(
