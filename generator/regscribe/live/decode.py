@@ -9,7 +9,7 @@ from regscribe.live.frames import EXCEPTION, Frame
 from regscribe.live.names import Driver, commands_of
 from regscribe.live.reading import unit_of
 from regscribe.live.values import Plain, as_text, show
-from regscribe.runtime import Register, RegscribeError, View
+from regscribe.runtime import Register, RegscribeError, View, codec
 from regscribe.runtime.errors import STANDARD
 from regscribe.runtime.request import (
     LOOPBACK,
@@ -170,7 +170,7 @@ class Decoder:
         state = self._state(asked.unit)
         for register, view, part in list(self._found(asked, words)) * 2:
             try:
-                state[register.path] = register.decode(part, view=view.name, state=state, givens=self._givens)
+                state[register.path] = codec.decode(register, view, part, state, self._givens, named=False)
             except (RegscribeError, KeyError, ValueError):
                 state.pop(register.path, None)
 

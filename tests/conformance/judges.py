@@ -1,0 +1,294 @@
+"""Who is held against a row: each tells what it makes of words, or what words it makes of a value."""
+
+import math
+import re
+from collections.abc import Iterator, Mapping
+from decimal import Decimal
+from fractions import Fraction
+from typing import Any
+
+from regscribe.emit.vectors import document
+from regscribe.live.decode import Decoder
+from regscribe.live.frames import Frame
+from regscribe.model import Kind, Register, View
+from regscribe.model import exact as exact_number
+from regscribe.model.reference import Meaning, RefusedError, Surroundings, decode, encode, special_value
+from regscribe.runtime import SensorFault, ValueNotDecodable, ValueRefused
+from regscribe.simulate import codec as simulated_codec
+from regscribe.simulate.device import SimulatedDevice
+from regscribe.testing.bench import Bench
+from regscribe.testing.vectors import Vectors
+
+from .suite import Built, Json, words_of
+
+READ_FUNCTIONS = {"coil": 1, "discrete": 2, "holding": 3, "input": 4, "status": 7}
+_ELEMENT = re.compile(r"(\w+)\[(\d+)\]")
+
+NO_NUMBERS = ("nan", "inf", "-inf")
+"""How a row spells floats that are no numbers."""
+
+REFUSED = "refused"
+"""What a judge says of a value that it does not take."""
+
+
+def register_of(built: Built, row: Json) -> tuple[Register, View]:
+    """The register and the view of a row."""
+    register = built.map.models[0].register(row["register"])
+    return register, next(one for one in register.views if one.name == row.get("view", register.preferred.name))
+
+
+def attribute(device: Any, path: str) -> Any:
+    """An attribute of a driver by its path: `channels[2].value`."""
+    for part in path.split("."):
+        match = _ELEMENT.fullmatch(part)
+        device = getattr(device, match[1])[int(match[2])] if match else getattr(device, part)
+    return device
+
+
+def said_by_driver(found: Any) -> object:
+    """A value of a driver in the words of rows."""
+    if isinstance(found, bool | str):
+        return found
+    if getattr(found, "known", None) is False:
+        return {"unknown": int(found)}
+    if hasattr(type(found), "named"):  # flags
+        rest = int(found) & ~int(type(found).named())
+        names = {one.name.lower() for one in type(found) if one in found}
+        return {"flags": names} | ({"unnamed": rest} if rest else {})
+    if hasattr(found, "parts"):
+        return {"fields": {name: int(value) for name, value in found}}
+    if hasattr(found, "label"):
+        return {"name": found.name}
+    return found
+
+
+def expected_of(row: Json) -> object:
+    """What a row says of its words, in the same form."""
+    if "value" in row:
+        return row["value"]
+    if "no_value" in row:
+        return {"no value": True}
+    if "flags" in row:
+        return {"flags": set(row["flags"])} | ({"unnamed": row["unnamed"]} if "unnamed" in row else {})
+    if "member" in row or "special" in row:
+        return {"name": row.get("member", row.get("special"))}
+    return {key: row[key] for key in ("unknown", "fields", "fault") if key in row}
+
+
+def read_by_driver(read: Any) -> object:
+    """What reading gives, an error in the words of rows."""
+    try:
+        return said_by_driver(read())
+    except ValueNotDecodable as error:
+        return said_by_error(error)
+
+
+def said_by_error(error: ValueNotDecodable) -> object:
+    """Why a read gave no value, in the words of rows."""
+    return {"fault": error.fault} if isinstance(error, SensorFault) else {"no value": True}
+
+
+def value_for(built: Built, row: Json) -> Any:
+    """The value of a row as a program hands it to the driver."""
+    register, _ = register_of(built, row)
+    declared = built.module.CaseA.registers[row["register"]]
+    if "member" in row:
+        return declared.kind.make(next(one.code for one in register.enum.members if one.id == row["member"]))
+    if "special" in row:
+        return declared.kind.special[row["special"]]
+    if "flags" in row:
+        return declared.kind.make(sum(1 << one.low for one in register.fields if one.id in row["flags"]))
+    if "fields" in row:
+        return declared.kind.make(0).replace(**row["fields"])
+    value = row["value"] if "value" in row else row["refuses"]
+    if register.kind not in {Kind.STRING, Kind.VERSION} and value in NO_NUMBERS:
+        return float(value)
+    return float(value) if isinstance(value, Decimal) else value
+
+
+class Present(Mapping[str, Fraction]):
+    """Values of use of all registers, as the reference decodes them from what the addresses hold."""
+
+    def __init__(self, built: Built, memory: Any) -> None:
+        self._model, self._memory = built.map.models[0], memory
+
+    def __getitem__(self, path: str) -> Fraction:
+        try:
+            register, field = self._model.register(path), None
+        except KeyError:
+            owner, _, name = path.rpartition(".")
+            register = self._model.register(owner)
+            field = next(one for one in register.fields if one.id == name)
+        view = register.preferred
+        words = self._memory.get(view.space.value, view.address, view.words)
+        reading = decode(register, view, tuple(words), Surroundings(values=self))
+        value = reading.value
+        if isinstance(value, str) and register.kind is Kind.VERSION:
+            value = Fraction(value.replace(".", ""))
+        if not isinstance(value, Fraction):
+            raise KeyError(path)
+        return value if field is None else Fraction(int(value) >> field.low & (1 << field.width) - 1)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(())
+
+    def __len__(self) -> int:
+        return 0
+
+    def __contains__(self, path: object) -> bool:
+        try:
+            self[str(path)]
+        except KeyError:
+            return False
+        return True
+
+
+def read_by_reference(built: Built, memory: Any, row: Json) -> object:
+    """What the reference makes of the words of a row."""
+    register, view = register_of(built, row)
+    reading = decode(register, view, tuple(words_of(row["words"])), Surroundings(values=Present(built, memory)))
+    if reading.meaning is Meaning.FAULT:
+        return {"fault": reading.fault}
+    if reading.meaning is Meaning.UNKNOWN_MEMBER:
+        return {"unknown": int(reading.value or 0)}
+    if reading.meaning is not Meaning.VALUE or reading.value is None:
+        return {"no value": True}
+    return _said_by_reference(register, reading.value, row)
+
+
+def _said_by_reference(register: Register, value: Fraction | str, row: Json) -> object:
+    if isinstance(value, str):
+        return value
+    if "member" in row and register.enum:
+        return {"name": next(one.id for one in register.enum.members if one.code == value)}
+    if "special" in row:  # the reference gives its number: which name that has is the vectors' matter
+        return expected_of(row)
+    if "flags" in row:
+        named = sum(1 << one.low for one in register.fields)
+        names = {one.id for one in register.fields if int(value) >> one.low & 1}
+        return {"flags": names} | ({"unnamed": int(value) & ~named} if int(value) & ~named else {})
+    if "fields" in row:
+        return {"fields": {one.id: int(value) >> one.low & (1 << one.width) - 1 for one in register.fields}}
+    return value
+
+
+def same(found: object, expected: object) -> bool:
+    """Whether a judge says what a row says; a number may be exact, or the float nearest to it."""
+    if isinstance(expected, bool) or isinstance(found, bool):
+        return bool(found) is expected and found in (0, 1)
+    if isinstance(expected, int | Decimal) and isinstance(found, Fraction):
+        return found == Fraction(expected)
+    if isinstance(expected, Decimal) and isinstance(found, float):
+        return found == float(expected)
+    return found == expected
+
+
+def written_by_reference(built: Built, memory: Any, row: Json) -> object:
+    """The words that the reference makes of the value of a row."""
+    register, view = register_of(built, row)
+    value = value_for(built, row)
+    if isinstance(value, float) and not math.isfinite(value):
+        return REFUSED  # the reference takes exact numbers only
+    number = value if isinstance(value, str) else _exact(register, value, row, Present(built, memory))
+    try:
+        known = Surroundings(values=Present(built, memory))
+        return list(encode(register, view, number, known, rounded=row.get("rounded", False)))
+    except RefusedError:
+        return REFUSED
+
+
+def _exact(register: Register, value: Any, row: Json, present: Present) -> Fraction:
+    if "special" not in row:
+        return Fraction(int(value)) if isinstance(value, int) else exact_number(value)
+    special = next(one for one in register.specials if one.id == row["special"])
+    number = special_value(register, special, Surroundings(values=present))
+    assert number is not None
+    return number
+
+
+def written(write: Any, memory: Any, space: str, address: int, count: int) -> object:
+    """What stands at the address after a write by a driver; whether it was refused before anything was written."""
+    try:
+        write()
+    except ValueRefused:
+        sent = [pdu for pdu in memory.log if pdu[0] in {5, 6, 15, 16}]
+        return REFUSED if not sent else f"refused after {[pdu.hex(' ') for pdu in sent]}"
+    return memory.get(space, address, count)
+
+
+def simulated(built: Built, holds: Mapping[str, Mapping[int, str]]) -> SimulatedDevice:
+    """A simulated device that holds some words."""
+    device = SimulatedDevice(built.map, "A", unit=1)
+    for space, cells in holds.items():
+        for address, text in cells.items():
+            prime(device, space, int(address), words_of(text))
+    return device
+
+
+def prime(device: SimulatedDevice, space: str, address: int, words: list[int]) -> None:
+    """Let a device hold words at the base address of a register, whatever it would take from a master."""
+    for register in device.model.registers:
+        for view in register.views:
+            if (view.space.value, view.address) == (space, address) and view.words <= len(words):
+                stored = simulated_codec.decode(view, words[: view.words], device.state.order(view))
+                if stored is not None:
+                    device.state.store(register.path, stored)
+                return
+
+
+def ask(device: SimulatedDevice, view: View) -> list[int]:
+    """The words that a simulated device answers at a view."""
+    function = READ_FUNCTIONS[view.space.value]
+    if function == 7:
+        return [device.handle(b"\x07")[1]]  # type: ignore[index] # it answers
+    count = view.words
+    answer = device.handle(bytes([function]) + view.address.to_bytes(2, "big") + count.to_bytes(2, "big"))
+    assert answer is not None
+    assert answer[0] == function, answer.hex(" ")
+    data = answer[2:]
+    if function in (1, 2):
+        return [data[0] & 1]
+    return [int.from_bytes(data[at : at + 2], "big") for at in range(0, len(data), 2)]
+
+
+def decoded_by_tool(built: Built, memory: Any, row: Json) -> str:
+    """What `decode` prints of a value in a captured answer, after it saw what the value depends on."""
+    driver = built.module.CaseA
+    decoder = Decoder(driver)
+    text = ""
+    for register, view in [*_others(built, row), register_of(built, row)]:
+        own = register.path == row["register"]
+        words = words_of(row["words"]) if own else memory.get(view.space.value, view.address, view.words)
+        request, answer = _frames(view, words)
+        decoder.feed(Frame("tcp", 1, request, request), "sent")
+        for item in decoder.feed(Frame("tcp", 1, answer, answer), "received").items:
+            if (item.name, item.view) == (register.path, view.name):
+                text = f"problem: {item.problem}" if item.problem else item.text
+    return text
+
+
+def _others(built: Built, row: Json) -> list[tuple[Register, View]]:
+    return [(one, one.preferred) for one in built.map.models[0].registers if one.path != row["register"]] * 2
+
+
+def _frames(view: View, words: list[int]) -> tuple[bytes, bytes]:
+    function = READ_FUNCTIONS[view.space.value]
+    if function == 7:
+        return b"\x07", bytes([7, words[0]])
+    data = bytes([words[0]]) if function in (1, 2) else b"".join(word.to_bytes(2, "big") for word in words)
+    asked = bytes([function]) + view.address.to_bytes(2, "big") + view.words.to_bytes(2, "big")
+    return asked, bytes([function, len(data)]) + data
+
+
+def bench_of(built: Built) -> Bench:
+    """The driver beside the vectors of its map."""
+    found = document(built.map)
+    vectors = Vectors(
+        found["map"],
+        tuple(found["models"]),
+        tuple(found["sets"]),
+        tuple(found["examples"]),
+        found["protocol"],
+        tuple(found["commands"]),
+    )
+    return Bench(built.module.CaseA, vectors)

@@ -1,0 +1,127 @@
+"""The cases as files have them: read, completed to a map, compiled; rows with words as bytes on the wire."""
+
+import importlib.util
+import itertools
+from collections.abc import Iterator, Mapping
+from decimal import Decimal
+from functools import cache
+from pathlib import Path
+from types import ModuleType
+from typing import Any, NamedTuple
+
+from regscribe import checks, lower, schema, source
+from regscribe.emit import python
+from regscribe.files.dumping import dump
+from regscribe.model import Diagnostic, RegisterMap, Severity
+
+FOLDER = Path(__file__).parent / "cases"
+FUNCTIONS = [1, 2, 3, 4, 5, 6, 7, 15, 16]
+Json = dict[str, Any]
+
+_numbers = itertools.count()
+
+
+class Case(NamedTuple):
+    """One case: parts of a map, what the device holds besides, and rows or the rule that refuses the map."""
+
+    name: str
+    map: Json
+    holds: Mapping[str, Mapping[int, str]]
+    rows: tuple[Json, ...]
+    refused: str
+
+    def __repr__(self) -> str:
+        return self.name
+
+
+class Built(NamedTuple):
+    """A case's map, compiled, and its driver."""
+
+    map: RegisterMap
+    module: Any
+
+
+def load(path: Path) -> list[Json]:
+    """The cases of a file, read by YAML 1.2: `off` is a text, a number with a fraction is a Decimal."""
+    document, found = source.load(path)
+    assert document is not None, found
+    assert not found, found
+    value: list[Json] = document.data
+    return value
+
+
+def cases() -> Iterator[Case]:
+    """Every case of every file."""
+    for path in sorted(FOLDER.glob("*.yaml")):
+        for one in load(path):
+            name = f"{path.stem}: {one['name']}"
+            yield Case(name, one["map"], one.get("holds", {}), tuple(one.get("rows", ())), one.get("refused", ""))
+
+
+def words_of(text: str) -> list[int]:
+    """Words of bytes in hexadecimal, as they follow each other on the wire; one digit alone is a bit or a byte."""
+    raw = text.replace(" ", "")
+    return [int(raw, 16)] if len(raw) <= 2 else [int(raw[at : at + 4], 16) for at in range(0, len(raw), 4)]
+
+
+def whole_map(parts: Json) -> str:
+    """A map of the parts that a case gives, as YAML: one model, all registers in one group, read-write unless told."""
+    tables = {key: value for key, value in parts.items() if key != "registers"}
+    document: Json = {
+        "format": 1,
+        "map": {"id": "test/case", "title": "Case", "maker": "Test", "class_prefix": "Case"},
+        "manual": {"title": "Manual", "number": "1"},
+        "models": {"A": {}},
+        "protocol": {"functions": FUNCTIONS},
+        **tables,
+        "groups": [
+            {"id": "all", "name": "All", "source": "1", "each": {"access": "rw"}, "registers": parts["registers"]}
+        ],
+    }
+    return dump(_plain(document))
+
+
+def _plain(value: Any) -> Any:
+    """Decimals as floats, which YAML writes as their shortest decimals."""
+    if isinstance(value, dict):
+        return {key: _plain(each) for key, each in value.items()}
+    if isinstance(value, list):
+        return [_plain(each) for each in value]
+    return float(value) if isinstance(value, Decimal) else value
+
+
+def diagnose(parts: Json) -> tuple[RegisterMap | None, list[Diagnostic]]:
+    """Compile the map of a case; what was found on the way."""
+    document, found = source.parse(whole_map(parts), name="maps/test/case.yaml")
+    assert document is not None, found
+    found = [*found, *schema.validate(document)]
+    if found:
+        return None, found
+    register_map, found = lower.lower(document)
+    if register_map is None or found:
+        return None, found
+    return register_map, checks.check(register_map)
+
+
+@cache
+def build(text: str) -> Built:
+    """Compile a map (as YAML) and import its driver."""
+    document, found = source.parse(text, name="maps/test/case.yaml")
+    assert document is not None, found
+    found = [*found, *schema.validate(document)]
+    assert not found, found
+    register_map, found = lower.lower(document)
+    assert register_map is not None, found
+    errors = [one for one in checks.check(register_map) if one.severity is Severity.ERROR]
+    assert not errors, errors
+    ((_, code),) = python.render(register_map).items()
+    return Built(register_map, _module(code))
+
+
+def _module(code: str) -> ModuleType:
+    name = f"conformance_driver_{next(_numbers)}"
+    spec = importlib.util.spec_from_loader(name, loader=None)
+    assert spec is not None
+    module = importlib.util.module_from_spec(spec)
+    exec(compile(code, f"<{name}>", "exec"), vars(module))  # noqa: S102 (a driver that was generated just now)
+    return module

@@ -1,0 +1,83 @@
+"""A Modbus TCP server of forty lines that knows no map: words in, words out, and a log of what was asked."""
+
+import socketserver
+import struct
+import threading
+from collections import defaultdict
+
+READS = {1: "coil", 2: "discrete", 3: "holding", 4: "input"}
+WRITES = {5: "coil", 6: "holding", 15: "coil", 16: "holding"}
+BITS = frozenset({"coil", "discrete"})
+ON = 0xFF00
+MOST = 65536
+
+
+class Memory:
+    """What the addresses of each space hold (0 where nothing was put), and the requests that came: PDUs in order."""
+
+    def __init__(self) -> None:
+        self.clear()
+
+    def clear(self) -> None:
+        """Forget everything."""
+        self.cells: dict[str, dict[int, int]] = defaultdict(dict)
+        self.log: list[bytes] = []
+
+    def put(self, space: str, address: int, words: list[int]) -> None:
+        """Set words (or bits) from an address on."""
+        self.cells[space].update({address + place: word for place, word in enumerate(words)})
+
+    def get(self, space: str, address: int, count: int) -> list[int]:
+        """The words (or bits) from an address on."""
+        return [self.cells[space].get(at, 0) for at in range(address, address + count)]
+
+    def answer(self, pdu: bytes) -> bytes:
+        """The answer to a request."""
+        self.log.append(pdu)
+        function = pdu[0]
+        if function == 7:
+            return bytes([7, self.get("status", 0, 1)[0]])
+        address, number = struct.unpack(">HH", pdu[1:5])
+        if function in READS:
+            found = self.get(READS[function], address, number)
+            packed = _packed(found) if READS[function] in BITS else struct.pack(f">{number}H", *found)
+            return bytes([function, len(packed)]) + packed
+        if function in (5, 6):
+            self.put(WRITES[function], address, [int(number == ON) if function == 5 else number])
+            return pdu
+        if function == 15:
+            bits = int.from_bytes(pdu[6:], "little")
+            self.put("coil", address, [bits >> place & 1 for place in range(number)])
+        elif function == 16:
+            self.put("holding", address, list(struct.unpack(f">{number}H", pdu[6:])))
+        else:
+            return bytes([function | 0x80, 1])
+        return pdu[:5]
+
+
+def _packed(bits: list[int]) -> bytes:
+    return sum(bit << place for place, bit in enumerate(bits)).to_bytes(-(-len(bits) // 8), "little")
+
+
+class _Handler(socketserver.StreamRequestHandler):
+    def handle(self) -> None:
+        while head := self.rfile.read(7):
+            pdu = self.rfile.read(int.from_bytes(head[4:6], "big") - 1)
+            answer = self.server.memory.answer(pdu)  # type: ignore[attr-defined] # set below
+            self.wfile.write(head[:4] + (len(answer) + 1).to_bytes(2, "big") + head[6:7] + answer)
+
+
+class Server(socketserver.ThreadingTCPServer):
+    """The server on a free port of this machine; a context manager that serves in a thread of its own."""
+
+    daemon_threads = True
+
+    def __init__(self) -> None:
+        super().__init__(("127.0.0.1", 0), _Handler)
+        self.memory = Memory()
+        self.port = int(self.server_address[1])
+        threading.Thread(target=self.serve_forever, daemon=True).start()
+
+    def __exit__(self, *args: object) -> None:
+        self.shutdown()
+        super().__exit__(*args)
