@@ -236,7 +236,7 @@ def test_commands_and_groups_come_from_the_base(module: Callable[[str], Any]) ->
     assert extension.ZenithS.commands.part is base.BaseCommands
     assert extension.ZenithS.groups is base.BaseGroups
     large = extension.ZenithL
-    read = [register.path for register in large.groups.control.registers(large.registers)]
+    read = [register.path for register in large.groups.control.registers(large)]
     assert read[-3:] == ["steps[2].step_action", "steps[3].level", "steps[3].step_action"]
     assert "fan" in read
 

@@ -40,7 +40,7 @@ def command(*, target: Target, as_json: bool, wanted: tuple[str, ...]) -> int:
 
 
 def _groups(driver: type[BareDevice], wanted: tuple[str, ...]) -> dict[str, list[Register[Any]]]:
-    known = {name: group.registers(driver.registers) for name, group in names.groups_of(driver).items()}
+    known = {name: group.registers(driver) for name, group in names.groups_of(driver).items()}
     grouped = {one.path for members in known.values() for one in members}
     others = [one for one in names.readable(driver) if one.path not in grouped]
     known |= {UNGROUPED: others} if others else {}

@@ -82,7 +82,7 @@ def _chosen(driver: Driver, name: str) -> Sequence[Register[Any]]:
 
 
 def _members(driver: Driver, group: Group) -> list[Register[Any]]:
-    return group.registers(driver.registers)
+    return group.registers(driver)
 
 
 def _nearest(name: str, registers: Mapping[str, Register[Any]]) -> Iterable[str]:

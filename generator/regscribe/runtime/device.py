@@ -71,7 +71,7 @@ class _Common:
         found: list[Register[Any]] = []
         for one in what:
             if isinstance(one, Group):
-                found += one.registers(self.session.registers)
+                found += one.registers(type(self))
             else:
                 found.append(self.session.own(one if isinstance(one, Register) else one.register))
         return found

@@ -59,7 +59,8 @@ def _registers(owner: type) -> Iterator[tuple[str, Register[Any]]]:
 
 
 _GROUPS: dict[type, Mapping[str, "Group"]] = {}
-"""The groups of classes that were asked for: once for all drivers of a model."""
+_MEMBERS: dict[type, Mapping[str, list[Register[Any]]]] = {}
+"""What was asked of classes: worked out once for all drivers of a model."""
 
 
 def groups_of(owner: type) -> Mapping[str, "Group"]:
@@ -67,6 +68,18 @@ def groups_of(owner: type) -> Mapping[str, "Group"]:
     if owner not in _GROUPS:
         _GROUPS[owner] = MappingProxyType(_declared(getattr(owner, "groups", object), Group))
     return _GROUPS[owner]
+
+
+def _members_of(owner: type) -> Mapping[str, list[Register[Any]]]:
+    """The readable registers of a driver's class by what groups call them: a register's id, or that of its array."""
+    if owner not in _MEMBERS:
+        found: dict[str, list[Register[Any]]] = {}
+        every: Mapping[str, Register[Any]] = getattr(owner, "registers", {})
+        for path, register in every.items():
+            if register.access != "w":
+                found.setdefault(path.partition("[")[0], []).append(register)
+        _MEMBERS[owner] = found
+    return _MEMBERS[owner]
 
 
 def _declared(owner: type, *kinds: type) -> dict[str, Any]:
@@ -289,11 +302,7 @@ class Group:
     def __set_name__(self, owner: type, name: str) -> None:
         self.id = name
 
-    def registers(self, present: Mapping[str, Register[Any]]) -> list[Register[Any]]:
-        """The readable registers of this group among those that a model has."""
-        return [
-            register
-            for member in self.members
-            for path, register in present.items()
-            if (path == member or path.startswith(f"{member}[")) and register.access != "w"
-        ]
+    def registers(self, owner: type) -> list[Register[Any]]:
+        """The readable registers of this group that the driver class of a model has."""
+        present = _members_of(owner)
+        return [register for member in self.members for register in present.get(member, ())]

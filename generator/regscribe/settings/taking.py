@@ -21,7 +21,7 @@ def in_groups(driver: Driver) -> dict[str, list[Register[Any]]]:
     """The settings of a driver by the group that has them first; those of no group last."""
     left = {register.path: register for register in writable(driver)}
     found = {
-        name: [left.pop(one.path) for one in group.registers(driver.registers) if one.path in left]
+        name: [left.pop(one.path) for one in group.registers(driver) if one.path in left]
         for name, group in groups_of(driver).items()
     }
     return {name: members for name, members in {**found, NO_GROUP: list(left.values())}.items() if members}
