@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from regscribe.runtime.parts import AsyncPart, Part
 
 T = TypeVar("T")
+SPEAKING = ("views", "scale", "special_scale", "range", "unit", "writable")
+"""The attributes of a register that may speak of other registers."""
 Sentinels = tuple[tuple[int | str, str, str], ...]
 
 
@@ -105,7 +107,7 @@ class Register(Generic[T]):
     @cached_property
     def is_open(self) -> bool:
         """Whether it speaks of others in the same element of an array, as the declaration of all elements does."""
-        return element.is_open((self.views, self.scale, self.range, self.unit, self.writable))
+        return any(element.is_open(getattr(self, name)) for name in SPEAKING)
 
     def moved(self, steps: int, path: str) -> Self:
         """The same register of another array element: `steps` further on, at this path."""
@@ -121,9 +123,8 @@ class Register(Generic[T]):
         if not self.is_open:
             return self
         other = self._copy()
-        other.views, other.scale, other.range, other.unit, other.writable = element.closed(
-            (self.views, self.scale, self.range, self.unit, self.writable), self.path
-        )
+        for name in SPEAKING:
+            setattr(other, name, element.closed(getattr(self, name), self.path))
         other.is_open = False
         return other
 
