@@ -5,18 +5,9 @@ from dataclasses import dataclass
 from operator import attrgetter
 
 from regscribe.checks.registry import MAP, Finding, Scope, map_rule, model_rule, register_rule
-from regscribe.model import Register, Related, Rule, Space
+from regscribe.model import READ_FUNCTIONS, WRITE_FUNCTIONS, Register, Related, Rule, Space, View
 
 LAST_ADDRESS = 0xFFFF
-READ_FUNCTIONS: dict[Space, tuple[int, ...]] = {
-    Space.HOLDING: (3,),
-    Space.INPUT: (4,),
-    Space.COIL: (1,),
-    Space.DISCRETE: (2,),
-    Space.STATUS: (7,),
-}
-WRITE_FUNCTIONS: dict[Space, tuple[int, ...]] = {Space.HOLDING: (6, 16), Space.COIL: (5, 15)}
-"""Modbus application protocol V1.1b3, section 6."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,15 +131,20 @@ def notation_twice(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
     )
 )
 def no_function(register: Register, scope: Scope) -> Iterator[Finding]:
-    """Look for a read and a write function of the base view's space."""
+    """Look for a function that reads the view that drivers read, and for one that writes the view that they write."""
     has = scope.register_map.protocol.functions
-    wanted: list[tuple[str, tuple[int, ...]]] = []
+    wanted: list[tuple[str, View, tuple[int, ...]]] = []
     if register.access.readable:
-        wanted.append(("read", READ_FUNCTIONS[register.base.space]))
+        view = register.read_view
+        wanted.append(("read", view, (READ_FUNCTIONS[view.space],)))
     if register.access.writable:
-        wanted.append(("written", WRITE_FUNCTIONS.get(register.base.space, ())))
-    for verb, functions in wanted:
-        if not set(functions) & set(has):
+        view = register.write_view
+        wanted.append(("written", view, WRITE_FUNCTIONS.get(view.space, ())[1 if view.words > 1 else 0 :]))
+    for verb, view, functions in wanted:
+        if not set(functions) & set(has) & set(view.functions or functions):
             need = " or ".join(f"{code:02d}" for code in functions) or "that does not exist"
-            message = f"is to be {verb} in space {register.base.space}, which needs function {need}"
-            yield Finding.at(register, message, f"correct `access` or `space`, or `protocol.functions` ({list(has)})")
+            where = f"view {view.name} by functions {list(view.functions)}" if view.functions else f"space {view.space}"
+            message = f"is to be {verb} in {where}, which needs function {need}"
+            yield Finding.at(
+                register, message, f"correct `access`, `space`, `functions` or `protocol.functions` ({list(has)})"
+            )

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from regscribe.checks.registry import Finding, Scope, map_rule, register_rule
-from regscribe.model import Register, Rule, View
+from regscribe.model import READ_FUNCTIONS, WRITE_FUNCTIONS, Register, Rule, Space, View
 
 Shape = tuple[object, ...]
 
@@ -89,6 +89,24 @@ def unsupported_function(register: Register, scope: Scope) -> Iterator[Finding]:
             codes = ", ".join(f"{code:02d}" for code in lacking)
             message = f"has view {view.name} by function {codes}, which `protocol.functions` {list(has)} lacks"
             yield Finding.at(register, message, "correct one of the two lists")
+
+
+_OTHERS = {Space.HOLDING: (22, 23)}
+"""Functions of a space besides those that drivers use: mask write, and write and read."""
+
+
+@register_rule(
+    Rule("RS0635", "View by a function of another space", "A function code reads or writes in one space only.")
+)
+def function_of_another_space(register: Register, _: Scope) -> Iterator[Finding]:
+    """Compare the functions of each view with those of its space."""
+    for view in register.views:
+        known = (READ_FUNCTIONS[view.space], *WRITE_FUNCTIONS.get(view.space, ()), *_OTHERS.get(view.space, ()))
+        strange = [code for code in view.functions if code not in known]
+        if strange:
+            codes = ", ".join(f"{code:02d}" for code in strange)
+            message = f"has view {view.name} by function {codes}, which does not reach space {view.space}"
+            yield Finding.at(register, message, f"correct `functions` (of this space: {list(known)}) or `space`")
 
 
 @map_rule(Rule("RS0460", "More than one preferred view", "A driver uses one view unless told otherwise."))

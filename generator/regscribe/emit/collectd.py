@@ -108,7 +108,7 @@ def _data(name: str, register: Register, known: Surroundings) -> Iterator[str]:
 
 def _view(register: Register) -> View:
     """Return the view to poll: the one that drivers prefer where the plugin has its type, else the first that fits."""
-    views = (register.preferred, *register.views)
+    views = (register.read_view, *(view for view in register.views if view.readable))
     fitting = [view for view in views if view.space in READS and view.type in TYPES and view.byte_order is Order.BIG]
     if not fitting:
         base = register.base

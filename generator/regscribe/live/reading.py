@@ -49,7 +49,7 @@ def held_of(register: Register[Any], value: Any, view: str | None) -> Task[Any]:
     """
 
     def task(session: Session) -> Operation[Any]:
-        chosen = register.view(view)
+        chosen = register.write_view(view)
         state = {
             **(yield from know(session, register.needs(chosen))),
             **(yield from know(session, register.limit_needs)),

@@ -57,7 +57,7 @@ def _step(node: Node, device: Device) -> Step:
     if entry is None:
         return Step(register=register.text())
     target = device.registers[entry.path]
-    view = view_of(node.child("view"), target)
+    view = view_of(node.child("view"), target) if node.child("view") else _written_view(target)
     value = node.child("value")
     words = words_of_value(value, target, view) if value else unsigned(wholes_of(node, "words"))
     return Step(view.address, words, _function(node, len(words), view, device), register=entry.path)
@@ -71,6 +71,11 @@ def _function(node: Node, count: int, view: View | None, device: Device) -> int:
         single, several = WRITE_COIL, WRITE_COILS
     allowed = [code for code in device.protocol.functions if not view or not view.functions or code in view.functions]
     return single if count == 1 and single in allowed else several
+
+
+def _written_view(register: Register) -> View:
+    """The base view, or the first one that a write may address where the base view is for reading alone."""
+    return next((view for view in register.views if view.writable), register.base)
 
 
 def view_of(node: Node | None, register: Register) -> View:

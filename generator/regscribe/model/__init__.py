@@ -62,14 +62,25 @@ from regscribe.model.value import (
     Special,
     Units,
 )
-from regscribe.model.wire import Order, OrderFromRegister, Rounding, Space, View, WireType
+from regscribe.model.wire import (
+    READ_FUNCTIONS,
+    WRITE_FUNCTIONS,
+    Order,
+    OrderFromRegister,
+    Rounding,
+    Space,
+    View,
+    WireType,
+)
 
 __all__ = [
     "ALWAYS",
     "IDENTITY",
     "NAN",
+    "READ_FUNCTIONS",
     "SILENCE",
     "USUAL_PROTOCOL",
+    "WRITE_FUNCTIONS",
     "Access",
     "Alarm",
     "Array",

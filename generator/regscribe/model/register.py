@@ -136,6 +136,19 @@ class Register:
         return next((view for view in self.views if view.preferred), self.views[0])
 
     @property
+    def read_view(self) -> View:
+        """The view that drivers read: that to prefer, if its functions let it be read."""
+        return self._first([view for view in self.views if view.readable])
+
+    @property
+    def write_view(self) -> View:
+        """The view that drivers write."""
+        return self._first([view for view in self.views if view.writable])
+
+    def _first(self, able: list[View]) -> View:
+        return self.preferred if self.preferred in able or not able else able[0]
+
+    @property
     def faults(self) -> tuple[Fraction, ...]:
         """The stored numbers that are faults, without that which is no number."""
         return tuple(one.stored for one in self.sentinels if isinstance(one.stored, Fraction))

@@ -23,6 +23,11 @@ class Space(StrEnum):
         return self in {Space.COIL, Space.DISCRETE}
 
 
+READ_FUNCTIONS = {Space.COIL: 1, Space.DISCRETE: 2, Space.HOLDING: 3, Space.INPUT: 4, Space.STATUS: 7}
+WRITE_FUNCTIONS = {Space.COIL: (5, 15), Space.HOLDING: (6, 16)}
+"""By space: the function that writes one address, and the one that writes several (V1.1b3, section 6)."""
+
+
 class WireType(StrEnum):
     """The type of the number that the words (or the bit) of a view spell."""
 
@@ -127,6 +132,17 @@ class View:
     region: tuple[int, int] | None = None
     preferred: bool = False
     stride: int = 1
+
+    @property
+    def readable(self) -> bool:
+        """Whether the read function of its space may address it."""
+        return not self.functions or READ_FUNCTIONS[self.space] in self.functions
+
+    @property
+    def writable(self) -> bool:
+        """Whether a write function of its space may address it, all words of a value at once."""
+        single, several = WRITE_FUNCTIONS.get(self.space, (0, 0))
+        return not self.functions or several in self.functions or (self.words == 1 and single in self.functions)
 
     @property
     def last(self) -> int:

@@ -23,7 +23,7 @@ def is_raw(register: Register[Any]) -> bool:
 
 def needs(register: Register[Any]) -> set[str]:
     """The registers that decide the unit, the scale and the limits of a register."""
-    return {*unit_needs(register), *register.needs(register.view()), *register.limit_needs}
+    return {*unit_needs(register), *register.needs(register.read_view()), *register.limit_needs}
 
 
 @dataclass(frozen=True, slots=True)

@@ -37,7 +37,7 @@ def request_for(
 
     `drivers` are those of all units on the line, by what a message is to call them.
     """
-    chosen = register.view(view)
+    chosen = register.write_view(view)
     _known_to_all(register, drivers)
     _no_dialogue(register)
     confirmed(register, confirm=confirm)

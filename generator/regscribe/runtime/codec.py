@@ -312,6 +312,17 @@ def _text_reader(register: "Register[Any]") -> Callable[[Sequence[int]], str]:
     return text
 
 
+def carried_over(register: "Register[Any]", view: View, other: View, words: Words, state: State) -> tuple[int, ...]:
+    """The words by which a device shows in the view `other` what `words` in `view` set; ValueRefused if it cannot."""
+    numbers = arranger(view, register.path, state)(words)
+    if register.kind.name == "string":
+        return tuple(arranger(other, register.path, state)(numbers))
+    wire = view.type.unpack(numbers)
+    exactly = Fraction(shortest(wire, view.type)) if view.type.is_float else Fraction(wire)
+    shown = _wire_words(register, other, exactly / Fraction(view.factor), rounded=True)
+    return tuple(arranger(other, register.path, state)(shown))
+
+
 def encode(
     register: "Register[Any]", view: View, value: object, state: State, givens: Givens, *, rounded: bool = False
 ) -> tuple[int, ...]:

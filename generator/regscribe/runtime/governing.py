@@ -99,7 +99,7 @@ def _free(session: Session, target: Target, governs: Governs, words: Words, old:
     if governs.setting != "address" or _meant_unit(target, words, session) == session.unit:
         return
     unit = _meant_unit(target, words, session)
-    request = read_request(*target)
+    request = read_request(register, register.seen_in(target[1]))
     yield Retune(unit=unit)
     try:
         reply = yield request  # once: nobody is expected there
@@ -107,7 +107,7 @@ def _free(session: Session, target: Target, governs: Governs, words: Words, old:
     except RegscribeError:
         found = ()  # nobody there, or nobody that knows this register
     yield old
-    if found == words:
+    if found and same(*target, found, words, {}, session):
         raise ValueRefused(register.path, f"unit {unit} answers already: two units of one id would garble each other")
 
 
@@ -117,7 +117,7 @@ def _meant_unit(target: Target, words: Words, session: Session) -> int:
 
 def _marks(session: Session) -> Operation[dict[str, Words]]:
     registers = [one for one in session.registers.values() if one.kind.name in MARKS and one.access != "w"]
-    return (yield from words_of(session, [(one, one.view()) for one in registers]))
+    return (yield from words_of(session, [(one, one.read_view()) for one in registers]))
 
 
 def _told(session: Session, target: Target, words: Words, governs: Governs) -> Operation[RegscribeError | None]:
@@ -168,7 +168,7 @@ def _took(session: Session, move: _Move, read: Words | None) -> bool:
 
 def _read(session: Session, move: _Move) -> Operation[Words | None]:
     """The words of the register as one now talks to the device; None if it does not answer, or is another one."""
-    known = [(session.registers[path], session.registers[path].view()) for path in move.marks]
+    known = [(session.registers[path], session.registers[path].read_view()) for path in move.marks]
     try:
         found = yield from words_of(session, [move.target, *known])
     except RegscribeError:

@@ -10,7 +10,6 @@ from collections.abc import Iterable, Iterator, Mapping
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from regscribe.runtime.request import READ_FUNCTIONS
 from regscribe.runtime.spec import View
 
 if TYPE_CHECKING:
@@ -155,7 +154,7 @@ def ground_of(
     aligned: dict[tuple[str, str], Stretch] = {}
     for register in registers:
         for view, address in places(register):
-            may = register.access != "w" and may_read(view)
+            may = register.access != "w" and view.readable
             (readable if may else unreadable).setdefault(view.space, []).append((address, address + view.words))
             if view.align > 1:
                 key = view.space, view.name
@@ -177,11 +176,6 @@ def places(register: "Register[Any]") -> Iterator[tuple[View, int]]:
     base = register.views[0]
     for alias in register.aliases:
         yield base, alias
-
-
-def may_read(view: View) -> bool:
-    """Whether the read function of a view's space may address it."""
-    return not view.functions or READ_FUNCTIONS[view.space] in view.functions
 
 
 def merged(ranges: Iterable[Range]) -> list[Range]:

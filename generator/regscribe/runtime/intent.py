@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from regscribe.runtime import codec
 from regscribe.runtime.errors import ExceptionAnswer, ValueRefused, ValuesRefused
-from regscribe.runtime.lookback import meaning, words_of
+from regscribe.runtime.lookback import in_view, meaning, read_back_needs, words_of
 from regscribe.runtime.reads import know
 from regscribe.runtime.report import Change, Fate
 from regscribe.runtime.sending import confirmed, permitted
@@ -36,7 +36,7 @@ class Wanted(NamedTuple):
     @property
     def view(self) -> View:
         """The view in which it is written."""
-        return self.register.view()
+        return self.register.write_view()
 
 
 class Sight(NamedTuple):
@@ -89,10 +89,14 @@ def look(session: Session, targets: Iterable[Wanted]) -> Operation[Sight]:
     """Read what the checks need and what the registers hold now."""
     chosen = list(targets)
     session.forget()
-    paths = [path for one in chosen for path in needs(one.register, one.view)]
+    paths = [
+        path for one in chosen for path in (*needs(one.register, one.view), *read_back_needs(one.register, one.view))
+    ]
     state = dict((yield from know(session, paths, fresh=True)))
-    words = yield from _words(session, [(one.register, one.view) for one in chosen if one.register.access == "rw"])
-    return Sight(state, words)
+    held = {one.register.path: (one.register, one.view) for one in chosen if one.register.access == "rw"}
+    found = yield from _words(session, tuple(held.values()))
+    words = {path: in_view(target, found[path], state) for path, target in held.items()}
+    return Sight(state, {path: one for path, one in words.items() if one is not None})
 
 
 def _words(session: Session, targets: Sequence[Target]) -> Operation[dict[str, Words]]:

@@ -20,6 +20,7 @@ from regscribe.runtime.errors import (
 )
 from regscribe.runtime.reads import fetch, item_of, read_request
 from regscribe.runtime.session import Pause
+from regscribe.runtime.ways import same_precision
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -45,9 +46,23 @@ def is_lost(error: Exception) -> bool:
     return isinstance(error, LOST) and not isinstance(error, PartialWrite)
 
 
+def read_back_needs(register: Register[Any], view: View) -> tuple[str, ...]:
+    """What must be known to tell what was written in a view from what another one shows, where it cannot be read."""
+    return () if view.readable or register.access == "w" else (*view.needs(), *register.needs(register.read_view()))
+
+
+def in_view(target: Target, read: Words, state: State) -> Words | None:
+    """What was read back of a register as the words that write it; None where the view read shows less than all."""
+    register, view = target
+    seen = register.seen_in(view)
+    if seen is view:
+        return read
+    return codec.carried_over(register, seen, view, read, state) if same_precision(seen, view) else None
+
+
 def words_of(session: Session, targets: Iterable[Target]) -> Operation[dict[str, Words]]:
-    """The present words of registers in these views, by path, in few requests."""
-    chosen = list(targets)
+    """The present words of registers by path, in few requests: in these views, or in those read in their place."""
+    chosen = [(register, register.seen_in(view)) for register, view in targets]
     if len(chosen) == 1:
         register, view = chosen[0]
         return {register.path: (yield from session.exchange(read_request(register, view)))}
@@ -82,11 +97,16 @@ def rest(session: Session, targets: Iterable[Target], after: Exception | None = 
     return seconds
 
 
-def same(register: Register[Any], view: View, one: Words, other: Words, state: State, session: Session) -> bool:
-    """Whether words mean the same: equal words, or other words of an equal value (-0.0 and 0.0)."""
-    if one == other:
+def same(register: Register[Any], view: View, read: Words, written: Words, state: State, session: Session) -> bool:
+    """Whether words that were read back mean what was written: equal words, or others of an equal value (-0.0 and 0.0).
+
+    Of a view that cannot be read, what another one shows of it is compared, as finely as that one can tell.
+    """
+    seen = register.seen_in(view)
+    expected = written if seen is view else codec.carried_over(register, view, seen, written, state)
+    if read == expected:
         return True
-    mine, its = (meaning(register, view, words, state, session) for words in (one, other))
+    mine, its = (meaning(register, seen, words, state, session) for words in (read, expected))
     return mine is not None and mine == its
 
 
@@ -116,7 +136,8 @@ def fate_of_lost(
     read = found[register.path]
     if same(register, view, read, sent, state, session):
         return None
-    held, asked = (_spelled(meaning(register, view, words, state, session)) for words in (read, sent))
+    held = _spelled(meaning(register, register.seen_in(view), read, state, session))
+    asked = _spelled(meaning(register, view, sent, state, session))
     if steady(register):
         return lost(NotWritten, register.path, f"{open_still} ({cause}); it holds {held}, not {asked}", cause)
     return lost(
@@ -155,7 +176,8 @@ def verified(session: Session, target: Target, sent: Words, state: State) -> Ope
 def differs(session: Session, target: Target, sent: Words, read: Words, state: State) -> ReadBackDiffers:
     """The error for a register that holds something else than was sent."""
     register, view = target
-    value, held = (meaning(register, view, words, state, session) for words in (sent, read))
+    value = meaning(register, view, sent, state, session)
+    held = meaning(register, register.seen_in(view), read, state, session)
     return ReadBackDiffers(register.path, sent=sent, read=read, value=value, held=held)
 
 

@@ -65,7 +65,7 @@ def know(session: Session, paths: Iterable[str], *, fresh: bool = False, depth: 
         message = f"the meaning of {wanted[0]} depends on too long a chain of registers"
         raise RuntimeError(message)
     registers = [session.registers[path] for path in wanted]
-    views = [register.view() for register in registers]
+    views = [register.read_view() for register in registers]
     for register, view in zip(registers, views, strict=True):
         yield from know(session, register.needs(view), depth=depth + 1)
     found = yield from fetch(session, map(item_of, registers, views))
@@ -87,7 +87,7 @@ def read(register: Register[T], view_name: str | None) -> Task[T]:
     def task(session: Session) -> Operation[T]:
         key = (register.path, view_name)
         if key not in session.prepared:
-            view = register.view(view_name)
+            view = register.read_view(view_name)
             yield from know(session, register.needs(view))
             made = codec.decoder(register, view, session.memory, session.givens)
             session.prepared[key] = read_request(register, view), made
@@ -107,7 +107,7 @@ def read_raw(register: Register[Any], view_name: str | None) -> Task[tuple[int, 
     """Read the words of one register."""
 
     def task(session: Session) -> Operation[tuple[int, ...]]:
-        return (yield from session.exchange(read_request(register, register.view(view_name))))
+        return (yield from session.exchange(read_request(register, register.read_view(view_name))))
 
     return task
 

@@ -105,7 +105,7 @@ def dependencies(session: "Session", registers: "Iterable[Register[Any]]") -> di
 
     def visit(register: "Register[Any]") -> frozenset[str]:
         if register.path not in found:
-            direct = register.needs(register.view())
+            direct = register.needs(register.read_view())
             deeper = [visit(session.registers[path]) for path in direct]
             found[register.path] = frozenset(direct).union(*deeper)
         return found[register.path]

@@ -164,6 +164,33 @@ class Register(Generic[T]):
         message = f"{self.path} has no view {name!r}; it has {', '.join(self.view_names)}"
         raise ValueError(message)
 
+    def read_view(self, name: str | None = None) -> View:
+        """The view of that name, or else the one to read: that to prefer, if the map lets it be read.
+
+        ValueError for an unknown name, and for a view by functions that do not read.
+        """
+        return self._view_by(name, [view.name for view in self.views if view.readable], "read")
+
+    def write_view(self, name: str | None = None) -> View:
+        """As `read_view`, of the view to write."""
+        return self._view_by(name, [view.name for view in self.views if view.writable], "written")
+
+    def _view_by(self, name: str | None, able: Sequence[str], verb: str) -> View:
+        view = self.view(name)
+        if view.name in able:
+            return view
+        if name is None and able:
+            return self.view(able[0])
+        message = (
+            f"the {view.name} view of {self.path} cannot be {verb} (it is by functions {list(view.functions)}); "
+            f"{', '.join(able) or 'none'} can"
+        )
+        raise ValueError(message)
+
+    def seen_in(self, view: View) -> View:
+        """The view in which what was written in `view` is read back."""
+        return view if view.readable else self.read_view()
+
     @property
     def scale_needs(self) -> tuple[str, ...]:
         """Registers that decide or set the scale, or that of special values."""
@@ -188,7 +215,8 @@ class Register(Generic[T]):
         self, words: Sequence[int], *, view: str | None = None, state: State | None = None, givens: Givens | None = None
     ) -> T:
         """The value of use that `words` spell in `view`; raises ValueNotDecodable (SensorFault, Saturated, ...)."""
-        return cast("T", codec.decode(self, self.view(view), words, state or {}, givens or {}))
+        chosen = self.view(view) if view else self.read_view()
+        return cast("T", codec.decode(self, chosen, words, state or {}, givens or {}))
 
     def encode(
         self,
@@ -202,7 +230,8 @@ class Register(Generic[T]):
         """The words of `value` in `view`; raises ValueRefused for what may not or cannot be written."""
         if self.access == "r":
             raise ValueRefused(self.path, "the register is read-only")
-        return codec.encode(self, self.view(view), value, state or {}, givens or {}, rounded=rounded)
+        chosen = self.view(view) if view else self.write_view()
+        return codec.encode(self, chosen, value, state or {}, givens or {}, rounded=rounded)
 
 
 class ReadOnly(Register[T]):

@@ -18,6 +18,8 @@ READ_FUNCTIONS = {
     "input": READ_INPUT,
     "status": READ_STATUS,
 }
+WRITE_FUNCTIONS = {"coil": (WRITE_COIL, WRITE_COILS), "holding": (WRITE_REGISTER, WRITE_REGISTERS)}
+"""By space: the function that writes one address, and the one that writes several."""
 READS = frozenset(READ_FUNCTIONS.values())
 
 

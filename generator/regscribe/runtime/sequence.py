@@ -63,7 +63,7 @@ def order(session: Session, registers: Iterable[Register[Any]]) -> list[Register
     """
     chosen = {register.path: register for register in registers}
     waits = {
-        path: {one for one in needs(register, register.view()) if one in chosen and one != path}
+        path: {one for one in needs(register, register.write_view()) if one in chosen and one != path}
         for path, register in chosen.items()
     }
     places = _places(session)
@@ -101,7 +101,7 @@ def _places(session: Session) -> dict[str, int]:
 
 
 def _key(register: Register[Any], places: Mapping[str, int]) -> tuple[bool, int, str, str, int]:
-    view = register.view()
+    view = register.write_view()
     place = places.get(register.path.partition("[")[0], LAST)
     return bool(register.governs), place, view.space, view.name, view.address(register.at)
 

@@ -7,6 +7,7 @@ from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from regscribe.runtime.errors import NotDecodable
+from regscribe.runtime.request import READ_FUNCTIONS, WRITE_FUNCTIONS
 from regscribe.runtime.wire import BIG, WireType, exact
 
 State = Mapping[str, Any]
@@ -165,6 +166,17 @@ class View(NamedTuple):
     def address(self, at: int) -> int:
         """The wire address of the first word for a register at `at`."""
         return self.offset + self.stride * at
+
+    @property
+    def readable(self) -> bool:
+        """Whether the read function of its space may address it."""
+        return not self.functions or READ_FUNCTIONS[self.space] in self.functions
+
+    @property
+    def writable(self) -> bool:
+        """Whether a write function of its space may address it, all words of a value at once."""
+        single, several = WRITE_FUNCTIONS.get(self.space, (0, 0))
+        return not self.functions or several in self.functions or (self.words == 1 and single in self.functions)
 
     def needs(self) -> tuple[str, ...]:
         """The register that sets the word order, if one does."""

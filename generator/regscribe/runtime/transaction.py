@@ -164,13 +164,16 @@ class Transaction:
 
     def _shows(self, path: str, words: Words) -> None:
         change = self.changes[path]
-        register, view = self.target(path)
-        if same(register, view, words, change.sent, self.state, self.session):
+        if self._is(path, words, change.sent):
             self.mark(path, Fate.WRITTEN, words)
-        elif words in (self.first[path].before, change.before):
+        elif any(self._is(path, words, before) for before in (self.first[path].before, change.before)):
             self.mark(path, Fate.NOT_WRITTEN, words)
         else:
             self.mark(path, Fate.UNKNOWN, words)
+
+    def _is(self, path: str, read: Words, written: Words | None) -> bool:
+        """Whether what was read back is what these words would set."""
+        return written is not None and same(*self.target(path), read, written, self.state, self.session)
 
     def verify(self) -> Operation[tuple[str, ...]]:
         """Read back all that was written and that the device keeps; the registers that hold something else."""
@@ -181,7 +184,7 @@ class Transaction:
         yield Pause(rest(self.session, targets))
         found = yield from words_of(self.session, targets)
         for path, words in found.items():
-            alike = same(*self.target(path), words, self.changes[path].sent, self.state, self.session)
+            alike = self._is(path, words, self.changes[path].sent)
             self.mark(path, Fate.WRITTEN if alike else Fate.DIFFERS, words)
         return tuple(self.paths(Fate.DIFFERS))
 
@@ -192,7 +195,7 @@ class Transaction:
     def shown(self, path: str) -> str:
         """What was sent to a register and what it holds, in words."""
         change, (register, view) = self.changes[path], self.target(path)
-        held = meaning(register, view, change.read, self.state, self.session)
+        held = meaning(register, register.seen_in(view), change.read, self.state, self.session)
         return (
             f"{path} holds {held!r} (words {list(change.read or ())}), sent was {change.value!r} ({list(change.sent)})"
         )
@@ -233,7 +236,7 @@ class Transaction:
                     raise
                 self.mark(path, Fate.UNKNOWN)
                 found = yield from look_back(self.session, [self.target(path)], error)
-                if found is None or found[path] != words:
+                if found is None or not self._is(path, found[path], words):
                     raise
             finally:
                 self.session.forget()
@@ -251,7 +254,7 @@ class Transaction:
         first = {path: before for path in touched if (before := self.first[path].before) is not None}
         for last in (False, True):
             found = yield from words_of(self.session, [self.target(path) for path in first])
-            wrong = [path for path, words in found.items() if words != first[path]]
+            wrong = [path for path, words in found.items() if not self._is(path, words, first[path])]
             if last or not wrong:
                 break
             for path in wrong:

@@ -8,7 +8,7 @@ the base view, so they count where the base view does. Of what is left, the plan
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from regscribe.runtime.ground import Ground, Item, may_read, places
+from regscribe.runtime.ground import Ground, Item, places
 from regscribe.runtime.spec import View
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ class Way(NamedTuple):
 
 def ways(register: "Register[Any]") -> tuple[Way, ...]:
     """All ways to read a register, the view to prefer first; at least one."""
-    preferred = register.view()
+    preferred = register.read_view()
     if len(register.views) == 1 and not register.aliases:
         return (_way(preferred, preferred.address(register.at)),)
     found: dict[Item, Way] = {}
@@ -32,26 +32,31 @@ def ways(register: "Register[Any]") -> tuple[Way, ...]:
         if view is preferred or same_number(view, preferred):
             way = _way(view, address)
             found.setdefault(way.item, way)
-    readable = tuple(way for way in found.values() if may_read(way.view))
+    readable = tuple(way for way in found.values() if way.view.readable)
     return readable or tuple(found.values())[:1]
 
 
 def same_number(view: View, other: View) -> bool:
     """Whether a view transmits the same number as another with the same precision, and needs to know no more for it."""
-    return set(view.needs()) <= set(other.needs()) and (
+    return (
+        set(view.needs()) <= set(other.needs()) and view.byte_order == other.byte_order and same_precision(view, other)
+    )
+
+
+def same_precision(view: View, other: View) -> bool:
+    """Whether two views transmit the same number, in whatever order of words and bytes."""
+    return (
         view.type,
         view.words,
         view.factor,
         view.rounding,
         view.saturates,
-        view.byte_order,
     ) == (
         other.type,
         other.words,
         other.factor,
         other.rounding,
         other.saturates,
-        other.byte_order,
     )
 
 

@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from regscribe.runtime import codec
 from regscribe.runtime.errors import RegscribeError, ValueRefused
 from regscribe.runtime.governing import follow
-from regscribe.runtime.lookback import fate_of_lost, is_lost, verified
-from regscribe.runtime.reads import know, read, read_request
+from regscribe.runtime.lookback import fate_of_lost, in_view, is_lost, read_back_needs, verified, words_of
+from regscribe.runtime.reads import know, read
 from regscribe.runtime.sending import EEPROM, applied, condition_needs, confirmed, permitted, send, unlocked
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from regscribe.runtime.lookback import Target
     from regscribe.runtime.register import Register
     from regscribe.runtime.report import Words
     from regscribe.runtime.session import Operation, Session, Task
@@ -42,12 +43,12 @@ def write(
 
     def task(session: Session) -> Operation[None]:
         confirmed(register, confirm=confirm)
-        chosen = register.view(view)
-        yield from know(session, register.needs(chosen))
+        chosen = register.write_view(view)
+        yield from know(session, (*register.needs(chosen), *read_back_needs(register, chosen)))
         state = yield from know(session, (*condition_needs(register), *register.limit_needs), fresh=True)
         permitted(register, state, session.givens)
         words = codec.encode(register, chosen, value, state, session.givens, rounded=rounded)
-        if (yield from _held(session, register, chosen, words)):
+        if (yield from _held(session, (register, chosen), words, state)):
             session.wear.add(register.path, spared=1)
             return
         state = dict(state)  # what the words mean, whatever is forgotten meanwhile
@@ -63,11 +64,13 @@ def write(
     return task
 
 
-def _held(session: Session, register: Register[Any], view: View, words: Words) -> Operation[bool]:
+def _held(session: Session, target: Target, words: Words, state: State) -> Operation[bool]:
     """Whether a register in the EEPROM holds these words already, so that a write would only wear it out."""
+    register, _ = target
     if register.persistence not in EEPROM or register.access != "rw":
         return False
-    return (yield from session.exchange(read_request(register, view))) == words
+    found = yield from words_of(session, [target])
+    return in_view(target, found[register.path], state) == words
 
 
 def _sent(session: Session, register: Register[Any], view: View, words: Words, state: State) -> Operation[None]:
@@ -85,9 +88,10 @@ def write_raw(register: Register[Any], words: tuple[int, ...], view_name: str | 
     """Write words as they are."""
 
     def task(session: Session) -> Operation[None]:
-        view = register.view(view_name)
+        view = register.write_view(view_name)
         if len(words) != view.words:
             raise ValueRefused(register.path, f"{len(words)} words for a view of {view.words}")
+        yield from know(session, read_back_needs(register, view))
         yield from _sent(session, register, view, tuple(words), dict(session.memory))
 
     return task

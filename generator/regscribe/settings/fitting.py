@@ -109,7 +109,7 @@ def _contradiction(register: Register[Any], saved: Saved, value: object, world: 
     unit = unit_of(register, world.here, world.givens) if is_number(saved.value) else ""
     if saved.unit and saved.unit != unit:
         return f"it stands in {saved.unit}, but with these settings the device works in {unit or 'no unit'}"
-    view = register.view()
+    view = register.read_view()
     if len(saved.raw) != view.words or not set(register.needs(view)) <= set(world.there):
         return ""
     try:

@@ -68,7 +68,7 @@ def _present(session: Session, driver: Driver) -> Operation[dict[str, Any]]:
     """The values that units and scales of settings depend on, as the device has them now."""
     paths: dict[str, None] = {}
     for register in writable(driver):
-        paths.update(dict.fromkeys((*unit_needs(register), *register.needs(register.view()))))
+        paths.update(dict.fromkeys((*unit_needs(register), *register.needs(register.read_view()))))
     snapshot = yield from operations.read_many([session.registers[path] for path in paths])(session)
     return snapshot.valid
 

@@ -39,7 +39,7 @@ def read_through(driver: Any, chosen: Sequence[Register[Any]], *, seed: int = 0,
         givens=defaultdict(frozenset),
         unused=unused_of(driver),
     )
-    needs = (path for register in chosen for path in register.needs(register.view()))
+    needs = (path for register in chosen for path in register.needs(register.read_view()))
     session.memory.update(dict.fromkeys(needs, code))
     operation = operations.read_many(chosen, fresh=False)(session)
     requests: list[Request] = []
@@ -84,7 +84,7 @@ def _cells(space: str, request: Request) -> Iterator[Cell]:
 
 
 def _is_asked(register: Register[Any], asked: Container[Cell]) -> bool:
-    view = register.view()
+    view = register.read_view()
     addresses = (range(start, start + view.words) for start in _starts(register))
     return any(all((view.space, address) in asked for address in one) for one in addresses)
 
@@ -119,12 +119,12 @@ def wrong_values(driver: Any, chosen: Sequence[Register[Any]], *, seed: int, cod
 
 def _starts(register: Register[Any]) -> tuple[int, ...]:
     """Return where a register may be read: its preferred view, and aliases where that is the base view."""
-    view = register.view()
+    view = register.read_view()
     return (view.address(register.at), *(register.aliases if view is register.views[0] else ()))
 
 
 def _alone(register: Register[Any], start: int, session: Session, seed: int) -> Any:  # noqa: ANN401 (any value)
-    words = [word_at(start + offset, seed) for offset in range(register.view().words)]
+    words = [word_at(start + offset, seed) for offset in range(register.read_view().words)]
     return register.decode(words, state=session.memory, givens=session.givens)
 
 

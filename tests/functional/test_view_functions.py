@@ -1,0 +1,169 @@
+"""Views by some functions only: what is read is read where it may be, and a write goes where a write may go."""
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from regscribe.runtime import NotWritten, ReadBackDiffers
+from regscribe.simulate.device import SimulatedDevice
+
+MAP = """
+format: 1
+map: {id: test/split, title: Split, maker: Test, class_prefix: Split}
+manual: {title: Manual, number: "1"}
+models: {A: {}}
+protocol: {functions: [3, 6, 16]}
+views:
+  split:
+    base: {type: int16, functions: [3]}
+    written: {offset: 100, type: int16, functions: [6, 16]}
+  wide:
+    base: {type: int32, functions: [16], stride: 2}
+    shown: {offset: 400, stride: 2, type: int32, word_order: little, functions: [3], preferred: true}
+  coarse:
+    base: {type: int16, factor: 0.1, rounding: half_up, functions: [3]}
+    fine: {offset: 200, type: int16, functions: [6]}
+groups:
+  - id: all
+    name: All
+    source: "1"
+    each: {access: rw}
+    registers:
+      - {at: 5, name: Setpoint, views: split, decimals: 1, persistence: eeprom}
+      - {at: 150, name: Total, views: wide}
+      - {at: 20, name: Level, views: coarse}
+      - {at: 30, name: Many, type: uint16, functions: [3, 16]}
+      - {at: 31, name: One, type: uint16, functions: [3, 6]}
+"""
+
+
+@pytest.fixture
+def device(build: Callable[[str], Any], direct: Any) -> Any:
+    """A driver on a simulated device, and the requests between them."""
+    built = build(MAP)
+    simulated = SimulatedDevice(built.map, "A", unit=1)
+    return built.driver("A")(direct(simulated), unit=1)
+
+
+def _sent(device: Any) -> list[tuple[int, int, tuple[int, ...]]]:
+    return [(one.function, one.address, one.words) for one in device.link.log]
+
+
+def test_a_write_goes_to_the_view_that_writes_and_is_read_back_in_the_one_that_reads(device: Any) -> None:
+    device.setpoint.write(15.5)
+
+    assert _sent(device) == [(3, 5, ()), (6, 105, (155,)), (3, 5, ())]
+    assert device.setpoint.read() == 15.5
+    assert _sent(device)[-1] == (3, 5, ())
+
+
+def test_an_equal_value_is_not_written_again_although_it_is_read_elsewhere(device: Any) -> None:
+    device.setpoint.write(15.5)
+    device.link.log.clear()
+
+    device.setpoint.write(15.5)
+
+    assert _sent(device) == [(3, 5, ())]
+
+
+def test_views_of_other_orders_are_told_apart(device: Any) -> None:
+    device.total.write(0x00010002)
+
+    assert _sent(device) == [(16, 300, (1, 2)), (3, 700, ())]
+    assert device.total.read_raw() == (2, 1)
+    assert device.total.read() == 0x00010002
+
+
+def test_a_coarser_view_is_compared_as_finely_as_it_can_tell(device: Any) -> None:
+    device.level.write(15)
+
+    assert _sent(device) == [(6, 220, (15,)), (3, 20, ())]
+    device.link.device.poke("level", 99)
+    assert device.level.read() == 100
+
+
+def test_what_is_held_elsewhere_is_noticed(device: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(type(device.link.device.state), "store", lambda *_: None)
+
+    with pytest.raises(ReadBackDiffers) as caught:
+        device.setpoint.write(15.5)
+
+    assert (caught.value.value, caught.value.held) == (15.5, 0.0)
+
+
+def test_a_lost_answer_is_looked_for_in_the_view_that_reads(build: Callable[[str], Any], direct: Any) -> None:
+    built = build(MAP)
+    simulated = SimulatedDevice(built.map, "A", unit=1)
+    device = built.driver("A")(direct(simulated, fate={1: "lost"}, writes_only=True), unit=1)
+
+    device.setpoint.write(15.5)
+    assert device.setpoint.read() == 15.5
+
+    device = built.driver("A")(direct(simulated, fate={1: "missed"}, writes_only=True), unit=1)
+    with pytest.raises(NotWritten):
+        device.setpoint.write(16)
+
+
+def test_a_view_is_refused_for_what_its_functions_do_not_do(device: Any) -> None:
+    with pytest.raises(ValueError, match=r"the base view of setpoint cannot be written .*; written can"):
+        device.setpoint.write(15, view="base")
+    with pytest.raises(ValueError, match=r"the written view of setpoint cannot be read .*; base can"):
+        device.setpoint.read(view="written")
+    with pytest.raises(ValueError, match="cannot be written"):
+        device.setpoint.write_raw((1,), view="base")
+    assert not device.link.log
+
+
+def test_only_the_function_that_the_view_allows_is_used(device: Any) -> None:
+    device.many.write(1, verify=False)
+    device.one.write(2, verify=False)
+
+    assert _sent(device) == [(16, 30, (1,)), (6, 31, (2,))]
+
+
+def test_configure_writes_and_verifies_each_in_its_own_view(device: Any) -> None:
+    report = device.configure({"setpoint": 20, "total": 7, "level": 30, "many": 1, "one": 2})
+
+    writes = {(function, address): words for function, address, words in _sent(device) if words}
+    assert writes == {(6, 105): (200,), (16, 300): (0, 7), (6, 220): (30,), (16, 30): (1,), (6, 31): (2,)}
+    assert set(report.written) == {"setpoint", "total", "level", "many", "one"}
+    assert device.configure({"setpoint": 20, "total": 7}).written == ()
+
+
+def test_a_snapshot_reads_only_what_may_be_read(device: Any) -> None:
+    device.link.device.poke("total", 3)
+
+    assert device.read()["total"] == 3
+    assert {(function, address) for function, address, _ in _sent(device)} <= {(3, 5), (3, 20), (3, 30), (3, 700)}
+
+
+def test_change_reads_in_one_view_and_writes_in_the_other(device: Any) -> None:
+    device.link.device.poke("setpoint", 1.5)
+
+    assert device.setpoint.change(lambda value: value + 1) == 2.5
+    assert (6, 105, (25,)) in _sent(device)
+
+
+@pytest.mark.parametrize(
+    "registers",
+    [
+        "- {at: 1, name: A, type: int16, functions: [3]}",
+        "- {at: 1, name: A, type: int16, functions: [6]}",
+        "- {at: 1, name: A, type: int32, functions: [3, 6]}",
+        "- {at: 1, name: A, type: int16, functions: [1, 3, 6]}",
+        "- {at: 1, name: A, space: coil, functions: [3, 6]}",
+    ],
+)
+def test_a_register_that_no_function_reads_or_writes_is_refused(registers: str, build: Callable[[str], Any]) -> None:
+    head = MAP[: MAP.index("    registers:")].replace("[3, 6, 16]", "[1, 3, 5, 6, 16]")
+    with pytest.raises(AssertionError, match=r"RS0406|RS0635"):
+        build(f"{head}    registers:\n      {registers}\n")
+
+
+def test_two_words_are_not_written_one_by_one(build: Callable[[str], Any]) -> None:
+    with pytest.raises(AssertionError, match="RS0406"):
+        build(
+            MAP.replace("[3, 6, 16]}\nviews", "[3, 6]}\nviews").split("    registers:")[0]
+            + "    registers:\n      - {at: 1, name: A, type: int32}\n"
+        )
