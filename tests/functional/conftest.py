@@ -60,7 +60,7 @@ def load(path: Path, name: str) -> ModuleType:
 
 
 _numbers = itertools.count()
-WRITE_ONE, WRITE_SEVERAL = 6, 16
+WRITE_ONE, WRITE_SEVERAL, READ_STATUS, READ_BITS = 6, 16, 7, {1, 2}
 
 
 @pytest.fixture(scope="session")
@@ -145,15 +145,22 @@ class DirectLink:
 
 
 @pytest.fixture(scope="session")
+def words() -> type["Words"]:
+    """The device of nothing but numbers."""
+    return Words
+
+
+@pytest.fixture(scope="session")
 def direct() -> type[DirectLink]:
     """The link without a line."""
     return DirectLink
 
 
 class Words:
-    """A device of nothing but words: `holds` by address, as an independent reader of the standard would serve them.
+    """A device of nothing but numbers: `holds` by address, as an independent reader of the standard would serve them.
 
-    It answers functions 03, 04, 06 and 16 from the bytes of a request, and keeps what was written.
+    It answers functions 01 to 04, 06, 07 and 16 from the bytes of a request, whatever its space, and keeps what was
+    written.
     """
 
     def __init__(self, holds: dict[int, int], *, unit: int = 1) -> None:
@@ -161,6 +168,8 @@ class Words:
 
     def handle(self, pdu: bytes) -> bytes:
         """The answer to a request, both without address and checksum."""
+        if pdu[0] == READ_STATUS:
+            return bytes([READ_STATUS, 0])
         function, first, count = struct.unpack(">BHH", pdu[:5])
         if function == WRITE_ONE:
             self.holds[first] = count
@@ -169,8 +178,11 @@ class Words:
         if function == WRITE_SEVERAL:
             self.holds.update(zip(addresses, struct.unpack(f">{count}H", pdu[6:]), strict=True))
             return pdu[:5]
-        words = [self.holds.get(address, 0) for address in addresses]
-        return struct.pack(f">BB{count}H", function, 2 * count, *words)
+        held = [self.holds.get(address, 0) for address in addresses]
+        if function in READ_BITS:
+            bits = sum((one & 1) << place for place, one in enumerate(held))
+            return struct.pack(">BB", function, -(-count // 8)) + bits.to_bytes(-(-count // 8), "little")
+        return struct.pack(f">BB{count}H", function, 2 * count, *held)
 
 
 class AsyncDirectLink(DirectLink):

@@ -7,16 +7,9 @@ from typing import Any
 
 import pytest
 
-from regscribe.runtime import NoAnswer
 from regscribe.runtime.cost import Cost, SerialLine
 from regscribe.runtime.ground import Ground, Item
-from regscribe.runtime.line import Line
 from regscribe.runtime.plan import Limits, Terms
-from regscribe.runtime.ready import dependencies, make_ready
-from regscribe.runtime.session import Session
-from regscribe_devices.athena.platinum_m5000 import AthenaM5000
-from regscribe_devices.athena.series_c import Athena16C
-from regscribe_devices.fdc.series_100 import FdcC21
 
 BENCH = Path(__file__).parents[1] / "bench"
 GAPS = (0, 1, 2, 4, 8, 11, 16, 32, 64, 125)
@@ -86,27 +79,3 @@ def test_the_rules_of_the_rivals_are_those_of_their_documentation(bench: Any) ->
     assert spans("aggressive", row) == [(2, 8)]
     assert spans("max_insert", wide) == [(2, 1), (60, 1), (190, 1)]
     assert spans("aggressive", wide) == [(2, 59), (190, 1)]
-
-
-@pytest.mark.parametrize("driver", [AthenaM5000, Athena16C, FdcC21], ids=lambda driver: str(driver.model))
-def test_drivers_make_the_plans_that_the_command_shows(subjects: dict[str, Any], driver: Any) -> None:
-    subject = subjects[driver.model]
-    session = Session(
-        unit=1,
-        protocol=driver.protocol,
-        registers=driver.registers,
-        commands={},
-        givens={},
-        unused=driver._unused,
-    )
-    session.line = Line.of("", 9600, driver.protocol.format)
-    chosen = [driver.registers[path] for path in subject.readable[::2]]
-    needs = {path for found in dependencies(session, chosen).values() for path in found}
-    unknown = dict.fromkeys(needs, NoAnswer(unit=1, function=3, address=0, seconds=1))
-
-    made = make_ready(session, chosen, fresh=True, unknown=unknown).blocks
-
-    paths = subject.with_needs([register.path for register in chosen])
-    shown = subject.plan(paths, subject.terms(Cost.serial(subject.protocol)))
-    assert sorted(block.request[:3] for block in made) == sorted(one.block[:3] for one in shown.requests)
-    assert set(paths) - {register.path for register in chosen} <= needs

@@ -14,8 +14,10 @@ from regscribe.cli.text import count, findings, tally
 from regscribe.live.errors import unknown
 from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map
+from regscribe.runtime import plan
 from regscribe.runtime.cost import Cost, SerialLine, milliseconds
-from regscribe.runtime.plan import Plan, Planned, Reason, Terms
+from regscribe.runtime.layout import Layout
+from regscribe.runtime.plan import Planned, Reason, Terms
 
 COLUMNS = ("FC", "ADDRESSES", "WANTED", "CARRIED", "BYTES", "MS", "APART BECAUSE", "REGISTERS")
 MOST_NAMED = 3
@@ -56,9 +58,10 @@ def command(  # noqa: PLR0913 - one parameter an option
 ) -> int:
     """Show the requests that read registers of a model at the least cost on a line, and why they are not one.
 
-    ID is a register, or an array or element of one; MAP is a map file or the id of a map (fdc/series-100). Drivers
-    make the same plans for the line that they are connected by, with the registers that the meaning of others depends
-    on (decimals, input type, word order). Times are the expected ones: the mean of the manual's shortest and longest.
+    ID is a register, or an array or element of one; MAP is a map file or the id of a map (fdc/series-100). The plan is
+    that of the model's driver on such a line, in the order of sending: what the meaning of others depends on (decimals,
+    input type, word order) is read behind them. Times are the expected ones: the mean of the
+    manual's shortest and longest.
     """
     compiled = compile_map(find_map(map_name))
     show(findings(compiled.diagnostics), stream=sys.stderr)
@@ -69,9 +72,9 @@ def command(  # noqa: PLR0913 - one parameter an option
     wanted = _chosen(subject, ids, groups, everything=everything)
     asked = wanted if remembered else subject.with_needs(wanted)
     terms = subject.terms(_cost(subject, baud, form, framing, tcp=tcp))
-    found = subject.plan(asked, terms)
+    layout = subject.layout(wanted, terms, fresh=not remembered)
     single = [terms.cost.tariff(item.space).of(item.words) for item in (subject.ways(path)[0].item for path in asked)]
-    told = _Told(subject, asked, terms, found, milliseconds(sum(single)))
+    told = _Told(layout, asked, terms, milliseconds(sum(single)))
     if as_json:
         print_json(map=compiled.map.id, model=subject.model.name, also=asked[len(wanted) :], **told.plain())
     else:
@@ -136,21 +139,17 @@ def _cost(subject: Subject, baud: int | None, form: str | None, framing: str, *,
 class _Told:
     """A plan in words and in JSON."""
 
-    def __init__(self, subject: Subject, paths: Sequence[str], terms: Terms, found: Plan, single_ms: float) -> None:
-        self.terms, self.found, self.single_ms, self.paths = terms, found, single_ms, paths
-        self.names: dict[object, list[str]] = {}
-        held = {item for one in found.requests for item in one.block.items}
+    def __init__(self, layout: Layout, paths: Sequence[str], terms: Terms, single_ms: float) -> None:
+        self.terms, self.single_ms, self.paths = terms, single_ms, paths
+        self.found = plan.told(layout.blocks, terms, again=layout.again, exact=layout.exact)
+        self.names: list[list[str]] = [[] for _ in layout.blocks]
         for path in paths:
-            item = next(way.item for way in subject.ways(path) if way.item in held)
-            self.names.setdefault(item, []).append(path)
-
-    def of(self, one: Planned) -> list[str]:
-        """The registers that a request reads for."""
-        return [path for item in one.block.items for path in self.names[item]]
+            for number in dict.fromkeys(found[path].block for found in (layout.places, layout.checks) if path in found):
+                self.names[number].append(path)
 
     def print(self, title: str, also: Sequence[str]) -> None:
         """The table, the totals, and what one request a register would cost."""
-        rows = [self._row(one) for one in self.found.requests]
+        rows = [self._row(one, names) for one, names in zip(self.found.requests, self.names, strict=True)]
         head = [] if sys.stdout.isatty() else [COLUMNS]  # for people in any case: programs ask for --json
         show_table(COLUMNS, [*head, *rows], title=f"{title}, {self._line()}")
         found = self.found
@@ -164,8 +163,7 @@ class _Told:
         if not found.exact:
             remark("so many registers can be read at several places that not all choices were tried")
 
-    def _row(self, one: Planned) -> tuple[str, ...]:
-        names = self.of(one)
+    def _row(self, one: Planned, names: Sequence[str]) -> tuple[str, ...]:
         more = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
         block = one.block
         reason = "" if one.split.reason is Reason.FIRST else str(one.split.reason)
@@ -199,9 +197,9 @@ class _Told:
                     "bytes": one.bytes,
                     "ms": round(one.ms, 3),
                     "apart": {"because": str(one.split.reason), "detail": one.split.detail},
-                    "registers": self.of(one),
+                    "registers": names,
                 }
-                for one in found.requests
+                for one, names in zip(found.requests, self.names, strict=True)
             ],
             "total": {"requests": len(found.requests), "wanted": found.wanted, "carried": found.carried}
             | {"bytes": found.bytes, "ms": round(found.ms, 3)},

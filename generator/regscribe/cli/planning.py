@@ -1,125 +1,101 @@
-"""A compiled model as the planner sees a device: places of registers, limits, latencies, what values depend on."""
+"""A compiled model as its driver sees it: the driver is made in memory, so that its own planner speaks of it."""
 
+import sys
 from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
+from types import ModuleType
 
 from regscribe import model as compiled
-from regscribe.runtime import Latency, Protocol, Register, View, raw, wire
+from regscribe.emit import python
+from regscribe.runtime import BareDevice, Protocol, Register
 from regscribe.runtime.cost import Cost
-from regscribe.runtime.ground import ground_of
-from regscribe.runtime.plan import Limits, Plan, Terms, plan
+from regscribe.runtime.layout import Layout
+from regscribe.runtime.plan import Terms
+from regscribe.runtime.ready import dependencies, laid_out
+from regscribe.runtime.session import TERMS, Session
 from regscribe.runtime.ways import Way, ways
-
-FALLBACK_BAUD, FALLBACK_FORMAT = 9600, "8N1"
-"""Where a map does not say how a device is delivered."""
 
 
 @dataclass(frozen=True, slots=True)
 class Subject:
-    """A model to plan for: its readable registers by path, and of each the paths that its meaning depends on."""
+    """A model to plan for, and the class of its driver."""
 
     model: compiled.Model
-    protocol: Protocol
-    registers: dict[str, Register[int]]
-    needs: dict[str, tuple[str, ...]]
+    driver: type[BareDevice]
 
     @classmethod
     def of(cls, register_map: compiled.RegisterMap, name: str) -> "Subject":
         """A model of a map."""
         model = register_map.model(name)
-        registers = {one.path: _register(one) for one in model.registers}
-        return cls(
-            model, protocol_of(register_map.protocol), registers, {one.path: _needs(one) for one in model.registers}
-        )
+        return cls(model, driver_of(register_map, model))
+
+    @property
+    def protocol(self) -> Protocol:
+        """What the device accepts."""
+        return self.driver.protocol
+
+    @property
+    def registers(self) -> dict[str, Register[object]]:
+        """All registers by path, as the driver declares them."""
+        return dict(self.driver.registers)
 
     @property
     def readable(self) -> list[str]:
         """The paths of all registers that can be read."""
-        return [one.path for one in self.model.registers if one.access.readable]
+        return [path for path, register in self.driver.registers.items() if register.access != "w"]
 
     def terms(self, cost: Cost) -> Terms:
         """What plans keep to, at a cost."""
-        unused = [(str(space), first, last) for space, first, last in self.model.unused]
-        protocol = self.protocol
-        ground = ground_of(self.registers.values(), unused=unused, holes=protocol.read_holes)
-        return Terms(Limits(protocol.read_words, protocol.read_bits, protocol.read_holes), ground, cost)
+        return self._session().terms()._replace(cost=cost)
 
     def ways(self, path: str) -> tuple[Way, ...]:
         """Where a register can be read with the same result."""
-        return ways(self.registers[path])
+        return ways(self.driver.registers[path])
 
     def with_needs(self, paths: Iterable[str]) -> list[str]:
         """The same registers and behind them all that their meaning depends on, as a driver reads them."""
-        found = dict.fromkeys(paths)
-        for path in (left := list(found)):
-            left += [need for need in self.needs[path] if need not in found]
-            found.update(dict.fromkeys(self.needs[path]))
-        return list(found)
+        found = list(paths)
+        needs = dependencies(self._session(), [self.driver.registers[path] for path in found])
+        needed = frozenset().union(*needs.values())
+        return list(dict.fromkeys([*found, *(path for path in needs if path in needed)]))
 
-    def plan(self, paths: Iterable[str], terms: Terms) -> Plan:
-        """The plan of least cost for some registers."""
-        return plan([tuple(way.item for way in self.ways(path)) for path in paths], terms)
+    def layout(self, paths: Iterable[str], terms: Terms, *, fresh: bool) -> Layout:
+        """Where a driver reads registers and, with `fresh`, what their meaning depends on."""
+        session = self._session()
+        session.prepared[TERMS] = terms
+        return laid_out(session, [self.driver.registers[path] for path in paths], fresh=fresh)[0]
 
-
-def protocol_of(protocol: compiled.Protocol) -> Protocol:
-    """What of a protocol a plan depends on."""
-    return Protocol(
-        functions=protocol.functions,
-        read_words=protocol.read_words,
-        read_bits=protocol.read_bits,
-        read_holes=protocol.read_holes,
-        baud=protocol.serial.default_baud or FALLBACK_BAUD,
-        format=protocol.serial.default_format or FALLBACK_FORMAT,
-        bauds=protocol.serial.baud_rates,
-        formats=protocol.serial.formats,
-        gap=float(protocol.serial.gap_characters),
-        latencies={one.function: _latency(one) for one in protocol.latencies},
-    )
+    def _session(self) -> Session:
+        return Session(
+            unit=self.protocol.unit_ids[0],
+            protocol=self.protocol,
+            registers=self.driver.registers,
+            commands={},
+            givens={},
+            unused=self.driver._unused,  # noqa: SLF001 (a fact for the runtime)
+        )
 
 
-def _latency(one: compiled.Latency) -> Latency:
-    return Latency(
-        float(one.minimum),
-        float(one.maximum),
-        float(one.minimum_per_word),
-        float(one.maximum_per_word),
-        float(one.characters),
-    )
+def driver_of(register_map: compiled.RegisterMap, model: compiled.Model) -> type[BareDevice]:
+    """The class of a model's synchronous driver, from the module as it would be generated but without a file."""
+    with _set_aside(python.render(register_map)) as modules:
+        for module, text in modules:
+            exec(compile(text, module.__name__, "exec"), vars(module))  # noqa: S102 (what `generate` writes)
+    driver: type[BareDevice] = getattr(module, model.class_name)
+    return driver
 
 
-def _register(one: compiled.Register) -> Register[int]:
-    made = Register(0, tuple(_view(view) for view in one.views), raw, aliases=one.aliases)
-    made.path, made.access = one.path, str(one.access)
-    return made
-
-
-def _view(view: compiled.View) -> View:
-    return View(
-        view.name,
-        getattr(wire, view.type.upper(), wire.UINT16),
-        offset=view.address,
-        stride=0,
-        words=view.words,
-        factor=str(view.factor),
-        rounding=str(view.rounding),
-        saturates=view.saturates,
-        byte_order=str(view.byte_order),
-        functions=view.functions,
-        space=str(view.space),
-        preferred=view.preferred,
-        align=view.align,
-    )
-
-
-def _needs(one: compiled.Register) -> tuple[str, ...]:
-    return tuple(dict.fromkeys(_needed(one)))
-
-
-def _needed(one: compiled.Register) -> Iterator[str]:
-    order = one.preferred.word_order
-    if isinstance(order, compiled.OrderFromRegister):
-        yield order.register
-    for case in one.scale:
-        yield from case.when.registers
-        if case.then.decimals:
-            yield case.then.decimals.register
+@contextmanager
+def _set_aside(files: dict[str, str]) -> Iterator[list[tuple[ModuleType, str]]]:
+    """New modules in place of those of the same names, until what is made of them is made; bases come first."""
+    modules = [ModuleType(path.removesuffix(".py").replace("/", ".")) for path in files]
+    names = [module.__name__ for module in modules]
+    before = {name: sys.modules[name] for name in names if name in sys.modules}
+    sys.modules.update(zip(names, modules, strict=True))
+    try:
+        yield list(zip(modules, files.values(), strict=True))
+    finally:
+        for name in names:
+            del sys.modules[name]
+        sys.modules.update(before)

@@ -23,18 +23,22 @@ class Place(NamedTuple):
 class Layout(NamedTuple):
     """Blocks in the order of sending, the place of each register in them, and the one where a dependency is checked.
 
-    `atomic`: each value stands in one request with all that it depends on.
+    The last `again` blocks are read once more: what goes round in a circle, behind all that depends on it. `atomic`:
+    each value stands in one request with all that it depends on. `exact` is False only where so many registers can be
+    read at several places that not all could be tried.
     """
 
     blocks: tuple[Block, ...]
     places: Mapping[str, Place]
     checks: Mapping[str, Place]
     atomic: bool
+    again: int = 0
+    exact: bool = True
 
 
 def lay_out(wanted: Mapping[str, tuple[Way, ...]], needs: Mapping[str, Collection[str]], terms: Terms) -> Layout:
     """The cheapest blocks for `wanted` (ways by path), ordered by what the meaning of each depends on."""
-    made, _ = blocks([tuple(way.item for way in ways) for ways in wanted.values()], terms)
+    made, exact = blocks([tuple(way.item for way in ways) for ways in wanted.values()], terms)
     taken = _taken(wanted, made)
     relations = [(path, need) for path in taken for need in needs.get(path, ()) if need in taken]
     edges = {(taken[path][0], taken[need][0]) for path, need in relations}
@@ -53,7 +57,8 @@ def lay_out(wanted: Mapping[str, tuple[Way, ...]], needs: Mapping[str, Collectio
     }
     needed = {need for _, need in relations}
     checks = {path: again.get(path, place) for path, place in places.items() if path in needed}
-    return Layout(ordered, places, checks, atomic=not late and all(first == then for first, then in edges))
+    atomic = not late and all(first == then for first, then in edges)
+    return Layout(ordered, places, checks, atomic, again=len(tail), exact=exact)
 
 
 def _taken(wanted: Mapping[str, tuple[Way, ...]], made: tuple[Block, ...]) -> dict[str, tuple[int, Way]]:

@@ -9,6 +9,7 @@ from bisect import bisect_right
 from collections.abc import Iterable, Sequence
 from enum import StrEnum
 from functools import cache
+from itertools import pairwise
 from typing import NamedTuple
 
 from regscribe.runtime.cost import BIT_SPACES, Cost, Tariff, milliseconds
@@ -67,6 +68,7 @@ class Reason(StrEnum):
     REFUSED = "refused"
     ALIGNMENT = "alignment"
     CHEAPER = "cheaper apart"
+    AGAIN = "once more"
 
 
 class Split(NamedTuple):
@@ -92,7 +94,7 @@ class Planned(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """The requests of a plan in the order of spaces and addresses.
+    """The requests of a plan in the order of sending.
 
     `exact` is False only where so many registers can be read at several places that not all could be tried.
     """
@@ -140,13 +142,23 @@ def blocks(wants: Iterable[Want], terms: Terms) -> tuple[tuple[Block, ...], bool
 def plan(wants: Iterable[Want], terms: Terms) -> Plan:
     """The same with costs and reasons, for people."""
     made, exact = blocks(wants, terms)
+    return told(made, terms, exact=exact)
+
+
+def told(made: Sequence[Block], terms: Terms, *, again: int = 0, exact: bool = True) -> Plan:
+    """Requests in the order of sending, each with its cost and why it is not one with the one before it by address.
+
+    The last `again` of them are read once more.
+    """
+    first_time = sorted(made[: len(made) - again], key=lambda one: (one.space, one.address))
+    reasons = {block: split(before, block, terms) for before, block in pairwise((None, *first_time)) if block}
     requests = []
-    before: Block | None = None
-    for block in made:
+    for number, block in enumerate(made):
+        repeated = number >= len(made) - again
         taken = terms.cost.frame_bytes(block.space, block.quantity)
         ms = milliseconds(terms.cost.tariff(block.space).of(block.quantity))
-        requests.append(Planned(block, _wanted(block.items), taken, ms, split(before, block, terms)))
-        before = block
+        reason = Split(Reason.AGAIN, "others depend on it, and it on them") if repeated else reasons[block]
+        requests.append(Planned(block, _wanted(block.items), taken, ms, reason))
     return Plan(tuple(requests), exact)
 
 

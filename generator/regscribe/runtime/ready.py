@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from regscribe.runtime import codec
 from regscribe.runtime.block import Placed, PreparedBlock
 from regscribe.runtime.errors import RegscribeError, ValueNotDecodable
-from regscribe.runtime.layout import Place, lay_out
+from regscribe.runtime.layout import Layout, Place, lay_out
 from regscribe.runtime.ways import open_ways, ways
 
 if TYPE_CHECKING:
@@ -115,17 +115,25 @@ def dependencies(session: "Session", registers: "Iterable[Register[Any]]") -> di
     return found
 
 
+def laid_out(
+    session: "Session", registers: "Sequence[Register[Any]]", *, fresh: bool
+) -> "tuple[Layout, dict[str, Register[Any]], dict[str, frozenset[str]]]":
+    """Where registers and, with `fresh`, all that they depend on are read; these by path, and what each depends on."""
+    terms = session.terms()
+    needs = dependencies(session, registers) if fresh else {}
+    needed = frozenset().union(*needs.values())
+    wanted = {register.path: register for register in registers}
+    wanted |= {path: session.registers[path] for path in needs if path in needed and path not in wanted}
+    open_ = {path: found for path, one in wanted.items() if (found := open_ways(one, terms.ground))}
+    return lay_out(open_, needs, terms), wanted, needs
+
+
 def make_ready(
     session: "Session", registers: "Sequence[Register[Any]]", *, fresh: bool, unknown: Mapping[str, RegscribeError]
 ) -> Ready:
     """Plan the read of registers and, with `fresh`, of what they depend on; `unknown` are those of no known value."""
-    terms = session.terms()
+    layout, wanted, needs = laid_out(session, registers, fresh=fresh)
     chosen = {register.path: register for register in registers}
-    needs = dependencies(session, registers) if fresh else {}
-    needed = frozenset().union(*needs.values())
-    wanted = chosen | {path: session.registers[path] for path in needs if path in needed}
-    open_ = {path: found for path, one in wanted.items() if (found := open_ways(one, terms.ground))}
-    layout = lay_out(open_, needs, terms)
     placed: list[list[Placed]] = [[] for _ in layout.blocks]
     for path, place in layout.places.items():
         if path in chosen:
