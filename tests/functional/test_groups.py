@@ -5,6 +5,10 @@ from collections.abc import Callable
 from types import FrameType
 from typing import Any
 
+from regscribe.runtime.layout import lay_out
+from regscribe.runtime.ready import dependencies
+from regscribe.runtime.ways import ways
+
 HEAD = """\
 format: 1
 map: {id: test/wide, title: Wide, maker: Nobody, class_prefix: Wide}
@@ -82,3 +86,39 @@ def test_a_group_has_its_readable_registers_and_the_elements_of_its_arrays(
         "steps[2].level": 8,
         "steps_more": 9,
     }
+
+
+FAR = """{HEAD}
+  - id: main
+    name: Main
+    registers:
+      - id: rows
+        name: Row
+        repeat: 1..{count}
+        stride: 10
+        registers:
+          - {{at: 0, name: Value, access: rw, type: int16, decimals: one}}
+          - {{at: 20000, name: Places, access: rw, type: int16, range: 0..3}}
+"""
+
+
+def test_to_lay_out_many_requests_takes_as_much_for_each_as_for_few(
+    talk: Callable[[str, dict[int, int]], Any],
+) -> None:
+    def laid(count: int) -> int:
+        text = FAR.format(HEAD=HEAD, count=count).replace("groups:", "decimals: {one: {register: places}}\ngroups:")
+        driver = talk(text, {}).driver
+        driver.session.memory.update(dict.fromkeys((f"rows[{row}].places" for row in range(1, count + 1)), 0))
+        _ = driver.session.terms()
+        spent = work(lambda: lay_out(*wants(driver)))
+        assert len(lay_out(*wants(driver)).blocks) == 2 * count
+        return spent
+
+    assert laid(160) < 1.5 * 8 * laid(20)
+
+
+def wants(driver: Any) -> tuple[Any, Any, Any]:
+    """All registers of a driver with the ways to read them, what each depends on, and what a plan must keep to."""
+    every = list(driver.registers.values())
+    needs = dependencies(driver.session, every)
+    return {one.path: ways(one) for one in every}, needs, driver.session.terms()

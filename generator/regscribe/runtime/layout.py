@@ -4,6 +4,7 @@ What values depend on is read behind them (or in the same request, which a devic
 witness for all that was read before. Where that goes round in a circle, it is read once more at the end.
 """
 
+import heapq
 from collections.abc import Collection, Mapping
 from typing import NamedTuple
 
@@ -71,12 +72,23 @@ def _taken(wanted: Mapping[str, tuple[Way, ...]], made: tuple[Block, ...]) -> di
 
 def _in_order(count: int, edges: Collection[tuple[int, int]]) -> list[int]:
     """Blocks such that the first of each edge is sent before the second; a circle is cut at its lowest block."""
-    left = list(range(count))
-    order: list[int] = []
+    behind: list[list[int]] = [[] for _ in range(count)]
+    waits = [0] * count
+    for first, then in edges:
+        behind[first].append(then)
+        waits[then] += 1
+    ready = [number for number in range(count) if not waits[number]]
+    left, order = dict.fromkeys(range(count)), list[int]()
     while left:
-        waiting = {then for first, then in edges if first in left}
-        order.append(next((number for number in left if number not in waiting), left[0]))
-        left.remove(order[-1])
+        number = heapq.heappop(ready) if ready else next(iter(left))
+        if number not in left:
+            continue  # a circle was cut at it
+        del left[number]
+        order.append(number)
+        for then in behind[number]:
+            waits[then] -= 1
+            if not waits[then]:
+                heapq.heappush(ready, then)
     return order
 
 
