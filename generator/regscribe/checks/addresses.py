@@ -4,10 +4,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from operator import attrgetter
 
-from regscribe.checks.registry import MAP, Finding, Scope, map_rule, model_rule, register_rule
+from regscribe.checks.registry import MAP, Finding, Scope, map_rule, model_rule, register_rule, warning
 from regscribe.model import READ_FUNCTIONS, WRITE_FUNCTIONS, Register, Related, Rule, Space, View
 
 LAST_ADDRESS = 0xFFFF
+FAR = 10_000
+"""A notation that begins here tells spaces apart by a digit in front (30001, 40001, 400001)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,4 +149,33 @@ def no_function(register: Register, scope: Scope) -> Iterator[Finding]:
             message = f"is to be {verb} in {where}, which needs function {need}"
             yield Finding.at(
                 register, message, f"correct `access`, `space`, `functions` or `protocol.functions` ({list(has)})"
+            )
+
+
+@map_rule(
+    warning(
+        "RS0636",
+        "Addresses in a notation",
+        "`at` is the address in the request, which counts from 0; a printed 40001 is address 0 on the wire.",
+    )
+)
+def in_a_notation(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+    """Look for spaces whose registers all stand where a notation of the map counts, away from the wire addresses."""
+    for notation in scopes[0].register_map.notations:
+        found = {
+            register.path: register
+            for scope in scopes
+            for register in scope.model.registers
+            if register.base.space is notation.space
+        }
+        inside = notation.offset >= FAR and all(one.base.address >= notation.offset for one in found.values())
+        if inside and found:
+            first = min(found.values(), key=lambda one: one.base.address)
+            address = first.base.address
+            message = (
+                f"stands at wire address {address}, which notation `{notation.name}` (offset {notation.offset}) would"
+            )
+            message = f"{message} print as {address + notation.offset}"
+            yield Finding.at(
+                first, message, f"is `at: {address - notation.offset}` meant? The offset is added for the docs"
             )

@@ -60,7 +60,7 @@ class DryLink:
     def _overlaid(self, unit: int, request: Request, reply: Reply) -> Reply:
         spaces = {function: space for space, function in READ_FUNCTIONS.items()}
         space = spaces.get(request.function)
-        if space is None or reply.exception:
+        if space is None or reply.exception is not None:
             return reply
         held = (self._held.get((unit, space, request.address + at), word) for at, word in enumerate(reply.words))
         return reply._replace(words=tuple(held))

@@ -141,7 +141,7 @@ def _probe(link: Link, name: LinkName, unit: int, address: int) -> Probe:
         return Probe(name, unit, None, str(error))
     if reply.exception in GATEWAY:
         return Probe(name, unit, None)
-    answer = f"exception {reply.exception:02d}" if reply.exception else "a value"
+    answer = f"exception {reply.exception:02d}" if reply.exception is not None else "a value"
     return Probe(name, unit, Found(name, unit, answer, ()))
 
 

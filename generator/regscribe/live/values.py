@@ -9,6 +9,7 @@ from typing import Any
 
 from regscribe.live.errors import meant
 from regscribe.runtime import Bit, Choice, Field, Flags, Register, SpecialNumber, ValueRefused, Word
+from regscribe.runtime.choices import unnamed_bits
 
 Plain = str | int | float | bool | list[str]
 """A value without Python's types: numbers, members and special values by name, the names of set flags."""
@@ -82,7 +83,7 @@ def _members_of(register: Register[Any]) -> Any:  # noqa: ANN401 - an enum, flag
 
 
 def _unnamed(value: Flags) -> list[str]:
-    rest = int(value) & ~int(type(value).named())
+    rest = unnamed_bits(value)
     return [f"bit_{bit}" for bit in range(rest.bit_length()) if rest >> bit & 1]
 
 

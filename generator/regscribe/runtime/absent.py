@@ -45,6 +45,17 @@ class Absences:
         """Remember that these addresses were refused now."""
         self._refusals[item] = Refusal(item, answer, self.clock(), alone)
 
+    def heard(self, space: str, address: int, quantity: int) -> bool:
+        """Forget what was refused and is in a good answer now; whether there was such a thing."""
+        good = [
+            item
+            for item in self._refusals
+            if item.space == space and address <= item.address and item.end <= address + quantity
+        ]
+        for item in good:
+            del self._refusals[item]
+        return bool(good)
+
     def clear(self) -> bool:
         """Forget all; whether there was anything."""
         had = bool(self._refusals)

@@ -62,6 +62,11 @@ class Flags(IntFlag):
         return everything
 
 
+def unnamed_bits(value: Flags) -> int:
+    """The bits that are set and have no name."""
+    return int(value) & ~int(type(value).named())
+
+
 class Bit:
     """One bit of a word as a bool; `low` counts from 0, the least significant."""
 

@@ -265,12 +265,12 @@ def decoder(
 
     It raises ValueNotDecodable with the words in it.
     """
+    arrange = arranger(view, register.path, state)
     convert = (
         _text_reader(register)
         if register.kind.name == "string"
         else _number_reader(view, reader(register, view, state, givens, unknown, named=named))
     )
-    arrange = arranger(view, register.path, state)
 
     def decode(words: Sequence[int]) -> Any:
         try:
@@ -303,9 +303,9 @@ def decode(
 
 def _text_reader(register: "Register[Any]") -> Callable[[Sequence[int]], str]:
     def text(words: Sequence[int]) -> str:
-        raw = struct.pack(f">{len(words)}H", *words)
+        raw = struct.pack(f">{len(words)}H", *words).partition(b"\0")[0]  # what follows is whatever was there before
         try:
-            return raw.decode("ascii").rstrip("\0 ")
+            return raw.decode("ascii").rstrip(" ")
         except UnicodeDecodeError:
             raise NotDecodable(register.path, f"{raw.hex(' ')} is no ASCII text") from None
 
@@ -324,16 +324,25 @@ def carried_over(register: "Register[Any]", view: View, other: View, words: Word
 
 
 def encode(
-    register: "Register[Any]", view: View, value: object, state: State, givens: Givens, *, rounded: bool = False
+    register: "Register[Any]",
+    view: View,
+    value: object,
+    state: State,
+    givens: Givens,
+    *,
+    rounded: bool = False,
+    kept: int = 0,
 ) -> tuple[int, ...]:
     """The words of `value` in wire order; ValueRefused says which limit, step or type it breaks.
 
-    With `rounded`, a value finer than the view can carry is rounded by the view's rule instead of refused.
+    With `rounded`, a value finer than the view can carry is rounded by the view's rule instead of refused. `kept` are
+    bits without a name that the device has set and that stay as they are.
     """
     arrange = arranger(view, register.path, state)
     if register.kind.name == "string":
         return tuple(arrange(_from_text(register, view, value)))
-    amount, special = _amount(register, value, state, givens)
+    amount, special = _amount(register, int(value) & ~kept if kept else value, state, givens)  # type: ignore[call-overload] # flags are whole numbers
+    amount += kept
     if not register.kind.coded:
         if not special:
             _within_limits(register, amount, state, givens)
@@ -445,8 +454,8 @@ def _float_words(register: "Register[Any]", view: View, exactly: Fraction, *, ro
 
 
 def _from_text(register: "Register[Any]", view: View, value: object) -> tuple[int, ...]:
-    if not isinstance(value, str) or not value.isascii():
-        raise ValueRefused(register.path, f"{brief(value)} is no ASCII text")
+    if not isinstance(value, str) or not value.isascii() or "\0" in value:
+        raise ValueRefused(register.path, f"{brief(value)} is no ASCII text without NUL")
     if len(value) > 2 * view.words:
         raise ValueRefused(register.path, f"{brief(value)} has {len(value)} characters; {2 * view.words} fit")
     return struct.unpack(f">{view.words}H", value.ljust(2 * view.words).encode("ascii"))

@@ -67,7 +67,7 @@ class Conversation:
             if manners is not None:
                 manners.owe(asked, deadline)
             raise
-        return reply._replace(address=reply.address - self.first) if moved and not reply.exception else reply
+        return reply._replace(address=reply.address - self.first) if moved and reply.exception is None else reply
 
     def _send(self, wire: Wire, asked: Asked) -> None:
         wire.write(asked.frame)
@@ -133,7 +133,11 @@ class Conversation:
             raise _foreign(asked, found.unit)
         reply = pdu.decode(asked.wire, found.pdu)
         # a server that cannot name the function of a bad request answers 80h
-        return reply._replace(function=asked.wire.function) if reply.exception and not reply.function else reply
+        return (
+            reply._replace(function=asked.wire.function)
+            if reply.exception is not None and not reply.function
+            else reply
+        )
 
     def _finished(self, received: bytearray, asked: Asked) -> None:
         if self.manners is not None:

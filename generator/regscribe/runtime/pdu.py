@@ -6,7 +6,6 @@ from regscribe.runtime import request as functions
 from regscribe.runtime.request import Reply, Request
 
 EXCEPTION_BIT = 0x80
-UNKNOWN_EXCEPTION = 0xFF
 ON = 0xFF00
 BITS_IN_BYTE = 8
 WORD_READS = (functions.READ_HOLDING, functions.READ_INPUT)
@@ -52,7 +51,7 @@ def decode(request: Request, pdu: bytes) -> Reply:
         return Reply(code, WORDS[pdu[1] // 2].unpack_from(pdu, 2))
     data = pdu[1:]
     if code & EXCEPTION_BIT:  # a good answer with one bit flipped has more than one byte: it is no refusal
-        return Reply(code & ~EXCEPTION_BIT, exception=data[0] or UNKNOWN_EXCEPTION) if len(data) == 1 else Reply(code)
+        return Reply(code & ~EXCEPTION_BIT, exception=data[0]) if len(data) == 1 else Reply(code)
     if code in BIT_READS and data and data[0] == len(data) - 1:
         return Reply(code, _bits(data[1:], request.quantity))
     if code in WORD_READS or code in BIT_READS:

@@ -18,6 +18,7 @@ READ_FUNCTIONS = {
     "input": READ_INPUT,
     "status": READ_STATUS,
 }
+READ_SPACES = {function: space for space, function in READ_FUNCTIONS.items()}
 WRITE_FUNCTIONS = {"coil": (WRITE_COIL, WRITE_COILS), "holding": (WRITE_REGISTER, WRITE_REGISTERS)}
 """By space: the function that writes one address, and the one that writes several."""
 READS = frozenset(READ_FUNCTIONS.values())
@@ -42,13 +43,13 @@ class Request(NamedTuple):
 
 
 class Reply(NamedTuple):
-    """One answer: `words` as read or echoed, or an `exception` code (0: none)."""
+    """One answer: `words` as read or echoed, or an `exception` code (None: it is none)."""
 
     function: int
     words: tuple[int, ...] = ()
     address: int = 0
     quantity: int = 0
-    exception: int = 0
+    exception: int | None = None
 
 
 Meanings = Mapping[int, tuple[str, str]]
@@ -59,14 +60,14 @@ def fits(request: Request, reply: Reply) -> bool:
     """Whether an answer may be the one to a request, as far as its function, length and address tell."""
     if reply.function != request.function:
         return False
-    if reply.exception:
+    if reply.exception is not None:
         return True
     return len(reply.words) == request.quantity if request.reads else reply.address == request.address
 
 
 def verify(request: Request, reply: Reply, *, unit: int, meanings: Meanings) -> tuple[int, ...]:
     """The words of a reply that fits; ExceptionAnswer, PartialWrite or WrongAnswer otherwise."""
-    if reply.exception:
+    if reply.exception is not None:
         name, meaning = meanings.get(reply.exception, ("", ""))
         raise ExceptionAnswer(
             unit=unit,

@@ -12,7 +12,7 @@ from regscribe.runtime.line import Line
 from regscribe.runtime.plan import Limits, Terms
 from regscribe.runtime.policy import Retry
 from regscribe.runtime.report import Wear, WriteReport
-from regscribe.runtime.request import Meanings, Reply, Request, verify
+from regscribe.runtime.request import READ_SPACES, Meanings, Reply, Request, verify
 from regscribe.runtime.timing import response_seconds
 
 if TYPE_CHECKING:
@@ -236,6 +236,11 @@ class Session:
                 self._timed[request] = found
         return found
 
+    def _heard(self, request: Request) -> None:
+        """A good answer ends the memory of a refusal."""
+        if self.absences.heard(READ_SPACES[request.function], request.address, request.quantity):
+            self.prepared.clear()
+
     def exchange(self, request: Request) -> Operation[tuple[int, ...]]:
         """Send one request and verify its answer; a read is sent again as `retry` says, a write never."""
         left = self._tries.reads if request.reads else 0
@@ -243,11 +248,15 @@ class Session:
             try:
                 reply = yield request
                 assert reply is not None, "an executor answers a request with a reply"  # noqa: S101 (their contract)
-                return verify(request, reply, unit=self.unit, meanings=self.protocol.exceptions)
+                words = verify(request, reply, unit=self.unit, meanings=self.protocol.exceptions)
             except (NoAnswer, WrongAnswer, LinkLost, ExceptionAnswer) as error:
                 if not left or not _passing(error):
                     raise
                 left = 0 if isinstance(error, LinkLost) else left - 1  # the second time, nobody is there
+            else:
+                if self.absences and request.reads:
+                    self._heard(request)
+                return words
             yield Pause(self._tries.pause)
 
 

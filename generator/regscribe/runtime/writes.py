@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from regscribe.runtime import codec
+from regscribe.runtime.choices import Flags, unnamed_bits
 from regscribe.runtime.errors import RegscribeError, ValueRefused
 from regscribe.runtime.governing import follow
 from regscribe.runtime.lookback import fate_of_lost, in_view, is_lost, read_back_needs, verified, words_of
@@ -35,10 +36,12 @@ def write(
     rounded: bool = False,
     confirm: bool = False,
     verify: bool | None = None,
+    kept: int = 0,
 ) -> Task[None]:
     """Check, encode and write one register; unlock before and apply after, where the map says so; read it back.
 
-    `verify` None: reads back what the device keeps as its configuration.
+    `verify` None: reads back what the device keeps as its configuration. `kept`: bits without a name, as in
+    `codec.encode`.
     """
 
     def task(session: Session) -> Operation[None]:
@@ -47,7 +50,7 @@ def write(
         yield from know(session, (*register.needs(chosen), *read_back_needs(register, chosen)))
         state = yield from know(session, (*condition_needs(register), *register.limit_needs), fresh=True)
         permitted(register, state, session.givens)
-        words = codec.encode(register, chosen, value, state, session.givens, rounded=rounded)
+        words = codec.encode(register, chosen, value, state, session.givens, rounded=rounded, kept=kept)
         if (yield from _held(session, (register, chosen), words, state)):
             session.wear.add(register.path, spared=1)
             return
@@ -98,11 +101,15 @@ def write_raw(register: Register[Any], words: tuple[int, ...], view_name: str | 
 
 
 def change(register: Register[T], how: Callable[[T], T], *, confirm: bool, verify: bool | None = None) -> Task[T]:
-    """Read, modify, write: three steps, no device does them as one."""
+    """Read, modify, write: three steps, no device does them as one. Bits without a name stay as they are."""
 
     def task(session: Session) -> Operation[T]:
-        value = how((yield from read(register, None)(session)))
-        yield from write(register, value, confirm=confirm, verify=verify)(session)
+        before = yield from read(register, None)(session)
+        value = how(before)
+        kept = 0
+        if isinstance(before, Flags) and (kept := unnamed_bits(before)):
+            value = register.kind.make(int(value) | kept)  # type: ignore[call-overload] # flags are whole numbers
+        yield from write(register, value, confirm=confirm, verify=verify, kept=kept)(session)
         return value
 
     return task

@@ -23,7 +23,7 @@ def show(state: State, register: Register) -> Plain:
     """Return what a register shows now."""
     stored = state.stored(register.path)
     if isinstance(stored, str):
-        return stored.rstrip("\0 ")
+        return stored.partition("\0")[0].rstrip(" ")
     return shown(state, register, stored)
 
 

@@ -191,7 +191,7 @@ class State(Meaning):
         register, field = self.find(path)
         stored = self.stored(register.path)
         if isinstance(stored, str):
-            return stored.rstrip("\0 ")
+            return stored.partition("\0")[0].rstrip(" ")
         if field is None or not isinstance(stored, Fraction):
             return self.meant(register, stored)
         return field_value(stored, field)

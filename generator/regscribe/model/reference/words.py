@@ -91,14 +91,15 @@ def carried(view: View, number: Fraction) -> Fraction | None:
 
 
 def text_of(view: View, words: tuple[int, ...], order: Order) -> str | None:
-    """Return the ASCII text in `words` without what fills it up; None if it is no ASCII."""
-    raw = bytes(_bytes_in_order(view, words, order)).rstrip(b"\x00 ")
-    return raw.decode("ascii") if raw.isascii() else None
+    """Return the ASCII text in `words` up to the first NUL, without blanks at its end; None if it is no ASCII."""
+    letters = bytes(_bytes_in_order(view, words, order))
+    raw = letters[: letters.index(0)] if 0 in letters else letters
+    return raw.decode("ascii").rstrip(" ") if raw.isascii() else None
 
 
 def words_of_text(view: View, text: str, order: Order) -> tuple[int, ...]:
     """Return the words of an ASCII text, filled up with blanks; RefusedError if it does not fit."""
-    if not text.isascii() or len(text) > 2 * view.words:
+    if not text.isascii() or "\0" in text or len(text) > 2 * view.words:
         raise RefusedError(Reason.TYPE, f"{text!r} does not fit {2 * view.words} ASCII characters")
     return _words_in_order(view, list(text.encode("ascii").ljust(2 * view.words)), order)
 
