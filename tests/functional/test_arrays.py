@@ -327,7 +327,50 @@ def test_reading_an_attribute_of_an_element_makes_no_register(talk: Talking, mon
     assert made == []
 
 
-EVERY = [DECIMALS, SCALE, UNIT, ORDER, LIMIT, RANGES, WRITABLE, NESTED, OUTRIGHT, BESIDE, VIEWS]
+ALIKE = f"""\
+{HEAD}
+decimals: {{own: {{register: places}}}}
+groups:
+  - id: main
+    name: Main
+    source: '1'
+    each: {{access: rw, type: int16, persistence: ram}}
+    registers:
+      - id: left
+        name: Left
+        repeat: 1..2
+        stride: 100
+        registers:
+          - id: cells
+            name: Cell
+            repeat: 1..2
+            stride: 10
+            registers:
+              - {{at: 0, name: Level, decimals: own}}
+              - {{at: 1, name: Places, range: 0..3}}
+      - id: right
+        name: Right
+        repeat: 1..2
+        stride: 100
+        registers:
+          - id: cells
+            name: Cell
+            repeat: 1..2
+            stride: 10
+            registers:
+              - {{at: 500, name: Level, decimals: own}}
+              - {{at: 501, name: Places, range: 0..3}}
+"""
+
+
+def test_arrays_of_one_id_in_two_arrays_are_two(talk: Talking) -> None:
+    device = talk(ALIKE, {100: 100, 101: 1, 610: 100, 611: 2})
+
+    assert device.read("left[2].cells[1].level") == 10
+    assert device.read("right[2].cells[2].level") == 1
+
+
+EVERY = [DECIMALS, SCALE, UNIT, ORDER, LIMIT, RANGES, WRITABLE, NESTED, OUTRIGHT, BESIDE, VIEWS, ALIKE]
 
 
 @pytest.mark.parametrize("text", EVERY, ids=range(len(EVERY)))

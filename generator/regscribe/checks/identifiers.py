@@ -89,7 +89,7 @@ def id_twice(scope: Scope) -> Iterator[Finding]:
         for member in members:
             yield f"{owner}register", member.id, member.span
             if isinstance(member, Array):
-                yield from walk(member.members, f"{member.id} ")
+                yield from walk(member.members, f"{owner}{member.id} ")
 
     groups = (("group", group.id, group.span) for group in scope.model.groups)
     commands = (("command", command.id, command.span) for command in scope.model.commands)
