@@ -449,3 +449,11 @@ def test_the_docs_and_docstrings_spell_a_sibling_with_the_letter_of_its_element(
     for path in ("programs[i].segments[j].places", "programs[i].digits", "programs[i].segments[5].places"):
         assert path in page
     assert "programs[1].limit" in page
+
+
+def test_the_docs_say_where_the_aliases_of_all_elements_stand(talk: Talking) -> None:
+    page = markdown.render(talk(VIEWS, {}).built.map)["docs/test/array.md"]
+
+    # the base view moves by 3 a step, and an element is 2 steps behind the one before
+    assert "also at `900 + 6*(i - 1)`" in page
+    assert "| 900 to 912 |" in page

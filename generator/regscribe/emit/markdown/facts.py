@@ -6,7 +6,7 @@ from functools import partial
 from regscribe.emit.markdown.behaviour import difference, follows, shadows
 from regscribe.emit.markdown.context import Context, by_model
 from regscribe.emit.markdown.escape import Md, code, escape, join, lines, link, md, prose
-from regscribe.emit.markdown.outline import Leaf, formula
+from regscribe.emit.markdown.outline import Leaf, aliases, formula
 from regscribe.emit.markdown.page import Table, table
 from regscribe.emit.text import (
     ACCESS,
@@ -80,8 +80,12 @@ def address(context: Context, leaf: Leaf, register: Register) -> Md:
         first = md(code(formula(register.base, leaf.arrays)), ", ", indices(leaf.arrays))
     else:
         first = context.address(space, register.base.address)
-    aliases = ", ".join(context.address(space, alias) for alias in register.aliases)
-    return lines(first, md("also at ", Md(aliases)) if aliases else Md())
+    others = (
+        code(formula(alias, leaf.arrays)) if leaf.arrays else context.address(space, alias.address)
+        for alias in aliases(register)
+    )
+    also = join(", ", tuple(others))
+    return lines(first, md("also at ", also) if also else Md())
 
 
 def indices(arrays: Sequence[Array]) -> Md:

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from regscribe.emit.markdown.merge import Shared, merge
 from regscribe.emit.text import LETTERS
@@ -85,6 +85,11 @@ def _node(shared: Shared[Register | Array], arrays: tuple[Array, ...]) -> Node:
     members = {model.name: array.members for model, array in versions}
     inner = (*arrays, versions[0][1])
     return Branch(Shared(shared.key, versions), arrays, _nodes([model for model, _ in versions], members, inner))
+
+
+def aliases(register: Register) -> tuple[View, ...]:
+    """Return the base view as it stands at each further address."""
+    return tuple(replace(register.base, address=alias) for alias in register.aliases)
 
 
 def formula(view: View, arrays: Sequence[Array]) -> str:

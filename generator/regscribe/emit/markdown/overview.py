@@ -5,9 +5,9 @@ from fractions import Fraction
 from functools import partial
 
 from regscribe.emit.markdown.context import SPACES, Context, by_model
-from regscribe.emit.markdown.escape import Md, code, escape, link, md
+from regscribe.emit.markdown.escape import Md, code, escape, join, link, md
 from regscribe.emit.markdown.facts import symbols
-from regscribe.emit.markdown.outline import Leaf, last_address, leaves, lettered
+from regscribe.emit.markdown.outline import Leaf, aliases, last_address, leaves, lettered
 from regscribe.emit.markdown.page import Table, Titled, table
 from regscribe.emit.text import codes_words, default_words, one_line, range_words, special_words
 from regscribe.model import Access, CodeRange, Kind, Model, Register, Space, View
@@ -46,7 +46,7 @@ def _row(context: Context, leaf: Leaf, offsets: Sequence[int], names: Sequence[s
         cell(lambda _, register: _span(leaf, register.base)),
         *(cell(partial(_notation, leaf, offset)) for offset in offsets),
         *(cell(partial(_view, leaf, name)) for name in names),
-        cell(lambda _, register: escape(", ".join(map(str, register.aliases)))),
+        cell(lambda _, register: join(", ", tuple(_span(leaf, alias) for alias in aliases(register)))),
         link(_name(leaf), context.anchor("register", shared.key)),
         code(lettered(shared.first.path)),
         cell(lambda _, register: escape(ACCESS[register.access])),
