@@ -462,7 +462,7 @@ def test_registers_know_what_stays_and_in_which_order_groups_are_written(kiln: A
     cls = kiln.driver("One")
     assert cls.own_address.stays == "address"
     assert cls.trim_low.stays == "calibration"
-    assert not cls.trim_low.shifted(1, "x").is_configuration or isinstance(cls.trim_low, ReadWrite)
+    assert not cls.trim_low.moved(1, "x.trim_low").is_configuration or isinstance(cls.trim_low, ReadWrite)
     assert {name: group.order for name, group in vars(cls.groups).items() if hasattr(group, "order")} == {
         "line": 1,
         "units": 2,
