@@ -14,6 +14,8 @@ from regscribe.emit import python
 from regscribe.files.dumping import dump
 from regscribe.model import Diagnostic, RegisterMap, Severity
 
+from .places import places_of
+
 FOLDER = Path(__file__).parent / "cases"
 FUNCTIONS = [1, 2, 3, 4, 5, 6, 7, 15, 16]
 Json = dict[str, Any]
@@ -51,10 +53,10 @@ def load(path: Path) -> list[Json]:
 
 
 def cases() -> Iterator[Case]:
-    """Every case of every file."""
+    """Every case of every file, at every place where it holds."""
     for path in sorted(FOLDER.glob("*.yaml")):
-        for one in load(path):
-            name = f"{path.stem}: {one['name']}"
+        for place, one in (each for case in load(path) for each in places_of(case)):
+            name = f"{path.stem}: {one['name']}{place and f' ({place})'}"
             yield Case(name, one["map"], one.get("holds", {}), tuple(one.get("rows", ())), one.get("refused", ""))
 
 
