@@ -14,25 +14,26 @@ import regscribe
 PACKAGE = Path(regscribe.__file__).parent
 ROOMS = {
     "model": set[str](),
+    "visible": set[str](),
     "source": {"model"},
     "schema": {"model", "source"},
     "shipped": set[str](),
     "compose": {"model", "source", "schema", "shipped"},
     "lower": {"model", "source", "schema"},
     "checks": {"model", "source", "schema", "compose", "lower"},
-    "emit": {"model", "schema"},
+    "emit": {"model", "schema", "visible"},
     "evidence": {"model", "emit"},
     "simulate": {"model", "source", "files", "shipped", "pipeline"},
     "runtime": set[str](),
-    "files": {"source", "schema"},
-    "live": {"model", "source", "schema", "runtime", "files"},
+    "files": {"model", "source", "schema", "visible"},
+    "live": {"model", "source", "schema", "runtime", "files", "visible"},
     "programs": {"model", "source", "schema", "runtime", "live", "files", "emit"},
     "settings": {"runtime", "live", "files"},
     "testing": {"runtime"},
     "pytest_plugin": {"model", "simulate"},
     "pipeline": {"model", "source", "schema", "compose", "lower", "checks"},
     "cli": {"model", "source", "schema", "compose", "lower", "checks", "emit", "evidence", "simulate", "pipeline"}
-    | {"runtime", "files", "live", "settings", "programs", "shipped"},
+    | {"runtime", "files", "live", "settings", "programs", "shipped", "visible"},
 }
 """Which other rooms a room may import."""
 

@@ -18,13 +18,14 @@ class Compiled:
     """What became of one file: the map, unless an error was found, and all that was found, in the file's order.
 
     There is no map of a library either. `files` are all files that the map was made of, its own first, each with the
-    SHA-256 of its bytes.
+    SHA-256 of its bytes; `empty` are paths where another file would have been taken, had there been one.
     """
 
     path: Path
     map: RegisterMap | None
     diagnostics: tuple[Diagnostic, ...] = ()
     files: tuple[tuple[Path, str], ...] = ()
+    empty: tuple[Path, ...] = ()
 
 
 _KEPT = 64
@@ -58,7 +59,9 @@ def _compile(document: Document, path: Path, found: list[Diagnostic]) -> Compile
     register_map, checked = _meaning(composed)
     found = [*found, *_told(checked, document)]
     files = ((path, document.content_hash), *composed.files)
-    return Compiled(path, register_map, _ordered(found), files if register_map is not None else ())
+    if register_map is None:
+        return Compiled(path, None, _ordered(found))
+    return Compiled(path, register_map, _ordered(found), files, composed.empty)
 
 
 def _meaning(composed: compose.Composed) -> tuple[RegisterMap | None, list[Diagnostic]]:

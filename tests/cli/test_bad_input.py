@@ -155,7 +155,7 @@ def test_a_closed_pipe_is_quiet(folder: Path) -> None:
         assert running.stderr is not None
         running.stdout.close()
         assert running.stderr.read() == b""
-        assert running.wait(timeout=60) == 1
+        assert running.wait(timeout=60) == 141
 
 
 def test_an_internal_error_asks_for_a_report_without_a_traceback(

@@ -3,11 +3,12 @@ from pathlib import Path
 
 import pytest
 
-from regscribe.cli.excerpt import WIDTH, Sources, safe
+from regscribe.cli.excerpt import WIDTH, Sources
 from regscribe.cli.machine import as_github, as_json
 from regscribe.cli.sarif import as_sarif
 from regscribe.cli.text import findings, tally
 from regscribe.model import Diagnostic, Related, Rule, Severity, Span
+from regscribe.visible import safe
 
 
 @pytest.fixture

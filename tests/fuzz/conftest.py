@@ -198,7 +198,7 @@ def add(value: Any, chance: random.Random) -> None:
     step = _any(value, chance, lambda one: _element(one) and isinstance(one.value, dict))
     siblings = [key for one in step.holder if isinstance(one, dict) for key in one] if _element(step) else []
     key = chance.choice([*siblings, chance.choice(list(pool()))])
-    step.value[key] = deepcopy(chance.choice(pool().get(key, [0])))
+    step.value[key] = deepcopy(chance.choice(pool().get(key) or [0]))
 
 
 def retarget(value: Any, chance: random.Random) -> None:

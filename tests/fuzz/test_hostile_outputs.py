@@ -122,6 +122,14 @@ def test_a_backup_of_hostile_units_reads_back_as_it_was_taken(maps: list[Registe
     assert CANARY not in os.environ
 
 
+def _spelled(char: str) -> str:
+    """A character as a cell has it: as it is if it can be seen, else by its number."""
+    if char.isprintable():
+        return char
+    short = {"\t": "\\t", "\r": "\\r"}
+    return short.get(char) or (f"\\x{ord(char):02x}" if ord(char) < 256 else f"\\u{ord(char):04x}")
+
+
 @pytest.mark.parametrize("text", [*SPREADSHEET, *TERMINAL, "', x); DROP TABLE readings; --", '"', "a,b", "\n"])
 def test_a_log_holds_what_a_device_says_as_text(text: str, tmp_path: Path) -> None:
     readings = (Reading("label", text, text, text, None),)
@@ -132,8 +140,9 @@ def test_a_log_holds_what_a_device_says_as_text(text: str, tmp_path: Path) -> No
         log.close()
     with (tmp_path / "log.csv").open(newline="", encoding="utf-8") as file:
         row = list(csv.reader(file))[1]
-    assert set(row[3:5]) <= {text, f"'{text}"}
-    assert not any(FORMULA.match(cell) for cell in row)
+    told = "\n".join("".join(_spelled(char) for char in line) for line in text.split("\n"))
+    assert set(row[3:5]) <= {told, f"'{told}"}
+    assert not any(FORMULA.match(cell.lstrip()) for cell in row)
     assert json.loads((tmp_path / "log.jsonl").read_text("utf-8"))["registers"]["label"]["value"] == text
     base = sqlite3.connect(tmp_path / "log.sqlite")
     assert base.execute("SELECT value, unit FROM readings").fetchall() == [(text, text)]

@@ -154,11 +154,10 @@ def test_a_table_on_a_full_disk_ends_with_a_whole_round(tmp_path: Path) -> None:
     assert (count, done < 10_000) == ((done * len(READINGS),), True)
 
 
-@pytest.mark.parametrize("text", ["=1+1", "@SUM(A1)", "+cmd|' /C calc'!A0", "-2+3+cmd|' /C calc'!A0", "\t=1"])
+@pytest.mark.parametrize("text", ["=1+1", "@SUM(A1)", "+cmd|' /C calc'!A0", "-2+3+cmd|' /C calc'!A0", " =1", "\n=1"])
 def test_a_spreadsheet_calculates_nothing_of_what_a_device_says(text: str, tmp_path: Path) -> None:
     said = Round(1, START, 0.1, (Reading("label", text, text, "", None),), frozenset(), None, late=False)
-    last = written(tmp_path / "log.csv", said).read_text(encoding="utf-8").splitlines()[-1]
-    assert f"'{text}" in last
+    assert f"'{text}" in written(tmp_path / "log.csv", said).read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("text", ["-1999..9999", "+5 V", "-", "150.5"])

@@ -1,13 +1,14 @@
 """The `regscribe` command: its table of commands, and what becomes of every exception.
 
 Exit codes: 0 clean, 1 findings (or a device, port or directory that does not play along), 2 usage, 3 nobody answers,
-4 a write broke off and what the device holds is unknown (see `failure`), 130 Ctrl-C.
+4 a write broke off and what the device holds is unknown (see `failure`), 130 Ctrl-C, 141 nobody reads the output.
 """
 
 import os
 import sys
 import traceback
 from collections.abc import Sequence
+from contextlib import suppress
 from difflib import get_close_matches
 from importlib import import_module
 from pathlib import Path
@@ -17,6 +18,7 @@ import click
 from click.shell_completion import CompletionItem
 
 from regscribe import __version__
+from regscribe.visible import safe, safe_lines
 
 COMMANDS = {
     "check": "Report what is wrong in maps.",
@@ -46,12 +48,18 @@ COMMANDS = {
 }
 """Name and help of each command; `regscribe.cli.<name>` holds it and is imported when it is called for."""
 
-INTERRUPTED = 130
-"""128 + SIGINT, as a shell counts."""
+INTERRUPTED, CLOSED_PIPE = 130, 141
+"""128 + SIGINT or SIGPIPE, as a shell counts; nothing is said of a reader that went away (`| head`)."""
+
+UNREADABLE = 2
 
 
 MOST_TEXT = 300
 """Most characters of an internal error's own text: it may hold a whole map."""
+
+
+class ClosedPipeError(Exception):
+    """Whoever read the output went away; click would hide a BrokenPipeError behind an exit code of its own."""
 
 
 class LazyCommands(click.Group):
@@ -72,6 +80,15 @@ class LazyCommands(click.Group):
         """List the commands from the table, without importing them."""
         with formatter.section("Commands"):
             formatter.write_dl(list(COMMANDS.items()))
+
+    def invoke(self, ctx: click.Context) -> object:
+        """Run the command; ClosedPipeError if nobody reads its output any more."""
+        try:
+            result: object = super().invoke(ctx)
+            sys.stdout.flush()
+        except BrokenPipeError:
+            raise ClosedPipeError from None
+        return result
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
         """Complete the commands from the table, without importing them."""
@@ -114,21 +131,34 @@ def run(arguments: Sequence[str]) -> int:
         code = regscribe.main(list(arguments), prog_name="regscribe", standalone_mode=False)
         sys.stdout.flush()
     except click.ClickException as error:
+        vars(error)["message"] = safe_lines(error.message)  # click calls it final
         error.show()
         return error.exit_code
     except (click.Abort, KeyboardInterrupt):
         return INTERRUPTED
-    except BrokenPipeError:
-        return _closed_pipe()
+    except (BrokenPipeError, ClosedPipeError):
+        _forget_output()
+        return CLOSED_PIPE
+    except OSError as error:
+        return _refused_by_the_system(error)
     except Exception as error:  # noqa: BLE001 - the last resort: a user never sees a bare traceback
         return _internal_error(error, debug="--debug" in arguments or bool(os.environ.get("REGSCRIBE_DEBUG")))
     return code if isinstance(code, int) else 0
 
 
-def _closed_pipe() -> int:
-    """Keep the interpreter from flushing again: the reader went away (`| head`), there is nobody to tell."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    return 1
+def _forget_output() -> None:
+    """Keep the interpreter from flushing standard output once more when it ends."""
+    with suppress(OSError, ValueError):  # no file, as in a test
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _refused_by_the_system(error: OSError) -> int:
+    """A full disk, a name that is too long, a file that may not be read: where, and what the system says."""
+    if error.filename is None:
+        _forget_output()
+    where = "standard output" if error.filename is None else os.fsdecode(error.filename)
+    click.ClickException(safe(f"{where[:MOST_TEXT]}: {error.strerror or error}")).show()
+    return UNREADABLE
 
 
 def _internal_error(error: Exception, *, debug: bool) -> int:
@@ -137,7 +167,7 @@ def _internal_error(error: Exception, *, debug: bool) -> int:
         return 1
     last = traceback.extract_tb(error.__traceback__)[-1]
     where = f"{Path(last.filename).name}:{last.lineno}"
-    what = f"{type(error).__name__}: {error}"[:MOST_TEXT]
+    what = safe(f"{type(error).__name__}: {error}"[:MOST_TEXT])
     click.echo(
         f"regscribe {__version__}: internal error: {what} ({where})\n"
         "This is a bug in regscribe, not in your map. Please report it with the command line, the map and the\n"

@@ -32,7 +32,8 @@ def command(*, target: Target, as_json: bool, path: Path | None, force: bool, id
         raise Failure(message, kind="file", code=USAGE)
     with opened(target, identity=identity) as device, told():
         found = taken(device, str(target.link))
-    text = settings.to_text(found)
+    with told():
+        text = settings.to_text(found)
     if path is None and not as_json:
         sys.stdout.write(text)
     elif path is not None:

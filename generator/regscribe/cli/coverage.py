@@ -1,19 +1,18 @@
 """`regscribe coverage`: what maps cover, what is inferred in them and what is open."""
 
-import json
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 
 import click
 
-from regscribe.cli.excerpt import safe
 from regscribe.cli.locate import find_maps
 from regscribe.cli.terminal import Piece, show
 from regscribe.cli.text import count, findings, tally
 from regscribe.emit.index import ADDRESSES, FACTS, coverage_text
 from regscribe.evidence import MapCoverage, Remark, card, coverage
 from regscribe.pipeline import compile_map
+from regscribe.visible import json_text, safe
 
 
 @click.command(
@@ -38,7 +37,7 @@ def command(*, maps: tuple[str, ...], form: str) -> int:
     match form:
         case "json":
             plain = {"format": 1, "maps": [asdict(coverage(one)) for one in register_maps]}
-            sys.stdout.write(json.dumps(plain, indent=2, ensure_ascii=False) + "\n")
+            sys.stdout.write(json_text(plain, indent=2) + "\n")
         case "markdown":
             sys.stdout.write(coverage_text([card(one) for one in register_maps]))
         case _:

@@ -7,7 +7,6 @@ from typing import Any
 import click
 
 from regscribe.cli.completing import complete_model
-from regscribe.cli.excerpt import safe
 from regscribe.cli.failure import REFUSED, told
 from regscribe.cli.output import print_json, remark
 from regscribe.cli.target import CONFIG, JSON, PACKAGE
@@ -19,6 +18,7 @@ from regscribe.live.errors import TargetError
 from regscribe.live.frames import FRAMINGS
 from regscribe.live.target import given_texts
 from regscribe.runtime import BareDevice
+from regscribe.visible import safe
 
 ARROWS = {"request": "->", "response": "<-"}
 PAIR = 2

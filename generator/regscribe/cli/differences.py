@@ -2,15 +2,13 @@
 
 import csv
 import io
-import json
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
-from regscribe.cli.excerpt import safe
 from regscribe.cli.terminal import Piece
 from regscribe.cli.text import count
-from regscribe.emit.text import cell
 from regscribe.evidence import Comparison, Difference, Place
+from regscribe.visible import cell, json_text, safe
 
 HEADER = ("what", "model", "space", "address", "id", "name", "column", "ours", "theirs", "line")
 
@@ -97,7 +95,7 @@ def as_json(found: Comparison) -> str:
         ],
         "notes": list(found.notes),
     }
-    return json.dumps(plain, indent=2, ensure_ascii=False) + "\n"
+    return json_text(plain, indent=2) + "\n"
 
 
 def _plain(place: Place) -> dict[str, str | int | None]:

@@ -44,11 +44,6 @@ class Sources:
         return _cut(line, first, max(min(end, len(line)), first + 1))
 
 
-def safe(text: str) -> str:
-    """Return `text` with every character that a terminal would obey (escapes, direction marks) spelled out."""
-    return "".join(char if char.isprintable() else char.encode("unicode_escape").decode() for char in text)
-
-
 def _read(path: Path) -> list[str]:
     try:
         if not path.is_file() or path.stat().st_size > MOST_BYTES:

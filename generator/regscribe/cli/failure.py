@@ -5,7 +5,6 @@ Exit codes: 0 done, 1 the device refuses or something differs, 2 the command lin
 not known, 130 Ctrl-C.
 """
 
-import json
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -16,6 +15,7 @@ import click
 from regscribe.live.errors import TargetError
 from regscribe.runtime import ExceptionAnswer, LinkLost, NoAnswer, PartialWrite, RegscribeError
 from regscribe.runtime.errors import GATEWAY, LeftAt, NotApplied, NotConfigured, ReadBackDiffers, WriteUnknown
+from regscribe.visible import json_text
 
 REFUSED, USAGE, SILENT, UNKNOWN_STATE = 1, 2, 3, 4
 
@@ -37,7 +37,7 @@ class Failure(click.ClickException):
         """Print the message to standard error; with --json an object to standard output, too."""
         if self.as_json:
             said = {"format": 1, "error": {"kind": self.kind, "message": self.message, "exit_code": self.exit_code}}
-            sys.stdout.write(json.dumps(said, ensure_ascii=False) + "\n")
+            sys.stdout.write(json_text(said) + "\n")
         super().show(file)
 
 

@@ -1,5 +1,6 @@
 """`regscribe generate`: compile maps to drivers, docs, vectors and tests."""
 
+import os
 import sys
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -16,6 +17,7 @@ from regscribe.emit.cache import Counts, Entry
 from regscribe.emit.index import render_index
 from regscribe.emit.write import Report, WriteError, origin_of, write
 from regscribe.model import Diagnostic, RegisterMap
+from regscribe.visible import safe_lines
 
 
 @dataclass(slots=True)
@@ -60,8 +62,8 @@ def command(*, maps: tuple[str, ...], check: bool, out: Path) -> int:
         raise click.ClickException(str(error)) from None
     if not check:
         _remember(build, known, whole=not maps)
-    sys.stdout.write(report.diff)
-    sys.stdout.write(_summary(build, report, out, seconds=perf_counter() - started, check=check))
+    sys.stdout.write(safe_lines(report.diff))
+    sys.stdout.write(safe_lines(_summary(build, report, out, seconds=perf_counter() - started, check=check)))
     return int(check and bool(report.written or report.removed))
 
 
@@ -91,6 +93,7 @@ def _compile(path: Path, build: Build) -> None:
     hashes = {name: cache.digest(text.encode()) for name, text in files.items()}
     counts = _counts(compiled.map)
     sources = {cache.key(source): known for source, known in compiled.files}
+    sources |= {os.path.abspath(source): cache.NOTHING for source in compiled.empty}  # noqa: PTH100 - resolve() would follow a link that comes to stand there
     build.entries[path] = Entry(compiled.map.id, sources, hashes, counts, card(compiled.map))
     if compiled.diagnostics:
         build.noisy.add(path)

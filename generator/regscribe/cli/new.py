@@ -11,6 +11,7 @@ from string import Template
 import click
 
 from regscribe.shipped import shipped
+from regscribe.visible import safe
 
 WORD = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 """A maker or a family: it becomes a folder, a file and a Python module."""
@@ -39,7 +40,7 @@ def command(*, map_id: str, folder: Path) -> int:
     except OSError as error:
         message = f"cannot write {path}: {error.strerror}; choose another folder with --dir"
         raise click.ClickException(message) from None
-    sys.stdout.write(f"{path} is ready to be filled in; then: regscribe check {path}\n")
+    sys.stdout.write(safe(f"{path} is ready to be filled in; then: regscribe check {path}") + "\n")
     return 0
 
 

@@ -1,11 +1,10 @@
 """How live commands print: tables (by rich on a terminal, aligned text when piped), JSON objects, remarks."""
 
-import json
 import sys
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from regscribe.cli.excerpt import safe
+from regscribe.visible import json_text, safe
 
 GAP = "  "
 
@@ -44,12 +43,12 @@ def _rich_table(columns: Sequence[str], rows: Sequence[Sequence[str]], title: st
 
 def print_json(**what: Any) -> None:  # noqa: ANN401 - anything that JSON can hold
     """Print one object; every command's has `format`, the version of its shape."""
-    sys.stdout.write(json.dumps({"format": 1, **what}, ensure_ascii=False, indent=2) + "\n")
+    sys.stdout.write(json_text({"format": 1, **what}, indent=2) + "\n")
 
 
 def print_json_line(**what: Any) -> None:  # noqa: ANN401 - as above
     """Print one object in one line, at once: for what goes on and on."""
-    sys.stdout.write(json.dumps({"format": 1, **what}, ensure_ascii=False) + "\n")
+    sys.stdout.write(json_text({"format": 1, **what}) + "\n")
     sys.stdout.flush()
 
 

@@ -8,14 +8,14 @@ from typing import Any
 import click
 
 from regscribe.cli.completing import complete_register
-from regscribe.cli.excerpt import safe
 from regscribe.cli.failure import REFUSED, kind_of
-from regscribe.cli.output import print_json, show_table
+from regscribe.cli.output import print_json, remark, show_table
 from regscribe.cli.target import HELP, opened, target_options
 from regscribe.live import names
 from regscribe.live.reading import Reading, readings
 from regscribe.live.target import Target
 from regscribe.runtime import BareDevice, RegscribeError, operations
+from regscribe.visible import safe
 
 
 @click.command(
@@ -72,7 +72,7 @@ def error_object(error: RegscribeError) -> dict[str, str]:
 def _complain(found: Sequence[Reading]) -> None:
     for one in found:
         if one.error is not None:
-            sys.stderr.write(f"{one.error}\n")
+            remark(str(one.error))
 
 
 def _show_words(words: dict[str, tuple[int, ...]], device: BareDevice, target: Target, *, as_json: bool) -> None:

@@ -5,10 +5,10 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from regscribe.cli.chart import chart
-from regscribe.cli.excerpt import safe
 from regscribe.live.log import moment
 from regscribe.live.reading import Reading, reason
 from regscribe.live.watch import Round
+from regscribe.visible import safe
 
 if TYPE_CHECKING:
     from datetime import datetime

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from regscribe.simulate import Exchange, Service, SimulatedDevice, Told, tell
+from regscribe.visible import safe
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -52,7 +53,8 @@ def lines(requests: Requests) -> None:
         told = tell(requests.devices, exchange)
         mark = "" if told.good else f": {told.outcome}"
         try:
-            sys.stdout.write(f"{_clock(time.time())} unit {told.unit} {told.verb} {told.what}{mark}"[:LONGEST] + "\n")
+            line = f"{_clock(time.time())} unit {told.unit} {told.verb} {told.what}{mark}"
+            sys.stdout.write(safe(line)[:LONGEST] + "\n")
             sys.stdout.flush()
         except BrokenPipeError:  # the reader went away; the clients stay
             requests.each = None

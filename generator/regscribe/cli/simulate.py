@@ -24,6 +24,7 @@ from regscribe.simulate import (
 )
 from regscribe.simulate.latency import factor_of
 from regscribe.simulate.service import line_of
+from regscribe.visible import safe
 
 PTY = "pty"
 """In place of a serial device: make a pseudo terminal and print its path."""
@@ -220,5 +221,5 @@ def _announce(devices: list[SimulatedDevice], server: Server) -> None:
     where = server.path or f"{server.host}:{server.port}"
     for device in devices:
         name = f"{device.register_map.title} {device.model.name}"
-        sys.stdout.write(f"{name} answers as unit {device.unit} on {where}; Ctrl-C stops it\n")
+        sys.stdout.write(safe(f"{name} answers as unit {device.unit} on {where}; Ctrl-C stops it") + "\n")
     sys.stdout.flush()  # a script waits for this line

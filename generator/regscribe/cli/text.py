@@ -2,9 +2,10 @@
 
 from collections.abc import Iterable, Iterator
 
-from regscribe.cli.excerpt import Sources, safe
+from regscribe.cli.excerpt import Sources
 from regscribe.cli.terminal import Piece
 from regscribe.model import Diagnostic, Severity, Span
+from regscribe.visible import safe
 
 STYLES = {Severity.ERROR: "bold red", Severity.WARNING: "bold yellow"}
 MARGIN = "cyan"

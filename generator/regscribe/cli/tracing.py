@@ -3,13 +3,13 @@
 import sys
 from datetime import UTC, datetime
 
-from regscribe.cli.excerpt import safe
 from regscribe.live.capture import RECEIVED, SENT
 from regscribe.live.decode import Decoded, Decoder
 from regscribe.live.frames import frames
 from regscribe.live.names import Driver
 from regscribe.live.target import Target
 from regscribe.runtime.trace import Trace
+from regscribe.visible import safe
 
 ARROWS = {SENT: "->", RECEIVED: "<-"}
 

@@ -31,7 +31,8 @@ class Composed:
     """The document of all files, None if there are diagnostics; what it was made of, with the SHA-256 of each file.
 
     `base` is where the map that it extends lies, `renumber` the chapters that have another number here, `libraries`
-    are the documents of `uses`. `shipped` are the ids of those files that come with regscribe.
+    are the documents of `uses`. `shipped` are the ids of those files that come with regscribe. `empty` are the paths
+    where a file would have counted before one of `files`, had there been one.
     """
 
     document: Document | None
@@ -40,6 +41,7 @@ class Composed:
     uses: tuple[str, ...] = ()
     overrides: tuple[Override, ...] = ()
     files: tuple[tuple[Path, str], ...] = ()
+    empty: tuple[Path, ...] = ()
     base: Path | None = None
     renumber: tuple[tuple[str, str], ...] = ()
     libraries: tuple[Document, ...] = ()
@@ -94,6 +96,7 @@ def compose(document: Document, path: Path) -> Composed:
         uses=tuple(library.id for library in part.libraries),
         overrides=part.overrides,
         files=files,
+        empty=tuple(sorted(shelf.empty)),
         base=part.base,
         renumber=tuple((old, text(new)) for old, new in members(root.child("renumber")).items()),
         libraries=tuple(_document(library, shelf) for library in part.libraries),

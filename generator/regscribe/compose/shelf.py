@@ -31,6 +31,7 @@ class File:
 class Shelf:
     """The folders that ids are looked up in, and what was read from them: the SHA-256 of each file by path.
 
+    `empty` are the paths at which a file was looked for in vain: one that appears there would count from then on.
     `folder` is that of the map itself. What comes with regscribe is looked for after it, and knows nothing of it.
     """
 
@@ -38,6 +39,7 @@ class Shelf:
     findings: Findings
     shipped: Path = field(default_factory=shipped)
     hashes: dict[Path, str] = field(default_factory=dict)
+    empty: set[Path] = field(default_factory=set)
     known: dict[Path, File | None] = field(default_factory=dict)
 
     def find(self, node: Node, kind: str, asker: File) -> File | None:
@@ -45,6 +47,7 @@ class Shelf:
         places = [self.shipped] if asker.shipped else [self.folder, self.shipped]
         paths = [folder / f"{node.value}{ENDINGS[kind]}" for folder in places]
         found = [path for path in paths if os.path.isfile(path)]  # noqa: PTH113 - Path.is_file raises where a folder may not be read
+        self.empty.update(paths[: paths.index(found[0])] if found else paths)
         if not found:
             where = source.display_name(paths[0])
             message = f"there is no {kind} `{node.value}`: no file {where}, and none comes with regscribe"

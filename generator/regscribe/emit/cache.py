@@ -19,6 +19,9 @@ from pathlib import Path
 import regscribe
 from regscribe.emit.index import Card, card_of
 
+NOTHING = ""
+"""In place of a hash: there must be no file. One that appears there would be taken instead of another."""
+
 LIBRARIES = ("jinja2", "yaml", "jsonschema")
 """Another version of these may read or render something differently."""
 
@@ -36,7 +39,8 @@ class Counts:
 class Entry:
     """One map of the last run: its id, the SHA-256 of each file it was made of and of each written from it, its counts.
 
-    `card` is its part of the index, which is written anew when any map changes.
+    Among the former are places where a file was looked for in vain (`NOTHING`). `card` is its part of the index, which
+    is written anew when any map changes.
     """
 
     id: str
@@ -71,15 +75,17 @@ class Cache:
         with suppress(OSError):
             place.parent.mkdir(parents=True, exist_ok=True)
             temporary = place.with_name(f"{place.name}.{os.getpid()}.tmp")
-            temporary.write_text(json.dumps(asdict(self) | {"out": str(self.out)}), encoding="utf-8")
+            record = json.dumps(asdict(self) | {"out": str(self.out)})
+            temporary.write_text(f"{digest(record.encode())}\n{record}", encoding="utf-8")
             temporary.replace(place)
 
 
 def load(out: Path) -> Cache:
-    """Return the record of the last run into `out`; an empty one if there is none or another generator wrote it."""
+    """Return the record of the last run into `out`; an empty one if there is none as this generator wrote it."""
     empty = Cache(out, fingerprint())
     try:
-        plain = json.loads(_place(out).read_text(encoding="utf-8"))
+        checksum, _, record = _place(out).read_text(encoding="utf-8").partition("\n")
+        plain = json.loads(record) if checksum == digest(record.encode()) else {}
         entries = {path: _entry(entry) for path, entry in plain["entries"].items()}
         return Cache(out, empty.fingerprint, entries) if plain["fingerprint"] == empty.fingerprint else empty
     except (OSError, ValueError, TypeError, KeyError, AttributeError):  # absent, cut off or of another shape
@@ -97,7 +103,10 @@ def _entry(plain: Mapping[str, object]) -> Entry:
 
 def _same(sources: Mapping[str, str]) -> bool:
     """Whether a map and all that it builds on are what they were."""
-    return all(digest(Path(source).read_bytes()) == known for source, known in sources.items())
+    return all(
+        digest(Path(source).read_bytes()) == known if known else not os.path.lexists(source)
+        for source, known in sources.items()
+    )
 
 
 def key(path: Path) -> str:

@@ -9,7 +9,6 @@ from dataclasses import astuple, dataclass, fields, replace
 from regscribe.emit.text import (
     bits_words,
     cases_words,
-    cell,
     conversion_words,
     labels_of,
     limit_words,
@@ -35,6 +34,7 @@ from regscribe.model import (
     always,
     show,
 )
+from regscribe.visible import cell
 
 BIT_FUNCTIONS = frozenset({5, 15})
 """Function codes that write coils; every other write goes to holding registers."""

@@ -3,7 +3,6 @@
 The words are plain text. An emitter that needs more (escaping, links) passes its own `Wording`.
 """
 
-import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -83,15 +82,6 @@ PLAIN = Wording()
 def one_line(text: str) -> str:
     """Return the text with every run of white space (line ends too) as one blank, none at the ends."""
     return " ".join(text.split())
-
-
-FORMULA = re.compile(r"[=@\t\r]|[+-].*[(|!=]", re.DOTALL)
-"""The beginning of a text that a spreadsheet would calculate, or run a program for, instead of showing it."""
-
-
-def cell(text: str) -> str:
-    """Return the text as a cell of a CSV table: an apostrophe before what a spreadsheet would take for a formula."""
-    return f"'{text}" if FORMULA.match(text) else text
 
 
 def listed(parts: Sequence[str], last: str = "or") -> str:

@@ -5,7 +5,7 @@ all. Every mistake is a FileError with its place.
 """
 
 from regscribe.files.dumping import OneLine, dump
-from regscribe.files.reading import FileError, read
+from regscribe.files.reading import FileError, parse, read
 from regscribe.files.saving import save
 
-__all__ = ["FileError", "OneLine", "dump", "read", "save"]
+__all__ = ["FileError", "OneLine", "dump", "parse", "read", "save"]

@@ -6,6 +6,7 @@ from typing import Any
 import yaml
 
 from regscribe import source
+from regscribe.visible import INVISIBLE
 
 
 class OneLine(dict[str, Any]):
@@ -29,7 +30,8 @@ def _one_line(dumper: yaml.SafeDumper, data: OneLine) -> yaml.Node:
 
 
 def _text(dumper: yaml.SafeDumper, data: str) -> yaml.Node:
-    return dumper.represent_scalar("tag:yaml.org,2002:str", data, style=None if _plain(data) else '"')
+    visible = INVISIBLE.search(data) is None
+    return dumper.represent_scalar("tag:yaml.org,2002:str", data, style=None if visible and _plain(data) else '"')
 
 
 def _plain(data: str) -> bool:

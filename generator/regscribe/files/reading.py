@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from regscribe import schema, source
+from regscribe.model import Diagnostic
 from regscribe.source import Document
 
 MOST_BYTES = 8_000_000
@@ -17,14 +18,22 @@ class FileError(Exception):
 def read(path: Path, *, language: str, what: str) -> Document:
     """The document in a file; `language` names its schema, `what` is how a message calls such a file (a backup)."""
     _check_size(path, what)
-    document, found = source.load(path)
+    return _checked(*source.load(path, escapes=True), language=language, what=f"{path} is no {what}")
+
+
+def parse(text: str, *, language: str, what: str) -> Document:
+    """As `read`, of a text that is to become such a file."""
+    return _checked(*source.parse(text, name=what, escapes=True), language=language, what=f"this is no {what}")
+
+
+def _checked(document: Document | None, found: list[Diagnostic], *, language: str, what: str) -> Document:
     if document is not None:
         found = schema.validate(document, language=language)
-    if document is not None and not found:
-        return document
+        if not found:
+            return document
     lines = [f"{one.span}: {one.message}{f' ({one.help})' if one.help else ''}" for one in found[:MOST_ERRORS]]
     more = [f"and {len(found) - MOST_ERRORS} more"] if len(found) > MOST_ERRORS else []
-    raise FileError("\n".join([f"{path} is no {what}:", *lines, *more]))
+    raise FileError("\n".join([f"{what}:", *lines, *more]))
 
 
 def _check_size(path: Path, what: str) -> None:

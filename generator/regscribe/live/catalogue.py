@@ -8,7 +8,7 @@ from functools import cache
 from pathlib import Path
 from types import ModuleType
 
-from regscribe.live.errors import TargetError, unknown
+from regscribe.live.errors import MOST_SHOWN, TargetError, unknown
 from regscribe.runtime import BareDevice
 from regscribe.runtime.identify import Known
 
@@ -69,10 +69,13 @@ def package(name: str) -> ModuleType:
         sys.path.insert(0, str(path.resolve().parent))
         name = path.resolve().name
     try:
+        if not all(part.isidentifier() for part in name.split(".")):
+            what = "that is no name of a package"
+            raise ImportError(what)  # noqa: TRY301 (what Python says of such names is of many sorts)
         return importlib.import_module(name)
-    except ImportError as error:
+    except Exception as error:  # noqa: BLE001 (whatever the user's package does when it is imported)
         message = (
-            f"the package `{name}` of drivers cannot be imported ({error}): name one that is installed, "
+            f"the package `{name[:MOST_SHOWN]}` of drivers cannot be imported ({error}): name one that is installed, "
             "or its folder (./build/my_devices)"
         )
         raise TargetError(message) from None

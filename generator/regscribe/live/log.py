@@ -6,9 +6,7 @@ exists is continued if it is one of the same kind, and left alone otherwise.
 
 import csv
 import io
-import json
 import os
-import re
 import sqlite3
 from abc import abstractmethod
 from contextlib import suppress
@@ -18,10 +16,10 @@ from typing import Any, Protocol
 from regscribe.live.errors import TargetError, meant
 from regscribe.live.reading import Reading
 from regscribe.live.watch import Round
+from regscribe.visible import cell, json_text
 
 COLUMNS = ("time", "device", "register", "value", "unit", "error")
 TABLE = "readings"
-FORMULA = re.compile(r"[=@\t\r]|[+-].*[(|!=]", re.DOTALL)
 READ_AT_ONCE = 1 << 16
 
 
@@ -138,7 +136,7 @@ class _Csv(_Text):
 
 class _JsonLines(_Text):
     def lines(self, one: Round) -> bytes:
-        return (json.dumps(plain(one, self.device), ensure_ascii=False) + "\n").encode()
+        return (json_text(plain(one, self.device)) + "\n").encode()
 
 
 class _Sqlite:
@@ -194,8 +192,8 @@ def _cell(one: Reading) -> Any:  # noqa: ANN401 - a plain value
 
 
 def _shown(value: Any) -> Any:  # noqa: ANN401 - as above
-    """A cell of a spreadsheet; a text that it would calculate instead of showing it gets an apostrophe before it."""
-    return f"'{value}" if isinstance(value, str) and FORMULA.match(value) else value
+    """A cell of a spreadsheet."""
+    return cell(value) if isinstance(value, str) else value
 
 
 def _unwritten(path: Path, what: str, error: Exception) -> LogError:

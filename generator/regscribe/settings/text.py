@@ -13,7 +13,7 @@ _HEAD = "Settings of a device, written by regscribe; `regscribe restore` writes 
 
 
 def to_text(backup: Backup) -> str:
-    """A backup as YAML."""
+    """A backup as YAML; BackupError if reading it would give another backup."""
     origin = backup.origin
     head = {
         "map": origin.map_id,
@@ -27,7 +27,17 @@ def to_text(backup: Backup) -> str:
     settings = {
         group: {path: _entry(saved) for path, saved in members.items()} for group, members in backup.groups.items()
     }
-    return dump({"format": FORMAT, "backup": head, "settings": settings}, remarks=(_HEAD,))
+    text = dump({"format": FORMAT, "backup": head, "settings": settings}, remarks=(_HEAD,))
+    try:
+        kept = _backup(files.parse(text, language="backup", what="backup").data)
+    except FileError as error:
+        message = f"the settings cannot be kept, because what was to be written cannot be read back: {error}"
+        raise BackupError(message) from None
+    if kept != backup:
+        lost = [path for path, saved in backup.settings() if dict(kept.settings()).get(path) != saved]
+        message = f"the settings cannot be kept: read back, {', '.join(lost) or 'the head'} would be something else"
+        raise BackupError(message)
+    return text
 
 
 def _entry(saved: Saved) -> OneLine:

@@ -1,6 +1,7 @@
 """Serial lines: a serial device with its speed and format, or a pseudo terminal made here."""
 
 import os
+import termios
 import tty
 from dataclasses import dataclass
 
@@ -9,6 +10,8 @@ import serial  # type: ignore[import-untyped]  # pyserial ships no types
 from regscribe.simulate.errors import SimulatorError
 
 _FORMAT_LENGTH = 3
+LOCAL_FLAGS = 3
+"""Where they stand in what `termios.tcgetattr` gives."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +38,20 @@ class OpenLine:
         self.fd = fd
         self._port = port
         self._held = held
+
+    def heard(self) -> None:
+        """Let the next client set the line up, too: to be called when the present one has sent something.
+
+        A pseudo terminal has no parity. The kernel ignores the wish, and the C library of Linux calls that an error if
+        no other flag changed, as for the second client with the same settings. So a flag is put back that every client
+        clears and that means nothing on a raw line: how erased characters are echoed.
+        """
+        if self._held is None:
+            return
+        settings = termios.tcgetattr(self._held)
+        if not settings[LOCAL_FLAGS] & termios.ECHOE:
+            settings[LOCAL_FLAGS] |= termios.ECHOE
+            termios.tcsetattr(self._held, termios.TCSANOW, settings)
 
     def close(self) -> None:
         """Close all that was opened."""

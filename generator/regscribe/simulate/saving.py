@@ -64,7 +64,7 @@ def load(path: Path) -> Mapping[str, Any]:
     if size > MOST_BYTES:
         message = f"{path} has {size} bytes: a state has at most {MOST_BYTES}"
         raise SimulatorError(message)
-    document, found = source.load(path)
+    document, found = source.load(path, escapes=True)
     if document is None:
         first = found[0]
         message = f"{path} is no state: {first.span.line}:{first.span.column}: {first.message}"

@@ -230,6 +230,7 @@ class LineServer(_Accompanied):
         self._ended.set()
 
     def _received(self, data: bytes) -> None:
+        self._line.heard()
         if self._connection is not None:
             self._connection.received(data)
 

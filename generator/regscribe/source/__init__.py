@@ -28,11 +28,11 @@ __all__ = [
 ]
 
 
-def load(path: FilePath, *, name: str | None = None) -> tuple[Document | None, list[Diagnostic]]:
+def load(path: FilePath, *, name: str | None = None, escapes: bool = False) -> tuple[Document | None, list[Diagnostic]]:
     """Read a map; `name` is what diagnostics call it (default: the path as given, relative where possible).
 
-    The document is None if and only if there are diagnostics.
+    The document is None if and only if there are diagnostics. `escapes`: see `parse`.
     """
     shown = name or display_name(path)
     data, diagnostics = read(path, name=shown)
-    return (None, diagnostics) if data is None else parse(data, name=shown)
+    return (None, diagnostics) if data is None else parse(data, name=shown, escapes=escapes)

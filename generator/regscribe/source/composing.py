@@ -55,9 +55,10 @@ _BLANK_OR_COMMENT = re.compile(r"(?:[ \t]*+(?:#.*)?+(?:\n|\Z))*+[ \t]*+")
 
 
 class Composer:
-    """Builds the tree of one file; what is wrong goes to `findings`."""
+    """Builds the tree of one file; what is wrong goes to `findings`. With `escapes` these may spell any character."""
 
-    def __init__(self, text: str, findings: Findings) -> None:
+    def __init__(self, text: str, findings: Findings, *, escapes: bool = False) -> None:
+        self._escapes = escapes
         self._text = text
         self._findings = findings
         self._stack: list[Frame] = []
@@ -113,7 +114,7 @@ class Composer:
         if len(event.value) > MAX_TEXT:
             message = f"a text of {len(event.value):,} characters; at most {MAX_TEXT:,} are read"
             self._findings.add(TEXT_TOO_LONG, message, place, advice="is a quote missing before? else shorten it")
-        hidden = find_invisible(event.value) if event.style == '"' else None
+        hidden = find_invisible(event.value) if event.style == '"' and not self._escapes else None
         if hidden:
             advice = "leave the escape out; only visible characters, \\n and \\t have a place in a map"
             self._findings.add(CONTROL_CHARACTER, f"{hidden} written as an escape", place, advice=advice)

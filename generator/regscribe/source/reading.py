@@ -68,8 +68,11 @@ def _check_size(size: int, findings: Findings) -> None:
         raise findings.stop(TOO_LARGE, message, _START, advice="is this a map? split a family that is really so large")
 
 
-def parse(content: str | bytes, *, name: str) -> tuple[Document | None, list[Diagnostic]]:
-    """Parse a map's text; the document is None if and only if there are diagnostics, which are sorted by place."""
+def parse(content: str | bytes, *, name: str, escapes: bool = False) -> tuple[Document | None, list[Diagnostic]]:
+    """Parse a map's text; the document is None if and only if there are diagnostics, which are sorted by place.
+
+    `escapes`: in other files than maps, an escape may spell any character that a device sent.
+    """
     findings = Findings(shorten(name, limit=500))
     data = content.encode("utf-8", "surrogatepass") if isinstance(content, str) else content
     try:
@@ -77,7 +80,7 @@ def parse(content: str | bytes, *, name: str) -> tuple[Document | None, list[Dia
         text = normalise(content) if isinstance(content, str) else decode(data, findings)
         check_characters(text, findings)
         if not findings.diagnostics:
-            root = Composer(text, findings).compose()
+            root = Composer(text, findings, escapes=escapes).compose()
             if not findings.diagnostics:
                 return Document(findings.name, text, root.value, hashlib.sha256(data).hexdigest(), root), []
     except StopReadingError:
