@@ -256,7 +256,7 @@ def decoded_by_tool(built: Built, memory: Any, row: Json) -> str:
     driver = built.module.CaseA
     decoder = Decoder(driver)
     text = ""
-    for register, view in [*_others(built, row), register_of(built, row)]:
+    for register, view in [*_others(built, memory, row), register_of(built, row)]:
         own = register.path == row["register"]
         words = words_of(row["words"]) if own else memory.get(view.space.value, view.address, view.words)
         request, answer = _frames(view, words)
@@ -267,8 +267,10 @@ def decoded_by_tool(built: Built, memory: Any, row: Json) -> str:
     return text
 
 
-def _others(built: Built, row: Json) -> list[tuple[Register, View]]:
-    return [(one, one.preferred) for one in built.map.models[0].registers if one.path != row["register"]] * 2
+def _others(built: Built, memory: Any, row: Json) -> list[tuple[Register, View]]:
+    """What else the device was told to hold, twice: one may depend on the other."""
+    others = [(one, one.preferred) for one in built.map.models[0].registers if one.path != row["register"]]
+    return [(one, view) for one, view in others if view.address in memory.cells[view.space.value]] * 2
 
 
 def _frames(view: View, words: list[int]) -> tuple[bytes, bytes]:

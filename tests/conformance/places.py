@@ -6,7 +6,7 @@ from typing import Any
 Json = dict[str, Any]
 
 WIRE_KEYS = ("type", "word_order", "byte_order", "functions")
-INNER, OUTER, VIEW = 40, 100, 500
+INNER, OUTER, VIEW = 100, 250, 600
 """The distance of elements of an array, of an array around it, and of a second view from the first."""
 
 

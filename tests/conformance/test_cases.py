@@ -17,6 +17,7 @@ from .suite import FOLDER, Built, Case, Json, build, cases, diagnose, load, whol
 from .wire import Memory, Server
 
 EVERY = list(cases())
+BUILT: dict[str, Built] = {}
 SOUND = [case for case in EVERY if not case.refused]
 each_sound = pytest.mark.parametrize("case", SOUND, ids=repr)
 
@@ -28,7 +29,9 @@ def server() -> Iterator[Server]:
 
 
 def _built(case: Case) -> Built:
-    return build(whole_map(case.map))
+    if case.name not in BUILT:
+        BUILT[case.name] = build(whole_map(case.map))
+    return BUILT[case.name]
 
 
 def _prepare(memory: Memory, case: Case, row: Json) -> None:
@@ -74,31 +77,34 @@ def test_a_map_without_meaning_is_refused(case: Case) -> None:
 @each_sound
 def test_the_driver_reads_and_writes_what_the_case_says(case: Case, server: Server) -> None:
     built = _built(case)
-    wrong = [text for row in _reads(case) for text in _read_wrong(case, built, row, server)]
-    wrong += [text for row in _writes(case, built) for text in _written_wrong(case, built, row, server)]
+    with built.module.CaseA.tcp("127.0.0.1", port=server.port, unit=1) as device:
+        wrong = [text for row in _reads(case) for text in _read_wrong(case, built, row, server, device.link)]
+        wrong += [
+            text for row in _writes(case, built) for text in _written_wrong(case, built, row, server, device.link)
+        ]
     _report(wrong)
 
 
-def _read_wrong(case: Case, built: Built, row: Json, server: Server) -> Iterator[str]:
+def _read_wrong(case: Case, built: Built, row: Json, server: Server, link: Any) -> Iterator[str]:
     _, view = judges.register_of(built, row)
     _prepare(server.memory, case, row)
     server.memory.put(view.space.value, view.address, words_of(row["words"]))
-    with built.module.CaseA.tcp("127.0.0.1", port=server.port, unit=1) as device:
-        bound = judges.attribute(device, row["register"])
-        found = [judges.read_by_driver(lambda: bound.read(view=row.get("view")))]
-        if "view" not in row:
-            found.append(judges.read_by_driver(lambda: device.read(bound.register)[row["register"]]))
+    device = built.module.CaseA(link, unit=1)  # one that knows nothing from the row before
+    bound = judges.attribute(device, row["register"])
+    found = [judges.read_by_driver(lambda: bound.read(view=row.get("view")))]
+    if "view" not in row:
+        found.append(judges.read_by_driver(lambda: device.read(bound.register)[row["register"]]))
     yield from (f"{row}: read {one!r}" for one in found if not judges.same(one, judges.expected_of(row)))
 
 
-def _written_wrong(case: Case, built: Built, row: Json, server: Server) -> Iterator[str]:
+def _written_wrong(case: Case, built: Built, row: Json, server: Server, link: Any) -> Iterator[str]:
     _, view = judges.register_of(built, row)
     _prepare(server.memory, case, row)
-    with built.module.CaseA.tcp("127.0.0.1", port=server.port, unit=1) as device:
-        bound, value = judges.attribute(device, row["register"]), judges.value_for(built, row)
-        how = {"view": row.get("view"), "rounded": row.get("rounded", False), "verify": False}
-        place = (view.space.value, view.address, view.words)
-        found = judges.written(lambda: bound.write(value, **how), server.memory, *place)
+    bound = judges.attribute(built.module.CaseA(link, unit=1), row["register"])
+    value = judges.value_for(built, row)
+    how = {"view": row.get("view"), "rounded": row.get("rounded", False), "verify": False}
+    place = (view.space.value, view.address, view.words)
+    found = judges.written(lambda: bound.write(value, **how), server.memory, *place)
     if found != _words(row):
         yield f"{row}: wrote {found!r}"
 
@@ -115,20 +121,23 @@ def test_the_asynchronous_driver_reads_and_writes_what_the_case_says(case: Case,
 
 
 async def _asynchronously(case: Case, built: Built, server: Server) -> list[str]:
+    async with built.module.AsyncCaseA.tcp("127.0.0.1", port=server.port, unit=1) as device:
+        return await _over(device.link, case, built, server)
+
+
+async def _over(link: Any, case: Case, built: Built, server: Server) -> list[str]:
     wrong: list[str] = []
     for row in _reads(case):
         _, view = judges.register_of(built, row)
         _prepare(server.memory, case, row)
         server.memory.put(view.space.value, view.address, words_of(row["words"]))
-        async with built.module.AsyncCaseA.tcp("127.0.0.1", port=server.port, unit=1) as device:
-            found = await _read(judges.attribute(device, row["register"]), row)
+        found = await _read(judges.attribute(built.module.AsyncCaseA(link, unit=1), row["register"]), row)
         wrong += [] if judges.same(found, judges.expected_of(row)) else [f"{row}: read {found!r}"]
     for row in _writes(case, built):
         _, view = judges.register_of(built, row)
         _prepare(server.memory, case, row)
-        async with built.module.AsyncCaseA.tcp("127.0.0.1", port=server.port, unit=1) as device:
-            bound, value = judges.attribute(device, row["register"]), judges.value_for(built, row)
-            found = await _write(bound, value, row, server.memory, view)
+        bound = judges.attribute(built.module.AsyncCaseA(link, unit=1), row["register"])
+        found = await _write(bound, judges.value_for(built, row), row, server.memory, view)
         wrong += [] if found == _words(row) else [f"{row}: wrote {found!r}"]
     return wrong
 

@@ -16,6 +16,8 @@ Plain = str | int | float | bool | list[str]
 
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?")
 _WHOLE = re.compile(r"[+-]?(?:0[xX][0-9A-Fa-f]{1,16}|[0-9]{1,20})")
+MOST_EXACT = 2.0**53
+"""Up to here a float tells whole numbers apart."""
 _UNITS = {"degc": "°C", "degf": "°F", "c": "°C", "f": "°F", "℃": "°C", "℉": "°F", "k": "K", "percent": "%"}
 _TRUE, _FALSE = frozenset({"true", "on", "yes", "1"}), frozenset({"false", "off", "no", "0"})
 
@@ -40,7 +42,14 @@ def as_text(register: Register[Any], value: Any) -> str:  # noqa: ANN401 - as ab
         return str(plain).lower()
     if isinstance(plain, list):
         return ", ".join(plain) or "none"
-    return f"{plain:.12g}" if isinstance(plain, float) else str(plain)
+    return spelled(plain)
+
+
+def spelled(plain: float | str) -> str:
+    """A number with all its digits, a whole one without a point: a counter of 64 bits has more than twelve."""
+    if isinstance(plain, float) and plain.is_integer() and abs(plain) < MOST_EXACT:
+        return str(int(plain))
+    return str(plain)
 
 
 def parse(register: Register[Any], plain: Plain, *, unit: str = "", current_unit: str = "") -> Any:  # noqa: ANN401 - as above

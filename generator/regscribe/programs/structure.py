@@ -6,7 +6,7 @@ from decimal import Decimal
 from typing import Any, NamedTuple
 
 from regscribe.live.errors import unknown
-from regscribe.live.values import choices
+from regscribe.live.values import choices, spelled
 from regscribe.programs.model import FOREVER, Amount, Program, Segment, Setting
 from regscribe.programs.place import Place
 from regscribe.runtime import Register
@@ -219,7 +219,7 @@ def _usual(register: Register[Any]) -> str:
     """The default of an output as a name; empty if the manual gives none."""
     if register.default is None:
         return ""
-    return str(register.default) if isinstance(register.default, str) else f"{register.default:g}"
+    return spelled(register.default)
 
 
 def _states(register: Register[Any]) -> str:

@@ -7,8 +7,10 @@ from decimal import MAX_EMAX, MIN_EMIN, Context, Decimal
 from fractions import Fraction
 
 BIG, LITTLE = "big", "little"
-FLOAT32_DIGITS = range(6, 10)
-"""Significant digits tried for a float32: 6 are always exact, 9 always suffice (IEEE 754 binary32)."""
+FLOAT32_DIGITS, FEWER_DIGITS = range(6, 10), range(1, 10)
+"""Significant digits tried for a float32: 6 are always exact, 9 always suffice (IEEE 754 binary32); of subnormal
+numbers, which have fewer bits, fewer may do."""
+SMALLEST_NORMAL = 2.0**-126
 
 
 class WireType:
@@ -72,7 +74,8 @@ def shortest(number: float, wire_type: WireType) -> Decimal:
     if wire_type is FLOAT64:
         return Decimal(repr(number))
     packed = FLOAT32.packer.pack(number)
-    texts = (f"{number:.{digits}g}" for digits in FLOAT32_DIGITS)
+    tried = FLOAT32_DIGITS if abs(number) >= SMALLEST_NORMAL else FEWER_DIGITS
+    texts = (f"{number:.{digits}g}" for digits in tried)
     return Decimal(next((text for text in texts if _packs_to(text, packed)), repr(number)))
 
 

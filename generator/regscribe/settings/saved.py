@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
-from regscribe.live.values import Plain
+from regscribe.live.values import Plain, spelled
 
 FORMAT = 1
 NO_GROUP = "other"
@@ -72,4 +72,4 @@ class Backup:
 def _plain(value: Plain) -> str:
     if isinstance(value, bool):
         return str(value).lower()
-    return f"{value:.12g}" if isinstance(value, float) else str(value)
+    return str(value) if isinstance(value, list) else spelled(value)
