@@ -31,6 +31,7 @@ class Case(NamedTuple):
     holds: Mapping[str, Mapping[int, str]]
     rows: tuple[Json, ...]
     refused: str
+    place: str
 
     def __repr__(self) -> str:
         return self.name
@@ -57,7 +58,9 @@ def cases() -> Iterator[Case]:
     for path in sorted(FOLDER.glob("*.yaml")):
         for place, one in (each for case in load(path) for each in places_of(case)):
             name = f"{path.stem}: {one['name']}{place and f' ({place})'}"
-            yield Case(name, one["map"], one.get("holds", {}), tuple(one.get("rows", ())), one.get("refused", ""))
+            yield Case(
+                name, one["map"], one.get("holds", {}), tuple(one.get("rows", ())), one.get("refused", ""), place
+            )
 
 
 def words_of(text: str) -> list[int]:

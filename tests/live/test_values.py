@@ -140,6 +140,9 @@ def test_a_version_and_a_text_stay_texts() -> None:
 
 def test_for_people_numbers_are_short_and_nothing_set_is_said() -> None:
     assert values.as_text(OVEN["setpoint_ram"], 77.0) == "77"
+    assert values.as_text(OVEN["setpoint_ram"], 1099511627777.0) == "1099511627777"
+    assert values.as_text(OVEN["setpoint_ram"], 1234567890123.4) == "1234567890123.4"
+    assert values.as_text(OVEN["setpoint_ram"], 1e300) == "1e+300"
     assert values.as_text(TIMER["status"], TIMER["status"].kind.make(0)) == "none"
 
 
