@@ -107,7 +107,7 @@ def test_the_view_sets_give_address_formulas(text: str) -> None:
 
 def test_faults_are_told_in_words_with_their_code(text: str) -> None:
     assert "| function code that the device does not have | **no answer** |" in text
-    assert "| address of no register | exception 02 (bad address) |" in text
+    assert "| address of no register | exception 02 (bad address) (as Modbus has it; not stated here) |" in text
     assert "the words after the last good one mean nothing" in text
 
 

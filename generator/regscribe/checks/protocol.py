@@ -33,6 +33,18 @@ def fault_without_meaning(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
 
 
 @map_rule(
+    Rule("RS0690", "Accepted limit that is no more than the limit", "What a device accepts beyond its limits is more.")
+)
+def accepts(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+    """Compare `protocol.accepts` with `protocol.limits`."""
+    register_map, protocol = _the_map(scopes)
+    for limit, most in protocol.accepts:
+        if most <= getattr(protocol, limit):
+            message = f"`protocol.accepts` has {most} {limit}, and the limit is {getattr(protocol, limit)} already"
+            yield Finding(MAP, register_map.span, message, "leave it out, or lower the limit that a driver keeps to")
+
+
+@map_rule(
     Rule("RS0488", "Unit ids that cannot be", "A unit id is 1 to 255 (0 broadcasts); the default is one of them.")
 )
 def unit_ids(scopes: tuple[Scope, ...]) -> Iterator[Finding]:

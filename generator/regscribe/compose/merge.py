@@ -24,7 +24,7 @@ TABLES = {
 LISTS = ("reserved", "unused", "examples", "errata", "waivers", "notes")
 """Top-level lists to which each file adds."""
 
-NESTED = ("limits", "faults", "exceptions", "latency", "serial")
+NESTED = ("limits", "accepts", "faults", "exceptions", "latency", "serial")
 """Keys of `protocol` that are merged key by key in turn."""
 
 

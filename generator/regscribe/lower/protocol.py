@@ -1,5 +1,6 @@
 """How the device behaves on the line, as the map's `protocol` tells it."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 
@@ -39,7 +40,17 @@ def protocol_of(node: Node | None) -> Protocol:
         serial=_serial(node.child("serial")),
         section=text_of(node, "source"),
         alike=tuple(tuple(each.whole() for each in one.elements()) for one in elements_of(node, "alike")),
+        accepts=tuple((key, each.whole()) for key, each in items_of(node, "accepts")),
+        stated=tuple(sorted({key for part in (node, *_parts(node)) for key, _ in part.items()})),
     )
+
+
+def _parts(node: Node) -> Iterator[Node]:
+    """Yield the mappings inside the protocol whose keys have a meaning of their own."""
+    for key in ("limits", "faults", "serial"):
+        part = node.child(key)
+        if part is not None:
+            yield part
 
 
 def _faults(node: Node | None) -> Faults:

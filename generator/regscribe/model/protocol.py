@@ -84,6 +84,8 @@ class Protocol:
     `read_holes`: whether a read may run over addresses of no register (a planner may then bridge gaps).
     `spares_memory`: whether a write of what lasting memory holds already leaves the memory alone.
     `alike`: function codes that do the same (2 reads coils as 1 does); registers stand in the space of one of them.
+    `accepts`: limits that the device goes beyond, by another passage of its manual; a driver keeps to the limits.
+    `stated`: the keys that the map gives (of limits, faults and serial line too); all others are as Modbus has them.
     """
 
     functions: tuple[int, ...] = (3, 6, 16)
@@ -102,6 +104,12 @@ class Protocol:
     serial: Serial = Serial()
     section: str = ""
     alike: tuple[tuple[int, ...], ...] = ()
+    accepts: tuple[tuple[str, int], ...] = ()
+    stated: tuple[str, ...] = ()
+
+    def accepted(self, limit: str) -> int:
+        """Return the most that the device answers: `limit` (`read_words` and so on), or what it accepts beyond it."""
+        return dict(self.accepts).get(limit, int(getattr(self, limit)))
 
 
 USUAL_PROTOCOL = Protocol()

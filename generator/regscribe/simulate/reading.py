@@ -44,7 +44,7 @@ class Reader:
 
     def read(self, space: Space, function: int, address: int, count: int) -> tuple[int, ...]:
         """Return the `count` words (bits) from `address` on; raises Refusal."""
-        most = self.protocol.read_bits if space.is_bits else self.protocol.read_words
+        most = self.protocol.accepted("read_bits" if space.is_bits else "read_words")
         check_request(self.protocol, self.layout, space, function, address, count, most=most)
         return tuple(
             self._fill(space, address + place, first=place == 0) if word is None else word

@@ -41,7 +41,7 @@ class Writer:
         Where the protocol says that a later bad word stops the write, fewer than all may be written; otherwise a
         refused request leaves the state as it was. A command counts as run once its words are written.
         """
-        most = self.protocol.write_bits if space.is_bits else self.protocol.write_words
+        most = self.protocol.accepted("write_bits" if space.is_bits else "write_words")
         check_request(self.protocol, self.layout, space, function, address, len(words), most=most)
         place = self.layout.place(space, address)
         holds = place is not None and place.register.access.writable  # a read-only register may still take a command

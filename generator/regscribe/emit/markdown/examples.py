@@ -5,9 +5,13 @@ from fractions import Fraction
 
 from regscribe.emit.markdown.context import Context
 from regscribe.emit.markdown.escape import Md, code, escape, join, md
+from regscribe.emit.markdown.line import BIT_FUNCTIONS
 from regscribe.emit.markdown.page import Titled, table
 from regscribe.emit.text import labels_of, listed, one_line
 from regscribe.model import FrameExample, Model, Outcome, RegisterMap, TimingExample, ValueExample, show
+
+WRITE_COIL = 5
+"""The function that sets one bit: FF00 is on, 0000 off."""
 
 
 def examples(context: Context) -> tuple[Titled, ...]:
@@ -88,11 +92,18 @@ def _frame(context: Context, item: FrameExample) -> tuple[str, ...]:
 def _meaning(context: Context, item: FrameExample) -> Md:
     facts = [f"unit {item.unit}", f"function {item.function:02d}"]
     facts += [f"address {item.address}"] if item.address is not None else []
-    facts += [f"{item.count} words"] if item.count is not None else []
-    words = f"words {listed([str(word) for word in item.words], last='and')}" if item.words is not None else ""
+    facts += [f"{item.count} {'bits' if item.function in BIT_FUNCTIONS else 'words'}"] if item.count is not None else []
+    words = _words(item.function, item.words) if item.words is not None else ""
     writes = join("<br>", tuple(_write(context, item, path, value) for path, value in item.writes))
     command = context.command(item.command) if item.command else Md()
     return join("<br>", (escape(", ".join(facts)), escape(words) if not writes else Md(), writes, command))
+
+
+def _words(function: int, words: tuple[int, ...]) -> str:
+    """Return the words of a frame; of function 05 they are the state of a bit."""
+    if function == WRITE_COIL:
+        return f"bit {listed(['on' if word else 'off' for word in words], last='and')}"
+    return f"words {listed([str(word) for word in words], last='and')}"
 
 
 def _write(context: Context, item: FrameExample, path: str, value: Fraction) -> Md:

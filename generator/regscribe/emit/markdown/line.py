@@ -6,7 +6,7 @@ from regscribe.emit.markdown.context import Context
 from regscribe.emit.markdown.escape import Md, escape, join, md, prose
 from regscribe.emit.markdown.page import Table, table
 from regscribe.emit.text import listed, one_line
-from regscribe.model import SILENCE, Latency, Later, Protocol, RegisterMap, Serial, View, show
+from regscribe.model import SILENCE, Latency, Later, Protocol, RegisterMap, View, show
 
 FUNCTIONS = {
     1: "read coils",
@@ -25,6 +25,9 @@ FUNCTIONS = {
     43: "read the device identification",
 }
 BIT_FUNCTIONS = frozenset({1, 2, 5, 15})
+USUAL = " (as Modbus has it; not stated here)"
+"""Behind what a page says of the line though the map gives no such key: it is a fact of Modbus, not of the manual."""
+
 LATER_READ = {
     Later.EXCEPTION: "",
     Later.GARBAGE: "answered; the words after the last good one mean nothing",
@@ -40,25 +43,41 @@ LATER_WRITE = {
 def line(context: Context) -> Table:
     """Return functions, limits and the serial line as a table of two columns."""
     protocol = context.map.protocol
-    rows = [*_requests(protocol), *_serial(protocol.serial), ("Section", escape(one_line(protocol.section)))]
+    rows = [*_requests(protocol), *_serial(protocol), ("Section", escape(one_line(protocol.section)))]
     return table(("Property", "Value"), [row for row in rows if row[1]])
 
 
 def _requests(protocol: Protocol) -> Iterable[tuple[str, Md]]:
     first, last = protocol.unit_ids
-    usual = f", {protocol.default_unit} unless set" if protocol.default_unit is not None else ""
+    default = f", {protocol.default_unit} unless set" if protocol.default_unit is not None else ""
+    broadcast = "; ".join(_function(code) for code in protocol.broadcast)
     yield "Functions", md("; ".join(_function(code) for code in protocol.functions))
     yield (
         "Functions that do the same",
         md("; ".join(listed([f"{code:02d}" for code in same], last="and") for same in protocol.alike)),
     )
-    yield "Broadcast (unit 0)", md("; ".join(_function(code) for code in protocol.broadcast) or "not supported")
-    yield "Unit ids", md(f"{first} to {last}{usual}")
-    yield "Most words in a request", md(f"{protocol.read_words} to read, {protocol.write_words} to write")
+    yield "Broadcast (unit 0)", md(broadcast or ("not supported" if "broadcast" in protocol.stated else "not stated"))
+    yield "Unit ids", md(f"{first} to {last}{_usual(protocol, 'unit_ids')}{default}")
+    yield "Most words in a request", md(_most(protocol, "words"))
     if BIT_FUNCTIONS & set(protocol.functions):
-        yield "Most bits in a request", md(f"{protocol.read_bits} to read, {protocol.write_bits} to write")
+        yield "Most bits in a request", md(_most(protocol, "bits"))
     yield "Reading over unused addresses", md("allowed" if protocol.read_holes else "not relied upon")
     yield "Writing what is there already", md("spares the lasting memory" if protocol.spares_memory else "")
+
+
+def _most(protocol: Protocol, what: str) -> str:
+    """Return how much one request may carry, and what the device is known to answer beyond that."""
+    found = []
+    for verb in ("read", "write"):
+        limit = f"{verb}_{what}"
+        most, accepted = getattr(protocol, limit), protocol.accepted(limit)
+        beyond = f" (a device also answers {accepted})" if accepted != most else ""
+        found.append(f"{most} to {verb}{_usual(protocol, limit)}{beyond}")
+    return ", ".join(found)
+
+
+def _usual(protocol: Protocol, key: str) -> str:
+    return "" if key in protocol.stated else USUAL
 
 
 def _function(code: int) -> str:
@@ -66,14 +85,18 @@ def _function(code: int) -> str:
     return f"{code:02d} {name}" if name else f"{code:02d}"
 
 
-def _serial(serial: Serial) -> Iterable[tuple[str, Md]]:
+def _serial(protocol: Protocol) -> Iterable[tuple[str, Md]]:
+    serial = protocol.serial
     default = [f"{serial.default_baud} baud"] if serial.default_baud else []
     default += [serial.default_format] if serial.default_format else []
     yield "Transmission", md(listed([one_line(mode).upper() for mode in serial.modes]))
     yield "Baud rates", md(", ".join(map(str, serial.baud_rates)))
     yield "Character formats", md(", ".join(map(one_line, serial.formats)))
     yield "Default", md(", ".join(default))
-    yield "Silence between messages", md(f"{show(serial.gap_characters)} characters")
+    yield (
+        "Silence between messages",
+        md(f"{show(serial.gap_characters)} characters{_usual(protocol, 'gap_characters')}"),
+    )
     yield "Remark", prose(serial.description)
 
 
@@ -92,25 +115,29 @@ def _latency(item: Latency) -> tuple[str, ...]:
 
 def faults(context: Context) -> Table:
     """Return the device's answer to each kind of bad request that it can get."""
-    found = context.map.protocol.faults
+    protocol = context.map.protocol
     views = list(_views(context.map))
     rows = [
-        ("function code that the device does not have", found.function),
-        ("address of no register", found.address),
-        ("value outside its range", found.value),
-        ("write to a read-only register", found.read_only),
+        ("function code that the device does not have", "function"),
+        ("address of no register", "address"),
+        ("value outside its range", "value"),
+        ("write to a read-only register", "read_only"),
     ]
     if any(register.writable for model in context.map.models for register in model.registers):
-        rows.append(("write under a condition that forbids it", found.condition))
+        rows.append(("write under a condition that forbids it", "condition"))
     if any(model.unused for model in context.map.models):
-        rows.append(("write to an address listed as unused", found.unused_write))
-    rows.append(("more words than a request may have", found.quantity))
+        key = "unused_write" if "unused_write" in protocol.stated else "address"  # which counts for both then
+        rows.append(("write to an address listed as unused", key))
+    rows.append(("more words than a request may have", "quantity"))
     if any(view.align > 1 for view in views):
-        rows.append(("first address between two values of several words", found.misaligned_address))
-        rows.append(("number of words that ends inside a value", found.misaligned_count))
+        rows.append(("first address between two values of several words", "misaligned_address"))
+        rows.append(("number of words that ends inside a value", "misaligned_count"))
     if any(view.functions for view in views):
-        rows.append(("function that the view does not allow", found.view_function))
-    answers = [(words, _answer(context, code)) for words, code in rows]
+        rows.append(("function that the view does not allow", "view_function"))
+    answers = [
+        (words, join("", (_answer(context, getattr(protocol.faults, key)), md(_usual(protocol, key)))))
+        for words, key in rows
+    ]
     return table(("Bad request", "Answer"), [*answers, *_later(context)])
 
 

@@ -64,7 +64,7 @@ def bits(register_map: RegisterMap, leaf: Leaf) -> Drawing:
     path = lettered(register.path)
     canvas.head(
         f"{lettered_name(register.name)} ({path})",
-        (f"{_where(leaf)}. Bit 0 is the least significant; the manual says nothing of hatched bits.",),
+        (f"{_where(leaf)}. Bit 0 is the least significant; hatched bits have no name in the manual.",),
     )
     for strip in strips(leaf.register):
         _strip(canvas, strip)
@@ -138,7 +138,7 @@ def _boxes(canvas: Canvas, spans: Sequence[tuple[int, int]], low: int, high: int
         canvas.add(box)
     for first, last in _gaps(spans, low, high):
         wide = BIT * (last - first + 1)
-        canvas.add(Box(_x(last, low) + 1, canvas.y, wide - 2, HEIGHT, "unused", "not described", radius=2))
+        canvas.add(Box(_x(last, low) + 1, canvas.y, wide - 2, HEIGHT, "unused", "no name in the manual", radius=2))
 
 
 def _gaps(spans: Sequence[tuple[int, int]], low: int, high: int) -> Iterator[tuple[int, int]]:
