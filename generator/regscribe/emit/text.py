@@ -230,8 +230,8 @@ def map_cases(cases: Cases[T], words: Callable[[T], str]) -> Cases[str]:
 
 
 def special_words(special: Special, wording: Wording = PLAIN) -> str:
-    """`0 = off`, with the number it stands for: `0 = shortest (0.2)`."""
-    means = f" ({show(special.means)})" if special.means is not None else ""
+    """`0 = off`, with the number it stands for: `0 = shortest (reads as 0.2)`."""
+    means = f" (reads as {show(special.means)})" if special.means is not None else ""
     return f"{show(special.code)} = {wording.text(one_line(special.label))}{means}"
 
 

@@ -1,6 +1,7 @@
 """One model's driver on the bench: its registers beside their vectors, and checks that say what differs."""
 
 from collections.abc import Iterator, Mapping
+from functools import cached_property
 from typing import Any
 
 from regscribe.runtime.register import Register
@@ -9,6 +10,8 @@ from regscribe.testing.trial import Trial, known
 from regscribe.testing.vectors import Json, Vectors, number
 
 FUNCTION_WRITE_ONE = 6
+WITH_DOMAIN = frozenset({"number", "integer", "raw", "enum"})
+"""Kinds of which a vector says what can be written."""
 
 
 class Bench:
@@ -18,6 +21,25 @@ class Bench:
         self.driver, self.vectors, self.model = driver, vectors, str(driver.model)
         self.places = tuple(vectors.registers(self.model))
         self.trials = tuple(self._trials())
+
+    @cached_property
+    def readable(self) -> list[Register[Any]]:
+        """The registers that can be read."""
+        return [register for register in self.driver.registers.values() if register.access != "w"]
+
+    @cached_property
+    def written(self) -> list[Trial]:
+        """The trials in which there is something to write."""
+        return [
+            trial
+            for trial in self.trials
+            if trial.entry["access"] != "r" and (trial.case.get("domain") or trial.entry["kind"] not in WITH_DOMAIN)
+        ]
+
+    @cached_property
+    def mirrored(self) -> list[Trial]:
+        """Those of registers with several views."""
+        return [trial for trial in self.written if len(trial.register.view_names) > 1]
 
     def __repr__(self) -> str:
         return f"<Bench {self.model}>"

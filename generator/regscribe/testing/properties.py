@@ -31,7 +31,7 @@ NUMERIC = frozenset({"number", "integer", "raw"})
 
 def round_trip(bench: Bench, data: st.DataObject) -> None:
     """Assert decode(encode(v)) == v for values of the domain."""
-    trial = data.draw(st.sampled_from(_writable(bench)), label="register")
+    trial = data.draw(st.sampled_from(bench.written), label="register")
     value = data.draw(values(trial), label="value")
     words = trial.encode(value)
     assert _equal(trial.decode(words), value), f"{trial}: {value!r} became {trial.decode(words)!r} through {words}"  # noqa: S101 (a test library)
@@ -39,7 +39,7 @@ def round_trip(bench: Bench, data: st.DataObject) -> None:
 
 def refusal(bench: Bench, data: st.DataObject) -> None:
     """Assert that what lies outside the domain is refused before anything is sent."""
-    trial = data.draw(st.sampled_from(_writable(bench)), label="register")
+    trial = data.draw(st.sampled_from(bench.written), label="register")
     value = data.draw(others(trial), label="no value")
     try:
         words = trial.encode(value)
@@ -63,8 +63,7 @@ def total_decoding(bench: Bench, data: st.DataObject) -> None:
 
 def agreement(bench: Bench, data: st.DataObject) -> None:
     """Assert that a value written through one view is the same value in every other view that can carry it."""
-    mirrored = [trial for trial in _writable(bench) if len(trial.register.view_names) > 1]
-    trial = data.draw(st.sampled_from(mirrored), label="register")
+    trial = data.draw(st.sampled_from(bench.mirrored), label="register")
     value = data.draw(values(trial), label="value")
     for other in _situations(bench, trial):
         try:
@@ -90,20 +89,11 @@ def batches(bench: Bench, data: st.DataObject) -> None:
 
 def _several(bench: Bench) -> st.SearchStrategy[list[Register[Any]]]:
     """Return a strategy of registers to read together: all, neighbours, or any."""
-    readable = [register for register in bench.driver.registers.values() if register.access != "w"]
+    readable = bench.readable
     ends = st.tuples(st.integers(0, len(readable) - 1), st.integers(1, len(readable)))
     neighbours = ends.map(lambda one: sorted(readable, key=lambda register: register.at)[one[0] : one[0] + one[1]])
     scattered = st.lists(st.sampled_from(readable), unique_by=lambda one: one.path, min_size=1, max_size=40)
     return st.one_of(st.just(readable), neighbours, scattered)
-
-
-def _writable(bench: Bench) -> Sequence[Trial]:
-    kinds = NUMERIC | {"enum"}
-    return [
-        trial
-        for trial in bench.trials
-        if trial.entry["access"] != "r" and (trial.case.get("domain") or trial.entry["kind"] not in kinds)
-    ]
 
 
 def _situations(bench: Bench, trial: Trial) -> Sequence[Trial]:

@@ -9,6 +9,7 @@ from regscribe.runtime.register import Register
 from regscribe.runtime.request import READ_FUNCTIONS, Reply, Request
 from regscribe.runtime.session import Protocol, Session
 from regscribe.runtime.snapshot import Snapshot
+from regscribe.runtime.ways import Way, ways
 
 Cell = tuple[str, int]
 """A space and a wire address."""
@@ -47,7 +48,8 @@ def read_through(driver: Any, chosen: Sequence[Register[Any]], *, seed: int = 0,
         asked = next(operation)
         while isinstance(asked, Request):
             requests.append(asked)
-            words = tuple(word_at(asked.address + offset, seed) for offset in range(asked.quantity))
+            space = SPACES[asked.function]
+            words = tuple(word_at(space, asked.address + offset, seed) for offset in range(asked.quantity))
             asked = operation.send(Reply(asked.function, words))
     except StopIteration as done:
         return Reading(tuple(requests), done.value, session)
@@ -55,9 +57,10 @@ def read_through(driver: Any, chosen: Sequence[Register[Any]], *, seed: int = 0,
     raise TypeError(message)
 
 
-def word_at(address: int, seed: int) -> int:
-    """Return the word at an address: any word, but always the same."""
-    return (address * 40503 + seed * 60493) & 0xFFFF if seed else 0
+def word_at(space: str, address: int, seed: int) -> int:
+    """Return the word (the bit, the status byte) at an address: any one, but always the same."""
+    most = 1 if space in BITS else 0xFF if space == "status" else 0xFFFF
+    return (address * 40503 + seed * 60493) >> 4 & most if seed else 0
 
 
 def wrong_requests(driver: Any, chosen: Sequence[Register[Any]]) -> list[str]:  # noqa: ANN401 (a generated class)
@@ -84,9 +87,10 @@ def _cells(space: str, request: Request) -> Iterator[Cell]:
 
 
 def _is_asked(register: Register[Any], asked: Container[Cell]) -> bool:
-    view = register.read_view()
-    addresses = (range(start, start + view.words) for start in _starts(register))
-    return any(all((view.space, address) in asked for address in one) for one in addresses)
+    return any(
+        all((way.item.space, address) in asked for address in range(way.item.address, way.item.end))
+        for way in ways(register)
+    )
 
 
 def _places_of(register: Register[Any]) -> Iterator[Cell]:
@@ -109,23 +113,17 @@ def wrong_values(driver: Any, chosen: Sequence[Register[Any]], *, seed: int, cod
     for register in chosen:
         together = _outcome(lambda path=register.path: reading.snapshot[path])  # type: ignore[misc]
         alone = [
-            _outcome(lambda register=register, start=start: _alone(register, start, reading.session, seed))  # type: ignore[misc]
-            for start in _starts(register)
+            _outcome(lambda register=register, way=way: _alone(register, way, reading.session, seed))  # type: ignore[misc]
+            for way in ways(register)
         ]
         if together not in alone:
             found.append(f"{register.path}: {together} with others, {alone[0]} alone")
     return found
 
 
-def _starts(register: Register[Any]) -> tuple[int, ...]:
-    """Return where a register may be read: its preferred view, and aliases where that is the base view."""
-    view = register.read_view()
-    return (view.address(register.at), *(register.aliases if view is register.views[0] else ()))
-
-
-def _alone(register: Register[Any], start: int, session: Session, seed: int) -> Any:  # noqa: ANN401 (any value)
-    words = [word_at(start + offset, seed) for offset in range(register.read_view().words)]
-    return register.decode(words, state=session.memory, givens=session.givens)
+def _alone(register: Register[Any], way: Way, session: Session, seed: int) -> Any:  # noqa: ANN401 (any value)
+    words = [word_at(way.item.space, address, seed) for address in range(way.item.address, way.item.end)]
+    return register.decode(words, view=way.view.name, state=session.memory, givens=session.givens)
 
 
 def _outcome(read: Callable[[], Any]) -> tuple[str, Any]:

@@ -107,6 +107,7 @@ def transmission(context: Context, view: View) -> Md:
         f"stops at {view.type.minimum} and {view.type.maximum}" if view.saturates else "",
         "" if plain_order else md("word order: ", Md(order_words(order, context.wording(context.map.models[0])))),
         "least significant byte first" if view.byte_order is Order.LITTLE else "",
+        "read as the shortest decimal of its bits" if view.type.is_float else "",
         f"functions {', '.join(map(str, view.functions))} only" if view.functions else "",
         f"address and count multiples of {view.align}" if view.align > 1 else "",
     )
@@ -163,7 +164,9 @@ def _step(_context: Context, _model: Model, register: Register) -> Md:
 
 def _specials(context: Context, model: Model, register: Register) -> Md:
     wording = context.wording(model)
-    return lines(*(Md(special_words(special, wording)) for special in register.specials))
+    divided = any(case.then.decimals for case in register.special_scale)
+    told = [md("these codes are divided as the limits of the range are")] if divided else []
+    return lines(*(Md(special_words(special, wording)) for special in register.specials), *told)
 
 
 def _sentinels(context: Context, model: Model, register: Register) -> Md:

@@ -9,6 +9,7 @@ from regscribe.emit.vectors.pick import Proposal, wire_bits
 from regscribe.emit.vectors.scale import LARGEST, Scale, scale_now
 from regscribe.emit.vectors.situation import Situation
 from regscribe.model import BitField, Kind, Order, Register, View, WireType, show
+from regscribe.model.number import MOST_DIGITS
 from regscribe.model.reference import (
     Meaning,
     Reading,
@@ -21,6 +22,7 @@ from regscribe.model.reference import (
 )
 
 Json = dict[str, Any]
+LARGEST_TRIED = Fraction(10**MOST_DIGITS)
 CODED = frozenset({Kind.ENUM, Kind.FLAGS, Kind.FIELDS, Kind.BOOLEAN})
 
 
@@ -139,7 +141,8 @@ def _offered(
 def _once(proposals: Iterator[Proposal]) -> Iterator[Proposal]:
     seen: dict[Fraction, str] = {}
     for value, note in proposals:
-        seen.setdefault(value, note)
+        if abs(value) < LARGEST_TRIED:
+            seen.setdefault(value, note)
     return (Proposal(value, note) for value, note in seen.items())
 
 
@@ -159,10 +162,9 @@ def _domain(register: Register, scale: Scale | None, known: Surroundings) -> Ite
         yield from ({"low": str(member.code), "high": str(member.code)} for member in register.enum.members)
     if scale is None or register.kind in CODED or register.kind in {Kind.STRING, Kind.VERSION}:
         return
-    whole = Fraction(0) if register.fractional else Fraction(1)
-    step = max(abs(scale.slope) * scale.wire_step, whole)
+    step, stretches = (scale.size, scale.domain()) if register.fractional else scale.whole_domain()
     widest = LARGEST[WireType.FLOAT64]  # what a program reads as a float
-    for lowest, highest in scale.domain():
+    for lowest, highest in stretches:
         low, high = (max(lowest, -widest), min(highest, widest)) if register.fractional else (lowest, highest)
         holes = [show(value) for value in _holes(register, scale, known) if low <= value <= high]
         stretch = {"low": show(low), "high": show(high), "step": show(step) if step else "", "except": holes}

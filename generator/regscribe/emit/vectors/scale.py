@@ -63,10 +63,30 @@ class Scale:
                 found.append(stretch)
         return tuple(found)
 
+    @property
+    def size(self) -> Fraction:
+        """How far two values lie apart that the view can carry; 0 where it has no steps."""
+        return abs(self.slope) * self.wire_step
+
+    def whole_domain(self) -> tuple[Fraction, tuple[tuple[Fraction, Fraction], ...]]:
+        """Return the step between whole numbers among the values, and the stretches between such; none without any."""
+        if not self.size:
+            return Fraction(1), tuple((Fraction(ceil(low)), Fraction(floor(high))) for low, high in self.domain())
+        period = Fraction(lcm(self.size.numerator, self.size.denominator), self.size.denominator)
+        first = (self.offset + self.size * steps for steps in range(self.size.denominator))
+        whole = next((value for value in first if value.denominator == 1), None)
+        if whole is None:
+            return period, ()
+        inner = (
+            (whole + period * ceil((low - whole) / period), whole + period * floor((high - whole) / period))
+            for low, high in self.domain()
+        )
+        return period, tuple((low, high) for low, high in inner if low <= high)
+
     def _on_steps(self, low: Fraction, high: Fraction) -> tuple[Fraction, Fraction]:
         if not self.wire_step:
             return low, high
-        size = abs(self.slope) * self.wire_step
+        size = self.size
         return (
             self.offset + size * ceil((low - self.offset) / size),
             self.offset + size * floor((high - self.offset) / size),
