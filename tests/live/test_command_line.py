@@ -109,10 +109,10 @@ def test_names_are_looked_up_before_anybody_is_asked(arguments: tuple[str, ...],
 
 
 def test_a_number_is_written_in_the_unit_of_the_device(cli: Cli, oven: str, running: Running) -> None:
-    assert cli("write", oven, "setpoint_ram", "150.5 °F").code == 0
-    assert cli("read", oven, "setpoint_ram", "--value").out == "150.5\n"
+    assert cli("write", oven, "setpoint_ram", "150 °F").code == 0
+    assert cli("read", oven, "setpoint_ram", "--value").out == "150\n"
     running.requests.clear()
-    result = cli("write", oven, "setpoint_ram", "150.5 °C")
+    result = cli("write", oven, "setpoint_ram", "150 °C")
     assert (result.code, "given in °C, but the device works in °F" in result.err) == (1, True)
     assert not [pdu for pdu in running.requests if pdu[0] in {5, 6, 15, 16}]
 
@@ -181,24 +181,27 @@ def test_an_array_is_told_from_a_register_that_can_be_written(cli: Cli, oven: st
     )
 
 
-def test_a_value_that_is_too_fine_is_rounded_only_on_demand(cli: Cli, oven: str) -> None:
+def test_a_value_that_is_too_fine_is_rounded_only_on_demand(cli: Cli, oven: str, running: Running) -> None:
+    running.device.poke("temperature_decimal_position", 1)
     refused = cli("write", oven, "setpoint_ram", "100.26", "--view", "x10")
     assert (refused.code, "--rounded" in refused.err) == (1, True)
     said = cli("write", oven, "setpoint_ram", "100.26", "--view", "x10", "--rounded")
     assert (said.code, said.out) == (0, "setpoint_ram  100.3 °F\n")
-    assert json.loads(cli("write", oven, "setpoint_ram", "98.765432", "--rounded", "--json").out)["value"] == 98.765434
+    running.device.poke("temperature_decimal_position", 0)
+    fine = ("thermocouple_span_adjustment", "1.23456789", "--confirm", "--rounded", "--json")
+    assert json.loads(cli("write", oven, *fine).out)["value"] == 1.2345679
 
 
 def test_a_dry_run_shows_the_words_and_writes_nothing(cli: Cli, oven: str, running: Running) -> None:
     before = cli("read", oven, "setpoint_ram", "--value").out
     running.requests.clear()
-    result = cli("write", oven, "setpoint_ram", "98.5", "--dry-run")
+    result = cli("write", oven, "setpoint_ram", "98", "--dry-run")
     assert (result.code, "nothing was sent" in result.err) == (0, True)
-    assert "42C5" in result.out  # 98.5 as binary32 is 42C50000
+    assert "42C4" in result.out  # 98 as binary32 is 42C40000
     assert not [pdu for pdu in running.requests if pdu[0] in {5, 6, 15, 16}]
     assert cli("read", oven, "setpoint_ram", "--value").out == before
-    (request,) = json.loads(cli("write", oven, "setpoint_ram", "98.5", "--dry-run", "--json").out)["requests"]
-    assert (request["function"], request["address"], sorted(request["words"])) == (16, 8004, [0, 0x42C5])
+    (request,) = json.loads(cli("write", oven, "setpoint_ram", "98", "--dry-run", "--json").out)["requests"]
+    assert (request["function"], request["address"], sorted(request["words"])) == (16, 8004, [0, 0x42C4])
 
 
 def test_a_dry_run_of_the_speed_leaves_the_line_alone(cli: Cli, serve: Callable[..., Any]) -> None:
@@ -239,10 +242,10 @@ def test_what_the_device_holds_already_is_not_written_again(cli: Cli, oven: str,
 
 def test_a_device_of_another_model_is_not_written_to(cli: Cli, oven: str, running: Running) -> None:
     running.requests.clear()
-    result = cli("write", oven, "setpoint_ram", "98.5", "--model", "25C")
+    result = cli("write", oven, "setpoint_ram", "98", "--model", "25C")
     assert (result.code, "does not show to be a 25C" in result.err) == (1, True)
     assert not [pdu for pdu in running.requests if pdu[0] in {5, 6, 15, 16}]
-    assert cli("write", oven, "setpoint_ram", "98.5", "--model", "25C", "--no-check-identity").code == 0
+    assert cli("write", oven, "setpoint_ram", "98", "--model", "25C", "--no-check-identity").code == 0
 
 
 def test_everything_is_dumped_group_by_group(cli: Cli, oven: str) -> None:

@@ -69,6 +69,7 @@ def test_a_restore_shows_its_plan_and_then_does_it(cli: Cli, serve: Serve) -> No
 def test_files_and_devices_and_the_factory_are_compared_by_name_and_unit(cli: Cli, serve: Serve) -> None:
     with serve() as running:
         oven = name_of(running)
+        running.device.poke("access_level", "factory")  # it is delivered with another
         cli("backup", oven, "before.yaml")
         running.device.poke("input_filter", 9)
         cli("backup", oven, "after.yaml")
@@ -88,8 +89,9 @@ def test_a_device_whose_manual_gives_no_defaults_is_not_said_to_be_as_delivered(
 
 
 def test_settings_without_a_default_are_named_where_others_have_one(
-    cli: Cli, oven: str, monkeypatch: pytest.MonkeyPatch
+    cli: Cli, oven: str, running: Running, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    running.device.poke("access_level", "factory")  # it is delivered with another
     whole = settings.factory
     monkeypatch.setattr(
         settings, "factory", lambda driver: {key: one for key, one in whole(driver).items() if key != "input_filter"}

@@ -213,3 +213,27 @@ def test_a_unit_with_cases_keeps_its_id(registers: Registers) -> None:
     assert found["level"].unit_id == "temperature"
     assert (found["count"].unit, found["count"].unit_id) == (always("lamps"), "")
     assert found["scale"].rescales == "temperature"
+
+
+def test_decimals_of_a_stored_value_say_how_fine_it_is_and_divide_nothing(registers: Registers) -> None:
+    tables = """
+    decimals:
+      kept:
+        - {register: digits, when: {kind: 1}, step: 1}
+        - {register: digits, at_most: 1, stores: value}
+"""
+    keys = "type: int16, decimals: kept, range: 0..9, range_decimals: kept"
+    found = registers(f"{BASICS}- {{at: 2, name: Value, {keys}}}", tables=tables)["value"]
+    first = Condition((Asked("kind", codes=(CodeRange(Fraction(1), Fraction(1)),)),))
+    assert found.scale == (
+        Case(first, Conversion(decimals=Decimals("digits"), step=Fraction(1))),
+        Case(ALWAYS, Conversion(step=Fraction(1), places=Decimals("digits", 1))),
+    )
+    assert found.range == (Case(first, spanned(0, 9, Decimals("digits"))), Case(ALWAYS, spanned(0, 9)))
+
+
+@pytest.mark.parametrize(("text", "code"), [("second", 2), ("1", 1)])
+def test_what_is_delivered_may_differ_from_the_default(registers: Registers, text: str, code: int) -> None:
+    found = value(registers, f"enum: {{1: first, 2: second}}, default: 1, delivered: {text}")
+    assert (found.default, found.delivered) == (Fraction(1), Fraction(code))
+    assert value(registers, "default: 1").delivered is None

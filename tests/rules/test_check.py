@@ -141,3 +141,20 @@ def test_a_worked_time_counts_the_characters_of_a_latency(
     times = f"gap: 3.65, earliest: 13.12, latest: {latest}"
     example = "{source: '1', timing: {baud: 9600, format: 8N1, function: 3, words: 2}, " + times + "}"
     assert rules_of(diagnose(small("at: 0, name: Setpoint", top=top, tail=f"examples: [{example}]\n"))) == expected
+
+
+@pytest.mark.parametrize(
+    ("keys", "rule", "message"),
+    [
+        ("enum: {1: one}, delivered: 2", "RS0443", "delivered value 2"),
+        ("range: 0..9, delivered: 10", "RS0423", "delivered value 10"),
+        ("delivered: 65536", "RS0420", "delivered value 65536"),
+        ("delivered: 1.5", "RS0432", "1.5"),
+        ("enum: {1: one}, delivered: two", "RS0322", "two"),
+    ],
+)
+def test_what_is_delivered_is_judged_as_the_default_is(
+    diagnose: Diagnose, small: Small, keys: str, rule: str, message: str
+) -> None:
+    (found,) = diagnose(small(f"at: 0, name: Value, {keys}"))
+    assert (found.rule, message in found.message) == (rule, True)

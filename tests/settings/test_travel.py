@@ -238,7 +238,8 @@ def test_what_was_changed_since_the_factory_is_what_differs_from_the_manuals_def
         right = settings.Side("factory", driver.map_id, driver.model, settings.factory(driver))
         found = settings.differences(left, right, missing=False)
     assert [(one.path, one.left.value, one.right.value) for one in found if one.left and one.right] == [
-        ("input_filter", 9.0, 5.0)
+        ("input_filter", 9.0, 5.0),
+        ("access_level", "CONFIGURATION", "FACTORY"),  # delivered with another value than its default
     ]
 
 

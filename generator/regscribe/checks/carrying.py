@@ -40,6 +40,11 @@ class Form(NamedTuple):
             return value
         return (value * self.factor - self.conversion.add) / self.conversion.multiply
 
+    def too_fine(self, stored: Fraction) -> bool:
+        """Whether a stored number lies between two steps, whatever a register says of them."""
+        step = self.conversion.step
+        return step is not None and bool(stored % (step / factors(self.conversion.places)[-1]))
+
 
 PLAIN = (Form(IDENTITY, Fraction(1), plain=True),)
 
@@ -62,8 +67,7 @@ def fit(form: Form, view: View, value: Fraction) -> Fit:
     wire = stored if view.factor == 1 else stored * view.factor
     if view.type.is_integer and not view.type.minimum <= wire <= view.type.maximum:
         return Fit.TOO_LARGE
-    step = form.conversion.step
-    if (step and stored % step) or (view.type.is_integer and wire.denominator != 1):
+    if form.too_fine(stored) or (view.type.is_integer and wire.denominator != 1):
         return Fit.TOO_FINE
     return Fit.EXACT
 

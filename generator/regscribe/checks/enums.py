@@ -82,12 +82,13 @@ def member_id_twice(scope: Scope) -> Iterator[Finding]:
 )
 def default_no_member(register: Register, _: Scope) -> Iterator[Finding]:
     """Look for the default among the codes."""
-    if register.kind is not Kind.ENUM or register.enum is None or not isinstance(register.default, Fraction):
+    if register.kind is not Kind.ENUM or register.enum is None:
         return
-    if register.default not in {member.code for member in register.enum.members}:
-        codes = ", ".join(str(member.code) for member in register.enum.members)
-        message = f"has default {show(register.default)}, which its enum does not list ({codes})"
-        yield Finding.at(register, message, "correct the default, or add the member")
+    for what, value in register.beginnings:
+        if isinstance(value, Fraction) and value not in {member.code for member in register.enum.members}:
+            codes = ", ".join(str(member.code) for member in register.enum.members)
+            message = f"has {what} {show(value)}, which its enum does not list ({codes})"
+            yield Finding.at(register, message, f"correct the {what}, or add the member")
 
 
 @model_rule(Rule("RS0444", "Enum without members", "A model on which no code is valid cannot have the register."))

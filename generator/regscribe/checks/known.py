@@ -29,11 +29,14 @@ def default_values(model: Model) -> dict[str, Fraction]:
 def _sensible(model: Model, values: dict[str, Fraction]) -> dict[str, Fraction]:
     """The values without absurd numbers of decimals, since 10 to the power of them would be computed."""
     counts = {
-        case.then.decimals.register
+        told.register
         for register in model.registers
-        for cases in (register.scale, register.range)
-        for case in cases
-        if case.then.decimals
+        for told in (
+            *(case.then.decimals for case in register.scale),
+            *(case.then.places for case in register.scale),
+            *(case.then.decimals for case in register.range),
+        )
+        if told
     }
     return {path: value for path, value in values.items() if path not in counts or value <= MOST_DECIMALS}
 

@@ -36,6 +36,7 @@ def limiting(register: Register) -> Iterator[tuple[str, str]]:
     yield from ((path, "its range depends on") for path in registers_of(register.range))
     yield from ((path, "a limit is") for path in _limits(register))
     yield from ((path, "the decimals of its range are") for path in _range_decimals(register))
+    yield from ((path, "its finest step depends on") for path in _places(register))
     if register.writable:
         yield from ((path, "a write depends on") for path in register.writable.when.registers)
     yield from ((path, "its unit depends on") for path in registers_of(register.unit))
@@ -43,6 +44,10 @@ def limiting(register: Register) -> Iterator[tuple[str, str]]:
 
 def _decimals(register: Register) -> Iterator[str]:
     yield from (case.then.decimals.register for case in register.scale if case.then.decimals)
+
+
+def _places(register: Register) -> Iterator[str]:
+    yield from (case.then.places.register for case in register.scale if case.then.places)
 
 
 def _range_decimals(register: Register) -> Iterator[str]:
@@ -132,7 +137,7 @@ def unreadable(register: Register, scope: Scope) -> Iterator[Finding]:
 )
 def decimals_register(register: Register, scope: Scope) -> Iterator[Finding]:
     """The register must be of a whole kind, and not below 0."""
-    for path in dict.fromkeys((*_decimals(register), *_range_decimals(register))):
+    for path in dict.fromkeys((*_decimals(register), *_places(register), *_range_decimals(register))):
         other = scope.registers.get(path)
         if other is None:
             continue

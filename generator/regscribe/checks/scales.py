@@ -25,13 +25,14 @@ def scale_of_zero(register: Register, _: Scope) -> Iterator[Finding]:
         "A default or limit between two steps can never be read or written: a decimal is missing, or one too many.",
     )
 )
-def too_fine(register: Register, _: Scope) -> Iterator[Finding]:
+def too_fine(register: Register, _scope: Scope) -> Iterator[Finding]:
     """Try the default and the numeric limits in every view under every scale."""
     if register.kind not in {Kind.NUMBER, Kind.INTEGER, Kind.RAW}:
         return
     fine: list[Fraction] = []
-    if isinstance(register.default, Fraction) and not _is_meant(register, register.default):
-        fine += [register.default] if best_fit(register, (register.default,)) is Fit.TOO_FINE else []
+    for _what, value in register.beginnings:
+        if isinstance(value, Fraction) and not _is_meant(register, value):
+            fine += [value] if best_fit(register, (value,)) is Fit.TOO_FINE else []
     for case in register.range:
         fine += [n for n in numbers(case.then) if best_fit(register, end_values(case.then, n)) is Fit.TOO_FINE]
     if fine:

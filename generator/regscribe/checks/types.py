@@ -36,15 +36,15 @@ def _is_numeric(register: Register) -> bool:
 )
 def default_outside_type(register: Register, _: Scope) -> Iterator[Finding]:
     """Try the default in every view under every scale."""
-    if not isinstance(register.default, Fraction) or register.kind is Kind.STRING:
-        return
-    top = 1 << register.bits
-    if register.kind in WORDS_OF_BITS:
-        fits = 0 <= register.default < top
-    else:
-        fits = best_fit(register, (register.default,)) is not Fit.TOO_LARGE
-    if not fits:
-        yield Finding.at(register, f"has default {show(register.default)}, outside {ends_of(register)}", HELP_TYPE)
+    for what, value in register.beginnings:
+        if not isinstance(value, Fraction) or register.kind is Kind.STRING:
+            continue
+        if register.kind in WORDS_OF_BITS:
+            fits = 0 <= value < 1 << register.bits
+        else:
+            fits = best_fit(register, (value,)) is not Fit.TOO_LARGE
+        if not fits:
+            yield Finding.at(register, f"has {what} {show(value)}, outside {ends_of(register)}", HELP_TYPE)
 
 
 @register_rule(
@@ -144,20 +144,21 @@ def type_and_space(register: Register, _: Scope) -> Iterator[Finding]:
 )
 def default_outside_range(register: Register, scope: Scope) -> Iterator[Finding]:
     """Judge the default with all other registers at theirs; what cannot be known so is not judged."""
-    value = register.default
-    if not isinstance(value, Fraction) or not register.range or not _is_numeric(register):
-        return
-    if any(value in (special.code, special.means) for special in register.specials):
+    judged = [(what, value) for what, value in register.beginnings if isinstance(value, Fraction)]
+    named = {number for special in register.specials for number in (special.code, special.means)}
+    if not register.range or not _is_numeric(register):
         return
     try:
         now = choose(register.range, scope.defaults)
         ends = limits(now, scope.defaults) if now else ()
     except (UnknownValueError, RefusedError):
         return
-    if ends and not any((low is None or low <= value) and (high is None or value <= high) for low, high in ends):
-        text = " or ".join(f"{_end(low)}..{_end(high)}" for low, high in ends)
-        message = f"has default {show(value)}, outside {text} with all other registers at their defaults"
-        yield Finding.at(register, message, "correct one of them, or add the default under `special`")
+    for what, value in judged:
+        inside = any((low is None or low <= value) and (high is None or value <= high) for low, high in ends)
+        if ends and not inside and value not in named:
+            text = " or ".join(f"{_end(low)}..{_end(high)}" for low, high in ends)
+            message = f"has {what} {show(value)}, outside {text} with all other registers at their defaults"
+            yield Finding.at(register, message, f"correct one of them, or add the {what} under `special`")
 
 
 def _end(number: Fraction | None) -> str:
@@ -248,17 +249,15 @@ def scaled_codes(register: Register, _: Scope) -> Iterator[Finding]:
 )
 def default_of_wrong_sort(register: Register, _: Scope) -> Iterator[Finding]:
     """Compare the default with the kind; a text with the words it has."""
-    value = register.default
-    if value is None:
-        return
     textual = register.kind is Kind.STRING  # a version packs digits: its default is the number that they spell
-    if textual != isinstance(value, str):
-        shown = repr(value) if isinstance(value, str) else show(value)
-        message = f"is of kind {register.kind} but has default {shown}"
-        yield Finding.at(register, message, "correct the default or `kind`")
-    elif isinstance(value, str) and register.kind is Kind.STRING and len(value) > 2 * register.base.words:
-        message = f"has a default of {len(value)} characters and room for {2 * register.base.words}"
-        yield Finding.at(register, message, "correct the default or `length`")
+    for what, value in register.beginnings:
+        if textual != isinstance(value, str):
+            shown = repr(value) if isinstance(value, str) else show(value)
+            message = f"is of kind {register.kind} but has {what} {shown}"
+            yield Finding.at(register, message, f"correct the {what} or `kind`")
+        elif isinstance(value, str) and textual and len(value) > 2 * register.base.words:
+            message = f"has a {what} of {len(value)} characters and room for {2 * register.base.words}"
+            yield Finding.at(register, message, f"correct the {what} or `length`")
 
 
 @register_rule(

@@ -209,7 +209,15 @@ def conversion_words(conversion: Conversion) -> str:
     """Write the value from the stored number x as a formula: `x`, `x/10`, `0.1*x - 1999.9`, `x/10^dp`."""
     divisor = divisor_words(conversion.decimals)
     linear = _product(conversion.multiply) + _sum(conversion.add)
-    return f"({linear}){divisor}" if divisor and conversion.add else linear + divisor
+    formula = f"({linear}){divisor}" if divisor and conversion.add else linear + divisor
+    return formula + step_words(conversion)
+
+
+def step_words(conversion: Conversion, wording: Wording = PLAIN) -> str:
+    """`, x in steps of 1/10^dp`, or nothing."""
+    if conversion.step is None:
+        return ""
+    return f", x in steps of {show(conversion.step)}{divisor_words(conversion.places, wording)}"
 
 
 def _product(multiply: Fraction) -> str:
@@ -242,12 +250,21 @@ def sentinel_words(sentinel: Sentinel, wording: Wording = PLAIN) -> str:
 
 def default_words(register: Register, wording: Wording = PLAIN) -> str:
     """Word the default: text, a number, or a code with its label (`3 = off`); empty where the manual gives none."""
-    if register.default is None:
+    return _beginning_words(register, register.default, wording)
+
+
+def delivered_words(register: Register, wording: Wording = PLAIN) -> str:
+    """Word what the device is delivered with, as `default_words` the default."""
+    return _beginning_words(register, register.delivered, wording)
+
+
+def _beginning_words(register: Register, value: Fraction | str | None, wording: Wording) -> str:
+    if value is None:
         return ""
-    if isinstance(register.default, str):
-        return wording.text(one_line(register.default))
-    label = _default_label(register, register.default)
-    return f"{show(register.default)} = {wording.text(one_line(label))}" if label else show(register.default)
+    if isinstance(value, str):
+        return wording.text(one_line(value))
+    label = _default_label(register, value)
+    return f"{show(value)} = {wording.text(one_line(label))}" if label else show(value)
 
 
 def _default_label(register: Register, default: Fraction) -> str:

@@ -10,7 +10,6 @@ from regscribe.lower.tree import Entry
 from regscribe.model import (
     Case,
     Cases,
-    Condition,
     Conversion,
     Interval,
     Limit,
@@ -90,15 +89,19 @@ def _limit(node: Node | None, scope: Scope) -> Limit:
 
 def _split(cases: Cases[Range], rule: Node, scope: Scope) -> Cases[Range]:
     rules = decimals_rule(rule, scope)
-    return tuple(part for case in cases for part in _parts(case, rules[0].when, rules[0].then))
+    return tuple(part for case in cases for part in _parts(case, rules))
 
 
-def _parts(case: Case[Range], rule: Condition, conversion: Conversion) -> Cases[Range]:
-    """The case under the rule's condition, with decimals, and then the case as it is where both can happen."""
+def _parts(case: Case[Range], rules: Cases[Conversion]) -> Cases[Range]:
+    """The case under each condition of the rule, with its decimals, and then as it is where none of them need hold."""
     numbers = any(isinstance(limit, Number) for each in case.then.intervals for limit in (each.low, each.high))
-    if not numbers or conversion.decimals is None or excludes(case.when, rule):
-        return (case,)
-    scaled = Range(case.then.intervals, conversion.decimals)
-    if set(rule.tests) <= set(case.when.tests):
-        return (Case(case.when, scaled),)
-    return Case(both(rule, case.when), scaled), case
+    dividing = max((number for number, rule in enumerate(rules, start=1) if rule.then.decimals), default=0)
+    found: list[Case[Range]] = []
+    for rule in rules[: dividing if numbers else 0]:
+        if excludes(case.when, rule.when):
+            continue
+        scaled = Range(case.then.intervals, rule.then.decimals)
+        if set(rule.when.tests) <= set(case.when.tests):
+            return (*found, Case(case.when, scaled))
+        found.append(Case(both(rule.when, case.when), scaled))
+    return (*found, case)

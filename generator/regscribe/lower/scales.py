@@ -12,6 +12,7 @@ from regscribe.lower.tree import Entry
 from regscribe.model import ALWAYS, IDENTITY, Case, Cases, Condition, Conversion, Decimals, WireType, always, show
 
 NOT_STATED = "not_stated"
+_WITH_POINT = "value"
 _MOST_DIGITS = 100
 _LINEAR = frozenset({"multiply", "add"})
 _WAYS = _LINEAR | {"scale", "decimals"}
@@ -98,13 +99,19 @@ def decimals_rule(node: Node, scope: Scope) -> Cases[Conversion]:
 
 
 def rule_at(rule: Node, scope: Scope) -> Cases[Conversion]:
-    """The cases of the decimals rule that stands at `rule`."""
-    register = rule.child("register")
+    """The cases of the decimals rule that stands at `rule`; where none of its own holds, the identity."""
+    cases = tuple(_decimals_case(node, scope) for node in rule.elements())
+    return cases if any(case.when.always for case in cases) else (*cases, Case(ALWAYS, IDENTITY))
+
+
+def _decimals_case(node: Node, scope: Scope) -> Case[Conversion]:
+    when = condition(node.child("when"), scope)
+    register, at_most, step, stores = (node.child(key) for key in ("register", "at_most", "step", "stores"))
     if register is None:
-        return always(IDENTITY)
-    at_most, step = rule.child("at_most"), rule.child("step")
+        return Case(when, IDENTITY)
     path = path_of(scope.register(register), register.text())
     decimals = Decimals(path, at_most.whole() if at_most else None)
-    conversion = Conversion(decimals=decimals, step=step.number() if step else None)
-    when = condition(rule.child("when"), scope)
-    return always(conversion) if when.always else (Case(when, conversion), Case(ALWAYS, IDENTITY))
+    increment = step.number() if step else None
+    if stores is not None and stores.text() == _WITH_POINT:
+        return Case(when, Conversion(step=Fraction(1) if increment is None else increment, places=decimals))
+    return Case(when, Conversion(decimals=decimals, step=increment))

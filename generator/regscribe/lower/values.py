@@ -58,6 +58,12 @@ def default_of(entry: Entry, kind: Kind, enum: Enum | None) -> Fraction | str | 
     return named_value(node, kind, enum, specials_of(entry), BAD_DEFAULT) if node else None
 
 
+def delivered_of(entry: Entry, kind: Kind, enum: Enum | None) -> Fraction | str | None:
+    """What the device is delivered with, as a value of use, if that is not its default; RS0322 as for the default."""
+    node = entry.settings.get("delivered")
+    return named_value(node, kind, enum, specials_of(entry), BAD_DEFAULT) if node else None
+
+
 def named_value(node: Node, kind: Kind, enum: Enum | None, specials: tuple[Special, ...], rule: str) -> Fraction | str:
     """A value as a map spells it: a number, a text, or the id of an enum member or special value."""
     if kind is Kind.STRING:

@@ -71,7 +71,8 @@ class Register:
     `views[0]` is the base view; `aliases` are further addresses that transmit the base view.
     `scale` goes from the stored value to the value of use, `special_scale` from the code of a special value to its
     value of use (the decimals that divide the range); `default` is a value of use: a number (an enum's code, a word's
-    bits), a text, or None where the manual gives none. `section` is where the manual describes it.
+    bits), a text, or None where the manual gives none; `delivered` is what a new device holds instead.
+    `section` is where the manual describes it.
     `rescales` names the unit (of the map's units) whose registers the device converts when this one is written.
     `unlock` and `apply` name commands that must precede and follow a write.
     `stays` is why the value must not be copied to another device (`address`, `line`, `calibration`, `identity`,
@@ -102,6 +103,7 @@ class Register:
     special_scale: Cases[Conversion] = field(default_factory=lambda: always(IDENTITY))
     sentinels: tuple[Sentinel, ...] = ()
     default: Fraction | str | None = None
+    delivered: Fraction | str | None = None
     enum: Enum | None = None
     fields: tuple[BitField, ...] = ()
     writable: Writable | None = None
@@ -147,6 +149,12 @@ class Register:
 
     def _first(self, able: list[View]) -> View:
         return self.preferred if self.preferred in able or not able else able[0]
+
+    @property
+    def beginnings(self) -> tuple[tuple[str, Fraction | str], ...]:
+        """The default and the delivered value, as far as the map says them, each with what it is."""
+        both = (("default", self.default), ("delivered value", self.delivered))
+        return tuple((what, value) for what, value in both if value is not None)
 
     @property
     def faults(self) -> tuple[Fraction, ...]:

@@ -21,13 +21,15 @@ class Decimals:
 class Conversion:
     """value = (`multiply` x stored + `add`) / 10^d, d from `decimals` (0 without); exact.
 
-    `step` is the smallest increment of the *stored* value, if the device has one (1: it stores whole digits).
+    `step` is the smallest increment of the *stored* value, if the device has one (1: it stores whole digits). With
+    `places`, a register says how many decimals that value can have: the increment is `step` / 10^d of it.
     """
 
     multiply: Fraction = Fraction(1)
     add: Fraction = Fraction(0)
     decimals: Decimals | None = None
     step: Fraction | None = None
+    places: Decimals | None = None
 
 
 IDENTITY = Conversion()

@@ -367,6 +367,9 @@ def _amount(register: "Register[Any]", value: object, state: State, givens: Give
     for code, (member, number) in specials.items():
         if amount == number and member is None:
             return code, True
+    if amount in specials and specials[amount][0] is None:  # it would be read back as another number
+        meant = show(specials[amount][1])
+        raise ValueRefused(register.path, f"{show(amount)} is the device's code for {meant}: write {meant}")
     return amount, amount in specials
 
 
@@ -398,12 +401,15 @@ def _stored(register: "Register[Any]", amount: Fraction, state: State, givens: G
     conversion, divisor = _conversion(register, state, givens)
     stored = (amount * divisor - Fraction(conversion.add)) / Fraction(conversion.multiply)
     if conversion.step is not None:
-        steps = stored / Fraction(conversion.step)
+        increment = Fraction(conversion.step) / power(register.path, conversion.places, conversion.at_most, state)
+        steps = stored / increment
         if steps.denominator != 1:
-            step = Fraction(conversion.step) * Fraction(conversion.multiply) / divisor
+            step = increment * Fraction(conversion.multiply) / divisor
             if not rounded:
-                raise ValueRefused(register.path, f"{show(amount)} is finer than the resolution {show(abs(step))}")
-            stored = ROUNDINGS["half_up"](steps) * Fraction(conversion.step)
+                of = f" of {conversion.places}" if conversion.places else ""
+                message = f"{show(amount)} is finer than the resolution {show(abs(step))}{of} (rounded=True rounds)"
+                raise ValueRefused(register.path, message)
+            stored = ROUNDINGS["half_up"](steps) * increment
     return stored
 
 

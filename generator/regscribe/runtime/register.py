@@ -206,6 +206,7 @@ class Register(Generic[T]):
     def limit_needs(self) -> tuple[str, ...]:
         """Registers that decide or are limits of a write."""
         found = list(registers_of(self.range))
+        found += [conversion.places for _, conversion in self.scale if conversion.places]
         for _, limits in cast("tuple[tuple[When, Limits], ...]", self.range):
             found += [limits.decimals] if limits.decimals else []
             found += [end.register for interval in limits.intervals for end in interval if isinstance(end, Ref)]

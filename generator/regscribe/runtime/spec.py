@@ -75,7 +75,8 @@ class Identity(NamedTuple):
 class Conversion(NamedTuple):
     """value = (`multiply` x stored + `add`) / 10^d with d from register `decimals`, at most `at_most`.
 
-    `step`: the smallest increment of the stored value, if the device has one.
+    `step`: the smallest increment of the stored value, if the device has one; with register `places`, that is divided
+    by 10^d with d from it, at most `at_most`.
     """
 
     multiply: Text = 1
@@ -83,6 +84,7 @@ class Conversion(NamedTuple):
     decimals: str = ""
     at_most: int | None = None
     step: Text | None = None
+    places: str = ""
 
 
 IDENTITY = Conversion()

@@ -10,17 +10,18 @@ from regscribe.simulate.values import with_field
 def initial_value(register_map: RegisterMap, model: Model, register: Register, state: Present) -> Fraction | str:
     """Return the value of use that `register` begins with.
 
-    In this order: what tells the model (so that an identification finds it), the map's default, 0 if the register
-    accepts it, its first enum member, its first low limit that is known, 0.
+    In this order: what tells the model (so that an identification finds it), what the map says it is delivered with,
+    the map's default, 0 if the register accepts it, its first enum member, its first low limit that is known, 0.
     """
     if register.kind is Kind.STRING:
         return _initial_text(register_map, model, register)
     tests = _identifying_tests(register_map, model, register)
     if tests:
         return _identifying(register, tests)
-    if register.default is not None:
-        special = next((each for each in register.specials if each.code == register.default), None)
-        return state.special(register, special) if special else register.default
+    for value in (register.delivered, register.default):
+        if value is not None:
+            special = next((each for each in register.specials if each.code == value), None)
+            return state.special(register, special) if special else value
     if accepts(register, Fraction(0), state):
         return Fraction(0)
     if register.enum is not None and register.enum.members:
@@ -33,7 +34,7 @@ def initial_value(register_map: RegisterMap, model: Model, register: Register, s
 def _initial_text(register_map: RegisterMap, model: Model, register: Register) -> str:
     mine = [each for each in register_map.identity if model.name in each.models]
     shown = [text for each in mine for path, text in each.texts if path == register.path]
-    return shown[0] if shown else register.default if isinstance(register.default, str) else ""
+    return next((text for text in (*shown, register.delivered, register.default) if isinstance(text, str)), "")
 
 
 def _identifying_tests(register_map: RegisterMap, model: Model, register: Register) -> tuple[Test, ...]:

@@ -119,10 +119,25 @@ class Meaning(ABC):
 
     def quantise(self, register: Register, stored: Fraction) -> Fraction:
         """Round `stored` to what the device can hold: to the scale's step, else to what its views can tell apart."""
-        step = self.conversion(register).step
+        conversion = self.conversion(register)
+        step = None if conversion.places else conversion.step
         if step is None:
             if any(view.type.is_float for view in register.views):
                 return stored
             step = 1 / max(view.factor for view in register.views)
-        rounding = next((view.rounding for view in register.views if view.rounding is not Rounding.NONE), Rounding.NONE)
-        return codec.round_to_whole(stored / step, rounding) * step
+        return _on_step(register, stored, step)
+
+    def kept(self, register: Register, stored: Fraction) -> Fraction:
+        """Round what comes in, written or measured, to what the device keeps of it as it is configured now.
+
+        What it holds already stays when a register that says how many decimals it keeps changes.
+        """
+        conversion = self.conversion(register)
+        if conversion.places is None or conversion.step is None:
+            return self.quantise(register, stored)
+        return _on_step(register, stored, conversion.step / self.power(conversion.places))
+
+
+def _on_step(register: Register, stored: Fraction, step: Fraction) -> Fraction:
+    rounding = next((view.rounding for view in register.views if view.rounding is not Rounding.NONE), Rounding.NONE)
+    return codec.round_to_whole(stored / step, rounding) * step

@@ -137,7 +137,7 @@ class State(Meaning):
         stored = self.stored(register.path)
         if field is None or not isinstance(stored, Fraction):
             new = self._to_stored(register, value)
-            new = self.quantise(register, new) if isinstance(new, Fraction) else new
+            new = self.kept(register, new) if isinstance(new, Fraction) else new
         else:
             new = with_field(stored, field, number_of(register, field, value))
         if new != stored:

@@ -108,7 +108,7 @@ class Writer:
             return stored
         if stored is None:
             raise Refusal(self.protocol.faults.value)
-        held = self.state.quantise(register, stored)
+        held = self.state.kept(register, stored)
         if not self.commands.sets_register(place.start, words) and not self._fits(register, held):
             raise Refusal(self.protocol.faults.value)
         return held

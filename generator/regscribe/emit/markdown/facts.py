@@ -15,6 +15,7 @@ from regscribe.emit.text import (
     cases_words,
     conversion_words,
     default_words,
+    delivered_words,
     map_cases,
     one_line,
     order_words,
@@ -157,11 +158,6 @@ def _scale(_context: Context, _model: Model, register: Register) -> Md:
     return md(code(conversion_words(register.scale[0].then)), ", x being the stored number")
 
 
-def _step(_context: Context, _model: Model, register: Register) -> Md:
-    steps = {case.then.step for case in register.scale} - {None}
-    return escape(", ".join(show(step) for step in sorted(step for step in steps if step is not None)))
-
-
 def _specials(context: Context, model: Model, register: Register) -> Md:
     wording = context.wording(model)
     divided = any(case.then.decimals for case in register.special_scale)
@@ -176,6 +172,10 @@ def _sentinels(context: Context, model: Model, register: Register) -> Md:
 
 def _default(context: Context, model: Model, register: Register) -> Md:
     return Md(default_words(register, context.wording(model)))
+
+
+def _delivered(context: Context, model: Model, register: Register) -> Md:
+    return Md(delivered_words(register, context.wording(model)))
 
 
 def _unit(context: Context, model: Model, register: Register) -> Md:
@@ -239,9 +239,9 @@ FACTS: dict[str, Fact] = {
     "Special values": _specials,
     "Faults instead of a value": _sentinels,
     "Default": _default,
+    "As delivered": _delivered,
     "Unit": _unit,
     "Scale": _scale,
-    "Smallest stored step": _step,
     "Counts": difference,
     "Kept in": _persistence,
     "When power comes": shadows,

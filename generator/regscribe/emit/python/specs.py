@@ -74,14 +74,15 @@ class Specs:
 
     @staticmethod
     def _conversion(conversion: Conversion) -> Expression:
-        found = conversion.decimals
+        found = conversion.decimals or conversion.places
         return call(
             "Conversion",
             multiply=exact(conversion.multiply) if conversion.multiply != 1 else None,
             add=exact(conversion.add) if conversion.add else None,
-            decimals=literal(found.register) if found else None,
+            decimals=literal(conversion.decimals.register) if conversion.decimals else None,
             at_most=str(found.at_most) if found and found.at_most is not None else None,
             step=exact(conversion.step) if conversion.step is not None else None,
+            places=literal(conversion.places.register) if conversion.places else None,
         )
 
     def range(self, register: Register) -> Expression | None:

@@ -103,10 +103,14 @@ def scale_now(register: Register, view: View, known: Surroundings) -> Scale | No
     limits_now = choose(register.range, known) if register.access.writable else None
     if limits_now is not None and decimal_factor(limits_now.decimals, known) is None:
         return None
+    places = decimal_factor(conversion.places, known) if register.access.writable else Fraction(1)
+    if places is None:
+        return None
+    increment = None if conversion.step is None else conversion.step / places
     return Scale(
         slope=conversion.multiply / factor,
         offset=conversion.add / factor,
-        wire_step=_common(Fraction(0) if view.type.is_float else 1 / view.factor, conversion.step),
+        wire_step=_common(Fraction(0) if view.type.is_float else 1 / view.factor, increment),
         lowest=lowest / view.factor,
         highest=highest / view.factor,
         limits=limits(limits_now, known) if limits_now else (),

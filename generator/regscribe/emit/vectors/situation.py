@@ -6,7 +6,7 @@ from fractions import Fraction
 from itertools import islice, product
 
 from regscribe.emit.vectors.subject import GivenTry, Questions, Tries, Values, questions_of, tries_of
-from regscribe.model import Interval, Kind, Model, Number, Reference, Register, RegisterMap, View
+from regscribe.model import Conversion, Interval, Kind, Model, Number, Reference, Register, RegisterMap, View
 from regscribe.model.condition import Cases, T
 from regscribe.model.reference import Surroundings, choose, decimal_factor, holds, word_order
 
@@ -159,14 +159,24 @@ def _signature(register: Register, known: Surroundings) -> object:
         _special_factor(register, known),
         _index(register.range, known) if register.access.writable else 0,
         limits_now and decimal_factor(limits_now.decimals, known),
+        _increment(register, conversion, known),
     )
+
+
+def _increment(register: Register, conversion: Conversion | None, known: Surroundings) -> object:
+    """Return what tells how fine a value may be written."""
+    if conversion is None or conversion.step is None or not register.access.writable:
+        return conversion and conversion.step
+    factor = decimal_factor(conversion.places, known)
+    return factor and conversion.step / factor
 
 
 def _meaning(register: Register, known: Surroundings) -> object:
     """Return the scale and the limits as numbers: two cases that say the same are the same."""
     conversion = choose(register.scale, known)
     factor = conversion and decimal_factor(conversion.decimals, known)
-    scale = (conversion.multiply / factor, conversion.add / factor, conversion.step) if conversion and factor else None
+    increment = _increment(register, conversion, known)
+    scale = (conversion.multiply / factor, conversion.add / factor, increment) if conversion and factor else None
     limits_now = choose(register.range, known) if register.access.writable else None
     limits = limits_now and limits_now.intervals, limits_now and decimal_factor(limits_now.decimals, known)
     return scale, limits, _special_factor(register, known)

@@ -51,7 +51,12 @@ def questions_of(register: Register, view: View) -> Questions:
     """Return what must be known to read `view`, and to write it if it can be written."""
     ranges = register.range if register.access.writable else ()
     scales = (*register.scale, *register.special_scale)
-    decimals = [*(case.then.decimals for case in scales), *(case.then.decimals for case in ranges)]
+    places = register.scale if register.access.writable else ()
+    decimals = [
+        *(case.then.decimals for case in scales),
+        *(case.then.decimals for case in ranges),
+        *(case.then.places for case in places),
+    ]
     return Questions(
         (*(case.when for case in scales), *(case.when for case in ranges)),
         tuple(one for one in decimals if one),

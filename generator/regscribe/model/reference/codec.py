@@ -136,14 +136,16 @@ def _pattern(view: View, number: Fraction) -> Fraction:
 
 
 def _checked(register: Register, value: Fraction, known: Surroundings) -> Fraction:
+    codes: set[Fraction] = set()
     for special in register.specials:
         named = special_value(register, special, known)
         if named is None:
             raise RefusedError(Reason.CONDITION, "the decimals of special values are not known")
         if value == (named if special.means is None else special.means):
             return named
-        if special.means is not None and value == named:
-            return named
+        codes.add(named)
+    if value in codes:
+        raise RefusedError(Reason.RANGE, f"{show(value)} is a code that stands for another number")
     if register.kind is Kind.BOOLEAN and value not in {0, 1}:
         raise RefusedError(Reason.TYPE, f"{show(value)} is neither 0 nor 1")
     if register.enum is not None and all(member.code != value for member in register.enum.members):
@@ -169,12 +171,24 @@ def _stored(register: Register, value: Fraction, known: Surroundings, *, rounded
     if conversion is None or factor is None:
         raise RefusedError(Reason.CONDITION, "no scale holds as things stand")
     stored = (value * factor - conversion.add) / conversion.multiply
-    return _on_step(conversion, stored, rounded=rounded)
+    return _on_step(conversion, stored, known, rounded=rounded)
 
 
-def _on_step(conversion: Conversion, stored: Fraction, *, rounded: bool) -> Fraction:
-    if conversion.step is None or (stored / conversion.step).denominator == 1:
+def increment(conversion: Conversion, known: Surroundings) -> Fraction | None:
+    """Return how far two stored numbers lie apart; None where nothing says so.
+
+    Raises RefusedError if a register that says it holds no number of decimals.
+    """
+    factor = decimal_factor(conversion.places, known)
+    if factor is None:
+        raise RefusedError(Reason.CONDITION, "nobody can tell how many decimals the device keeps")
+    return None if conversion.step is None else conversion.step / factor
+
+
+def _on_step(conversion: Conversion, stored: Fraction, known: Surroundings, *, rounded: bool) -> Fraction:
+    step = increment(conversion, known)
+    if step is None or (stored / step).denominator == 1:
         return stored
     if not rounded:
-        raise RefusedError(Reason.RESOLUTION, f"{show(stored)} is no multiple of {show(conversion.step)}")
-    return conversion.step * floor(stored / conversion.step + HALF)
+        raise RefusedError(Reason.RESOLUTION, f"{show(stored)} is no multiple of {show(step)}")
+    return step * floor(stored / step + HALF)
