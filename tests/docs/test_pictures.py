@@ -15,6 +15,7 @@ import pytest
 from regscribe.emit import markdown, picture_paths
 from regscribe.emit.pictures import drawings, render, style
 from regscribe.emit.pictures.drawing import WIDTH, Box, Drawing, Text
+from regscribe.emit.pictures.looks import looks
 from regscribe.emit.pictures.measure import clean, shorten, width, wrap
 from regscribe.emit.pictures.sections import layout, sections
 from regscribe.emit.write import origin_of
@@ -403,3 +404,10 @@ def test_rows_of_a_section_follow_each_other_without_a_gap(any_map: RegisterMap)
 
 def test_no_two_paints_of_neighbouring_groups_are_alike() -> None:
     assert all(one != two for one, two in combinations(style.TINTS, 2))
+
+
+def test_groups_of_the_largest_map_that_comes_along_have_colours_of_their_own() -> None:
+    maps = [compiled for path in MAPS if (compiled := compile_map(path).map)]
+    largest = max(len(looks(one).groups) for one in maps)
+    assert len({style.tint(number) for number in range(largest)}) == largest > 12
+    assert len({style.outline(number) for number in range(largest)}) == largest

@@ -34,8 +34,14 @@ TINTS = (
     Paint("#c4cefc", "#353d72"),
     Paint("#8bdffa", "#0a4a5a"),
     Paint("#f0bdf2", "#5a305c"),
+    Paint("#e1effd", "#172d43"),
+    Paint("#fde9d9", "#3d250f"),
+    Paint("#dff4df", "#1a321b"),
+    Paint("#fee5f0", "#3e202f"),
+    Paint("#f0e9ff", "#2f2540"),
+    Paint("#d3f5f4", "#003333"),
 )
-"""Fills of equal lightness, neighbours far apart in hue."""
+"""Fills, neighbours far apart in hue: twelve of equal lightness, and six that are paler (on dark paper deeper)."""
 
 EDGES = (
     Paint("#0465af", "#59aaf8"),
@@ -50,6 +56,12 @@ EDGES = (
     Paint("#4d57b7", "#8c9cfb"),
     Paint("#046f87", "#09b7dc"),
     Paint("#8c3f91", "#d084d5"),
+    Paint("#054980", "#a3cffd"),
+    Paint("#6c3900", "#fbbb87"),
+    Paint("#15561d", "#a1dca2"),
+    Paint("#712a50", "#fdb0d4"),
+    Paint("#523779", "#d3befd"),
+    Paint("#095252", "#73dfdf"),
 )
 """Outlines: the same hues as TINTS."""
 
