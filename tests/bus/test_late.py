@@ -2,7 +2,6 @@
 
 import asyncio
 import threading
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -81,9 +80,7 @@ def test_a_late_answer_is_no_answer_to_a_write_either(far: FarEnd) -> None:
     link = serial(far, timeout=0.25)
     with pytest.raises(NoAnswer):
         link.call(1, WRITE)
-    begun = time.monotonic()
     assert link.call(1, Request(6, 11, 1, (8,))).address == 11
-    assert time.monotonic() - begun < LATE_SECONDS
     link.close()
 
 

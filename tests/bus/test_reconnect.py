@@ -166,10 +166,8 @@ def test_an_adapter_that_is_pulled_out_in_the_middle_is_one_clear_error(tmp_path
     os.close(adapter.ends[1])
 
     threading.Timer(0.1, lambda: os.close(end.fd)).start()
-    begun = time.monotonic()
-    with pytest.raises(LinkLost, match="the link was lost"):
+    with pytest.raises(LinkLost, match="the link was lost"):  # not NoAnswer, as after the timeout
         link.call(1, Request(3, 28))
-    assert time.monotonic() - begun < 2
     link.close()
 
 

@@ -237,11 +237,11 @@ def test_values_without_number_are_refused(content: str) -> None:
     ids=["brackets", "colons", "marks", "empty lines", "tabs", "quote", "directives"],
 )
 def test_eight_megabytes_of_nonsense_are_refused_soon(content: str) -> None:
-    start = time.perf_counter()
+    start = time.process_time()
     document, found = parse(content, name="m.yaml")
     assert document is None
     assert found
-    assert time.perf_counter() - start < 10
+    assert time.process_time() - start < 10
 
 
 @settings(deadline=None)

@@ -1,5 +1,6 @@
 """Time: latencies by function and word, characters at the speed of the line, and silence between frames."""
 
+import asyncio
 import os
 import select
 import socket
@@ -84,20 +85,29 @@ def test_an_impossible_latency_is_one_clear_message(given: float | str) -> None:
         factor_of(given)
 
 
-def test_a_served_device_takes_its_time(controller: RegisterMap) -> None:
+def test_a_served_device_takes_its_time(controller: RegisterMap, monkeypatch: pytest.MonkeyPatch) -> None:
+    waited: list[float] = []
+    sleep = asyncio.sleep
+
+    async def counted(seconds: float) -> None:
+        waited.append(seconds)
+        await sleep(0)
+
+    monkeypatch.setattr(asyncio, "sleep", counted)
     found = timed(controller, fixed(each=60, word=0))
     with simulate(found, "16C", transport="rtu-tcp", latency="real") as running:
-        assert _seconds_of_a_read(running) >= 0.06
+        _read_once(running)
+    assert 0.06 in [round(seconds, 3) for seconds in waited]
+    waited.clear()
     with simulate(found, "16C", transport="rtu-tcp") as running:
-        assert _seconds_of_a_read(running) < 0.06
+        _read_once(running)
+    assert not [seconds for seconds in waited if seconds >= 0.06]
 
 
-def _seconds_of_a_read(running: Running) -> float:
-    with socket.create_connection((running.host, running.port), timeout=5) as link:
-        begun = time.monotonic()
+def _read_once(running: Running) -> None:
+    with socket.create_connection((running.host, running.port), timeout=60) as link:
         link.sendall(_rtu(READ_ONE))
         assert link.recv(100)
-        return time.monotonic() - begun
 
 
 def _rtu(pdu: bytes) -> bytes:
