@@ -34,6 +34,18 @@ def test_a_word_of_bits_has_no_sign(vectors_of: Vectors) -> None:
     assert found.words("lamps")["32768"] == [32768]
 
 
+def test_codes_that_are_faults_are_decoded_so_and_refused(vectors_of: Vectors) -> None:
+    lines = """
+    - {at: 1, id: lamps, name: Lamps, type: uint16, flags: {0: red, 15: blue}, sentinels: {32769: none}}
+    - {at: 2, id: parts, name: Parts, type: int16, fields: {all: {bits: 0..15, label: all}}, sentinels: {-1: none}}
+    - {at: 3, id: version, name: Version, type: uint16, version: n.n, sentinels: {99: none}}
+    """
+    found = vectors_of(lines)
+    assert (found.values("lamps")[32769,], found.reasons("lamps")["32769"]) == ("NONE", "sentinel")
+    assert (found.values("parts")[65535,], found.reasons("parts")["65535"]) == ("NONE", "sentinel")
+    assert (found.values("version")[99,], found.reasons("version")["9.9"]) == ("NONE", "sentinel")
+
+
 def test_each_field_is_taken_from_its_bits(vectors_of: Vectors) -> None:
     lines = """
     - at: 1

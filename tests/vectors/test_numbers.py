@@ -115,6 +115,20 @@ def test_faults_are_decoded_as_faults_and_refused_as_values(vectors_of: Vectors)
     assert found.reasons("pv")["32767"] == "sentinel"
 
 
+def test_both_sides_of_a_special_value_are_tried(vectors_of: Vectors) -> None:
+    found = vectors_of("- {at: 1, id: level, name: Level, decimals: 1, range: 0..50, special: {99.9: disabled}}")
+    named = {tuple(one["words"]): one.get("special") for one in found.vectors("level", "decode")}
+    assert (named[998,], named[999,], named[1000,]) == (None, "DISABLED", None)
+    assert found.words("level")["99.9"] == [999]
+    assert found.reasons("level").items() >= {"99.8": "range", "100": "range"}.items()
+
+
+def test_every_pattern_that_is_no_number_is_a_fault(vectors_of: Vectors) -> None:
+    found = vectors_of("- {at: 1, id: pv, name: PV, type: float32, sentinels: {nan: none}}")
+    faults = {words for words, value in found.values("pv").items() if value == "NONE"}
+    assert faults >= {(0x7FC0, 0), (0xFF80, 1)}
+
+
 def test_a_code_that_stands_for_another_number_goes_both_ways(vectors_of: Vectors) -> None:
     lines = "- {at: 1, id: cycle, name: Cycle, range: 1..60, special: {0: {label: fast, means: 0.2}}}"
     found = vectors_of(lines)

@@ -51,6 +51,11 @@ SOUND = {
         "- {at: 0, name: A, views: twice, access: rw, range: 0..100}\n- {at: 1, name: B, views: twice, access: r}"
     ),
     "a float that is a tenth": "- {at: 0, name: A, views: tenth, access: rw}",
+    "floats that are more than tenths": (
+        "- {at: 0, name: A, type: float32, multiply: 0.3, add: -7.7, range: -50..50, access: rw}\n"
+        "- {at: 2, name: B, type: float64, add: 0.5, access: rw}\n"
+        "- {at: 6, name: C, type: float32, multiply: 0.3, kind: integer, access: rw}"
+    ),
     "ids in small letters": (
         "- {at: 0, name: A, access: rw, flags: {0: {label: x, id: fl14}, 1: {label: y, id: Id2}}}\n"
         "- {at: 1, name: E, access: rw, enum: {0: {label: z, id: aB}, 1: {label: q, id: CD}}}"

@@ -147,17 +147,21 @@ def values(trial: Trial) -> st.SearchStrategy[Any]:
 def _inside(trial: Trial, stretch: dict[str, Any]) -> st.SearchStrategy[Any]:
     low, high, step = Fraction(stretch["low"]), Fraction(stretch["high"]), Fraction(stretch.get("step", 0))
     holes = {Fraction(text) for text in stretch.get("except", ())}
+    slope, offset = Fraction(stretch.get("slope", 1)), Fraction(stretch.get("offset", 0))
     is_float = _type(trial).startswith("float")
 
+    def carried(there: Fraction) -> Fraction:
+        return slope * _few_digits((there - offset) / slope) + offset if is_float else there
+
     def value(part: int) -> Fraction:
-        there = low + (high - low) * Fraction(part, PARTS)
-        there = _few_digits(there) if is_float else there
+        there = carried(low + (high - low) * Fraction(part, PARTS))
         return low + (there - low) // step * step if step else there
 
     def possible(there: Fraction) -> bool:
-        return low <= there <= high and there not in holes and (not is_float or _few_digits(there) == there)
+        return low <= there <= high and there not in holes and carried(there) == there
 
-    small = st.integers(-99_999, 99_999).map(lambda tenths: Fraction(tenths, 10 if is_float and not step else 1))
+    part = 10 if is_float and not step else 1
+    small = st.integers(-99_999, 99_999).map(lambda count: slope * Fraction(count, part) + offset)
     near = small.map(lambda there: low + (there - low) // step * step if step else there)
     anywhere = st.one_of(st.integers(0, PARTS).map(value), near.filter(lambda there: low <= there <= high))
     ends = st.sampled_from((low, high))

@@ -125,7 +125,7 @@ def _writes(register: Register, view: View, scale: Scale | None, situation: Situ
         encodes += _rounded(register, view, scale, known)
     found: Json = {"encode": encodes, "refuse": refuses}
     if situation.full and word_order(view, known) is not None:
-        found["domain"] = list(_domain(register, scale, known))
+        found["domain"] = list(_domain(register, view, scale, known))
     return found
 
 
@@ -157,18 +157,29 @@ def _rounded(register: Register, view: View, scale: Scale, known: Surroundings) 
         yield {"value": show(value), "rounded": True, "words": list(words), "note": note}
 
 
-def _domain(register: Register, scale: Scale | None, known: Surroundings) -> Iterator[Json]:
+def _domain(register: Register, view: View, scale: Scale | None, known: Surroundings) -> Iterator[Json]:
     if register.kind is Kind.ENUM and register.enum is not None:
         yield from ({"low": str(member.code), "high": str(member.code)} for member in register.enum.members)
     if scale is None or register.kind in CODED or register.kind in {Kind.STRING, Kind.VERSION}:
         return
+    line = _line(scale, view) if view.type.is_float else {}
+    if line and not register.fractional:
+        return  # which whole numbers an IEEE number can carry there has no form here
     step, stretches = (scale.size, scale.domain()) if register.fractional else scale.whole_domain()
     widest = LARGEST[WireType.FLOAT64]  # what a program reads as a float
     for lowest, highest in stretches:
         low, high = (max(lowest, -widest), min(highest, widest)) if register.fractional else (lowest, highest)
         holes = [show(value) for value in _holes(register, scale, known) if low <= value <= high]
-        stretch = {"low": show(low), "high": show(high), "step": show(step) if step else "", "except": holes}
+        stretch = {"low": show(low), "high": show(high), "step": show(step) if step else "", **line, "except": holes}
         yield {key: value for key, value in stretch.items() if value}
+
+
+def _line(scale: Scale, view: View) -> dict[str, str]:
+    """How a value follows from an IEEE number; nothing where both have the same digits."""
+    slope = scale.slope / view.factor
+    if scale.offset == 0 and show(slope).replace(".", "").strip("-0") == "1":
+        return {}
+    return {"slope": show(slope), "offset": show(scale.offset)}
 
 
 def _holes(register: Register, scale: Scale, known: Surroundings) -> list[Fraction]:

@@ -21,6 +21,7 @@ def numbers(
     """Yield numbers to write; whether the device's map takes them is for the reference to say."""
     if register.kind in {Kind.ENUM, Kind.FLAGS, Kind.FIELDS, Kind.BOOLEAN}:
         yield from _coded(register)
+        yield from _faults(register)
         return
     if isinstance(register.default, Fraction):
         yield Proposal(register.default, "default")
@@ -46,15 +47,29 @@ def _coded(register: Register) -> Iterator[Proposal]:
     yield Proposal(Fraction(1 << register.bits), "one bit more than the type has")
 
 
+def _faults(register: Register) -> Iterator[Proposal]:
+    """Yield the codes that report faults: without a sign where the register is a pattern of bits."""
+    pattern = register.kind in {Kind.FLAGS, Kind.FIELDS}
+    for stored in register.faults:
+        yield Proposal(stored % (1 << register.bits) if pattern else stored, "how the device reports a fault")
+
+
 def _special(register: Register, scale: Scale, known: Surroundings) -> Iterator[Proposal]:
     yield Proposal(Fraction(0), "zero")
     for special in register.specials:
         if special.means is None:
             value = special_value(register, special, known)
-            yield from [] if value is None else [Proposal(value, f"special: {special.id}")]
+            yield from _beside(value, scale.step, f"special: {special.id}")
         else:
-            yield Proposal(special.means, f"special: {special.id} stands for this number")
+            yield from _beside(special.means, scale.step, f"special: {special.id} stands for this number")
     yield from (Proposal(scale.value(stored), "how the device reports a fault") for stored in register.faults)
+
+
+def _beside(value: Fraction | None, step: Fraction, note: str) -> Iterator[Proposal]:
+    """Yield a value and, because only it is special, the values on both sides of it."""
+    if value is not None:
+        yield Proposal(value, note)
+        yield from (Proposal(value + side * step, f"beside {note}") for side in (-1, 1))
 
 
 def _around_limits(scale: Scale) -> Iterator[Proposal]:
@@ -123,6 +138,7 @@ def texts(register: Register, view: View) -> Iterator[tuple[str, str]]:
         for text, note in (
             ("1" * digits, "all ones"),
             ("0" * digits, "all zeros"),
+            ("9" * digits, "all nines"),
             ("1" * (digits + 1), "a digit too many"),
         ):
             yield ".".join(text[start : start + group] for start in range(0, len(text), group)), note

@@ -42,6 +42,7 @@ PATTERNS = {
         0x7F800000: "infinity",
         0xFF800000: "minus infinity",
         0x7FC00000: "not a number",
+        0xFF800001: "not a number either",
     },
     WireType.FLOAT64: {
         0x0010000000000000: "smallest normal number",
@@ -50,6 +51,7 @@ PATTERNS = {
         0x7FF0000000000000: "infinity",
         0xFFF0000000000000: "minus infinity",
         0x7FF8000000000000: "not a number",
+        0xFFF0000000000001: "not a number either",
     },
 }
 """Bits of IEEE numbers that no decimal text spells briefly."""
@@ -118,7 +120,9 @@ def _scaled_numbers(register: Register, scale: Scale, known: Surroundings) -> It
     for special in register.specials:
         value = special_value(register, special, known)
         if value is not None:
-            yield Proposal(scale.stored(value), f"special: {special.id}")
+            stored, step = scale.stored(value), scale.wire_step or 1
+            yield Proposal(stored, f"special: {special.id}")
+            yield from (Proposal(stored + side * step, f"beside special: {special.id}") for side in (-1, 1))
 
 
 def codes(register: Register) -> Iterator[Proposal]:
