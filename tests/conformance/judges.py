@@ -12,7 +12,7 @@ from regscribe.live.decode import Decoder
 from regscribe.live.frames import Frame
 from regscribe.model import Kind, Register, View
 from regscribe.model import exact as exact_number
-from regscribe.model.reference import Meaning, RefusedError, Surroundings, decode, encode, special_value
+from regscribe.model.reference import Meaning, RefusedError, Surroundings, decode, encode, holds, special_value
 from regscribe.runtime import SensorFault, ValueNotDecodable, ValueRefused
 from regscribe.simulate import codec as simulated_codec
 from regscribe.simulate.device import SimulatedDevice
@@ -26,6 +26,9 @@ _ELEMENT = re.compile(r"(\w+)\[(\d+)\]")
 
 NO_NUMBERS = ("nan", "inf", "-inf")
 """How a row spells floats that are no numbers."""
+
+FAR = {"snan": Decimal("sNaN"), "huge": Decimal("1E+5000"), "tiny": Decimal("1E-5000"), "long": 10**5000}
+"""How it spells numbers that must not even be compared, or worked with."""
 
 REFUSED = "refused"
 """What a judge says of a value that it does not take."""
@@ -101,9 +104,15 @@ def value_for(built: Built, row: Json) -> Any:
     if "fields" in row:
         return declared.kind.make(0).replace(**row["fields"])
     value = row["value"] if "value" in row else row["refuses"]
-    if register.kind not in {Kind.STRING, Kind.VERSION} and value in NO_NUMBERS:
-        return float(value)
-    return float(value) if isinstance(value, Decimal) else value
+    if register.kind not in {Kind.STRING, Kind.VERSION} and value in {*NO_NUMBERS, *FAR}:
+        return FAR[value] if value in FAR else float(value)
+    return _as_float(value) if isinstance(value, Decimal) else value
+
+
+def _as_float(value: Decimal) -> float | Decimal:
+    """The float nearest to a decimal; the decimal itself where there is none."""
+    near = float(value)
+    return near if math.isfinite(near) and bool(near) is bool(value) else value
 
 
 class Present(Mapping[str, Fraction]):
@@ -183,15 +192,23 @@ def same(found: object, expected: object) -> bool:
     return found == expected
 
 
+def of_another_sort(built: Built, row: Json) -> bool:
+    """Whether a row offers a text for a number, or the like: nothing that the reference can be asked."""
+    value, kind = row.get("refuses"), register_of(built, row)[0].kind
+    textual = kind in {Kind.STRING, Kind.VERSION}
+    return "refuses" in row and (isinstance(value, str) is not textual or isinstance(value, bool))
+
+
 def written_by_reference(built: Built, memory: Any, row: Json) -> object:
     """The words that the reference makes of the value of a row."""
     register, view = register_of(built, row)
-    value = value_for(built, row)
-    if isinstance(value, float) and not math.isfinite(value):
-        return REFUSED  # the reference takes exact numbers only
+    value, known = value_for(built, row), Surroundings(values=Present(built, memory))
+    if register.writable and not holds(register.writable.when, known):
+        return REFUSED
+    if isinstance(value, Decimal) or row.get("refuses") in {*NO_NUMBERS, *FAR}:
+        return REFUSED  # the reference takes exact numbers only, of a size that a device may have
     number = value if isinstance(value, str) else _exact(register, value, row, Present(built, memory))
     try:
-        known = Surroundings(values=Present(built, memory))
         return list(encode(register, view, number, known, rounded=row.get("rounded", False)))
     except RefusedError:
         return REFUSED
@@ -216,10 +233,10 @@ def written(write: Any, memory: Any, space: str, address: int, count: int) -> ob
     return memory.get(space, address, count)
 
 
-def simulated(built: Built, holds: Mapping[str, Mapping[int, str]]) -> SimulatedDevice:
+def simulated(built: Built, held: Mapping[str, Mapping[int, str]]) -> SimulatedDevice:
     """A simulated device that holds some words."""
     device = SimulatedDevice(built.map, "A", unit=1)
-    for space, cells in holds.items():
+    for space, cells in held.items():
         for address, text in cells.items():
             prime(device, space, int(address), words_of(text))
     return device
