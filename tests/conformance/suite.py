@@ -54,13 +54,19 @@ def load(path: Path) -> list[Json]:
 
 
 def cases() -> Iterator[Case]:
-    """Every case of every file, at every place where it holds."""
+    """Every case of every file, at every place where it holds; each register of a list is a case of its own."""
     for path in sorted(FOLDER.glob("*.yaml")):
-        for place, one in (each for case in load(path) for each in places_of(case)):
-            name = f"{path.stem}: {one['name']}{place and f' ({place})'}"
-            yield Case(
-                name, one["map"], one.get("holds", {}), tuple(one.get("rows", ())), one.get("refused", ""), place
-            )
+        for one in load(path):
+            for number, register in enumerate(one.get("each", ()), 1):
+                name = f"{path.stem}: {one['name']}, {number}"
+                yield Case(name, {"registers": [register]}, {}, (), one["refused"], "")
+            for place, each in places_of(one) if "map" in one else ():
+                yield _case(path.stem, each, place)
+
+
+def _case(stem: str, one: Json, place: str) -> Case:
+    name = f"{stem}: {one['name']}{place and f' ({place})'}"
+    return Case(name, one["map"], one.get("holds", {}), tuple(one.get("rows", ())), one.get("refused", ""), place)
 
 
 def words_of(text: str) -> list[int]:

@@ -6,6 +6,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from regscribe.model import IDENTITY, Conversion, Decimals, Number, Range, Register, View, show
+from regscribe.model.reference import ieee_bits, ieee_number, shortest
 
 MOST_DECIMALS = 4
 """Decimals tried where a register holds their number and the map does not limit it (16 bits have five digits)."""
@@ -65,11 +66,28 @@ def fit(form: Form, view: View, value: Fraction) -> Fit:
     """How one value of use does in one view under one conversion."""
     stored = form.stored(value)
     wire = stored if view.factor == 1 else stored * view.factor
-    if view.type.is_integer and not view.type.minimum <= wire <= view.type.maximum:
+    fits = view.type.minimum <= wire <= view.type.maximum if view.type.is_integer else _spelled(view, wire) is not None
+    if not fits:
         return Fit.TOO_LARGE
     if form.too_fine(stored) or (view.type.is_integer and wire.denominator != 1):
         return Fit.TOO_FINE
     return Fit.EXACT
+
+
+def _spelled(view: View, wire: Fraction) -> tuple[Fraction, Fraction] | None:
+    """The numbers that the words of a float nearest to `wire` stand for: exactly, and in the fewest digits."""
+    bits = ieee_bits(wire, view.type)
+    return None if bits is None else ((exactly := ieee_number(bits, view.type)), shortest(exactly, view.type))
+
+
+def tells_apart(register: Register, value: Fraction) -> bool:
+    """Whether words of some view spell `value` and nothing beside it; whole numbers do wherever they fit."""
+    return any(
+        view.type.is_integer
+        or form.stored(value) * view.factor in (_spelled(view, form.stored(value) * view.factor) or ())
+        for form in forms(register)
+        for view in register.views
+    )
 
 
 def best_fit(register: Register, values: tuple[Fraction, ...]) -> Fit:

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from fractions import Fraction
 
-from regscribe.checks.carrying import Fit, best_fit, end_values, ends_of, factors, listed, numbers, widest
+from regscribe.checks.carrying import Fit, best_fit, end_values, ends_of, factors, listed, numbers, tells_apart, widest
 from regscribe.checks.registry import Finding, Scope, register_rule, warning
 from regscribe.model import (
     IDENTITY,
@@ -57,6 +57,8 @@ def special_outside_type(register: Register, _: Scope) -> Iterator[Finding]:
             special.code / factor for case in register.special_scale for factor in factors(case.then.decimals)
         )
         fit = best_fit(register, values)
+        if fit is Fit.EXACT and not any(tells_apart(register, value) for value in values):
+            fit = Fit.TOO_FINE
         if fit is not Fit.EXACT:
             shown = f'has special value {show(special.code)} ("{special.label}")'
             message = {
