@@ -142,12 +142,16 @@ def faults(context: Context) -> Table:
 
 
 def _later(context: Context) -> Iterable[tuple[str, Md]]:
-    found = context.map.protocol.faults
+    protocol = context.map.protocol
+    found = protocol.faults
     refused = md("refused as a whole: ", _answer(context, found.address))
     read = LATER_READ[found.later_read]
-    yield "read that starts well and runs onto an address of no register", md(read) if read else refused
+    yield (
+        "read that starts well and runs onto an address of no register",
+        join("", (md(read) if read else refused, md(_usual(protocol, "later_read")))),
+    )
     write = LATER_WRITE.get(found.later_write, LATER_WRITE[Later.EXCEPTION])
-    yield "write of several words with a bad one after good ones", md(write)
+    yield "write of several words with a bad one after good ones", md(write, _usual(protocol, "later_write"))
 
 
 def _views(register_map: RegisterMap) -> Iterable[View]:
