@@ -127,7 +127,7 @@ def test_a_ledger_leaves_out_no_section(ledger: str) -> None:
         assert not parent or parent in sections, f"{section} stands below {parent}, which has no line"
 
 
-@pytest.mark.parametrize("ledger", ["athena-series-c", "omega-cn8200"])
+@pytest.mark.parametrize("ledger", LEDGERS)
 def test_every_erratum_and_every_example_stands_beside_a_section(ledger: str) -> None:
     named = {name for _, _, where in rows(ledger) for name in NAME.findall(where)}
     assert errata(ledger) - named == set()
