@@ -165,6 +165,57 @@ def test_a_good_answer_ends_the_memory_of_a_refusal(device: Any, monkeypatch: py
     assert device.read(device.first, device.point)["first"] == 1.5
 
 
+@pytest.mark.parametrize("after", [0, 1])
+def test_what_was_read_before_is_asked_for_again_by_the_next_read(
+    after: int, device: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    device.link.device.poke("point", 1)
+    device.link.device.poke("first", 1.5)
+    answer = device.link.device.handle
+    refused = [False] * (1 + after) + [True] * 2  # of all together, and alone
+
+    def handle(asked: bytes) -> bytes | None:
+        address, count = int.from_bytes(asked[1:3], "big"), int.from_bytes(asked[3:5], "big")
+        hit = asked[0] == 3 and address <= 20 < address + count and refused and refused.pop(0)
+        return b"\x83\x02" if hit else answer(asked)
+
+    monkeypatch.setattr(device.link.device, "handle", handle)
+    for _ in range(1 + after):
+        device.read(device.first, device.second)
+
+    assert not refused
+    assert device.read(device.first, device.second)["first"] == 1.5
+
+
+def test_what_was_never_read_is_left_out_until_that_expires(device: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    answer = device.link.device.handle
+
+    def handle(asked: bytes) -> bytes | None:
+        address, count = int.from_bytes(asked[1:3], "big"), int.from_bytes(asked[3:5], "big")
+        return b"\x83\x02" if address <= 20 < address + count else answer(asked)
+
+    monkeypatch.setattr(device.link.device, "handle", handle)
+    device.read(device.first, device.second)
+    device.link.log.clear()
+
+    assert isinstance(device.read(device.first, device.second).entries["first"], Exception)
+    assert all(one.address > 20 for one in device.link.log)
+
+
+def test_configure_keeps_bits_without_a_name_that_the_device_has_set(device: Any) -> None:
+    device.status.write_raw((0x8041,))
+    flags = device.status.register.kind.make
+
+    report = device.configure({"status": flags(0x8048)})
+
+    assert (report.written, device.status.read_raw()) == (("status",), (0x8048,))
+    assert device.configure({"status": flags(0x8048)}).written == ()
+    with pytest.raises(ValueRefused, match="0x2 "):
+        device.configure({"status": flags(0x804A)})
+    device.configure({"status": flags.ALARM})
+    assert device.status.read_raw() == (0x0008,)
+
+
 def test_addresses_that_a_notation_prints_are_warned_of() -> None:
     def rules(at: str, offset: str = "40001") -> list[str]:
         text = MAP.replace("decimals: {d: {register: point}}\n", "").replace(
@@ -181,5 +232,6 @@ def test_addresses_that_a_notation_prints_are_warned_of() -> None:
     both = "      - {at: 40001, name: A}\n      - {at: 40005, name: B}\n"
     assert ["40001" in one and "80002" in one for one in rules(both)] == [True]
     assert rules("      - {at: 0, name: A}\n      - {at: 40005, name: B}\n") == []
+    assert len(rules(f"      - {{at: 0, name: Z}}\n{both}")) == 1
     assert rules("      - {at: 4057, name: A}\n", "1") == []
     assert rules("      - {at: 4057, name: A}\n", "40001") == []

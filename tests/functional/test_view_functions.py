@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 
 from regscribe.runtime import NotWritten, ReadBackDiffers
+from regscribe.runtime.identify import Known, identity_of
 from regscribe.simulate.device import SimulatedDevice
 
 MAP = """
@@ -167,3 +168,85 @@ def test_two_words_are_not_written_one_by_one(build: Callable[[str], Any]) -> No
             MAP.replace("[3, 6, 16]}\nviews", "[3, 6]}\nviews").split("    registers:")[0]
             + "    registers:\n      - {at: 1, name: A, type: int32}\n"
         )
+
+
+SECOND = """
+format: 1
+map: {id: test/second, title: Second, maker: Test, class_prefix: Second}
+manual: {title: Manual, number: "1"}
+models: {A: {}}
+protocol: {functions: [3, 6, 16]}
+views:
+  split:
+    base: {type: int16, functions: [6, 16]}
+    shown: {offset: 100, type: int16, functions: [3]}
+identify:
+  - {models: [A], when: {code: 7}}
+groups:
+  - id: all
+    name: All
+    source: "1"
+    each: {access: rw, type: int16}
+    registers:
+      - {at: 5, name: Plain}
+      - {at: 6, name: Both, functions: [3, 16]}
+      - {at: 7, name: One, functions: [3, 6], aliases: [60]}
+      - {at: 8, name: Hidden, access: w, functions: [6]}
+      - {at: 9, name: Code, views: split}
+      - {at: 11, name: Next}
+      - {at: 12, name: Last, views: split}
+"""
+
+
+@pytest.mark.parametrize(
+    ("asked", "answer"),
+    [
+        ("06 0006 0001", "86 02"),
+        ("10 0006 0001 02 0001", "10 0006 0001"),
+        ("10 0005 0003 06 0001 0001 0001", "90 02"),
+        ("10 0005 0002 04 0001 0001", "10 0005 0002"),
+        ("10 003C 0001 02 0001", "90 02"),
+        ("06 003C 0001", "06 003C 0001"),
+        ("03 0006 0002", "03 04 0000 0000"),
+        ("03 0006 0003", "83 02"),
+        ("03 0009 0001", "83 02"),
+        ("03 000B 0002", "83 02"),
+    ],
+)
+def test_the_simulator_refuses_a_function_wherever_a_request_meets_its_view(
+    asked: str, answer: str, build: Callable[[str], Any]
+) -> None:
+    simulated = SimulatedDevice(build(SECOND).map, "A", unit=1)
+
+    assert simulated.handle(bytes.fromhex(asked)) == bytes.fromhex(answer)
+
+
+def test_a_device_is_asked_what_it_is_where_that_may_be_read(build: Callable[[str], Any], direct: Any) -> None:
+    built = build(SECOND)
+    simulated = SimulatedDevice(built.map, "A", unit=1)
+    simulated.poke("code", 7)
+    device = built.driver("A")(direct(simulated), unit=1)
+    known = Known("test/second", "A", built.module.SecondA, built.module.AsyncSecondA)
+
+    assert device.run(identity_of(known)).models == (known,)
+    assert _sent(device) == [(3, 109, ())]
+
+
+def test_a_view_that_the_device_cannot_serve_is_refused_unless_its_functions_say_so(
+    build: Callable[[str], Any],
+) -> None:
+    text = SECOND.replace("[3, 6, 16]}\nviews", "[3, 6]}\nviews")
+    views = "views: {two: {base: {type: int16}, wide: {offset: 100, type: int32, stride: 2}}}\n"
+    head = text[: text.index("views:")] + views + text[text.index("groups:") : text.index("      - {at: 5")]
+    text = f"{head}      - {{at: 5, name: A, views: two}}\n"
+
+    with pytest.raises(AssertionError, match=r"RS0406.*written in space holding"):
+        build(text)
+    assert build(text.replace("stride: 2", "stride: 2, functions: [3]"))
+
+
+def test_a_frame_by_a_function_that_its_view_does_not_allow_is_refused(build: Callable[[str], Any]) -> None:
+    frame = "examples:\n  - {source: '2', frame: '01 06 00 06 00 01 A8 0B', function: 6, unit: 1, address: 6, count: 1,"
+
+    with pytest.raises(AssertionError, match=r"RS0448.*by functions \[3, 16\], not 06"):
+        build(f"{SECOND}{frame} writes: {{both: 1}}}}\n")

@@ -14,13 +14,14 @@ FAR = 10_000
 
 @dataclass(frozen=True, slots=True)
 class Stretch:
-    """Addresses that a register takes in one space, and by which of its views or aliases."""
+    """Addresses that a register takes in one space, by which of its views or aliases, and by which functions."""
 
     space: Space
     first: int
     last: int
     register: Register
     by: str
+    functions: tuple[int, ...] = ()
 
     def __str__(self) -> str:
         where = str(self.first) if self.first == self.last else f"{self.first}..{self.last}"
@@ -31,11 +32,12 @@ def stretches(register: Register) -> Iterator[Stretch]:
     """All stretches of a register: its views, then its aliases."""
     for view in register.views:
         by = f"view {view.name}" if len(register.views) > 1 else ""
-        yield Stretch(view.space, view.address, view.last, register, by)
+        yield Stretch(view.space, view.address, view.last, register, by, view.functions)
     for alias in dict.fromkeys(register.aliases):
         if alias == register.base.address:
             continue  # RS0403 speaks of it
-        yield Stretch(register.base.space, alias, alias + register.base.words - 1, register, "alias")
+        base = register.base
+        yield Stretch(base.space, alias, alias + base.words - 1, register, "alias", base.functions)
 
 
 @model_rule(
@@ -133,15 +135,17 @@ def notation_twice(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
     )
 )
 def no_function(register: Register, scope: Scope) -> Iterator[Finding]:
-    """Look for a function that reads the view that drivers read, and for one that writes the view that they write."""
+    """Look for functions that read and write the views that drivers take, and any other that may be named to them."""
     has = scope.register_map.protocol.functions
     wanted: list[tuple[str, View, tuple[int, ...]]] = []
     if register.access.readable:
-        view = register.read_view
-        wanted.append(("read", view, (READ_FUNCTIONS[view.space],)))
+        views = (view for view in register.views if view.readable or view is register.read_view)
+        wanted += [("read", view, (READ_FUNCTIONS[view.space],)) for view in views]
     if register.access.writable:
-        view = register.write_view
-        wanted.append(("written", view, WRITE_FUNCTIONS.get(view.space, ())[1 if view.words > 1 else 0 :]))
+        views = (view for view in register.views if view.writable or view is register.write_view)
+        wanted += [
+            ("written", view, WRITE_FUNCTIONS.get(view.space, ())[1 if view.words > 1 else 0 :]) for view in views
+        ]
     for verb, view, functions in wanted:
         if not set(functions) & set(has) & set(view.functions or functions):
             need = " or ".join(f"{code:02d}" for code in functions) or "that does not exist"
@@ -160,7 +164,7 @@ def no_function(register: Register, scope: Scope) -> Iterator[Finding]:
     )
 )
 def in_a_notation(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
-    """Look for spaces whose registers all stand where a notation of the map counts, away from the wire addresses."""
+    """Look for spaces most of whose registers stand where a notation of the map counts, not at wire addresses."""
     for notation in scopes[0].register_map.notations:
         found = {
             register.path: register
@@ -168,9 +172,9 @@ def in_a_notation(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
             for register in scope.model.registers
             if register.base.space is notation.space
         }
-        inside = notation.offset >= FAR and all(one.base.address >= notation.offset for one in found.values())
-        if inside and found:
-            first = min(found.values(), key=lambda one: one.base.address)
+        inside = [one for one in found.values() if one.base.address >= notation.offset]
+        if notation.offset >= FAR and 2 * len(inside) > len(found):
+            first = min(inside, key=lambda one: one.base.address)
             address = first.base.address
             message = (
                 f"stands at wire address {address}, which notation `{notation.name}` (offset {notation.offset}) would"

@@ -62,6 +62,20 @@ def step_on_read_only(scope: Scope) -> Iterator[Finding]:
 
 
 @model_rule(
+    Rule("RS0637", "Command by a function that a view does not allow", "The device refuses it, as it would a driver.")
+)
+def step_by_another_function(scope: Scope) -> Iterator[Finding]:
+    """Compare the function of a step with those of the views that it touches."""
+    for command, step in requests(scope):
+        for stretch in touched(step, scope):
+            if stretch.functions and step.function not in stretch.functions:
+                related = Related(f"`{stretch.register.path}` takes {stretch}", stretch.register.span)
+                message = f"uses function {step.function:02d} at {stretch} of `{stretch.register.path}`, which is"
+                message = f"{message} by functions {list(stretch.functions)} only"
+                yield _at(command, message, "name another `view` or `function`, or correct `functions`", related)
+
+
+@model_rule(
     Rule(
         "RS0479",
         "Command at an address that it cannot mean",

@@ -191,6 +191,8 @@ def _value(example: FrameExample, frame: Frame, register: Register, value: Fract
     for view, address in _places(register, example.view):
         offset = address - start
         if 0 <= offset <= len(words) - view.words:
+            if view.functions and frame.function not in view.functions:
+                return f"its {view.name} view is by functions {list(view.functions)}, not {frame.function:02d}"
             try:
                 return compare(register, view, words[offset : offset + view.words], value, known)
             except UnknownValueError as unknown:

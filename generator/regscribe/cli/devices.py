@@ -100,7 +100,7 @@ def unit_text(register: Register[Any]) -> str:
 
 
 def _register(register: Register[Any]) -> dict[str, Any]:
-    view = register.view()
+    view = register.write_view() if register.access == "w" else register.read_view()
     return {
         "name": register.path,
         "access": ACCESS[register.access],

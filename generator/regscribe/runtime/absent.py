@@ -20,13 +20,15 @@ class Refusal(NamedTuple):
     """Addresses that were refused, the answer, and when that was, as seconds since 1970.
 
     `alone`: refused by a request of their own. Otherwise they were part of a refused request and of no good one since:
-    they are not read along, but may be asked for.
+    they are not read along, but may be asked for. `passing`: the unit has shown to have them, so the next read of
+    several asks again.
     """
 
     item: Item
     answer: RegscribeError
     when: float
     alone: bool
+    passing: bool = False
 
 
 class Absences:
@@ -41,9 +43,9 @@ class Absences:
     def __bool__(self) -> bool:
         return bool(self._refusals)
 
-    def add(self, item: Item, answer: RegscribeError, *, alone: bool = True) -> None:
+    def add(self, item: Item, answer: RegscribeError, *, alone: bool = True, passing: bool = False) -> None:
         """Remember that these addresses were refused now."""
-        self._refusals[item] = Refusal(item, answer, self.clock(), alone)
+        self._refusals[item] = Refusal(item, answer, self.clock(), alone, passing)
 
     def heard(self, space: str, address: int, quantity: int) -> bool:
         """Forget what was refused and is in a good answer now; whether there was such a thing."""
@@ -63,9 +65,9 @@ class Absences:
         return had
 
     def expire(self) -> bool:
-        """Forget what was refused too long ago; whether there was such a thing."""
+        """Forget what was refused too long ago, or in passing; whether there was such a thing."""
         now = self.clock()
-        old = [one.item for one in self._refusals.values() if not 0 <= now - one.when < self.seconds]
+        old = [one.item for one in self._refusals.values() if one.passing or not 0 <= now - one.when < self.seconds]
         for item in old:
             del self._refusals[item]
         return bool(old)
@@ -88,4 +90,11 @@ class Absences:
         if found is None:
             return None
         when = datetime.fromtimestamp(found.when, UTC)
-        return Absent(path, unit=unit, address=item.address, answer=found.answer, when=when, minutes=self.seconds / 60)
+        return Absent(
+            path,
+            unit=unit,
+            address=item.address,
+            answer=found.answer,
+            when=when,
+            minutes=0 if found.passing else self.seconds / 60,
+        )

@@ -14,7 +14,7 @@ from regscribe.runtime.errors import (
     ValueRefused,
 )
 from regscribe.runtime.governing import follow
-from regscribe.runtime.intent import intend, look, wanted
+from regscribe.runtime.intent import intend, look, wanted, words_of_wanted
 from regscribe.runtime.report import Fate, Sent, Teller
 from regscribe.runtime.sending import EEPROM
 from regscribe.runtime.sequence import batches
@@ -126,7 +126,7 @@ class _Steps:
         return found
 
     def _changes(self, one: Wanted, sight: Sight) -> bool:
-        words = one.register.encode(one.value, state=sight.state, givens=self.session.givens, rounded=self.rounded)
+        words = words_of_wanted(self.session, one, sight, rounded=self.rounded)
         return sight.words.get(one.register.path) != words
 
     def _verified(self) -> Operation[None]:

@@ -104,17 +104,17 @@ class PartialWrite(WrongAnswer):
 class Absent(RegscribeError):  # noqa: N818 (as above)
     """Unit `unit` refused the address of `register` at the time `when` (UTC); `answer` is its exception (or silence).
 
-    Reads of several registers leave it out until `minutes` later; reading it alone asks the device at once.
+    Reads of several registers leave it out until `minutes` later (0: until the next read); reading it alone asks the
+    device at once.
     """
 
     def __init__(
         self, register: str, *, unit: int, address: int, answer: RegscribeError, when: "datetime", minutes: float
     ) -> None:
         self.register, self.unit, self.address, self.answer, self.when = register, unit, address, answer, when
-        super().__init__(
-            f"{register}: unit {unit} does not have it at address {address}: {answer}; asked at {when:%H:%M:%S} UTC, "
-            f"left out of reads of several registers for {minutes:g} minutes (reading it alone asks again)"
-        )
+        asked = f"{register}: unit {unit} does not have it at address {address}: {answer}; asked at {when:%H:%M:%S} UTC"
+        left_out = f"left out of reads of several registers for {minutes:g} minutes (reading it alone asks again)"
+        super().__init__(f"{asked}, {left_out if minutes else 'though it was read before; the next read asks again'}")
         self.__cause__ = answer
 
 

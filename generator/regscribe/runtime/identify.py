@@ -14,6 +14,7 @@ from regscribe.runtime.link import AsyncLink, Link
 from regscribe.runtime.register import Register
 from regscribe.runtime.request import READ_FUNCTIONS, Request, verify
 from regscribe.runtime.session import Operation, Task
+from regscribe.runtime.spec import View
 
 
 class Known(NamedTuple):
@@ -105,8 +106,13 @@ def _identify(models: tuple[Known, ...], unit: int) -> Operation[Identification]
     return Identification(tuple(fitting), tuple(evidence.values()))
 
 
+def _view(register: Register[Any]) -> View:
+    """The first view that may be read and needs no other register to be understood."""
+    return next((view for view in register.views if view.readable and not view.needs()), register.read_view())
+
+
 def _request(register: Register[Any]) -> Request:
-    view = register.views[0]  # the base view: it needs no other register to be understood
+    view = _view(register)
     return Request(READ_FUNCTIONS[view.space], view.address(register.at), view.words)
 
 
@@ -128,7 +134,7 @@ def _seen(
     if not isinstance(answer, RegscribeError):
         words = answer
         try:
-            value = codec.decode(register, register.views[0], words, {}, {})
+            value = codec.decode(register, _view(register), words, {}, {})
         except RegscribeError as undecodable:
             error = undecodable
     return Evidence((known.map_id,), register.path, request.address, words, value, error)

@@ -7,6 +7,7 @@ from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from regscribe.runtime import codec
+from regscribe.runtime.choices import unnamed_bits
 from regscribe.runtime.errors import ExceptionAnswer, ValueRefused, ValuesRefused
 from regscribe.runtime.lookback import in_view, meaning, read_back_needs, words_of
 from regscribe.runtime.reads import know
@@ -133,8 +134,7 @@ def intend(
         try:
             permitted(register, sight.state, session.givens)
             free = converted.intersection(register.limit_needs)
-            checked = _unlimited(register) if free else register
-            words = codec.encode(checked, view, one.value, sight.state, session.givens, rounded=rounded)
+            words = words_of_wanted(session, one, sight, rounded=rounded, limited=not free)
             change = _change(session, one, sight, words)
             confirmed(register, confirm=confirm or change.fate is Fate.EQUAL)
         except ValueRefused as refusal:
@@ -148,6 +148,18 @@ def intend(
         sight.state[register.path] = one.value if value is None else value
     refuse(refusals)
     return changes
+
+
+def words_of_wanted(
+    session: Session, one: Wanted, sight: Sight, *, rounded: bool, limited: bool = True
+) -> tuple[int, ...]:
+    """The words of a wanted value; bits without a name may be among it where the device has them set already."""
+    register = one.register if limited else _unlimited(one.register)
+    kept = 0
+    if register.kind.name == "flags" and isinstance(one.value, int):
+        held = meaning(register, one.view, sight.words.get(register.path), sight.state, session)
+        kept = int(one.value) & unnamed_bits(held) if held is not None else 0
+    return codec.encode(register, one.view, one.value, sight.state, session.givens, rounded=rounded, kept=kept)
 
 
 def _change(session: Session, one: Wanted, sight: Sight, words: Words) -> Change:

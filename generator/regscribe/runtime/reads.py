@@ -124,7 +124,7 @@ def read_unit(register: Register[Any]) -> Task[str]:
     return task
 
 
-def read_many(registers: Sequence[Register[Any]], *, fresh: bool = True) -> Task[Snapshot]:
+def read_many(registers: Sequence[Register[Any]], *, fresh: bool = True, rest: bool = False) -> Task[Snapshot]:
     """Read several registers in the requests of least cost: one snapshot with a value or an error for each.
 
     The snapshot is consistent: what the meaning of values depends on (decimals, input type, word order) is read along,
@@ -133,12 +133,13 @@ def read_many(registers: Sequence[Register[Any]], *, fresh: bool = True) -> Task
     trusted, as single reads do: cheaper, and right as long as nobody else configures the device.
 
     If the unit refuses a request because it lacks a register, `Sieve` finds it and delivers the rest; the entry of that
-    register is an Absent error, and reads go round it until that expires. What concerns the whole unit is raised:
+    register is an Absent error, and reads go round it until that expires: at the next read (that of a `rest` excepted)
+    if others depend on it and the unit was heard to have it. What concerns the whole unit is raised:
     NoAnswer, LinkLost, WrongAnswer, and any other exception answer.
     """
 
     def task(session: Session) -> Operation[Snapshot]:
-        if session.absences and session.absences.expire():
+        if session.absences and not rest and session.absences.expire():
             session.prepared.clear()
         changed: dict[str, Any] = {}
         for _ in range(TRIES):
@@ -228,5 +229,5 @@ def _patched(
     left = [register for register in registers if values[register.path] is None]
     if not left:
         return partly
-    rest = yield from read_many(left, fresh=fresh)(session)
+    rest = yield from read_many(left, fresh=fresh, rest=True)(session)
     return Snapshot(values | rest.entries, partly.answers + rest.answers)

@@ -115,14 +115,15 @@ class Session:
     It is forgotten when one of them is written, when a command ran, and when the link was opened anew (`epoch`).
     `prepared` caches requests and decoders made under that memory, so it goes whenever the memory changes. `line` is
     the link's serial line (None over TCP), `retry` what is tried again (None: as the link has it), `wrote` whether the
-    operation under way has sent anything but reads. `unused` addresses (space, first, last) read as 0; `absences` are
+    operation under way has sent anything but reads. `proven` are registers that others depend on and that were read
+    since the link was opened. `unused` addresses (space, first, last) read as 0; `absences` are
     those that this unit refused. `broken_off` is the report of the last `configure` that a cancelled task or Ctrl-C
     ended in the middle, where nothing could be undone.
     """
 
     __slots__ = (
         "_ground", "_timed", "_tries", "absences", "addressing", "broken_off", "commands", "epoch", "givens", "groups",
-        "line", "memory", "prepared", "protocol", "registers", "retry", "unit", "unused", "wear", "wrote",
+        "line", "memory", "prepared", "protocol", "proven", "registers", "retry", "unit", "unused", "wear", "wrote",
     )  # fmt: skip # one name a line says no more
 
     def __init__(
@@ -143,6 +144,7 @@ class Session:
         self.unit, self.protocol, self.givens = unit, protocol, givens
         self.registers, self.commands, self.groups = registers, commands, groups
         self.memory: dict[str, Any] = {}
+        self.proven: set[str] = set()
         self.prepared: dict[Any, Any] = {}
         self.wear = Wear()
         self.epoch = 0
@@ -171,6 +173,7 @@ class Session:
     def remember(self, path: str, value: object) -> None:
         """Keep the value of a register that others depend on."""
         self.memory[path] = value
+        self.proven.add(path)
         self.prepared.clear()
 
     def forget(self, paths: Iterable[str] | None = None) -> None:
@@ -186,6 +189,7 @@ class Session:
         if epoch != self.epoch:
             self.epoch = epoch
             self.forget()
+            self.proven.clear()
             if self.absences.clear():
                 self.prepared.clear()
 
@@ -221,6 +225,7 @@ class Session:
         self.line, self.addressing = line, addressing
         self._timed.clear()
         self.memory.clear()
+        self.proven.clear()
         self.prepared.clear()
 
     def doubt(self) -> None:

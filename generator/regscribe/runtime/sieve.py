@@ -15,6 +15,7 @@ from regscribe.runtime.errors import ExceptionAnswer, NoAnswer, RegscribeError
 from regscribe.runtime.ground import Item
 from regscribe.runtime.plan import Block
 from regscribe.runtime.request import Request
+from regscribe.runtime.ways import ways
 
 if TYPE_CHECKING:
     from regscribe.runtime.session import Session
@@ -55,8 +56,9 @@ class Sieve:
             yield from self._sift(items, bad=True)
         if not self.heard:
             raise self.error
+        proven = {way.item for path in self.session.proven for way in ways(self.session.registers[path])}
         for item, error in self.refused.items():
-            self.session.absences.add(item, error)
+            self.session.absences.add(item, error, passing=item in proven)
         for item in self._between():
             self.session.absences.add(item, self.error, alone=False)
         self.session.prepared.clear()

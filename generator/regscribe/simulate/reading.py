@@ -46,10 +46,17 @@ class Reader:
         """Return the `count` words (bits) from `address` on; raises Refusal."""
         most = self.protocol.accepted("read_bits" if space.is_bits else "read_words")
         check_request(self.protocol, self.layout, space, function, address, count, most=most)
+        if any(self._bars(space, function, each) for each in range(address, address + count)):
+            raise Refusal(self.protocol.faults.view_function)
         return tuple(
             self._fill(space, address + place, first=place == 0) if word is None else word
             for place, word in enumerate(self.state.words(space, address, count))
         )
+
+    def _bars(self, space: Space, function: int, address: int) -> bool:
+        """Whether a value stands at an address whose view this function may not address."""
+        place = self.layout.place(space, address)
+        return place is not None and bool(place.view.functions) and function not in place.view.functions
 
     def _fill(self, space: Space, address: int, *, first: bool) -> int:
         later = self.protocol.faults.later_read
