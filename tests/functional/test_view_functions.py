@@ -5,7 +5,10 @@ from typing import Any
 
 import pytest
 
+from regscribe.cli import write
+from regscribe.live.errors import TargetError
 from regscribe.runtime import NotWritten, ReadBackDiffers
+from regscribe.runtime.broadcast import request_for
 from regscribe.runtime.identify import Known, identity_of
 from regscribe.simulate.device import SimulatedDevice
 
@@ -114,6 +117,27 @@ def test_a_view_is_refused_for_what_its_functions_do_not_do(device: Any) -> None
     with pytest.raises(ValueError, match="cannot be written"):
         device.setpoint.write_raw((1,), view="base")
     assert not device.link.log
+
+
+def test_the_command_line_tells_which_views_can_be_written(device: Any) -> None:
+    with pytest.raises(TargetError, match=r"the base view of setpoint cannot be written .*; written can"):
+        write._writable(type(device), "setpoint", "base")
+
+
+@pytest.mark.parametrize(
+    ("name", "function", "address"), [("setpoint", 6, 105), ("total", 16, 300), ("many", 16, 30), ("one", 6, 31)]
+)
+def test_a_broadcast_goes_where_a_write_goes(
+    name: str, function: int, address: int, build: Callable[[str], Any]
+) -> None:
+    driver = build(MAP.replace("[3, 6, 16]}\nviews", "[3, 6, 16], broadcast: [6, 16]}\nviews")).driver("A")
+    state: dict[str, Any] = {}
+
+    request = request_for(
+        driver.registers[name], 1, {"all": driver}, view=None, state=state, givens=state, confirm=False
+    )
+
+    assert (request.function, request.address) == (function, address)
 
 
 def test_only_the_function_that_the_view_allows_is_used(device: Any) -> None:

@@ -88,6 +88,10 @@ def _writable(driver: type[BareDevice], name: str, view: str | None) -> Register
         raise TargetError(unknown("view", view, register.view_names, where=f"of {register.path}"))
     if register.access == "r":
         raise ValueRefused(name, "the register is read-only")
+    try:
+        register.write_view(view)
+    except ValueError as error:  # its functions do not write
+        raise TargetError(str(error)) from None
     return register
 
 
