@@ -126,10 +126,11 @@ def build(text: str) -> Built:
     errors = [one for one in checks.check(register_map) if one.severity is Severity.ERROR]
     assert not errors, errors
     ((_, code),) = python.render(register_map).items()
-    return Built(register_map, _module(code))
+    return Built(register_map, module_of(code))
 
 
-def _module(code: str) -> ModuleType:
+def module_of(code: str) -> ModuleType:
+    """Import a generated driver from its text."""
     name = f"conformance_driver_{next(_numbers)}"
     spec = importlib.util.spec_from_loader(name, loader=None)
     assert spec is not None

@@ -17,7 +17,7 @@ LINES = """\
 - {at: 2, name: Setpoint RAM, id: setpoint_ram, persistence: ram, shadows: setpoint}
 - {at: 3, name: Mode, enum: {0: auto, 1: manual}, default: 0}
 - {at: 4, name: Output, access: r}
-- {at: 5, name: Band, difference: true}
+- {at: 5, name: Band, difference: true, unit: degrees}
 - {at: 6, name: Status, access: r, flags: {0: {label: on, follows: {mode: auto}}, 1: {label: alarm}}}
 - {at: 7, name: In Use, access: r, follows: [{when: {mode: manual}, is: setpoint_ram}, {is: setpoint}]}
 - {at: 8, name: Second Limit, models: [A1]}
@@ -28,7 +28,10 @@ LINES = """\
 def body(more: str) -> str:
     rows = "".join(f"      {line}\n" for line in LINES.splitlines())
     each = "{access: rw, type: int16}"
-    return f"groups:\n  - id: main\n    name: Main\n    source: '1'\n    each: {each}\n    registers:\n{rows}{more}"
+    units = "units: {degrees: [{when: {mode: auto}, symbol: °C}, {symbol: °F}]}\n"
+    return (
+        f"{units}groups:\n  - id: main\n    name: Main\n    source: '1'\n    each: {each}\n    registers:\n{rows}{more}"
+    )
 
 
 def command(effects: str) -> str:

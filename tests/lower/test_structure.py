@@ -107,7 +107,8 @@ def test_a_scale_of_the_register_replaces_the_decimals_of_the_group(registers: R
 
 def test_an_enum_takes_away_the_number_that_the_group_makes_of_its_words(registers: Registers) -> None:
     each = "{access: rw, decimals: 1, unit: s, range: 0..9}"
-    found = registers("- {at: 0, name: Mode, enum: {0: a, 1: b}}", each=each)["mode"]
+    lines = "- {at: 0, name: Mode, enum: {0: a, 1: b}}\n- {at: 1, name: Delay}"
+    found = registers(lines, each=each)["mode"]
     assert (found.kind, found.unit[0].then, found.range, found.scale[0].then.multiply) == ("enum", "", (), 1)
 
 

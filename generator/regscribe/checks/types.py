@@ -225,6 +225,8 @@ def kind_and_type(register: Register, _: Scope) -> Iterator[Finding]:
         yield Finding.at(
             register, f"is of kind {register.kind} but its bits say otherwise", "correct `kind` or the bits"
         )
+    elif register.kind is Kind.VERSION and not register.version_digits:
+        yield Finding.at(register, "is of kind version, but has no digits", "give them under `version`, as nn.nn")
 
 
 def _has(register: Register) -> str:

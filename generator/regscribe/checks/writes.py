@@ -154,3 +154,36 @@ def endurance(register: Register, _: Scope) -> Iterator[Finding]:
     elif register.persistence == "ram":
         message = f"has an endurance of {register.endurance} writes, but its persistence is ram"
         yield Finding.at(register, message, "correct `persistence`, or remove `endurance`")
+
+
+@register_rule(
+    Rule(
+        "RS0640",
+        "Conversion that never happens",
+        "Values are converted when the unit that they are in changes; if none depends on the register, nothing does.",
+    )
+)
+def idle_conversion(register: Register, scope: Scope) -> Iterator[Finding]:
+    """What `rescales` names must be the unit of some register, and follow the register that names it."""
+    if not register.rescales:
+        return
+    units = [one.unit for one in scope.model.registers if one.unit_id == register.rescales]
+    if not any(register.path in case.when.registers for unit in units for case in unit):
+        message = f"rescales {register.rescales}, " + (
+            "whose cases do not ask for it" if units else "in which no register counts"
+        )
+        yield Finding.at(register, message, "remove `rescales`, or let the cases of the unit ask for the register")
+
+
+@register_rule(
+    Rule(
+        "RS0641",
+        "Distance in a unit that nothing converts",
+        "Only where the device converts values does it matter that a distance has no zero point.",
+    )
+)
+def idle_difference(register: Register, scope: Scope) -> Iterator[Finding]:
+    """A register with `difference` counts in a unit that another register rescales."""
+    if register.difference and not any(one.rescales == register.unit_id for one in scope.model.registers):
+        message = f"is a difference in {register.unit_id}, which no register rescales"
+        yield Finding.at(register, message, "remove `difference`, or give `rescales` to what makes the device convert")

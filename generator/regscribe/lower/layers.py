@@ -1,49 +1,73 @@
 """What counts for one register on one model: defaults of the group, own keys, variants, laid over each other."""
 
+from collections.abc import Iterable
+
 from regscribe.lower.names import unknown
-from regscribe.lower.node import Node, elements_of, texts_of
+from regscribe.lower.node import Node, Path, elements_of, texts_of
 from regscribe.lower.presence import Models
 from regscribe.lower.rules import IDLE_VARIANT, UNKNOWN_MODEL
 
 NOT_SETTINGS = frozenset({"variants", "models", "except"})
-_NUMERIC = frozenset({"scale", "decimals", "multiply", "add", "range", "range_decimals", "unit"})
+_NUMERIC = frozenset(
+    {"scale", "decimals", "multiply", "add", "range", "range_decimals", "unit", "special", "difference"}
+)
+_NO_NUMBERS = {
+    "kind": frozenset({"enum", "flags", "fields", "string", "version", "boolean"}),
+    "type": frozenset({"string", "bit"}),
+}
+"""Values of keys that make codes, bits or a text of the register."""
 _RIVALS = (
     (frozenset({"views"}), frozenset({"type", "length", "word_order", "byte_order", "functions"})),
     (frozenset({"type"}), frozenset({"views"})),
     (frozenset({"scale"}), frozenset({"decimals", "multiply", "add"})),
     (frozenset({"decimals"}), frozenset({"scale", "multiply", "add"})),
     (frozenset({"multiply", "add"}), frozenset({"scale", "decimals"})),
-    (frozenset({"enum", "flags", "fields", "version"}), _NUMERIC),
 )
+_CODES = frozenset({"enum", "flags", "fields", "version"})
 
 
 class Settings(dict[str, Node]):
-    """The keys that count for one register on one model; each value knows where in the map it stands."""
+    """The keys that count for one register on one model; each value knows where in the map it stands.
+
+    `replaced` are the paths of defaults in whose place the register has something of its own.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.replaced: set[Path] = set()
+
+    def lay(self, own: dict[str, Node]) -> None:
+        """Lay keys over these; one given as null removes what lies below."""
+        self.replace(own.keys())
+        self.update({key: node for key, node in own.items() if node.value is not None})
+
+    def replace(self, keys: Iterable[str]) -> None:
+        """Remove keys for which something else stands."""
+        self.replaced |= {self.pop(key).path for key in self.keys() & set(keys)}
+
+    def lose(self, keys: Iterable[str]) -> None:
+        """Remove keys that mean nothing beside what is laid over them."""
+        for key in keys:
+            self.pop(key, None)
 
 
 def settings_of(layers: list[Node]) -> Settings:
     """Lay the layers over each other, the last on top.
 
     A key given as null removes what lies below; so does a key that says the same thing in another way (`decimals`
-    over `scale`), and an enum or bit fields take away the number that the group's defaults would make of the word.
+    over `scale`), and codes, bits and texts take away the number that the group's defaults would make of the word.
     """
     settings = Settings()
     for layer in layers:
         own = {key: node for key, node in layer.items() if key not in NOT_SETTINGS}
+        given = {key for key, node in own.items() if node.value is not None}
         for keys, rivals in _RIVALS:
-            if keys & {key for key, node in own.items() if node.value is not None}:
-                for rival in rivals - own.keys():
-                    settings.pop(rival, None)
-        _lay(own, settings)
+            if keys & given:
+                settings.replace(rivals - own.keys())
+        if given & _CODES or any(key in own and own[key].value in values for key, values in _NO_NUMBERS.items()):
+            settings.lose(_NUMERIC - own.keys())
+        settings.lay(own)
     return settings
-
-
-def _lay(own: dict[str, Node], settings: Settings) -> None:
-    for key, node in own.items():
-        if node.value is None:
-            settings.pop(key, None)
-        else:
-            settings[key] = node
 
 
 def with_variants(layer: Node, model: str, has: Models, every: Models) -> list[Node]:

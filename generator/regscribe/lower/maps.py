@@ -8,6 +8,7 @@ from regscribe.lower.commands import Device, commands_of
 from regscribe.lower.conditions import condition
 from regscribe.lower.examples import Product, examples_of
 from regscribe.lower.groups import Bundle, bundles_of, groups_of
+from regscribe.lower.idle import report_untaken
 from regscribe.lower.names import letters_and_digits, module_id
 from regscribe.lower.node import Node, elements_of, items_of, text_of, texts_of
 from regscribe.lower.presence import Models, named_models
@@ -26,6 +27,7 @@ def map_of(root: Node) -> RegisterMap:
     protocol = protocol_of(root.child("protocol"))
     scopes, bundles = _scopes(root)
     products = [_product(root, scope, bundles[scope.model], protocol) for scope in scopes]
+    report_untaken(root)
     for scope in scopes:
         look_at_tables(root, replace(scope, lenient=True))
     about = root.child("map") or root

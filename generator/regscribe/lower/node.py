@@ -28,13 +28,17 @@ def brief(text: str) -> str:
 class Context:
     """The document in work and the diagnostics found in it so far; `sizes` of sets, and how far models have `grown`.
 
-    Registers are lowered once for each model and element, so a finding counts once per rule and place.
+    `offered` are the defaults for several registers, by the path of where they stand, `taken` the paths of all keys
+    that count for some register. Registers are lowered once for each model and element, so a finding counts once per
+    rule and place.
     """
 
     document: Document
     found: dict[tuple[str, Span], Diagnostic] = field(default_factory=dict)
     grown: dict[str, int] = field(default_factory=dict)
     sizes: dict[str, int] = field(default_factory=dict)
+    offered: dict[Path, "Node"] = field(default_factory=dict)
+    taken: set[Path] = field(default_factory=set)
 
     def report(
         self, rule: str, message: str, *, span: Span, remedy: str = "", related: tuple[Related, ...] = ()

@@ -7,6 +7,7 @@ from regscribe.lower.conditions import condition
 from regscribe.lower.enums import enum_of, fields_of
 from regscribe.lower.following import followed_fields, follows_of, shadowed
 from regscribe.lower.governs import governs_of
+from regscribe.lower.idle import report_idle
 from regscribe.lower.limits import range_of
 from regscribe.lower.node import Node, text_of
 from regscribe.lower.rules import NO_ACCESS, UNKNOWN_COMMAND
@@ -45,7 +46,7 @@ def register_of(entry: Entry, everywhere: Scope) -> Register:
     enum = enum_of(settings["enum"], scope, inline_id=entry.qualified_id) if "enum" in settings else None
     unit, unit_id = unit_of(settings.get("unit"), scope)
     digits, group = version_of(settings.get("version"))
-    return Register(
+    register = Register(
         id=entry.id,
         path=entry.path,
         name=_name(entry),
@@ -89,6 +90,8 @@ def register_of(entry: Entry, everywhere: Scope) -> Register:
         printed=indexed(_text(entry, "printed"), entry.place.index),
         span=entry.span,
     )
+    report_idle(entry, register)
+    return register
 
 
 def kind_of(entry: Entry, views: tuple[View, ...], scaling: tuple[Scaling, ...]) -> Kind:

@@ -39,6 +39,8 @@ SET_IN_ITSELF = "RS0334"
 NO_MODULE = "RS0335"
 IDLE_LENGTH = "RS0336"
 DIVIDED = "RS0337"
+IDLE_KEY = "RS0338"
+IDLE_DEFAULT = "RS0339"
 
 _NAMES = "A name must mean something, or the driver would look up what does not exist."
 
@@ -89,6 +91,14 @@ RULES: tuple[Rule, ...] = (
         DIVIDED,
         "Condition on a special value that decimals divide",
         "With each number of decimals it is another number, and a condition compares numbers.",
+    ),
+    Rule(
+        IDLE_KEY, "Key without effect", "What has no effect would be believed: the map says it, and no driver does it."
+    ),
+    Rule(
+        IDLE_DEFAULT,
+        "Default without effect",
+        "A default that means nothing to any of its registers would be believed.",
     ),
 )
 
