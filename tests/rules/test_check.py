@@ -158,3 +158,21 @@ def test_what_is_delivered_is_judged_as_the_default_is(
 ) -> None:
     (found,) = diagnose(small(f"at: 0, name: Value, {keys}"))
     assert (found.rule, message in found.message) == (rule, True)
+
+
+FAULTY = "at: 0, name: Mode, type: uint16, sentinels: {65535: none}"
+VALUE = "at: 1, name: Value, scale: by_mode"
+
+
+@pytest.mark.parametrize(
+    ("cases", "said"),
+    [
+        ("[{when: {mode: 0..65534}, decimals: 1}]", []),
+        ("[{when: {mode: 0..65533}, decimals: 1}]", ["RS0472"]),
+        ("[{when: {mode: 65535}, decimals: 1}, {decimals: 0}]", ["RS0470"]),
+    ],
+)
+def test_a_fault_is_no_state_that_a_condition_could_ask_for(
+    diagnose: Diagnose, small: Small, cases: str, said: list[str]
+) -> None:
+    assert rules_of(diagnose(small(FAULTY, VALUE, top=f"scales: {{by_mode: {cases}}}"))) == said

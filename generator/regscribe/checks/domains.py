@@ -1,8 +1,9 @@
 """Which values a register (or a bit field) can have, as stretches from low to high."""
 
+from collections.abc import Iterator
 from fractions import Fraction
 
-from regscribe.checks.carrying import widest
+from regscribe.checks.carrying import forms, widest
 from regscribe.model import BitField, CodeRange, Enum, Interval, Kind, Number, Register, WireType
 
 ANYTHING = (CodeRange(Fraction(-(10**30)), Fraction(10**30)),)
@@ -20,7 +21,7 @@ def domain(register: Register, field: str = "") -> tuple[CodeRange, ...]:
         return (CodeRange(Fraction(0), Fraction((1 << register.bits) - 1)),)
     if register.kind is Kind.STRING or register.base.type is WireType.STRING:
         return ANYTHING
-    return _of_number(register)
+    return _without_faults(register, _of_number(register))
 
 
 def _of_field(bits: BitField) -> tuple[CodeRange, ...]:
@@ -49,3 +50,25 @@ def _stretch(interval: Interval, low: Fraction, high: Fraction) -> CodeRange:
     first = interval.low.value if isinstance(interval.low, Number) else low
     last = interval.high.value if isinstance(interval.high, Number) else high
     return CodeRange(first, last)
+
+
+def _without_faults(register: Register, stretches: tuple[CodeRange, ...]) -> tuple[CodeRange, ...]:
+    """Cut out the stored numbers that report faults, where they have one value each: no state has them as values."""
+    every = forms(register)
+    if len(every) != 1 or any(view.factor != 1 or view.type.is_float for view in register.views):
+        return stretches
+    ((conversion, factor, _),) = every
+    step = abs(conversion.multiply) / factor
+    for stored in register.faults:
+        value = (conversion.multiply * stored + conversion.add) / factor
+        stretches = tuple(part for stretch in stretches for part in _cut(stretch, value, step))
+    return stretches
+
+
+def _cut(stretch: CodeRange, value: Fraction, step: Fraction) -> Iterator[CodeRange]:
+    """Yield what is left of a stretch without one value in it."""
+    if not stretch.holds(value):
+        yield stretch
+        return
+    sides = (CodeRange(stretch.low, value - step), CodeRange(value + step, stretch.high))
+    yield from (side for side in sides if side.low <= side.high)
