@@ -12,7 +12,16 @@ from regscribe.live.decode import Decoder
 from regscribe.live.frames import Frame
 from regscribe.model import Kind, Register, View
 from regscribe.model import exact as exact_number
-from regscribe.model.reference import Meaning, RefusedError, Surroundings, decode, encode, holds, special_value
+from regscribe.model.reference import (
+    Meaning,
+    RefusedError,
+    Surroundings,
+    UnknownValueError,
+    decode,
+    encode,
+    holds,
+    special_value,
+)
 from regscribe.runtime import SensorFault, ValueNotDecodable, ValueRefused
 from regscribe.simulate import codec as simulated_codec
 from regscribe.simulate.device import SimulatedDevice
@@ -30,14 +39,18 @@ NO_NUMBERS = ("nan", "inf", "-inf")
 FAR = {"snan": Decimal("sNaN"), "huge": Decimal("1E+5000"), "tiny": Decimal("1E-5000"), "long": 10**5000}
 """How it spells numbers that must not even be compared, or worked with."""
 
+UNSENT = (ValueRefused, ValueNotDecodable)
+"""How drivers refuse a value: for its own sake, or as what decides its words has no value."""
+
 REFUSED = "refused"
 """What a judge says of a value that it does not take."""
 
 
-def register_of(built: Built, row: Json) -> tuple[Register, View]:
-    """The register and the view of a row."""
+def register_of(built: Built, row: Json, *, writes: bool = False) -> tuple[Register, View]:
+    """The register of a row, and the view that it names, or that a driver takes to read or to write."""
     register = built.map.models[0].register(row["register"])
-    return register, next(one for one in register.views if one.name == row.get("view", register.preferred.name))
+    usual = register.write_view if writes else register.read_view
+    return register, next(one for one in register.views if one.name == row.get("view", usual.name))
 
 
 def attribute(device: Any, path: str) -> Any:
@@ -78,17 +91,18 @@ def expected_of(row: Json) -> object:
     return {key: row[key] for key in ("unknown", "fields", "fault") if key in row}
 
 
-def read_by_driver(read: Any) -> object:
-    """What reading gives, an error in the words of rows."""
+def read_by_driver(read: Any, path: str) -> object:
+    """What reading a register gives, an error in the words of rows."""
     try:
         return said_by_driver(read())
     except ValueNotDecodable as error:
-        return said_by_error(error)
+        return said_by_error(error, path)
 
 
-def said_by_error(error: ValueNotDecodable) -> object:
-    """Why a read gave no value, in the words of rows."""
-    return {"fault": error.fault} if isinstance(error, SensorFault) else {"no value": True}
+def said_by_error(error: ValueNotDecodable, path: str) -> object:
+    """Why a read gave no value, in the words of rows; the fault of a register that decides is no fault of this one."""
+    own = isinstance(error, SensorFault) and error.register == path
+    return {"fault": error.fault} if own else {"no value": True}
 
 
 def value_for(built: Built, row: Json) -> Any:
@@ -155,7 +169,10 @@ class Present(Mapping[str, Fraction]):
 def read_by_reference(built: Built, memory: Any, row: Json) -> object:
     """What the reference makes of the words of a row."""
     register, view = register_of(built, row)
-    reading = decode(register, view, tuple(words_of(row["words"])), Surroundings(values=Present(built, memory)))
+    try:
+        reading = decode(register, view, tuple(words_of(row["words"])), Surroundings(values=Present(built, memory)))
+    except UnknownValueError:
+        return {"no value": True}
     if reading.meaning is Meaning.FAULT:
         return {"fault": reading.fault}
     if reading.meaning is Meaning.UNKNOWN_MEMBER:
@@ -201,7 +218,7 @@ def of_another_sort(built: Built, row: Json) -> bool:
 
 def written_by_reference(built: Built, memory: Any, row: Json) -> object:
     """The words that the reference makes of the value of a row."""
-    register, view = register_of(built, row)
+    register, view = register_of(built, row, writes=True)
     value, known = value_for(built, row), Surroundings(values=Present(built, memory))
     if register.writable and not holds(register.writable.when, known):
         return REFUSED
@@ -210,7 +227,7 @@ def written_by_reference(built: Built, memory: Any, row: Json) -> object:
     number = value if isinstance(value, str) else _exact(register, value, row, Present(built, memory))
     try:
         return list(encode(register, view, number, known, rounded=row.get("rounded", False)))
-    except RefusedError:
+    except (RefusedError, UnknownValueError):
         return REFUSED
 
 
@@ -227,7 +244,7 @@ def written(write: Any, memory: Any, space: str, address: int, count: int) -> ob
     """What stands at the address after a write by a driver; whether it was refused before anything was written."""
     try:
         write()
-    except ValueRefused:
+    except UNSENT:
         sent = [pdu for pdu in memory.log if pdu[0] in {5, 6, 15, 16}]
         return REFUSED if not sent else f"refused after {[pdu.hex(' ') for pdu in sent]}"
     return memory.get(space, address, count)

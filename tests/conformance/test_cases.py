@@ -94,14 +94,14 @@ def _read_wrong(case: Case, built: Built, row: Json, server: Server, link: Any) 
     server.memory.put(view.space.value, view.address, words_of(row["words"]))
     device = built.module.CaseA(link, unit=1)  # one that knows nothing from the row before
     bound = judges.attribute(device, row["register"])
-    found = [judges.read_by_driver(lambda: bound.read(view=row.get("view")))]
+    found = [judges.read_by_driver(lambda: bound.read(view=row.get("view")), row["register"])]
     if "view" not in row:
-        found.append(judges.read_by_driver(lambda: device.read(bound.register)[row["register"]]))
+        found.append(judges.read_by_driver(lambda: device.read(bound.register)[row["register"]], row["register"]))
     yield from (f"{row}: read {one!r}" for one in found if not judges.same(one, judges.expected_of(row)))
 
 
 def _written_wrong(case: Case, built: Built, row: Json, server: Server, link: Any) -> Iterator[str]:
-    _, view = judges.register_of(built, row)
+    _, view = judges.register_of(built, row, writes=True)
     _prepare(server.memory, case, row)
     bound = judges.attribute(built.module.CaseA(link, unit=1), row["register"])
     value = judges.value_for(built, row)
@@ -137,7 +137,7 @@ async def _over(link: Any, case: Case, built: Built, server: Server) -> list[str
         found = await _read(judges.attribute(built.module.AsyncCaseA(link, unit=1), row["register"]), row)
         wrong += [] if judges.same(found, judges.expected_of(row)) else [f"{row}: read {found!r}"]
     for row in _writes(case, built):
-        _, view = judges.register_of(built, row)
+        _, view = judges.register_of(built, row, writes=True)
         _prepare(server.memory, case, row)
         bound = judges.attribute(built.module.AsyncCaseA(link, unit=1), row["register"])
         found = await _write(bound, judges.value_for(built, row), row, server.memory, view)
@@ -149,14 +149,14 @@ async def _read(bound: Any, row: Json) -> object:
     try:
         value = await bound.read(view=row.get("view"))
     except judges.ValueNotDecodable as error:
-        return judges.said_by_error(error)
+        return judges.said_by_error(error, row["register"])
     return judges.said_by_driver(value)
 
 
 async def _write(bound: Any, value: Any, row: Json, memory: Memory, view: Any) -> object:
     try:
         await bound.write(value, view=row.get("view"), rounded=row.get("rounded", False), verify=False)
-    except judges.ValueRefused:
+    except judges.UNSENT:
         return judges.REFUSED if not any(pdu[0] in {5, 6, 15, 16} for pdu in memory.log) else "refused too late"
     return memory.get(view.space.value, view.address, view.words)
 
