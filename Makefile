@@ -5,7 +5,7 @@ BIN := .venv/bin
 INSTALLED := .venv/.installed
 
 .DEFAULT_GOAL := generate
-.PHONY: generate test test-all test-wire check format bench conformance mutate sessions lock clean
+.PHONY: generate test test-all test-wire check format bench conformance fuzz mutate sessions lock clean
 
 generate: $(INSTALLED) ## compile all maps; only what changed is written
 	@$(BIN)/regscribe generate
@@ -33,6 +33,9 @@ format: $(INSTALLED) ## format the code
 
 bench: $(INSTALLED) ## measure against the budgets and against other tools, side by side
 	$(BIN)/python tests/bench/run.py
+
+fuzz: $(INSTALLED) ## random sound maps in thousands (FUZZ_MAPS=..): driver and reference must agree
+	$(BIN)/pytest -q -m slow tests/conformance/test_differential.py
 
 conformance: $(INSTALLED) ## what the language means, as bytes and values: the cases of tests/conformance, by everybody who is judged
 	$(BIN)/pytest -q -n 2 tests/conformance

@@ -76,7 +76,7 @@ def fit(form: Form, view: View, value: Fraction) -> Fit:
 
 def _spelled(view: View, wire: Fraction) -> tuple[Fraction, Fraction] | None:
     """The numbers that the words of a float nearest to `wire` stand for: exactly, and in the fewest digits."""
-    bits = ieee_bits(wire, view.type)
+    bits = ieee_bits(wire, view.type) if view.type.is_float else None  # no number in a text
     return None if bits is None else ((exactly := ieee_number(bits, view.type)), shortest(exactly, view.type))
 
 

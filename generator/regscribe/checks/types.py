@@ -213,7 +213,7 @@ def kind_and_type(register: Register, _: Scope) -> Iterator[Finding]:
         wrong = (
             (register.kind is Kind.STRING) != (view.type is WireType.STRING)
             or (register.kind in UNSCALED - {Kind.STRING} and view.type.is_float)
-            or (register.kind in WORDS_OF_BITS and view.type is WireType.BIT)
+            or (register.kind in {*WORDS_OF_BITS, Kind.VERSION} and view.type is WireType.BIT)
         )
         if wrong:
             message = f"is of kind {register.kind}, but view {view.name} has type {view.type}"

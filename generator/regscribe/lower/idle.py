@@ -24,13 +24,13 @@ class Idle(NamedTuple):
 
 TABLE: tuple[Idle, ...] = (
     Idle(
-        frozenset({"special", "difference"}),
+        frozenset({"special", "difference", "range", "range_decimals"}),
         lambda register, _: register.kind in _CODES,
         "its values are no numbers",
         "remove it, or correct what makes codes, bits or a text of the register",
     ),
     Idle(
-        frozenset({"range", "range_decimals", "unit"}),
+        frozenset({"unit"}),
         lambda register, _: register.kind in _CODES - {Kind.ENUM},
         "its values are no numbers",
         "remove it, or correct what makes bits, a text or a version of the register",
