@@ -47,6 +47,14 @@ SOUND = {
         "- {at: 0, name: M, access: rw, enum: {0: a, 1: b}}\n"
         "- {at: 1, name: V, type: int16, access: rw, scale: s, sentinels: {-1: none}}"
     ),
+    "faults among bits": (
+        "- {at: 0, name: A, type: int16, access: rw, fields: {x: {bits: 0..3}}, sentinels: {0: none, -1: bad}}\n"
+        "- {at: 1, name: B, access: rw, flags: {3: b, 7: c}, sentinels: {0: none, 136: bad}}"
+    ),
+    "steps of a thousand": (
+        "- {at: 0, name: A, type: uint64, multiply: 1000, access: rw, sentinels: {0: none}}\n"
+        "- {at: 4, name: B, type: int16, multiply: -10, add: 7, access: rw}"
+    ),
     "two equal views": (
         "- {at: 0, name: A, views: twice, access: rw, range: 0..100}\n- {at: 1, name: B, views: twice, access: r}"
     ),

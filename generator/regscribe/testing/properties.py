@@ -4,7 +4,7 @@ The same tree gives the same result: the examples are derived from the test, not
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from decimal import Context, Decimal
 from fractions import Fraction
 from typing import Any
@@ -134,14 +134,20 @@ def values(trial: Trial) -> st.SearchStrategy[Any]:
         return st.sampled_from((0, 1))
     if kind == "flags":
         bits = [1 << bit for field in entry["fields"] for bit in range(field["low"], field["high"] + 1)]
-        return st.sets(st.sampled_from(bits)).map(sum) if bits else st.just(0)
+        return (st.sets(st.sampled_from(bits)).map(sum) if bits else st.just(0)).filter(_no_fault(trial))
     if kind == "fields":
-        return st.integers(0, 65536 ** _size(trial) - 1)
+        return st.integers(0, 65536 ** _size(trial) - 1).filter(_no_fault(trial))
     if kind == "string":
         return st.text(st.characters(min_codepoint=33, max_codepoint=126), max_size=2 * _size(trial))
     if kind == "version":
         return st.sampled_from([vector["value"] for vector in trial.case["encode"]])
     return st.sampled_from(trial.case["domain"]).flatmap(lambda stretch: _inside(trial, stretch))
+
+
+def _no_fault(trial: Trial) -> Callable[[int], bool]:
+    """Return what tells bits that can be written from those by which the device reports a fault."""
+    faults = {int(fault["stored"]) % 65536 ** _size(trial) for fault in trial.entry.get("faults", ())}
+    return lambda bits: bits not in faults
 
 
 def _inside(trial: Trial, stretch: dict[str, Any]) -> st.SearchStrategy[Any]:
