@@ -114,9 +114,15 @@ def kind_of(entry: Entry, views: tuple[View, ...], scaling: tuple[Scaling, ...])
 def _has_fractions(entry: Entry, views: tuple[View, ...], scaling: tuple[Scaling, ...]) -> bool:
     return (
         any(view.type.is_float or (1 / (view.factor or Fraction(1))).denominator != 1 for view in views)
-        or any(part.conversion != IDENTITY for part in scaling)
+        or any(_makes_fractions(part.conversion) for part in scaling)
         or any((special.means or special.code).denominator != 1 for special in specials_of(entry))
     )
+
+
+def _makes_fractions(conversion: Conversion) -> bool:
+    """Whether a whole stored number can become a value with a fraction."""
+    whole = conversion.multiply.denominator == conversion.add.denominator == 1
+    return not whole or conversion.decimals is not None or conversion.places is not None
 
 
 def _special_scale(entry: Entry, scope: Scope) -> Cases[Conversion]:
