@@ -66,8 +66,8 @@ def value_of(request: bytes) -> bytes:
 
 
 def test_a_late_answer_on_a_serial_line_is_dropped_before_the_next_request(far: FarEnd) -> None:
-    far.plan = lambda request: [(0.4 if len(far.heard) == 1 else 0.0, value_of(request))]
-    link = serial(far, timeout=0.25)
+    far.plan = lambda request: [(0.8 if len(far.heard) == 1 else 0.0, value_of(request))]
+    link = serial(far, timeout=0.5)
     with pytest.raises(NoAnswer):
         link.call(1, READ)
     assert link.call(1, OTHER).words == (29,)
@@ -75,9 +75,10 @@ def test_a_late_answer_on_a_serial_line_is_dropped_before_the_next_request(far: 
     link.close()
 
 
-def test_a_late_answer_is_no_answer_to_a_write_either(far: FarEnd) -> None:
-    far.plan = lambda request: [(0.4 if len(far.heard) == 1 else 0.0, request)]
-    link = serial(far, timeout=0.25)
+def test_a_late_answer_is_no_answer_to_a_write_either(far: FarEnd, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("regscribe.runtime.late.LATE_SECONDS", 3600.0)  # waiting ends when the answer comes
+    far.plan = lambda request: [(0.8 if len(far.heard) == 1 else 0.0, request)]
+    link = serial(far, timeout=0.5)
     with pytest.raises(NoAnswer):
         link.call(1, WRITE)
     assert link.call(1, Request(6, 11, 1, (8,))).address == 11

@@ -31,9 +31,8 @@ from regscribe.emit.spreadsheet import csv_text
 from regscribe.model import RegisterMap
 from regscribe.pipeline import Compiled, compile_map, has_errors
 
-MOST_SECONDS = 8.0
-"""CPU time of one phase for one variant: many times what any of the unbroken maps needs."""
 HANG_SECONDS = 60.0
+"""CPU time of one variant: very many times what any of the unbroken maps needs."""
 CANARY = "REGSCRIBE_FUZZ"
 SLOW = {"vectors"}
 PARSERS: dict[str, Callable[[str], object]] = {
@@ -168,7 +167,6 @@ def test_no_broken_map_makes_a_phase_raise_or_hang(
             assert_told_where(files, result, tmp_path)
             if result.map is not None:
                 assert_emitted(result.map, tally, deep=tally.reached["python"] % job.deep == 0)
-            assert max(tally.slowest.values()) < MOST_SECONDS, tally.slowest
     print(dict(tally.reached), {phase: f"{seconds:.2f} s" for phase, seconds in tally.slowest.items()})  # noqa: T201
     reached = tuple(tally.reached[phase] for phase in ("lower", "check", "python"))
     assert all(number >= least for number, least in zip(reached, job.least, strict=True)), reached

@@ -8,7 +8,6 @@ import os
 import re
 import sqlite3
 import sys
-import time
 from collections.abc import Callable
 from datetime import UTC, datetime
 from decimal import Decimal
@@ -230,7 +229,6 @@ def test_a_text_of_a_megabyte_is_refused_with_its_place_and_the_longest_is_rende
     path = tmp_path / "example" / "controller.yaml"
     path.parent.mkdir()
     path.write_text(as_yaml(made), encoding="utf-8")
-    begun = time.process_time()
     compiled = compile_map(path)
     assert (compiled.map is None) == (characters > MOST), compiled.diagnostics
     if compiled.map is None:
@@ -241,4 +239,3 @@ def test_a_text_of_a_megabyte_is_refused_with_its_place_and_the_longest_is_rende
         for name in ("markdown", "pictures"):
             assert all(import_module(f"regscribe.emit.{name}").render(compiled.map).values())
         assert csv_text([compiled.map])
-    assert time.process_time() - begun < 10

@@ -332,7 +332,7 @@ def test_one_client_too_many_costs_the_most_silent_one_its_place(controller: Reg
 
 
 def test_clients_that_flood_or_never_read_do_not_stop_the_others(controller: RegisterMap) -> None:
-    with simulate(controller, "16C") as running, raw(running) as flood, sync_client(running, "tcp") as client:
+    with simulate(controller, "16C") as running, raw(running) as flood, sync_client(running, "tcp", 60) as client:
         flood.settimeout(0)
         for _ in range(200):
             try:
