@@ -26,6 +26,11 @@ def safe_lines(text: str) -> str:
     return "\n".join(map(safe, text.split("\n")))
 
 
+def tame(text: str) -> str:
+    """`text` with what a terminal would obey spelled out, but for line ends and tabs: the door for whole outputs."""
+    return INVISIBLE.sub(lambda found: found[0] if found[0] in "\n\t" else safe(found[0]), text)
+
+
 def cell(text: str) -> str:
     """`text` as a cell of a spreadsheet: nothing of it is obeyed, and a formula gets an apostrophe before it."""
     plain = safe_lines(text)

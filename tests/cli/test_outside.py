@@ -15,6 +15,7 @@ import pytest
 from regscribe.cli.app import run
 from regscribe.emit import cache
 from regscribe.simulate import simulate as simulated
+from regscribe.simulate.maps import find_map
 from regscribe.visible import INVISIBLE, cell, json_text, safe, safe_lines
 
 HOSTILE = "\x1b[31mred\x1b]0;title\x07"
@@ -332,6 +333,62 @@ def test_a_file_that_begins_or_ceases_to_shadow_a_shipped_one_is_noticed(
 
     assert second != first
     assert third == first
+
+
+USING = """
+format: 1
+map: {id: acme/user, title: User, maker: Acme, class_prefix: User}
+uses: [acme/names]
+manual: {title: Manual, number: "1"}
+models: {U1: {}}
+groups:
+  - id: all
+    name: All
+    source: "1"
+    registers:
+      - {at: 0, name: Mode, type: uint16, access: r, enum: mode}
+"""
+NAMES = """
+format: 1
+library: {id: acme/names, title: Names}
+enums:
+  mode: {0: idle, 1: CODE}
+"""
+
+
+def test_a_link_that_leads_elsewhere_is_noticed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    folder = tmp_path / "maps" / "acme"
+    folder.mkdir(parents=True)
+    (folder / "user.yaml").write_text(USING, encoding="utf-8")
+    for name in ("auto", "manual"):
+        (tmp_path / name).write_text(NAMES.replace("CODE", name), encoding="utf-8")
+    link = folder / "names.library.yaml"
+    link.symlink_to(tmp_path / "auto")
+    assert run(["generate", "maps/acme/user.yaml", "--out", "out"]) == 0, _said(capsys)
+    link.unlink()
+    link.symlink_to(tmp_path / "manual")
+
+    assert run(["generate", "maps/acme/user.yaml", "--out", "out"]) == 0
+
+    assert "MANUAL" in "".join(path.read_text(encoding="utf-8") for path in Path("out").rglob("*.py"))
+
+
+def test_a_simulator_notices_a_file_that_begins_to_shadow_a_shipped_one(tmp_path: Path) -> None:
+    folder = _local(tmp_path)
+    shipped = Path(cache.__file__).parents[3] / "maps" / "athena" / "series-c.yaml"
+    mine = folder / "acme" / "mine.yaml"
+    before = find_map(mine)
+    shadow = folder / "athena" / "series-c.yaml"
+    shadow.write_text(
+        shipped.read_text(encoding="utf-8").replace("name: Input Filter,", "name: Shadowed Filter,"), encoding="utf-8"
+    )
+
+    assert find_map(mine) is not before
+    assert "shadowed_filter" in {register.path for register in find_map(mine).models[0].registers}
 
 
 @pytest.mark.parametrize("spoil", ["flip", "cut", "swap", "empty", "append"])

@@ -1,6 +1,5 @@
 """`regscribe backup`: the settings of a device, kept in a file."""
 
-import sys
 from pathlib import Path
 
 import click
@@ -11,6 +10,7 @@ from regscribe.cli.output import print_json, remark
 from regscribe.cli.read import heading
 from regscribe.cli.settled import taken, told
 from regscribe.cli.target import HELP, checked_identity, opened, target_options
+from regscribe.cli.terminal import tell
 from regscribe.live.target import Target
 
 
@@ -35,7 +35,7 @@ def command(*, target: Target, as_json: bool, path: Path | None, force: bool, id
     with told():
         text = settings.to_text(found)
     if path is None and not as_json:
-        sys.stdout.write(text)
+        tell(text)
     elif path is not None:
         with told():
             settings.save(path, text)

@@ -1,6 +1,5 @@
 """`regscribe check`: report what is wrong in maps."""
 
-import sys
 from collections.abc import Iterable, Sequence
 
 import click
@@ -10,7 +9,7 @@ from regscribe.cli import text
 from regscribe.cli.locate import find_maps
 from regscribe.cli.machine import as_github, as_json
 from regscribe.cli.sarif import as_sarif
-from regscribe.cli.terminal import show
+from regscribe.cli.terminal import show, tell
 from regscribe.model import Diagnostic
 from regscribe.pipeline import compile_map, has_errors
 
@@ -42,10 +41,10 @@ def _each_once(found: Iterable[Diagnostic]) -> list[Diagnostic]:
 def _print(found: Sequence[Diagnostic], *, form: str, maps: int) -> None:
     match form:
         case "json":
-            sys.stdout.write(as_json(found))
+            tell(as_json(found))
         case "github":
-            sys.stdout.write(as_github(found))
+            tell(as_github(found))
         case "sarif":
-            sys.stdout.write(as_sarif(found, {rule.id: rule for rule in catalogue.all_rules()}))
+            tell(as_sarif(found, {rule.id: rule for rule in catalogue.all_rules()}))
         case _:
             show([*text.findings(found), (f"{text.count(maps, 'map')} checked: {text.tally(found)}\n", "")])

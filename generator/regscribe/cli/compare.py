@@ -7,7 +7,7 @@ import click
 
 from regscribe.cli.differences import as_csv, as_json, as_text
 from regscribe.cli.locate import find_map
-from regscribe.cli.terminal import show
+from regscribe.cli.terminal import show, tell, warn
 from regscribe.cli.text import findings, tally
 from regscribe.evidence import Comparison, Table, TableError, compare_maps, compare_table, read
 from regscribe.model import RegisterMap
@@ -70,9 +70,9 @@ def command(
 def _print(found: Comparison, form: str) -> None:
     match form:
         case "json":
-            sys.stdout.write(as_json(found))
+            tell(as_json(found))
         case "csv":
-            sys.stdout.write(as_csv(found))
+            tell(as_csv(found))
         case _:
             show(as_text(found))
 
@@ -118,7 +118,7 @@ def _compiled(name: str) -> RegisterMap | None:
     compiled = compile_map(find_map(name))
     show(findings(compiled.diagnostics), stream=sys.stderr)
     if compiled.map is None:
-        sys.stderr.write(f"nothing was compared: {tally(compiled.diagnostics)} in {compiled.path}\n")
+        warn(f"nothing was compared: {tally(compiled.diagnostics)} in {compiled.path}\n")
     return compiled.map
 
 

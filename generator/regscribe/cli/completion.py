@@ -1,9 +1,9 @@
 """`regscribe completion`: the script that lets a shell complete commands, devices, models and registers."""
 
-import sys
-
 import click
 from click.shell_completion import get_completion_class
+
+from regscribe.cli.terminal import tell
 
 WHERE = {
     "bash": 'eval "$(regscribe completion bash)"      # in ~/.bashrc',
@@ -25,4 +25,4 @@ def command(context: click.Context, *, shell: str) -> None:
     if kind is None:  # click has these three
         raise click.UsageError(shell)
     root = context.find_root()
-    sys.stdout.write(kind(root.command, {}, "regscribe", "_REGSCRIBE_COMPLETE").source())
+    tell(kind(root.command, {}, "regscribe", "_REGSCRIBE_COMPLETE").source())

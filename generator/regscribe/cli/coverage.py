@@ -7,7 +7,7 @@ from dataclasses import asdict
 import click
 
 from regscribe.cli.locate import find_maps
-from regscribe.cli.terminal import Piece, show
+from regscribe.cli.terminal import Piece, show, tell, warn
 from regscribe.cli.text import count, findings, tally
 from regscribe.emit.index import ADDRESSES, FACTS, coverage_text
 from regscribe.evidence import MapCoverage, Remark, card, coverage
@@ -32,14 +32,14 @@ def command(*, maps: tuple[str, ...], form: str) -> int:
     show(findings(found), stream=sys.stderr)
     register_maps = [one.map for one in compiled if one.map is not None]
     if len(register_maps) < len(compiled):
-        sys.stderr.write(f"nothing was counted: {tally(found)}\n")
+        warn(f"nothing was counted: {tally(found)}\n")
         return 1
     match form:
         case "json":
             plain = {"format": 1, "maps": [asdict(coverage(one)) for one in register_maps]}
-            sys.stdout.write(json_text(plain, indent=2) + "\n")
+            tell(json_text(plain, indent=2) + "\n")
         case "markdown":
-            sys.stdout.write(coverage_text([card(one) for one in register_maps]))
+            tell(coverage_text([card(one) for one in register_maps]))
         case _:
             show(piece for one in register_maps for piece in _text(coverage(one)))
     return 0

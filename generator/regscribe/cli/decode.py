@@ -10,6 +10,7 @@ from regscribe.cli.completing import complete_model
 from regscribe.cli.failure import REFUSED, told
 from regscribe.cli.output import print_json, remark
 from regscribe.cli.target import CONFIG, JSON, PACKAGE
+from regscribe.cli.terminal import tell
 from regscribe.cli.text import count
 from regscribe.live import catalogue, config, givens, names, values
 from regscribe.live.capture import Captured, captured
@@ -102,9 +103,9 @@ def _decoded(decoder: Decoder, lines: Iterable[Captured]) -> Iterator[tuple[int,
 def _show(found: Iterable[Decoded]) -> None:
     for one in found:
         held = [item for item in one.items if item.words]
-        sys.stdout.write(f"{safe(told_line(one))}\n")
+        tell(f"{safe(told_line(one))}\n")
         if len(held) > 1:
-            sys.stdout.writelines(f"    {safe(item.spelled)}\n" for item in held)
+            tell("".join(f"    {safe(item.spelled)}\n" for item in held))
 
 
 def told_line(one: Decoded) -> str:

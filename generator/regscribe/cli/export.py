@@ -10,7 +10,7 @@ import click
 
 from regscribe.cli.assumed import surroundings
 from regscribe.cli.locate import find_map, find_maps
-from regscribe.cli.terminal import show
+from regscribe.cli.terminal import show, tell, warn
 from regscribe.cli.text import findings, tally
 from regscribe.emit.export import BAUD, EVERY, Poll, collectd_text, csv_text, json_text
 from regscribe.model import Model, RegisterMap
@@ -67,9 +67,9 @@ def command(*, maps: tuple[str, ...], form: str, **options: object) -> int:
     show(findings(found), stream=sys.stderr)
     register_maps = [one.map for one in compiled if one.map is not None]
     if len(register_maps) < len(compiled):
-        sys.stderr.write(f"nothing was exported: {tally(found)}\n")
+        warn(f"nothing was exported: {tally(found)}\n")
         return 1
-    sys.stdout.write(_text(form, register_maps, asked))
+    tell(_text(form, register_maps, asked))
     return 0
 
 

@@ -5,13 +5,13 @@ Exit codes: 0 done, 1 the device refuses or something differs, 2 the command lin
 not known, 130 Ctrl-C.
 """
 
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import IO, Any
 
 import click
 
+from regscribe.cli.terminal import tell
 from regscribe.live.errors import TargetError
 from regscribe.runtime import ExceptionAnswer, LinkLost, NoAnswer, PartialWrite, RegscribeError
 from regscribe.runtime.errors import GATEWAY, LeftAt, NotApplied, NotConfigured, ReadBackDiffers, WriteUnknown
@@ -37,7 +37,7 @@ class Failure(click.ClickException):
         """Print the message to standard error; with --json an object to standard output, too."""
         if self.as_json:
             said = {"format": 1, "error": {"kind": self.kind, "message": self.message, "exit_code": self.exit_code}}
-            sys.stdout.write(json_text(said) + "\n")
+            tell(json_text(said) + "\n")
         super().show(file)
 
 

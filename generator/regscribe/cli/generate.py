@@ -1,6 +1,5 @@
 """`regscribe generate`: compile maps to drivers, docs, vectors and tests."""
 
-import os
 import sys
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -10,7 +9,7 @@ from time import perf_counter
 import click
 
 from regscribe.cli.locate import find_maps
-from regscribe.cli.terminal import show
+from regscribe.cli.terminal import show, tell, warn
 from regscribe.cli.text import count, findings, tally
 from regscribe.emit import cache, render
 from regscribe.emit.cache import Counts, Entry
@@ -54,7 +53,7 @@ def command(*, maps: tuple[str, ...], check: bool, out: Path) -> int:
     build = _build(paths, known)
     show(findings(build.diagnostics), stream=sys.stderr)
     if build.failed:
-        sys.stderr.write(f"nothing was written: {tally(build.diagnostics)}\n")
+        warn(f"nothing was written: {tally(build.diagnostics)}\n")
         return 1
     try:
         report = _write(build, out, check=check, whole=not maps)
@@ -62,8 +61,8 @@ def command(*, maps: tuple[str, ...], check: bool, out: Path) -> int:
         raise click.ClickException(str(error)) from None
     if not check:
         _remember(build, known, whole=not maps)
-    sys.stdout.write(safe_lines(report.diff))
-    sys.stdout.write(safe_lines(_summary(build, report, out, seconds=perf_counter() - started, check=check)))
+    tell(safe_lines(report.diff))
+    tell(safe_lines(_summary(build, report, out, seconds=perf_counter() - started, check=check)))
     return int(check and bool(report.written or report.removed))
 
 
@@ -93,7 +92,7 @@ def _compile(path: Path, build: Build) -> None:
     hashes = {name: cache.digest(text.encode()) for name, text in files.items()}
     counts = _counts(compiled.map)
     sources = {cache.key(source): known for source, known in compiled.files}
-    sources |= {os.path.abspath(source): cache.NOTHING for source in compiled.empty}  # noqa: PTH100 - resolve() would follow a link that comes to stand there
+    sources |= {cache.key(source): cache.NOTHING for source in compiled.empty}
     build.entries[path] = Entry(compiled.map.id, sources, hashes, counts, card(compiled.map))
     if compiled.diagnostics:
         build.noisy.add(path)

@@ -2,7 +2,6 @@
 
 import keyword
 import re
-import sys
 from importlib.resources import files
 from pathlib import Path
 from shutil import copyfileobj
@@ -10,6 +9,7 @@ from string import Template
 
 import click
 
+from regscribe.cli.terminal import tell
 from regscribe.shipped import shipped
 from regscribe.visible import safe
 
@@ -40,7 +40,7 @@ def command(*, map_id: str, folder: Path) -> int:
     except OSError as error:
         message = f"cannot write {path}: {error.strerror}; choose another folder with --dir"
         raise click.ClickException(message) from None
-    sys.stdout.write(safe(f"{path} is ready to be filled in; then: regscribe check {path}") + "\n")
+    tell(safe(f"{path} is ready to be filled in; then: regscribe check {path}") + "\n")
     return 0
 
 

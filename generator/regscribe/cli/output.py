@@ -4,6 +4,7 @@ import sys
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+from regscribe.cli.terminal import tell, warn
 from regscribe.visible import json_text, safe
 
 GAP = "  "
@@ -20,11 +21,11 @@ def show_table(columns: Sequence[str], rows: Iterable[Sequence[str]], *, title: 
 
 def _plain_table(rows: Sequence[Sequence[str]], title: str) -> None:
     if title:
-        sys.stdout.write(f"# {safe(title)}\n")
+        tell(f"# {safe(title)}\n")
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)] if rows else []
     for row in rows:
         line = GAP.join(cell.ljust(width) for cell, width in zip(row, widths, strict=True))
-        sys.stdout.write(f"{line.rstrip()}\n")
+        tell(f"{line.rstrip()}\n")
 
 
 def _rich_table(columns: Sequence[str], rows: Sequence[Sequence[str]], title: str) -> None:
@@ -43,15 +44,15 @@ def _rich_table(columns: Sequence[str], rows: Sequence[Sequence[str]], title: st
 
 def print_json(**what: Any) -> None:  # noqa: ANN401 - anything that JSON can hold
     """Print one object; every command's has `format`, the version of its shape."""
-    sys.stdout.write(json_text({"format": 1, **what}, indent=2) + "\n")
+    tell(json_text({"format": 1, **what}, indent=2) + "\n")
 
 
 def print_json_line(**what: Any) -> None:  # noqa: ANN401 - as above
     """Print one object in one line, at once: for what goes on and on."""
-    sys.stdout.write(json_text({"format": 1, **what}) + "\n")
+    tell(json_text({"format": 1, **what}) + "\n")
     sys.stdout.flush()
 
 
 def remark(text: str) -> None:
     """Tell a person something beside the result."""
-    sys.stderr.write(f"{safe(text)}\n")
+    warn(f"{safe(text)}\n")

@@ -9,7 +9,7 @@ import click
 from regscribe.cli.locate import find_map
 from regscribe.cli.output import print_json, remark, show_table
 from regscribe.cli.planning import Subject
-from regscribe.cli.terminal import show
+from regscribe.cli.terminal import show, tell
 from regscribe.cli.text import count, findings, tally
 from regscribe.live.errors import unknown
 from regscribe.model import RegisterMap
@@ -156,10 +156,10 @@ class _Told:
         total = f"{count(len(found.requests), 'request')}, {found.wanted} addresses wanted, {found.carried} carried"
         single = f"{count(len(self.paths), 'request')}, {self.single_ms:.1f} ms"
         ratio = self.single_ms / found.ms if found.ms else 1
-        sys.stdout.write(f"{total}, {found.bytes} bytes, {found.ms:.1f} ms\n")
-        sys.stdout.write(f"one request a register: {single}, {ratio:.1f} times as long\n")
+        tell(f"{total}, {found.bytes} bytes, {found.ms:.1f} ms\n")
+        tell(f"one request a register: {single}, {ratio:.1f} times as long\n")
         if also:
-            sys.stdout.write(f"read along, since the meaning of others depends on it: {', '.join(also)}\n")
+            tell(f"read along, since the meaning of others depends on it: {', '.join(also)}\n")
         if not found.exact:
             remark("so many registers can be read at several places that not all choices were tried")
 

@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from regscribe.cli.output import show_table
+from regscribe.cli.terminal import tell
 from regscribe.programs.axis import steps_of, time_scale
 from regscribe.programs.files import plain
 from regscribe.programs.model import RAW, Program
@@ -31,7 +32,7 @@ def show_program(program: Program, *, first: int = 1) -> None:
     names = list(dict.fromkeys(name for one in program.segments for name in one.outputs))
     soaks = any(one.soak is not None for one in program.segments)
     columns = ("SEGMENT", "TO", "RAMP", *(("SOAK",) if soaks else ()), *(name.upper() for name in names))
-    sys.stdout.write("\n")
+    tell("\n")
     show_table(columns, [columns] * (not sys.stdout.isatty()) + list(_rows(program, names, first=first, soaks=soaks)))
     curve(profile(program, first=first))
 
@@ -64,7 +65,7 @@ def curve(found: Profile) -> None:
     figure.y_label = found.level
     points = [(leg.end / SECONDS[unit], leg.to) for leg in found.legs]
     figure.plot([float(time) for time, _ in points], [float(level) for _, level in points])
-    sys.stdout.write("\n" + "".join(f"{line.rstrip(BLANK)}\n" for line in figure.show().splitlines()))
+    tell("\n" + "".join(f"{line.rstrip(BLANK)}\n" for line in figure.show().splitlines()))
 
 
 def _figure(columns: int, rows: int) -> Any:  # noqa: ANN401 - plotille ships no types

@@ -1,6 +1,5 @@
 """`regscribe program`: setpoint programs of controllers, shown, read, checked, written and run."""
 
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar, cast
@@ -13,6 +12,7 @@ from regscribe.cli.output import print_json, remark, show_table
 from regscribe.cli.profile import show_program
 from regscribe.cli.read import heading
 from regscribe.cli.target import HELP, JSON, checked_identity, opened, target_options
+from regscribe.cli.terminal import tell
 from regscribe.live import catalogue
 from regscribe.live.errors import TargetError
 from regscribe.live.target import Target
@@ -114,7 +114,7 @@ def read_command(*, target: Target, as_json: bool, name: str, out: Path | None) 
     if out:
         _save(out, text)
     else:
-        sys.stdout.write(text)
+        tell(text)
     return 0
 
 

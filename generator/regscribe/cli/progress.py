@@ -4,6 +4,8 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
+from regscribe.visible import tame
+
 Advance = Callable[[str], None]
 """One step is done; the text says which."""
 
@@ -19,4 +21,4 @@ def progress(total: int, label: str) -> Iterator[Advance]:
 
     with Progress(console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(label, total=total)
-        yield lambda text: bar.update(task, advance=1, description=text)
+        yield lambda text: bar.update(task, advance=1, description=tame(text))

@@ -1,6 +1,5 @@
 """`regscribe read`: values of registers, groups and array elements, with their units."""
 
-import sys
 from collections.abc import Sequence
 from datetime import UTC, datetime
 from typing import Any
@@ -11,6 +10,7 @@ from regscribe.cli.completing import complete_register
 from regscribe.cli.failure import REFUSED, kind_of
 from regscribe.cli.output import print_json, remark, show_table
 from regscribe.cli.target import HELP, opened, target_options
+from regscribe.cli.terminal import tell
 from regscribe.live import names
 from regscribe.live.reading import Reading, readings
 from regscribe.live.target import Target
@@ -40,7 +40,7 @@ def command(*, target: Target, as_json: bool, wanted: tuple[str, ...], bare: boo
     if as_json:
         print_json(**heading(device, target), registers={one.name: plain(one) for one in found})
     elif bare:
-        sys.stdout.writelines(f"{safe(one.text) if one.error is None else ''}\n" for one in found)
+        tell("".join(f"{safe(one.text) if one.error is None else ''}\n" for one in found))
         _complain(found)
     else:
         show_table(("REGISTER", "VALUE"), [(one.name, one.spelled) for one in found])

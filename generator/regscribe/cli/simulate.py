@@ -11,6 +11,7 @@ import click
 
 from regscribe.cli.served import Requests, lines, table
 from regscribe.cli.simulated import ADDRESSINGS, Wish, device_of, found_maps, process_of, wish_of, wishes_in
+from regscribe.cli.terminal import tell
 from regscribe.simulate import (
     Foreign,
     Line,
@@ -221,5 +222,5 @@ def _announce(devices: list[SimulatedDevice], server: Server) -> None:
     where = server.path or f"{server.host}:{server.port}"
     for device in devices:
         name = f"{device.register_map.title} {device.model.name}"
-        sys.stdout.write(safe(f"{name} answers as unit {device.unit} on {where}; Ctrl-C stops it") + "\n")
+        tell(safe(f"{name} answers as unit {device.unit} on {where}; Ctrl-C stops it") + "\n")
     sys.stdout.flush()  # a script waits for this line

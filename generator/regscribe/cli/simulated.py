@@ -12,7 +12,7 @@ import click
 
 from regscribe import source
 from regscribe.cli.locate import find_map
-from regscribe.cli.terminal import show
+from regscribe.cli.terminal import show, warn
 from regscribe.cli.text import findings, tally
 from regscribe.model import GivenKind, RegisterMap
 from regscribe.pipeline import compile_map
@@ -132,7 +132,7 @@ def found_maps(names: Iterable[str]) -> dict[str, RegisterMap] | None:
         compiled = compile_map(find_map(name))
         show(findings(compiled.diagnostics), stream=sys.stderr)
         if compiled.map is None:
-            sys.stderr.write(f"nothing is served: {tally(compiled.diagnostics)}\n")
+            warn(f"nothing is served: {tally(compiled.diagnostics)}\n")
             return None
         maps[name] = compiled.map
     return maps

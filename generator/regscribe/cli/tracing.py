@@ -1,8 +1,8 @@
 """`--trace`: every frame on standard error, when it passed, in hexadecimal and in the names of the device's map."""
 
-import sys
 from datetime import UTC, datetime
 
+from regscribe.cli.terminal import warn
 from regscribe.live.capture import RECEIVED, SENT
 from regscribe.live.decode import Decoded, Decoder
 from regscribe.live.frames import frames
@@ -35,7 +35,7 @@ class Tracing:
         if self._decoder is not None:
             for frame in frames(trace.frame, self._framing):
                 lines += _said(self._decoder.feed(frame, trace.direction))
-        sys.stderr.writelines(f"{safe(line)}\n" for line in lines)
+        warn("".join(f"{safe(line)}\n" for line in lines))
 
 
 def _said(one: Decoded) -> list[str]:

@@ -13,6 +13,7 @@ from regscribe.cli.failure import REFUSED, Failure, failure
 from regscribe.cli.output import print_json_line
 from regscribe.cli.screen import Screen, lines
 from regscribe.cli.target import HELP, opened, target_options
+from regscribe.cli.terminal import tell
 from regscribe.live import log as logs
 from regscribe.live import names
 from regscribe.live.target import Target
@@ -94,7 +95,7 @@ def _follow(
         screen.follow(rounds)
     else:
         for one in rounds:
-            sys.stdout.writelines(lines(one))
+            tell("".join(lines(one)))
             sys.stdout.flush()
             screen.take(one)
-        sys.stdout.write(screen.drawn(width=80))
+        tell(screen.drawn(width=80))

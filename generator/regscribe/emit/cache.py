@@ -52,7 +52,7 @@ class Entry:
 
 @dataclass(frozen=True, slots=True)
 class Cache:
-    """The record of one output directory; entries stand under the real path of the map's file."""
+    """The record of one output directory; entries stand under the path of the map's file."""
 
     out: Path
     fingerprint: str
@@ -110,8 +110,8 @@ def _same(sources: Mapping[str, str]) -> bool:
 
 
 def key(path: Path) -> str:
-    """Return what the entry of the map at `path` stands under."""
-    return os.path.realpath(path)
+    """Return what a file stands under: as it is named, since a link may lead elsewhere next time."""
+    return os.path.abspath(path)  # noqa: PTH100 - resolve() would follow links
 
 
 def digest(content: bytes) -> str:

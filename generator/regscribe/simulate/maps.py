@@ -47,7 +47,7 @@ def _compile(path: Path) -> tuple[Stamp, RegisterMap]:
         found = [f"{each.span}: {each.message}" for each in compiled.diagnostics if each.severity.value == "error"]
         message = "\n".join([f"the map {path} has mistakes (see `regscribe check`):", *found[:SHOWN]])
         raise SimulatorError(message)
-    return _stamp([path, *(file for file, _ in compiled.files)]), compiled.map
+    return _stamp([path, *(file for file, _ in compiled.files), *compiled.empty]), compiled.map
 
 
 def _stamp(files: list[Path]) -> Stamp:
