@@ -81,6 +81,13 @@ class LazyCommands(click.Group):
         with formatter.section("Commands"):
             formatter.write_dl(list(COMMANDS.items()))
 
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Refuse what no file, register or device is called: Python's own refusals are of many sorts."""
+        if any("\0" in one for one in args):
+            message = "an argument holds the character NUL"
+            raise click.UsageError(message, ctx)
+        return super().parse_args(ctx, args)
+
     def invoke(self, ctx: click.Context) -> object:
         """Run the command; ClosedPipeError if nobody reads its output any more."""
         try:

@@ -11,6 +11,7 @@ from regscribe.cli.output import print_json, remark, show_table
 from regscribe.cli.progress import progress
 from regscribe.cli.target import CONFIG, JSON, PACKAGE, quiet, understood
 from regscribe.cli.text import count
+from regscribe.live import catalogue
 from regscribe.live import scan as scanning
 from regscribe.live.links import LinkName
 from regscribe.live.scan import Found, Probe
@@ -60,6 +61,7 @@ def command(  # noqa: PLR0913 - the options of the command
     quiet()
     with told():
         target = understood(link, config=config, packages=packages)
+        catalogue.models(target.packages)  # a package that is none is told before the line is asked for minutes
         asked = scanning.units(units)
         links = scanning.settings(target.link, _numbers(bauds), [one for one in formats.split(",") if one])
         probes = scanning.scan(links, asked, address=address, packages=target.packages, names=names, every=every)
