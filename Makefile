@@ -38,7 +38,8 @@ fuzz: $(INSTALLED) ## random sound maps in thousands (FUZZ_MAPS=..): driver and 
 	$(BIN)/pytest -q -m slow tests/conformance/test_differential.py
 
 conformance: $(INSTALLED) ## what the language means, as bytes and values: the cases of tests/conformance, by everybody who is judged
-	$(BIN)/pytest -q -n 2 tests/conformance
+	$(BIN)/pytest -q -n 2 -m "not slow" tests/conformance
+	$(BIN)/pytest -q -m slow tests/conformance/test_matrix.py
 
 mutate: $(INSTALLED) ## break scales, codes, addresses, orders and limits: the tests must notice each
 	$(BIN)/python tests/mutate/run.py
