@@ -70,6 +70,7 @@ TRIALS: dict[str, tuple[Trial, ...]] = {
         ({3: {"label": "three", "id": "TRE"}}, {}),
     ),
     "default": ((3, {}), ("AB", {}), ("one", {})),
+    "delivered": ((3, {}), ("AB", {}), ("one", {})),
     "unit": (("°C", {}), ("temperature", {})),
     "enum": (({0: "off", 3: "on"}, {}), ("choice", {}), ({0: "off", 3: {"label": "on", "invalid": "not now"}}, {})),
     "flags": (({1: "middle"}, {}),),
