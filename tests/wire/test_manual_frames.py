@@ -148,8 +148,6 @@ def by_the_standard(printed: Printed, device: SimulatedDevice) -> bytes:
         return with_crc(replace(request, frame=request.frame[:6], crc=False))
     assert request.address is not None
     assert request.count is not None
-    if request.count > device.register_map.protocol.read_words:
-        return with_crc(replace(request, frame=bytes((request.unit, 0x80 | request.function, 3)), crc=False))
     words = device.state.words(Space.HOLDING, request.address, request.count)
     data = b"".join((word or 0).to_bytes(2, "big") for word in words)
     return with_crc(replace(request, frame=bytes((request.unit, request.function, len(data))) + data, crc=False))
