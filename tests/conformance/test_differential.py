@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from regscribe.model import Register, RegisterMap, View
+from regscribe.model import RegisterMap, View
 from regscribe.model.reference import Meaning, RefusedError, Surroundings, decode, encode, holds
 from regscribe.runtime import SensorFault, ValueNotDecodable, ValueRefused
 
@@ -60,14 +60,8 @@ def sound_maps(seeds: range) -> Iterator[tuple[int, matrix.Seed, Json, RegisterM
         seed, keys = random_map(random.Random(number))  # noqa: S311 (the same maps every time)
         register_map, _ = matrix.compiled(matrix_maps.whole(seed, {}, keys))
         found = [one for one in register_map.models[0].registers if one.path == seed.path] if register_map else []
-        if register_map is not None and found and not told_to_be_whole(found[0]):
+        if register_map is not None and found:
             yield number, seed, keys, register_map
-
-
-def told_to_be_whole(register: Register) -> bool:
-    """Whether it is a float called `integer` that has a special value with `means`: the driver lets fractions pass."""
-    floats = any(view.type.is_float for view in register.views)
-    return floats and not register.fractional and any(special.means is not None for special in register.specials)
 
 
 def plain(value: Any) -> object:

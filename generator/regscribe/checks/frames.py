@@ -191,7 +191,7 @@ def _value(example: FrameExample, frame: Frame, register: Register, value: Fract
     for view, address in _places(register, example.view):
         offset = address - start
         if 0 <= offset <= len(words) - view.words:
-            if view.functions and frame.function not in view.functions:
+            if not view.allows(frame.function):
                 return f"its {view.name} view is by functions {list(view.functions)}, not {frame.function:02d}"
             try:
                 return compare(register, view, words[offset : offset + view.words], value, known)

@@ -227,6 +227,16 @@ def kind_and_type(register: Register, _: Scope) -> Iterator[Finding]:
         )
     elif register.kind is Kind.VERSION and not register.version_digits:
         yield Finding.at(register, "is of kind version, but has no digits", "give them under `version`, as nn.nn")
+    elif not register.fractional:
+        yield from _parts_of_wholes(register)
+
+
+def _parts_of_wholes(register: Register) -> Iterator[Finding]:
+    for special in register.specials:
+        for number in (special.code, special.means):
+            if number is not None and number.denominator != 1:
+                message = f"is of kind {register.kind}, which holds whole numbers, but `{special.id}` is {show(number)}"
+                yield Finding.at(register, message, "correct the special value, or remove `kind`")
 
 
 def _has(register: Register) -> str:

@@ -13,7 +13,7 @@ from regscribe.runtime import Register, RegscribeError, View, codec
 from regscribe.runtime.errors import STANDARD
 from regscribe.runtime.request import (
     LOOPBACK,
-    READ_FUNCTIONS,
+    READ_SPACES,
     READ_STATUS,
     WRITE_COIL,
     WRITE_COILS,
@@ -21,7 +21,7 @@ from regscribe.runtime.request import (
     WRITE_REGISTERS,
 )
 
-SPACES = {function: space for space, function in READ_FUNCTIONS.items()} | {
+SPACES = READ_SPACES | {
     WRITE_COIL: "coil",
     WRITE_COILS: "coil",
     WRITE_REGISTER: "holding",

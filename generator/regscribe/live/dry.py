@@ -4,7 +4,7 @@ from typing import Any, NamedTuple, cast
 
 from regscribe.runtime import BareDevice, Link
 from regscribe.runtime.request import (
-    READ_FUNCTIONS,
+    READ_SPACES,
     WRITE_COIL,
     WRITE_COILS,
     WRITE_REGISTER,
@@ -58,8 +58,7 @@ class DryLink:
         return Reply(request.function, words, request.address, len(request.words))
 
     def _overlaid(self, unit: int, request: Request, reply: Reply) -> Reply:
-        spaces = {function: space for space, function in READ_FUNCTIONS.items()}
-        space = spaces.get(request.function)
+        space = READ_SPACES.get(request.function)
         if space is None or reply.exception is not None:
             return reply
         held = (self._held.get((unit, space, request.address + at), word) for at, word in enumerate(reply.words))

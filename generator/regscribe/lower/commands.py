@@ -69,7 +69,7 @@ def _function(node: Node, count: int, view: View | None, device: Device) -> int:
     single, several = WRITE_REGISTER, WRITE_REGISTERS
     if view and view.space is Space.COIL:
         single, several = WRITE_COIL, WRITE_COILS
-    allowed = [code for code in device.protocol.functions if not view or not view.functions or code in view.functions]
+    allowed = [code for code in device.protocol.functions if not view or view.allows(code)]
     return single if count == 1 and single in allowed else several
 
 

@@ -15,7 +15,7 @@ from regscribe.lower.scales import NOT_STATED, Scaling, decimals_rule, scale_of
 from regscribe.lower.scope import Scope
 from regscribe.lower.tree import Entry
 from regscribe.lower.units import rescaled, unit_of
-from regscribe.lower.values import default_of, delivered_of, sentinels_of, specials_of, version_of
+from regscribe.lower.values import beginning_of, sentinels_of, specials_of, version_of
 from regscribe.lower.views import views_of
 from regscribe.model import (
     IDENTITY,
@@ -65,8 +65,8 @@ def register_of(entry: Entry, everywhere: Scope) -> Register:
         specials=specials_of(entry),
         special_scale=_special_scale(entry, scope),
         sentinels=sentinels_of(entry),
-        default=default_of(entry, kind, enum),
-        delivered=delivered_of(entry, kind, enum),
+        default=beginning_of(entry, "default", kind, enum),
+        delivered=beginning_of(entry, "delivered", kind, enum),
         enum=enum,
         fields=followed_fields(fields_of(entry, scope), entry, scope),
         writable=_writable(settings.get("writable"), scope),

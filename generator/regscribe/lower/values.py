@@ -52,15 +52,9 @@ def version_of(node: Node | None) -> tuple[int, int]:
     return len(groups) * len(groups[0]), len(groups[0])
 
 
-def default_of(entry: Entry, kind: Kind, enum: Enum | None) -> Fraction | str | None:
-    """The default as a value of use; RS0322 where it names no member or special value."""
-    node = entry.settings.get("default")
-    return named_value(node, kind, enum, specials_of(entry), BAD_DEFAULT) if node else None
-
-
-def delivered_of(entry: Entry, kind: Kind, enum: Enum | None) -> Fraction | str | None:
-    """What the device is delivered with, as a value of use, if that is not its default; RS0322 as for the default."""
-    node = entry.settings.get("delivered")
+def beginning_of(entry: Entry, key: str, kind: Kind, enum: Enum | None) -> Fraction | str | None:
+    """The `default` or `delivered` value as one of use; RS0322 where it names no member or special value."""
+    node = entry.settings.get(key)
     return named_value(node, kind, enum, specials_of(entry), BAD_DEFAULT) if node else None
 
 

@@ -133,16 +133,20 @@ class View:
     preferred: bool = False
     stride: int = 1
 
+    def allows(self, function: int) -> bool:
+        """Whether a function code may address it."""
+        return not self.functions or function in self.functions
+
     @property
     def readable(self) -> bool:
         """Whether the read function of its space may address it."""
-        return not self.functions or READ_FUNCTIONS[self.space] in self.functions
+        return self.allows(READ_FUNCTIONS[self.space])
 
     @property
     def writable(self) -> bool:
         """Whether a write function of its space may address it, all words of a value at once."""
         single, several = WRITE_FUNCTIONS.get(self.space, (0, 0))
-        return not self.functions or several in self.functions or (self.words == 1 and single in self.functions)
+        return self.allows(several) or (self.words == 1 and self.allows(single))
 
     @property
     def last(self) -> int:

@@ -71,14 +71,19 @@ def number_or(special: type[S], means: dict[Text, Text] | None = None) -> "Kind[
     return Kind("number", float, _any_number, special=special, means=means)
 
 
-def integer_or(special: type[C]) -> "Kind[int | C]":
-    """A whole number with special values, the members of `special`."""
-    return Kind("integer", int, _whole_number, special=special)
+def integer_or(special: type[C], means: dict[Text, Text] | None = None) -> "Kind[int | C]":
+    """As `number_or`, of whole numbers."""
+    return Kind("integer", int, _whole_number, special=special, means=means)
 
 
 def number_with(means: dict[Text, Text]) -> Kind[float]:
     """A number some of whose codes stand for another number (0 for 0.2 s)."""
     return Kind("number", float, _any_number, means=means)
+
+
+def integer_with(means: dict[Text, Text]) -> Kind[int]:
+    """As `number_with`, of whole numbers."""
+    return Kind("integer", int, _whole_number, means=means)
 
 
 def choice(members: type[C]) -> Kind[C]:

@@ -8,7 +8,7 @@ from regscribe.runtime.choices import Choice, SpecialNumber
 from regscribe.runtime.errors import ConditionNotMet, NotApplied, NotWritten, RegscribeError, ValueRefused, WriteUnknown
 from regscribe.runtime.errors import lost as failed
 from regscribe.runtime.lookback import is_lost
-from regscribe.runtime.request import WRITE_COIL, WRITE_COILS, WRITE_REGISTER, WRITE_REGISTERS, Request
+from regscribe.runtime.request import WRITE_FUNCTIONS, Request
 from regscribe.runtime.session import Operation, Pause, Session, Task
 
 if TYPE_CHECKING:
@@ -23,8 +23,8 @@ EEPROM = frozenset({"eeprom", "both"})
 
 def write_request(session: Session, view: View, address: int, words: Words) -> Request:
     """The request that writes words at an address in a view."""
-    allowed = [code for code in session.protocol.functions if not view.functions or code in view.functions]
-    single, several = (WRITE_COIL, WRITE_COILS) if view.space == "coil" else (WRITE_REGISTER, WRITE_REGISTERS)
+    allowed = [code for code in session.protocol.functions if view.allows(code)]
+    single, several = WRITE_FUNCTIONS[view.space]
     function = single if len(words) == 1 and single in allowed else several
     return Request(function, address, len(words), words)
 

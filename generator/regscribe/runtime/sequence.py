@@ -131,7 +131,7 @@ def _together(session: Session, so_far: list[Piece], one: Piece, other: Piece) -
         (view.space, view.functions) == (its.space, its.functions)
         and one.address + view.words == other.address
         and function in session.protocol.functions
-        and (not view.functions or function in view.functions)
+        and view.allows(function)
         and sum(len(piece.words) for piece in so_far) + len(other.words) <= most
         and not (one.register.governs or other.register.governs)
         and not {piece.path for piece in so_far}.intersection(needs(other.register, its))

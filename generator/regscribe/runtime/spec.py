@@ -169,16 +169,20 @@ class View(NamedTuple):
         """The wire address of the first word for a register at `at`."""
         return self.offset + self.stride * at
 
+    def allows(self, function: int) -> bool:
+        """Whether a function code may address it."""
+        return not self.functions or function in self.functions
+
     @property
     def readable(self) -> bool:
         """Whether the read function of its space may address it."""
-        return not self.functions or READ_FUNCTIONS[self.space] in self.functions
+        return self.allows(READ_FUNCTIONS[self.space])
 
     @property
     def writable(self) -> bool:
         """Whether a write function of its space may address it, all words of a value at once."""
         single, several = WRITE_FUNCTIONS.get(self.space, (0, 0))
-        return not self.functions or several in self.functions or (self.words == 1 and single in self.functions)
+        return self.allows(several) or (self.words == 1 and self.allows(single))
 
     def needs(self) -> tuple[str, ...]:
         """The register that sets the word order, if one does."""

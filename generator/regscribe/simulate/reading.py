@@ -56,7 +56,7 @@ class Reader:
     def _bars(self, space: Space, function: int, address: int) -> bool:
         """Whether a value stands at an address whose view this function may not address."""
         place = self.layout.place(space, address)
-        return place is not None and bool(place.view.functions) and function not in place.view.functions
+        return place is not None and not place.view.allows(function)
 
     def _fill(self, space: Space, address: int, *, first: bool) -> int:
         later = self.protocol.faults.later_read

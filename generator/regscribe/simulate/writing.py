@@ -87,7 +87,7 @@ class Writer:
             if space is Space.HOLDING and address in self.layout.command_addresses:
                 raise Refusal(faults.value)
             raise Refusal(faults.unused_write if (space, address) in self.layout.unused else faults.address)
-        if place.view.functions and function not in place.view.functions:
+        if not place.view.allows(function):
             raise Refusal(faults.view_function)
         if address != place.start:
             raise Refusal(faults.misaligned_address)

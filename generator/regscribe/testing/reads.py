@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from regscribe.runtime import ValueNotDecodable, operations
 from regscribe.runtime.register import Register
-from regscribe.runtime.request import READ_FUNCTIONS, Reply, Request
+from regscribe.runtime.request import READ_SPACES, Reply, Request
 from regscribe.runtime.session import Protocol, Session
 from regscribe.runtime.snapshot import Snapshot
 from regscribe.runtime.ways import Way, ways
@@ -14,7 +14,6 @@ from regscribe.runtime.ways import Way, ways
 Cell = tuple[str, int]
 """A space and a wire address."""
 
-SPACES = {function: space for space, function in READ_FUNCTIONS.items()}
 BITS = frozenset({"coil", "discrete"})
 
 
@@ -48,7 +47,7 @@ def read_through(driver: Any, chosen: Sequence[Register[Any]], *, seed: int = 0,
         asked = next(operation)
         while isinstance(asked, Request):
             requests.append(asked)
-            space = SPACES[asked.function]
+            space = READ_SPACES[asked.function]
             words = tuple(word_at(space, asked.address + offset, seed) for offset in range(asked.quantity))
             asked = operation.send(Reply(asked.function, words))
     except StopIteration as done:
@@ -66,7 +65,7 @@ def word_at(space: str, address: int, seed: int) -> int:
 def wrong_requests(driver: Any, chosen: Sequence[Register[Any]]) -> list[str]:  # noqa: ANN401 (a generated class)
     """Return what is wrong with the requests: registers left out or asked for twice, holes, limits."""
     requests = read_through(driver, chosen).requests
-    asked = Counter(cell for request in requests for cell in _cells(SPACES[request.function], request))
+    asked = Counter(cell for request in requests for cell in _cells(READ_SPACES[request.function], request))
     found = [f"{register.path} is not asked for" for register in chosen if not _is_asked(register, asked)]
     found += [f"{space} {address} is asked for again" for space, address in asked if asked[space, address] > 1]
     if not driver.protocol.read_holes:
@@ -101,7 +100,7 @@ def _places_of(register: Register[Any]) -> Iterator[Cell]:
 
 
 def _too_much(protocol: Protocol, request: Request) -> Iterator[str]:
-    most = protocol.read_bits if SPACES[request.function] in BITS else protocol.read_words
+    most = protocol.read_bits if READ_SPACES[request.function] in BITS else protocol.read_words
     if request.quantity > most:
         yield f"{request.quantity} addresses from {request.address} in one request, where {most} are allowed"
 

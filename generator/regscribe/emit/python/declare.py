@@ -110,12 +110,11 @@ class Declarations:
     def _numeric(self, register: Register) -> Expression:
         helper = self.specs.pool.helper
         means = [(exact(one.code), exact(one.means)) for one in register.specials if one.means is not None]
+        kind = "number" if register.fractional else "integer"
         if not specials(register):
-            return call(helper("number_with"), mapping(means))
+            return call(helper(f"{kind}_with"), mapping(means))
         special = self._special(register)
-        if means:
-            return call(helper("number_or"), special, mapping(means))
-        return f"{helper('number_or' if register.fractional else 'integer_or')}({special})"
+        return call(helper(f"{kind}_or"), special, mapping(means)) if means else f"{helper(f'{kind}_or')}({special})"
 
 
 def _stored(sentinel: Sentinel) -> str:

@@ -11,8 +11,8 @@ RUNTIME = tuple(
     AsyncPart BareDevice Bit Choice Command Conversion Device Field Flags Governs Group Identity Interval Is Latency
     Limits Link OrderFrom Part ProgramAction ProgramFinal ProgramSegments ProgramStates Protocol ReadOnly ReadWrite Ref
     RegisterSet Section SerialSettings SetpointProgram SpecialNumber TcpSettings View Word WriteOnly async_serial_link
-    async_tcp boolean choice flags integer integer_or number number_or number_with raw raw_float serial_link tcp text
-    version within word word_of
+    async_tcp boolean choice flags integer integer_or integer_with number number_or number_with raw raw_float
+    serial_link tcp text version within word word_of
     """.split()  # noqa: SIM905 (a column of quoted words is harder to keep in order)
 )
 """What a generated module may import from `regscribe.runtime`, in import order."""
