@@ -8,13 +8,12 @@ from itertools import islice
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from regscribe import checks, lower, schema, source
-from regscribe.model import RegisterMap, Severity
+from regscribe.model import RegisterMap
 
 from . import matrix_maps as maps
 from . import matrix_watch as watch
 from .matrix_maps import Seed
-from .suite import Json
+from .suite import Json, diagnose, errors_of
 
 ROOT = Path(__file__).parents[2]
 SCHEMA = json.loads((ROOT / "schema" / "map.schema.json").read_text("utf-8"))
@@ -126,20 +125,9 @@ def register_keys() -> list[str]:
 
 def compiled(document: Json) -> tuple[RegisterMap | None, tuple[str, ...]]:
     """A map, or the rules that refuse it."""
-    parsed, found = source.parse(maps.text(document), name="maps/test/matrix.yaml")
-    assert parsed is not None, found
-    found = [*found, *schema.validate(parsed)]
-    if found:
-        return None, _rules(found)
-    register_map, found = lower.lower(parsed)
-    if register_map is None or _rules(found):
-        return None, _rules(found)
-    rules = _rules(checks.check(register_map))
-    return (None, rules) if rules else (register_map, ())
-
-
-def _rules(found: Any) -> tuple[str, ...]:
-    return tuple(sorted({one.rule for one in found if one.severity is Severity.ERROR}))
+    register_map, found = diagnose(maps.text(document))
+    rules = tuple(sorted({one.rule for one in errors_of(found)}))
+    return (None if rules else register_map), rules
 
 
 class Seen(NamedTuple):

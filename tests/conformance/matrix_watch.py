@@ -6,6 +6,7 @@ from contextlib import suppress
 from functools import partial
 from types import SimpleNamespace
 from typing import Any
+from unittest.mock import patch
 
 from regscribe.emit import markdown, python
 from regscribe.model import Register, RegisterMap, Space, View
@@ -88,9 +89,10 @@ class Wire:
 def attempt(wire: Wire, do: Callable[[], Any]) -> tuple[object, ...]:
     """What an operation gives, what it was refused with, and what went over the wire."""
     wire.log.clear()
-    execute.time = SimpleNamespace(sleep=lambda seconds: wire.log.append(("pause", seconds)))  # type: ignore[attr-defined]
+    noted = SimpleNamespace(sleep=lambda seconds: wire.log.append(("pause", seconds)))
     try:
-        found: object = shown(do())
+        with patch.object(execute, "time", noted):
+            found: object = shown(do())
     except (ValueRefused, RegscribeError) as error:
         found = (type(error).__name__, getattr(error, "fault", ""))
     except (ValueError, TypeError, AttributeError) as error:

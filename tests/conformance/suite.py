@@ -101,9 +101,9 @@ def _plain(value: Any) -> Any:
     return float(value) if isinstance(value, Decimal) else value
 
 
-def diagnose(parts: Json) -> tuple[RegisterMap | None, list[Diagnostic]]:
-    """Compile the map of a case; what was found on the way."""
-    document, found = source.parse(whole_map(parts), name="maps/test/case.yaml")
+def diagnose(text: str) -> tuple[RegisterMap | None, list[Diagnostic]]:
+    """Compile a map (as YAML) as far as it goes; what was found on the way."""
+    document, found = source.parse(text, name="maps/test/case.yaml")
     assert document is not None, found
     found = [*found, *schema.validate(document)]
     if found:
@@ -114,17 +114,17 @@ def diagnose(parts: Json) -> tuple[RegisterMap | None, list[Diagnostic]]:
     return register_map, checks.check(register_map)
 
 
+def errors_of(found: list[Diagnostic]) -> list[Diagnostic]:
+    """What of the findings is an error."""
+    return [one for one in found if one.severity is Severity.ERROR]
+
+
 @cache
 def build(text: str) -> Built:
-    """Compile a map (as YAML) and import its driver."""
-    document, found = source.parse(text, name="maps/test/case.yaml")
-    assert document is not None, found
-    found = [*found, *schema.validate(document)]
-    assert not found, found
-    register_map, found = lower.lower(document)
+    """Compile a sound map (as YAML) and import its driver."""
+    register_map, found = diagnose(text)
     assert register_map is not None, found
-    errors = [one for one in checks.check(register_map) if one.severity is Severity.ERROR]
-    assert not errors, errors
+    assert not errors_of(found), found
     ((_, code),) = python.render(register_map).items()
     return Built(register_map, module_of(code))
 

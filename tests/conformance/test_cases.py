@@ -9,11 +9,10 @@ import jsonschema
 import pytest
 
 from regscribe.live.values import as_text
-from regscribe.model import Severity
 from regscribe.simulate.values import Plain
 
 from . import judges
-from .suite import FOLDER, Built, Case, Json, build, cases, diagnose, load, whole_map, words_of
+from .suite import FOLDER, Built, Case, Json, build, cases, diagnose, errors_of, load, whole_map, words_of
 from .wire import Memory, Server
 
 EVERY = list(cases())
@@ -72,8 +71,8 @@ def test_every_name_stands_once() -> None:
 
 @pytest.mark.parametrize("case", [case for case in EVERY if case.refused], ids=repr)
 def test_a_map_without_meaning_is_refused(case: Case) -> None:
-    _, found = diagnose(case.map)
-    rules = {one.rule for one in found if one.severity is Severity.ERROR}
+    _, found = diagnose(whole_map(case.map))
+    rules = {one.rule for one in errors_of(found)}
     assert set(case.refused.split()) & rules, f"{case.refused} expected, found {sorted(rules)}"
 
 

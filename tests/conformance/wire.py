@@ -1,4 +1,4 @@
-"""A Modbus TCP server of forty lines that knows no map: words in, words out, and a log of what was asked."""
+"""A small Modbus TCP server that knows no map: words in, words out, and a log of what was asked."""
 
 import socketserver
 import struct
@@ -9,7 +9,6 @@ READS = {1: "coil", 2: "discrete", 3: "holding", 4: "input"}
 WRITES = {5: "coil", 6: "holding", 15: "coil", 16: "holding"}
 BITS = frozenset({"coil", "discrete"})
 ON = 0xFF00
-MOST = 65536
 
 
 class Memory:

@@ -79,7 +79,7 @@ Serve = Callable[..., AbstractContextManager[Bench]]
 
 @pytest.fixture(scope="session")
 def serve() -> Serve:
-    """Serves the device of a driver, its limits wide open, while a `with` block runs."""
+    """Serves the device of a driver, its limits wide open and with a decimal, while a `with` block runs."""
 
     @contextmanager
     def served(driver: type[BareDevice]) -> Iterator[Bench]:
@@ -90,6 +90,8 @@ def serve() -> Serve:
             bench = Bench(running, device)
             if driver.map_id.startswith("athena/platinum"):
                 bench.poke(setpoint_low_limit=0, setpoint_high_limit=2000)
+            else:
+                bench.poke(temperature_decimal_position=1)
             yield bench
 
     return served

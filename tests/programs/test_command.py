@@ -58,6 +58,7 @@ class Oven(NamedTuple):
 @pytest.fixture
 def oven() -> Iterator[Oven]:
     with simulate(shipped("athena/series-c"), "16C", unit=1) as running:
+        running.device.poke("temperature_decimal_position", 1)  # a ramp goes to 500.5
         yield Oven(running, f"tcp:{running.host}:{running.port}?model=16C")
 
 

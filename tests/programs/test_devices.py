@@ -89,6 +89,7 @@ def test_programs_are_the_same_through_an_asyncio_driver(tmp_path: Path) -> None
             return await device.run(programs.read(place))
 
     with simulate(shipped("athena/series-c"), "16C", unit=1) as running:
+        running.device.poke("temperature_decimal_position", 1)
         assert asyncio.run(work(running.host, running.port)) == program
 
 
