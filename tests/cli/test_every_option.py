@@ -16,20 +16,8 @@ from regscribe.cli.app import COMMANDS, run
 from regscribe.simulate import simulate as simulated
 from regscribe.visible import INVISIBLE
 
-MAP = """
-format: 1
-map: {id: acme/oven, title: Oven, maker: Acme, class_prefix: Acme}
-manual: {title: Manual, number: "1"}
-models: {O1: {}}
-groups:
-  - id: all
-    name: All
-    source: "1"
-    each: {access: rw}
-    registers:
-      - {at: 0, name: Label, type: string, length: 12}
-      - {at: 20, name: Level, type: int16, range: 0..100}
-"""
+from .labelled import put_map
+
 NOBODY = "tcp:127.0.0.1:1?model=O1&unit=1"
 USUAL: dict[str, list[str]] = {
     "check": [],
@@ -79,8 +67,7 @@ def bench(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A folder with a map, its driver and some strange files."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    (tmp_path / "maps" / "acme").mkdir(parents=True)
-    (tmp_path / "maps" / "acme" / "oven.yaml").write_text(MAP, encoding="utf-8")
+    put_map(tmp_path)
     (tmp_path / "bytes").write_bytes(bytes(range(256)))
     (tmp_path / "closed").mkdir(mode=0)
     assert run(["generate", "--out", "mine"]) == 0

@@ -18,21 +18,9 @@ from regscribe.simulate import simulate as simulated
 from regscribe.simulate.maps import find_map
 from regscribe.visible import INVISIBLE, cell, json_text, safe, safe_lines
 
+from .labelled import MAP, put_map
+
 HOSTILE = "\x1b[31mred\x1b]0;title\x07"
-MAP = """
-format: 1
-map: {id: acme/oven, title: Oven, maker: Acme, class_prefix: Acme}
-manual: {title: Manual, number: "1"}
-models: {O1: {}}
-groups:
-  - id: all
-    name: All
-    source: "1"
-    each: {access: rw}
-    registers:
-      - {at: 0, name: Label, type: string, length: 12}
-      - {at: 20, name: Level, type: int16, range: 0..100}
-"""
 LONG = "x" * 300
 ENVIRONMENT = {key: value for key, value in os.environ.items() if key != "PYTHONUNBUFFERED"}
 """Unbuffered, Python hides that a reader went away."""
@@ -43,8 +31,7 @@ def bench(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[tuple[str
     """A folder with a map and its driver, and a simulated device whose text is hostile."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    (tmp_path / "maps" / "acme").mkdir(parents=True)
-    (tmp_path / "maps" / "acme" / "oven.yaml").write_text(MAP, encoding="utf-8")
+    put_map(tmp_path)
     assert run(["generate", "--out", "mine"]) == 0
     with simulated("acme/oven", "O1") as device:
         device.poke("label", HOSTILE)
@@ -194,8 +181,7 @@ def test_a_strange_argument_is_an_error_of_usage(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    (tmp_path / "maps" / "acme").mkdir(parents=True)
-    (tmp_path / "maps" / "acme" / "oven.yaml").write_text(MAP, encoding="utf-8")
+    put_map(tmp_path)
 
     code = run(arguments)
 
@@ -276,8 +262,7 @@ def test_what_a_killed_run_left_is_removed_and_what_another_writes_is_not(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    (tmp_path / "maps" / "acme").mkdir(parents=True)
-    (tmp_path / "maps" / "acme" / "oven.yaml").write_text(MAP, encoding="utf-8")
+    put_map(tmp_path)
     assert run(["generate", "--out", "out"]) == 0
     driver = next(Path("out").rglob("oven.py"))
     with subprocess.Popen([sys.executable, "-c", "pass"]) as gone:

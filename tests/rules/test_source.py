@@ -2,7 +2,6 @@
 
 import hashlib
 import os
-import time
 from collections.abc import Callable
 from decimal import Decimal
 from pathlib import Path
@@ -236,12 +235,11 @@ def test_values_without_number_are_refused(content: str) -> None:
     ],
     ids=["brackets", "colons", "marks", "empty lines", "tabs", "quote", "directives"],
 )
-def test_eight_megabytes_of_nonsense_are_refused_soon(content: str) -> None:
-    start = time.process_time()
+def test_eight_megabytes_of_nonsense_are_refused(content: str) -> None:
+    """A quadratic reader would be stopped: see `HANG_SECONDS`."""
     document, found = parse(content, name="m.yaml")
     assert document is None
     assert found
-    assert time.process_time() - start < 10
 
 
 @settings(deadline=None)
