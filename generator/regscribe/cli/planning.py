@@ -82,7 +82,7 @@ def driver_of(register_map: compiled.RegisterMap, model: compiled.Model) -> type
     with _set_aside(python.render(register_map)) as modules:
         for module, text in modules:
             exec(compile(text, module.__name__, "exec"), vars(module))  # noqa: S102 (what `generate` writes)
-    driver: type[BareDevice] = getattr(module, model.class_name)
+    driver: type[BareDevice] = getattr(modules[-1][0], model.class_name)
     return driver
 
 

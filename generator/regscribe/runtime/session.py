@@ -164,7 +164,7 @@ class Session:
         ValueError for one of another device, or of the elements of an array as such, which stands nowhere.
         """
         found: Register[Any] | None = self.registers.get(register.path)
-        if found is register or (found and (found.at, found.views) == (register.at, register.views)):
+        if found is not None and (found is register or (found.at, found.views) == (register.at, register.views)):
             return found
         message = f"{register.path} at {register.at} is no register of this device; one of an array's element is taken"
         message = f"{message} from the driver itself, as driver.elements[1].{register.id}"

@@ -69,7 +69,7 @@ def wire_bits(
     for bits, note in _patterns(view, full=full):
         found.setdefault(bits & mask, note)
     numbers = [*_stored_numbers(register, full=full), *(_scaled_numbers(register, scale, known) if scale else ())]
-    numbers += scale.stored_limits() if scale and full else ()
+    numbers += [*scale.stored_limits()] if scale and full else []
     for stored, note in numbers:
         pattern = _bits(view, stored * view.factor)
         if pattern is not None:
