@@ -111,8 +111,8 @@ def assert_request(request: Request, packet: Packet) -> None:
 def assert_answer(said: Said, packet: Packet) -> None:
     request, reply = said.request, said.reply
     assert packet.function == request.function
-    assert (packet.exception or 0) == reply.exception
-    if reply.exception or request.function in {7, 8}:
+    assert packet.exception == reply.exception
+    if reply.exception is not None or request.function in {7, 8}:
         return
     if request.function in {3, 4}:
         assert packet.words == reply.words

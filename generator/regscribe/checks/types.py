@@ -235,7 +235,9 @@ def _parts_of_wholes(register: Register) -> Iterator[Finding]:
     for special in register.specials:
         for number in (special.code, special.means):
             if number is not None and number.denominator != 1:
-                message = f"is of kind {register.kind}, which holds whole numbers, but `{special.id}` is {show(number)}"
+                message = (
+                    f'is of kind {register.kind}, so whole, but its special value "{special.label}" is {show(number)}'
+                )
                 yield Finding.at(register, message, "correct the special value, or remove `kind`")
 
 

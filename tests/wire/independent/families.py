@@ -81,7 +81,8 @@ def steering(model: Model) -> set[str]:
     found = {register.path for register in model.registers if register.governs is not None}
     for register in model.registers:
         found |= {*registers_of(register.scale), *registers_of(register.unit)}
-        found |= {case.then.decimals.register for case in register.scale if case.then.decimals}
+        told = (one for case in register.scale for one in (case.then.decimals, case.then.places))
+        found |= {one.register for one in told if one}
         found |= {view.word_order.register for view in register.views if isinstance(view.word_order, OrderFromRegister)}
         found |= set(register.writable.when.registers) if register.writable else set()
     return found
