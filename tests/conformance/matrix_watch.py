@@ -212,6 +212,7 @@ def _lived(device: SimulatedDevice, register: Register, state: dict[int, int], n
     for at, word in {**state, 903: state[903] + number, 904: 50}.items():
         device.handle(_write(at, (word,)))
     device.handle(_write(910, (0x4140 + number, 0)))
+    yield from _seen(device, register)  # what follows others, before it is written itself
     for view in register.views:
         for words in ((number,) * view.words, (0,) * (view.words - 1) + (number,)):
             yield from _written(device, view, words)

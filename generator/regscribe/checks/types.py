@@ -219,6 +219,10 @@ def kind_and_type(register: Register, _: Scope) -> Iterator[Finding]:
             message = f"is of kind {register.kind}, but view {view.name} has type {view.type}"
             yield Finding.at(register, message, "correct `kind` or `type`")
             return
+        if view.saturates and (register.kind in {*UNSCALED, Kind.BOOLEAN} or not view.type.is_integer):
+            message = f"is of kind {register.kind} and type {view.type}, of which view {view.name} can clip nothing"
+            yield Finding.at(register, message, "remove `saturates`, or give the register a view set of its own")
+            return
     if (register.enum is not None) != (register.kind is Kind.ENUM):
         yield Finding.at(register, f"is of kind {register.kind} {_has(register)}", "correct `kind` or the enum")
     elif bool(register.fields) != (register.kind in WORDS_OF_BITS):

@@ -118,9 +118,8 @@ def _converter(
     register: "Register[Any]", view: View, _: int, session: "Session", unknown: Mapping[str, RegscribeError]
 ) -> Callable[[Any], Any]:
     try:
-        _known(register, view, unknown)
         if view.words > 1:
-            view.word_order(register.path, session.memory)
+            view.word_order(register.path, codec.known(register, session.memory, unknown))
     except ValueNotDecodable as error:
         return codec.always(error)
     return codec.reader(register, view, session.memory, session.givens, unknown)
@@ -130,17 +129,9 @@ def _decoder(
     register: "Register[Any]", view: View, _: int, session: "Session", unknown: Mapping[str, RegscribeError]
 ) -> Callable[[Any], Any]:
     try:
-        _known(register, view, unknown)
         return codec.decoder(register, view, session.memory, session.givens, unknown)
     except ValueNotDecodable as error:
         return codec.always(error)
-
-
-def _known(register: "Register[Any]", view: View, unknown: Mapping[str, RegscribeError]) -> None:
-    """Refuse a value of unknown word order; an unknown scale is the reader's matter, for which faults come first."""
-    for path in view.needs() if unknown else ():
-        if path in unknown:
-            raise codec.depends_on(register, path, unknown)
 
 
 def _caught(convert: Callable[[Any], Any], given: Any) -> Any:

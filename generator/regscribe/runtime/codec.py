@@ -92,22 +92,31 @@ def reader(
     """A function from a wire number of `view` to a value of use, under the present `state`.
 
     It raises Saturated, SensorFault or NotDecodable for numbers that are no values. A fault is a fault even where no
-    scale holds, or where a register that the scale depends on is `unknown` (its path, and why). A special value is
+    scale holds, or where a register that the scale needs now is `unknown` (its path, and why). A special value is
     returned as its member; without `named` as the number that it is, which is how conditions and limits count it.
     """
     try:
-        for path in register.scale_needs if unknown else ():
-            if path in unknown:
-                raise depends_on(register, path, unknown)
-        convert = _with_specials(register, view, state, givens, named=named)
+        convert = _with_specials(register, view, known(register, state, unknown), givens, named=named)
     except ValueNotDecodable as error:
         convert = always(error)
     return _guarded(register, view, convert)
 
 
-def depends_on(register: "Register[Any]", path: str, unknown: Unknown) -> NotDecodable:
-    """What a value is whose meaning depends on a register of no known value."""
-    return NotDecodable(register.path, f"its meaning depends on {path}: {unknown[path]}")
+class _Known(dict[str, Any]):
+    """The values that are known; asking for one that is not says so of the register that depends on it."""
+
+    def __init__(self, register: "Register[Any]", state: State, unknown: Unknown) -> None:
+        super().__init__({path: value for path, value in state.items() if path not in unknown})
+        self._register, self._unknown = register, unknown
+
+    def __missing__(self, path: str) -> NoReturn:
+        why = self._unknown[path]
+        raise NotDecodable(self._register.path, f"its meaning depends on {path}: {why}")
+
+
+def known(register: "Register[Any]", state: State, unknown: Unknown) -> State:
+    """The state as it decides about a register: NotDecodable for what is asked of it and `unknown` (path, and why)."""
+    return _Known(register, state, unknown) if unknown else state
 
 
 def always(error: ValueNotDecodable) -> Converter:
@@ -265,11 +274,12 @@ def decoder(
 
     It raises ValueNotDecodable with the words in it.
     """
+    state = known(register, state, unknown)
     arrange = arranger(view, register.path, state)
     convert = (
         _text_reader(register)
         if register.kind.name == "string"
-        else _number_reader(view, reader(register, view, state, givens, unknown, named=named))
+        else _number_reader(view, reader(register, view, state, givens, named=named))
     )
 
     def decode(words: Sequence[int]) -> Any:
@@ -288,14 +298,21 @@ def _number_reader(view: View, convert: Converter) -> Callable[[Words], Any]:
 
 
 def decode(
-    register: "Register[Any]", view: View, words: Sequence[int], state: State, givens: Givens, *, named: bool = True
+    register: "Register[Any]",
+    view: View,
+    words: Sequence[int],
+    state: State,
+    givens: Givens,
+    unknown: Unknown = NOTHING,
+    *,
+    named: bool = True,
 ) -> Any:
-    """The value that `words` (in wire order) spell; ValueNotDecodable carries the words. `named`: see `reader`."""
+    """The value that `words` (in wire order) spell; ValueNotDecodable carries the words. The rest: see `reader`."""
     if len(words) != view.words:
         message = f"{register.path} has {view.words} words in its {view.name} view, not {len(words)}"
         raise ValueError(message)
     try:
-        return decoder(register, view, state, givens, named=named)(words)
+        return decoder(register, view, state, givens, unknown, named=named)(words)
     except ValueNotDecodable as error:
         error.words = tuple(words)
         raise
@@ -452,7 +469,8 @@ def _float_words(register: "Register[Any]", view: View, exactly: Fraction, *, ro
     except OverflowError:
         raise ValueRefused(register.path, f"{show(exactly)} is too large for {view.type.name}") from None
     back = shortest(there, view.type)
-    if exactly not in (Fraction(there), Fraction(back)) and not rounded:
+    same = exactly in (Fraction(there), Fraction(back)) or float(exactly) == there  # 2.0**63 is 9.223372036854776e18
+    if not same and not rounded:
         raise ValueRefused(
             register.path, f"finer than {view.type.name} can carry; the nearest number on the wire is {back}"
         )

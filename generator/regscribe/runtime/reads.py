@@ -66,12 +66,12 @@ def know(session: Session, paths: Iterable[str], *, fresh: bool = False, depth: 
         raise RuntimeError(message)
     registers = [session.registers[path] for path in wanted]
     views = [register.read_view() for register in registers]
-    for register, view in zip(registers, views, strict=True):
-        yield from know(session, register.needs(view), depth=depth + 1)
+    needs = dict.fromkeys(path for one, view in zip(registers, views, strict=True) for path in one.needs(view))
+    unknown = yield from _unknown(session, needs, depth=depth + 1)
     found = yield from fetch(session, map(item_of, registers, views))
     values = {
         register.path: codec.decode(
-            register, view, found[item_of(register, view)], session.memory, session.givens, named=False
+            register, view, found[item_of(register, view)], session.memory, session.givens, unknown, named=False
         )
         for register, view in zip(registers, views, strict=True)
     }
@@ -88,8 +88,10 @@ def read(register: Register[T], view_name: str | None) -> Task[T]:
         key = (register.path, view_name)
         if key not in session.prepared:
             view = register.read_view(view_name)
-            yield from know(session, register.needs(view))
-            made = codec.decoder(register, view, session.memory, session.givens)
+            unknown = yield from _unknown(session, register.needs(view))
+            made = codec.decoder(register, view, session.memory, session.givens, unknown)
+            if unknown:
+                return made((yield from session.exchange(read_request(register, view))))
             session.prepared[key] = read_request(register, view), made
         request, decode = session.prepared[key]
         value: T = decode((yield from session.exchange(request)))
@@ -178,16 +180,22 @@ def _learn(session: Session, registers: Sequence[Register[Any]]) -> Operation[di
     needed = frozenset().union(*needs.values())
     paths = [path for path in needs if path in needed]
     absent = {path: error for path in paths if (error := missing(session, session.registers[path]))}
+    unknown = yield from _unknown(session, [path for path in paths if path not in absent])
+    return absent | unknown
+
+
+def _unknown(session: Session, paths: Iterable[str], *, depth: int = 0) -> Operation[dict[str, RegscribeError]]:
+    """Make the values of registers known; of each that has none, why."""
     try:
-        yield from know(session, [path for path in paths if path not in absent])
+        yield from know(session, paths, depth=depth)
     except (ValueNotDecodable, ExceptionAnswer) as error:
         _bearable(session, error)
     else:
-        return absent
-    unknown: dict[str, RegscribeError] = absent
+        return {}
+    unknown: dict[str, RegscribeError] = {}
     for path in paths:
         try:
-            yield from know(session, [] if path in absent else [path])
+            yield from know(session, [path], depth=depth)
         except (ValueNotDecodable, ExceptionAnswer) as error:
             _bearable(session, error)
             unknown[path] = error

@@ -10,6 +10,7 @@ from regscribe.model import (
     Condition,
     Conversion,
     Decimals,
+    Kind,
     Model,
     Order,
     Register,
@@ -17,6 +18,7 @@ from regscribe.model import (
     Special,
     View,
 )
+from regscribe.model.reference import MOST_DECIMALS
 from regscribe.simulate import codec
 from regscribe.simulate.blueprint import Blueprint, Stored
 from regscribe.simulate.errors import SimulatorError
@@ -70,8 +72,10 @@ class Meaning(ABC):
         return self.number(register, stored) if field is None else field_value(stored, field)
 
     def number(self, register: Register, stored: Fraction) -> Fraction:
-        """Return the value of use of a stored number; of a special value that stands for a number that one."""
+        """Return the value of use of a stored number: of what is true 1, of a special value the number it stands for."""
         value = self.to_value(register, stored)
+        if register.kind is Kind.BOOLEAN:
+            return Fraction(value != 0)
         meant = (each.means for each in register.specials if self.special(register, each) == value)
         return next((number for number in meant if number is not None), value)
 
@@ -95,10 +99,10 @@ class Meaning(ABC):
         return self.choose(register.scale) or IDENTITY
 
     def power(self, decimals: Decimals | None) -> int:
-        """10 to the number of decimals that a register holds now."""
+        """10 to the number of decimals that a register holds now; what is no number of decimals counts as the nearest."""
         if decimals is None:
             return 1
-        digits = max(0, int(self.lookup(decimals.register)))
+        digits = min(max(0, int(self.lookup(decimals.register))), MOST_DECIMALS)
         return int(10 ** (digits if decimals.at_most is None else min(digits, decimals.at_most)))
 
     def holds(self, condition: Condition) -> bool:

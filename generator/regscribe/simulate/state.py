@@ -248,7 +248,7 @@ class State(Meaning):
         if register.kind is Kind.STRING:
             return str(value)
         if isinstance(value, NotANumber):
-            return value
+            return self._no_number(register, value)
         if isinstance(value, Fault):
             return sentinel_of(register, value)
         if isinstance(value, str):
@@ -259,6 +259,13 @@ class State(Meaning):
                 return exact(value.replace(".", ""))
         specials = {each.id: self.special(register, each) for each in register.specials}
         return self.from_value(register, number_of(register, None, value, specials))
+
+    def _no_number(self, register: Register, value: NotANumber) -> NotANumber:
+        whole = [view.name for view in register.views if not view.type.is_float]
+        if whole:
+            message = f"register {register.path!r} cannot hold {value.value}: its view {whole[0]} has whole numbers only"
+            raise SimulatorError(message)
+        return value
 
     def _show(self, register: Register, image: Image) -> None:
         if not register.access.readable:

@@ -1,0 +1,275 @@
+"""Hypothesis strategies over the language: whole maps of registers that decide, and registers that depend on them."""
+
+from typing import Any, NamedTuple
+
+from hypothesis import strategies as st
+
+from .suite import Json
+
+Draw = st.DrawFn
+INTEGERS = ("uint16", "int16", "uint32", "int32", "uint64", "int64")
+FLOATS = ("float32", "float64")
+LIMITS = {f"{sign}int{bits}": ends for bits in (16, 32, 64) for sign, ends in (
+    ("u", (0, 2**bits - 1)), ("", (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)))}
+STEP, ELEMENT, OUTER, VIEW, MOST = 4, 60, 200, 1000, 3
+"""Addresses from one register, element, outer element and view to the next; the most of the registers that depend."""
+
+
+class Decider(NamedTuple):
+    """A register that others ask: its keys, what a condition calls it, and what conditions may hold it against."""
+
+    keys: Json
+    subject: str
+    matchers: tuple[Any, ...]
+
+
+SELECTORS = (
+    Decider({}, "sel", (0, 1, "2..9", [1, 3])),
+    Decider({"type": "int16", "decimals": 1}, "sel", (0.1, 1, "-5..99.9", [0.5, 1.2])),
+    Decider({"type": "float32"}, "sel", (0.1, -9999.9, "0..99.9")),
+    Decider({"type": "float64", "word_order": "little"}, "sel", (0.3, "-1.5..0.1")),
+    Decider({"type": "uint32", "byte_order": "little"}, "sel", (1, 65536, "2..70000")),
+    Decider({"enum": {0: "off", 1: "on", 5: "auto"}}, "sel", ("on", 5, ["off", "auto"])),
+    Decider({"fields": {"mode": {"bits": "1..2"}, "go": {"bit": 4}}}, "sel.mode", (1, 2, "1..3")),
+    Decider({"fields": {"mode": {"bits": "1..2"}, "go": {"bit": 15}}}, "sel.go", (1, 0)),
+    Decider({"flags": {3: "warm", 4: "hot"}}, "sel.hot", (1, 0)),
+    Decider({"space": "coil"}, "sel", (1, 0)),
+    Decider({"kind": "boolean"}, "sel", (1, 0)),
+    Decider({"space": "input", "access": "r", "sentinels": {9: "broken"}}, "sel", (1, "2..7")),
+    Decider({"type": "int16", "multiply": 0.5, "add": -3}, "sel", (-2.5, "0..4", -3)),
+    Decider({"special": {2: "two", 7: {"label": "seven", "means": 70}}}, "sel", (2, 70, "3..80")),
+)
+DIGITS: tuple[Json, ...] = (
+    {"range": "0..3"},
+    {"type": "int16"},
+    {"enum": {0: "none", 1: "tenths", 2: "hundredths"}},
+    {"range": "0..3", "sentinels": {15: "none"}},
+    {"type": "uint32", "word_order": "little", "range": "0..2"},
+    {"space": "input", "access": "r"},
+    {"multiply": 2},
+)
+ORDERS: tuple[Json, ...] = ({"range": "0..1"}, {"enum": {0: "big", 1: "little"}}, {"space": "coil"}, {"add": -7})
+BOUNDS: tuple[Json, ...] = ({}, {"type": "int16", "decimals": 1}, {"type": "float32"}, {"decimals": "digits"})
+
+
+def _of(draw: Draw, *choices: Any) -> Any:
+    return draw(st.sampled_from(choices))
+
+
+def _maybe(draw: Draw, share: int = 3) -> bool:
+    """Yes once in so many times."""
+    return draw(st.integers(1, share)) == share
+
+
+def _number(draw: Draw, low: int = -50, high: int = 250) -> float:
+    """A number of up to two decimals; YAML has no `1.0` for a whole one here."""
+    number = draw(st.integers(low, high)) / _of(draw, 1, 1, 1, 10, 100)
+    return int(number) if number.is_integer() else number
+
+
+def _interval(draw: Draw) -> str:
+    low, high = sorted((_number(draw), _number(draw)))
+    return f"{low}..{high}"
+
+
+def _condition(draw: Draw, sel: Decider) -> Any:
+    matcher = _of(draw, *sel.matchers)
+    matcher = {"not": matcher} if _maybe(draw, 4) else matcher
+    return _of(draw, {sel.subject: matcher}, {sel.subject: matcher}, "named", [{sel.subject: matcher}, "named"])
+
+
+def _conversion(draw: Draw, kind: str) -> Json:
+    """How a stored number becomes a value: decimals, a factor and a distance, or the values at the ends of the type."""
+    form = _of(draw, "decimals", "decimals", "line", *["ends"] * (kind in INTEGERS))
+    if form == "decimals":
+        return {"decimals": draw(st.integers(0, 3))}
+    if form == "ends":
+        return {"from": _of(draw, 0, -100, -199.9), "to": _of(draw, 100, 455.36)}
+    line = {"multiply": _of(draw, 2, 10, 0.5, -1, 0.1, 0.25, 1000), "add": _of(draw, 3, -40, 0.5, -273.1)}
+    return {key: line[key] for key in _of(draw, ("multiply",), ("add",), ("multiply", "add"))}
+
+
+def _scale(draw: Draw, sel: Decider, name: str, kind: str) -> tuple[Json, Json]:
+    """Keys of a register that scale it, and the table that they need."""
+    form = _of(draw, "none", "none", "own", "own", "digits", "cases", "not_stated")
+    if form == "cases":
+        cases = [{"when": _condition(draw, sel)} | _conversion(draw, kind) for _ in range(_of(draw, 1, 2))]
+        cases += [_conversion(draw, kind)] if _maybe(draw, 2) else []
+        return {"scale": name}, {"scales": {name: cases}}
+    if form == "digits":
+        return {"decimals": "digits"}, {}
+    if form == "not_stated":
+        return {"decimals": "not_stated"}, {}
+    own = _conversion(draw, kind) if form == "own" else {}
+    return ({"scale": f"{own['from']}..{own['to']}"} if "from" in own else own), {}
+
+
+def _range(draw: Draw, sel: Decider) -> Any:
+    part = st.one_of(
+        st.builds(lambda: _interval(draw)),
+        st.just({"from": "low", "to": "high"}),
+        st.just({"from": {"open": "the least"}, "to": "high"}),
+        st.builds(lambda: {"from": _number(draw, -90, -1), "to": {"open": "the most"}}),
+    )
+    form = _of(draw, "part", "part", "union", "cases")
+    if form == "part":
+        return draw(part)
+    if form == "union":
+        return [draw(part), draw(part)]
+    cases = [{"when": _condition(draw, sel), "is": draw(part)}]
+    return cases + ([{"is": draw(part)}] if _maybe(draw, 2) else [])
+
+
+def _specials(draw: Draw) -> Json:
+    plain = {_number(draw): "follow", _number(draw): "disabled"}
+    meant = {_number(draw): {"label": "fast", "means": _number(draw)}}
+    return {key: label for part in _of(draw, (plain,), (meant,), (plain, meant)) for key, label in part.items()}
+
+
+def _sentinels(draw: Draw, kind: str) -> Json:
+    if kind in FLOATS:
+        return _of(draw, {"nan": "none"}, {-9999.9: "broken"}, {"nan": "none", -32768: "broken"})
+    low, high = LIMITS[kind]
+    return _of(draw, {high: "none"}, {low: "none"}, {low: "low", high: "high"}, {draw(st.integers(0, 30)): "broken"})
+
+
+def _of_number(draw: Draw, sel: Decider, name: str, kind: str) -> tuple[Json, Json]:
+    keys, tables = _scale(draw, sel, name, kind)
+    if _maybe(draw):
+        keys["range"] = _range(draw, sel)
+        if _maybe(draw, 4):
+            keys["range_decimals"] = "digits"
+    if _maybe(draw):
+        keys["special"] = _specials(draw)
+    if _maybe(draw, 5):
+        keys["kind"] = _of(draw, "number", "integer", "raw")
+    return keys, tables
+
+
+def _meaning(draw: Draw, sel: Decider, name: str, kind: str) -> tuple[Json, Json]:
+    """Keys that say what a word, or several, mean, and the tables that they need."""
+    form = _of(draw, "number", "number", "number", "number", "enum", "flags", "fields", "version", "boolean")
+    most = int(kind.strip("uintfloa"))
+    tables: Json = {}
+    if kind in FLOATS or form == "number":
+        keys, tables = _of_number(draw, sel, name, kind)
+    elif form == "enum":
+        off = _of(draw, "off", {"label": "off", "invalid": "not here"}, {"label": "off", "id": "fl14"})
+        keys = {"enum": {draw(st.integers(0, 3)): off, 4: "on", _of(draw, 5, *LIMITS[kind]): "last"}}
+    elif form == "flags":
+        keys = {"flags": {bit: f"bit {bit}" for bit in draw(st.sets(st.integers(0, most - 1), min_size=1, max_size=4))}}
+    elif form == "fields":
+        first = draw(st.integers(0, most - 2))
+        keys = {"fields": {"part": {"bits": f"{first}..{draw(st.integers(first + 1, most - 1))}"}}}
+        keys["fields"] |= {"one": {"bit": first - 1}} if first else {}
+    else:
+        keys = {"version": _of(draw, "n.n", "nn.nn", "nnn")} if form == "version" else {"kind": "boolean"}
+    if _maybe(draw):
+        keys["sentinels"] = _sentinels(draw, kind)
+    return keys, tables
+
+
+def _orders(draw: Draw, keys: Json) -> Json:
+    """The keys with an order of words, where there are several, and of bytes."""
+    if keys.get("length", 1) > 1 or not keys["type"].endswith(("16", "string")) and _maybe(draw, 2):
+        by_register = {"register": "order", "codes": {0: "big", 1: "little"}}
+        keys["word_order"] = _of(draw, "little", by_register, by_register)
+    if _maybe(draw, 4):
+        keys["byte_order"] = "little"
+    return keys
+
+
+def _views(draw: Draw, kind: str, access: str, *, scaled: bool) -> Json:
+    """A view set: the type of the register first, others beside it with a factor of their own."""
+    views: Json = {}
+    for number in range(draw(st.integers(2, MOST))):
+        view = {"type": kind if not number or not scaled or _maybe(draw) else _of(draw, *INTEGERS[:4], *FLOATS)}
+        view |= {"offset": VIEW * number} if number else {}
+        if number:
+            view |= {"factor": _of(draw, 10, 100, 0.5, 0.1)} if scaled and _maybe(draw, 2) else {}
+            view |= {"rounding": _of(draw, "half_up", "half_away", "half_even", "down")} if _maybe(draw, 2) else {}
+            view |= {"saturates": True} if view["type"] in INTEGERS and _maybe(draw) else {}
+            view |= {"preferred": True} if _maybe(draw) and not any("preferred" in one for one in views.values()) else {}
+        if access == "rw" and _maybe(draw, 5):
+            view["functions"] = _of(draw, [3], [3, 16], [3, 6, 16], [16])
+        views[f"view{number}"] = _orders(draw, view)
+    return views
+
+
+def _words(draw: Draw, sel: Decider, name: str) -> tuple[Json, Json]:
+    """A register of one word or several, or a text."""
+    space = _of(draw, "holding", "holding", "holding", "input")
+    access = "r" if space == "input" else _of(draw, "rw", "rw", "rw", "r", "w")
+    keys: Json = {"access": access} | ({"space": space} if space == "input" else {})
+    if _maybe(draw, 10):
+        return _orders(draw, keys | {"type": "string", "length": draw(st.integers(1, STEP))}), {}
+    kind = _of(draw, "int16", "uint16", *INTEGERS, *FLOATS)
+    meaning, tables = _meaning(draw, sel, name, kind)
+    keys |= meaning
+    if _maybe(draw):
+        scaled = not {"enum", "flags", "fields", "version", "kind"} & keys.keys()
+        return keys | {"views": name}, tables | {"views": {name: _views(draw, kind, access, scaled=scaled)}}
+    keys = _orders(draw, keys | {"type": kind})
+    if access == "rw" and _maybe(draw, 6):
+        keys["functions"] = _of(draw, [3, 6, 16], [3, 16], [3])
+    return keys, tables
+
+
+def _register(draw: Draw, sel: Decider, number: int) -> tuple[Json, Json]:
+    name = f"x{number}"
+    form = _of(draw, *["words"] * 8, "coil", "discrete")
+    if form == "words":
+        keys, tables = _words(draw, sel, name)
+    else:
+        keys, tables = {"space": form, "access": "r" if form == "discrete" else "rw"}, {}
+        keys |= {"enum": {0: "open", 1: "closed"}} if _maybe(draw) else {}
+    if keys["access"] != "r" and _maybe(draw, 6):
+        keys["writable"] = {"when": _condition(draw, sel), "reason": "only then"}
+    return {"at": 0, "name": name.upper()} | keys, tables
+
+
+def _deciders(draw: Draw, sel: Decider) -> list[Json]:
+    """The registers that decide, of which each may be of many shapes."""
+    shapes = {"sel": sel.keys, "dig": _of(draw, *DIGITS), "order": _of(draw, *ORDERS)}
+    shapes |= {"low": _of(draw, *BOUNDS), "high": _of(draw, *BOUNDS)}
+    return [{"at": 0, "name": name.title()} | keys for name, keys in shapes.items()]
+
+
+def _array(name: str, stride: int, registers: list[Json]) -> Json:
+    return {"id": name, "name": name, "repeat": "1..2", "stride": stride, "registers": registers}
+
+
+def _placed(draw: Draw, deciders: list[Json], registers: list[Json]) -> list[Json]:
+    """All registers at addresses of their own: beside each other, or in an array, or in an array of arrays."""
+    place, inside = _of(draw, "alone", "array", "nested"), _of(draw, True, False)
+    for number, one in enumerate([*deciders, *registers]):
+        one["at"] = STEP * number
+    if place == "alone":
+        return deciders + registers
+    within = deciders + registers if inside else registers
+    rows = [_array("rows", ELEMENT, within)]
+    if place == "nested":
+        rows = [_array("parts", OUTER, rows)]
+    return rows if inside else deciders + rows
+
+
+@st.composite
+def maps(draw: Draw) -> Json:
+    """The parts of a map as `suite.whole_map` completes them; many are sound, the others are refused by a rule."""
+    sel = _of(draw, *SELECTORS)
+    digits: Json = {"register": "dig"} | ({"at_most": 2} if _maybe(draw, 4) else {})
+    digits |= {"when": {sel.subject: _of(draw, *sel.matchers)}} if _maybe(draw, 4) else {}
+    parts: Json = {
+        "decimals": {"digits": digits},
+        "conditions": {"named": {sel.subject: _of(draw, *sel.matchers)}},
+        "scales": {},
+        "views": {},
+    }
+    registers = []
+    for number in range(draw(st.integers(1, MOST))):
+        register, tables = _register(draw, sel, number)
+        registers.append(register)
+        for table, entries in tables.items():
+            parts[table] |= entries
+    placed = _placed(draw, _deciders(draw, sel), registers)
+    return {key: value for key, value in parts.items() if value} | {"registers": placed}

@@ -1,0 +1,322 @@
+"""One random map on trial: driver, reference and simulator are given the same words and values, and must agree."""
+
+import random
+from collections.abc import Iterable, Iterator
+from fractions import Fraction
+from math import isfinite
+from typing import Any
+
+from regscribe.model import NotANumber, Register, View, WireType
+from regscribe.model.reference import (
+    Meaning,
+    Reading,
+    Reason,
+    RefusedError,
+    Surroundings,
+    UnknownValueError,
+    decode,
+    encode,
+    holds,
+    transmit,
+    wire_number,
+    word_order,
+)
+from regscribe.runtime import ExceptionAnswer, ValueNotDecodable, ValueRefused
+from regscribe.runtime.sending import condition_needs
+from regscribe.simulate import codec as simulated_codec
+from regscribe.simulate.device import SimulatedDevice
+from regscribe.testing.bench import Bench
+
+from . import judges, probes
+from .matrix_watch import Wire
+from .probes import Words
+from .suite import Built
+from .wire import Memory
+
+LIKELY = 0.8
+"""How often a register holds what one is likely to hold; else anything."""
+FEW = 8
+"""How many words and how many values are tried of all that are worth it."""
+
+CHECKS = (
+    Bench.check_registers,
+    Bench.check_device,
+    Bench.check_decoding,
+    Bench.check_encoding,
+    Bench.check_refusals,
+    Bench.check_conditions_of_writing,
+)
+"""What a generated test asks of a driver and its vectors."""
+
+
+class Asked:
+    """The words of a simulated device, as a master gets them."""
+
+    def __init__(self, device: SimulatedDevice, views: dict[tuple[str, int], View]) -> None:
+        self._device, self._views = device, views
+
+    def get(self, space: str, address: int, count: int) -> list[int]:
+        """The words of the view at an address."""
+        found = judges.ask(self._device, self._views[space, address])
+        assert len(found) == count
+        return found
+
+
+class Trial:
+    """A map, its driver on a device of nothing but words, and its driver on a simulated device."""
+
+    def __init__(self, built: Built, chance: random.Random) -> None:
+        self.built, self.chance = built, chance
+        self.registers = built.map.models[0].registers
+        self.memory = Memory()
+        self.plain = built.module.CaseA(Wire(self.memory.answer), unit=1)
+        self.device = SimulatedDevice(built.map, "A", unit=1)
+        self.driver = built.module.CaseA(Wire(self.device.handle), unit=1)
+        views = {(view.space.value, view.address): view for one in self.registers for view in one.views}
+        self.asked = Asked(self.device, views)
+
+    def differences(self) -> Iterator[str]:
+        """Everything that one says otherwise than another."""
+        yield from self._of_vectors()
+        self.hold()
+        yield from self._of_snapshot()
+        some = self.chance.sample(self.registers, min(len(self.registers), FEW))
+        for register in some:
+            for view in register.views:
+                yield from (f"{register.path}, {view.name}: {one}" for one in self._of_view(register, view))
+
+    # -- what the devices hold ----------------------------------------------------------------------------------
+
+    def hold(self) -> None:
+        """Let every register hold some words: those of a plausible value, or any."""
+        for register in self.registers:
+            likely = probes.plausible(register.base) if self.chance.random() < LIKELY else ()
+            self._put(register, register.base, self.chance.choice(likely or self.words(register, register.base)))
+
+    def _put(self, register: Register, view: View, words: Words) -> None:
+        """Put words into the view of the one device, and what they mean into the other; all views of both agree."""
+        stored = self._stored(register, view, words)
+        if stored is not None:
+            self.device.state.store(register.path, stored)
+        for each in register.views:
+            shown = self.device.peek_words(register.path, each.name)
+            self.memory.put(each.space.value, each.address, list(shown))
+        self.memory.put(view.space.value, view.address, list(words))
+
+    def _stored(self, register: Register, view: View, words: Words) -> Fraction | NotANumber | str | None:
+        """What a device holds whose view shows the words; None for words that nothing stored is shown by."""
+        if view.type is WireType.STRING:
+            return simulated_codec.decode(view, words, self.device.state.order(view))
+        order = word_order(view, self._known(self.asked))
+        number = None if order is None else wire_number(view, words, order)
+        if isinstance(number, NotANumber):
+            shown = all(one.type.is_float for one in register.views)
+            return number if shown and words == transmit(view, number, self._known(self.asked)) else None
+        return number and number / view.factor
+
+    def words(self, register: Register, view: View) -> list[Words]:
+        """Some of the words that are worth trying."""
+        words = probes.words(register, view, self.chance)
+        return self.chance.sample(words, min(len(words), FEW))
+
+    def _of_vectors(self) -> Iterator[str]:
+        """The driver is what the vectors say, as the generated tests ask it."""
+        bench = judges.bench_of(self.built)
+        for check in CHECKS:
+            try:
+                check(bench)
+            except AssertionError as error:
+                yield f"{check.__name__}: {error}"
+
+    # -- reading ------------------------------------------------------------------------------------------------
+
+    def _of_snapshot(self) -> Iterator[str]:
+        for device, memory in ((self.plain, self.memory), (self.driver, self.asked)):
+            device.session.forget()
+            for path, value in device.read().entries.items():
+                register = self.built.map.models[0].register(path)
+                found = judges.said_by_error(value, path) if isinstance(value, ValueNotDecodable) else number_of(value)
+                expected = self._reading(register, register.read_view, memory)
+                if not same(found, expected) and not any(same(found, one) for one in self._elsewhere(register, memory)):
+                    yield f"{path} among all: driver {found!r}, reference {expected!r}"
+
+    def _elsewhere(self, register: Register, memory: Any) -> Iterator[object]:
+        """What views of the same type and factor say: the planner may take any of them."""
+        usual = register.read_view
+        for view in register.views:
+            if (view.type, view.factor, view.saturates) == (usual.type, usual.factor, usual.saturates):
+                yield self._reading(register, view, memory)
+
+    def _of_view(self, register: Register, view: View) -> Iterator[str]:
+        for one in self.words(register, view):
+            self._put(register, view, one)
+            if register.access.readable and any(view.allows(one) for one in (1, 2, 3, 4, 7)):
+                yield from self._read(register, view, one)
+        if register.access.writable and any(view.allows(one) for one in (5, 6, 16)[2 * (view.words > 1) :]):
+            yield from self._written(register, view)
+
+    def _read(self, register: Register, view: View, words: Words) -> Iterator[str]:
+        for device, memory in ((self.plain, self.memory), (self.driver, self.asked)):
+            device.session.forget()
+            expected = self._reading(register, view, memory)
+            found = self._driver_reads(device, register, view)
+            if not same(found, expected):
+                yield f"{words} on {type(memory).__name__}: driver {found!r}, reference {expected!r}"
+        yield from self._shown(register, view, words)
+
+    def _driver_reads(self, device: Any, register: Register, view: View) -> object:
+        try:
+            return number_of(judges.attribute(device, register.path).read(view=view.name))
+        except ValueNotDecodable as error:
+            return judges.said_by_error(error, register.path)
+
+    def _reading(self, register: Register, view: View, memory: Any) -> object:
+        words = tuple(memory.get(view.space.value, view.address, view.words))
+        try:
+            return said(decode(register, view, words, self._known(memory)))
+        except UnknownValueError:
+            return {"no value": True}
+
+    def _known(self, memory: Any) -> Surroundings:
+        return Surroundings(values=judges.Present(self.built, memory))
+
+    def _shown(self, register: Register, view: View, words: Words) -> Iterator[str]:
+        """A simulated device that took words in a view shows in each view what the stored number is there."""
+        stored = self._stored(register, view, words)
+        if stored is None or isinstance(stored, str):
+            return
+        for other in register.views:
+            try:
+                expected = list(transmit(other, stored, self._known(self.asked)))
+            except RefusedError:
+                continue  # what a device does with a number that a view cannot carry, no map says
+            found = judges.ask(self.device, other) if any(other.allows(one) for one in (1, 2, 3, 4, 7)) else expected
+            if found != expected:
+                yield f"{words} show in {other.name} as {found}, not {expected}"
+
+    # -- writing ------------------------------------------------------------------------------------------------
+
+    def _written(self, register: Register, view: View) -> Iterator[str]:
+        values = probes.values(register)
+        for value in self.chance.sample(values, min(len(values), FEW)):
+            yield from self._value_written(register, view, value)
+        if register.access.readable and any(view.allows(one) for one in (1, 3)):
+            for words in self.words(register, view):
+                yield from self._words_written(register, view, words)
+
+    def _encoded(self, register: Register, view: View, value: Fraction | str, memory: Any) -> object:
+        known = self._known(memory)
+        try:
+            if register.writable is not None and not holds(register.writable.when, known):
+                return judges.REFUSED
+            return list(encode(register, view, value, known))
+        except (RefusedError, UnknownValueError):
+            return judges.REFUSED
+
+    def _value_written(self, register: Register, view: View, value: Fraction | str) -> Iterator[str]:
+        declared = self.plain.registers[register.path]
+        given = _given(declared, value)
+        for device, memory in ((self.plain, self.memory), (self.driver, self.asked)):
+            device.session.forget()
+            before = self.device.state.stored(register.path)
+            expected = self._encoded(register, view, value, memory)
+            log = device.link.log
+            log.clear()
+            try:
+                judges.attribute(device, register.path).write(given, view=view.name, verify=False)
+            except (ValueRefused, ValueNotDecodable):
+                found: object = judges.REFUSED
+            except ExceptionAnswer as error:
+                found = f"the device refuses: {error}"
+            else:
+                found = _sent(log)
+            self.device.state.store(register.path, before)
+            if found == judges.REFUSED and not self._decided(register, view, memory):
+                continue  # a driver writes nothing while it cannot tell what decides about it
+            if found != expected:
+                yield f"writing {value} on {type(memory).__name__}: driver {found!r}, reference {expected!r}"
+
+    def _decided(self, register: Register, view: View, memory: Any) -> bool:
+        """Whether everything has a value that may decide about a write."""
+        declared = self.plain.registers[register.path]
+        needs = {*declared.needs(declared.view(view.name)), *declared.limit_needs, *condition_needs(declared)}
+        return all(path in judges.Present(self.built, memory) for path in needs)
+
+    def _words_written(self, register: Register, view: View, words: Words) -> Iterator[str]:
+        """A simulated device takes words whose value may be written, and refuses those whose value may not."""
+        try:
+            reading = decode(register, view, words, self._known(self.asked))
+            if reading.meaning is not Meaning.VALUE or reading.value is None:
+                return
+            if register.writable is not None and not holds(register.writable.when, self._known(self.asked)):
+                expected = False
+            else:
+                if encode(register, view, reading.value, self._known(self.asked)) != words:
+                    return  # other words of the same value: true is written as 1
+                expected = True
+        except UnknownValueError:
+            return
+        except RefusedError as refused:
+            if refused.reason not in {Reason.RANGE, Reason.MEMBER}:
+                return
+            expected = False
+        before = self.device.state.stored(register.path)
+        answer = self.device.handle(_request(view, words))
+        assert answer is not None
+        accepted = answer[0] < 0x80
+        told = judges.ask(self.device, view)
+        self.device.state.store(register.path, before)
+        if accepted is not expected:
+            yield f"words {words}, {reading}: the simulator {'takes' if accepted else 'refuses'} them"
+        elif accepted and tuple(told) != words and said(decode(register, view, tuple(told), self._known(self.asked))) != said(reading):
+            yield f"words {words} were taken by the simulator, which shows {told}"
+
+
+def _given(declared: Any, value: Fraction | str) -> Any:
+    """A value as a program would hand it to a driver: an int, a float, a text, a member."""
+    if isinstance(value, str):
+        return value
+    number = int(value) if value.denominator == 1 else float(value)
+    try:
+        made = declared.kind.make(number)
+    except Exception:  # noqa: BLE001 (a kind refuses as it likes what it cannot be)
+        return number
+    return made if made == number else number
+
+
+def _sent(log: Iterable[Any]) -> object:
+    writes = [one for one in log if one[1] in {5, 6, 15, 16}]
+    return list(writes[-1][4]) if len(writes) == 1 else writes
+
+
+def _request(view: View, words: Words) -> bytes:
+    where = view.address.to_bytes(2, "big")
+    if view.space.is_bits:
+        return b"\x05" + where + (b"\xff\0" if words[0] else b"\0\0")
+    data = b"".join(word.to_bytes(2, "big") for word in words)
+    if len(words) == 1 and view.allows(6):
+        return b"\x06" + where + data
+    return b"\x10" + where + len(words).to_bytes(2, "big") + bytes([len(data)]) + data
+
+
+def number_of(value: Any) -> object:
+    """A value of a driver as a text, or as a number: a float is one of its own."""
+    if isinstance(value, str):
+        return value
+    return value if isinstance(value, float) else Fraction(int(value))
+
+
+def said(reading: Reading) -> object:
+    """What the reference says, as drivers say it."""
+    if reading.meaning is Meaning.FAULT:
+        return {"fault": reading.fault}
+    if reading.meaning in {Meaning.VALUE, Meaning.UNKNOWN_MEMBER} and reading.value is not None:
+        return reading.value
+    return {"no value": True}
+
+
+def same(found: object, expected: object) -> bool:
+    """Whether a driver says what the reference says: the same, or the float nearest to it."""
+    if isinstance(found, float) and isinstance(expected, Fraction):
+        return isfinite(found) and found == float(expected)
+    return found == expected
