@@ -9,8 +9,8 @@ from .suite import Json
 Draw = st.DrawFn
 INTEGERS = ("uint16", "int16", "uint32", "int32", "uint64", "int64")
 FLOATS = ("float32", "float64")
-LIMITS = {f"{sign}int{bits}": ends for bits in (16, 32, 64) for sign, ends in (
-    ("u", (0, 2**bits - 1)), ("", (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)))}
+LIMITS = {f"uint{bits}": (0, 2**bits - 1) for bits in (16, 32, 64)}
+LIMITS |= {f"int{bits}": (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1) for bits in (16, 32, 64)}
 STEP, ELEMENT, OUTER, VIEW, MOST = 4, 60, 200, 1000, 3
 """Addresses from one register, element, outer element and view to the next; the most of the registers that depend."""
 
@@ -171,7 +171,7 @@ def _meaning(draw: Draw, sel: Decider, name: str, kind: str) -> tuple[Json, Json
 
 def _orders(draw: Draw, keys: Json) -> Json:
     """The keys with an order of words, where there are several, and of bytes."""
-    if keys.get("length", 1) > 1 or not keys["type"].endswith(("16", "string")) and _maybe(draw, 2):
+    if keys.get("length", 1) > 1 or (not keys["type"].endswith(("16", "string")) and _maybe(draw, 2)):
         by_register = {"register": "order", "codes": {0: "big", 1: "little"}}
         keys["word_order"] = _of(draw, "little", by_register, by_register)
     if _maybe(draw, 4):
@@ -189,7 +189,9 @@ def _views(draw: Draw, kind: str, access: str, *, scaled: bool) -> Json:
             view |= {"factor": _of(draw, 10, 100, 0.5, 0.1)} if scaled and _maybe(draw, 2) else {}
             view |= {"rounding": _of(draw, "half_up", "half_away", "half_even", "down")} if _maybe(draw, 2) else {}
             view |= {"saturates": True} if view["type"] in INTEGERS and _maybe(draw) else {}
-            view |= {"preferred": True} if _maybe(draw) and not any("preferred" in one for one in views.values()) else {}
+            view |= (
+                {"preferred": True} if _maybe(draw) and not any("preferred" in one for one in views.values()) else {}
+            )
         if access == "rw" and _maybe(draw, 5):
             view["functions"] = _of(draw, [3], [3, 16], [3, 6, 16], [16])
         views[f"view{number}"] = _orders(draw, view)
@@ -241,7 +243,7 @@ def _array(name: str, stride: int, registers: list[Json]) -> Json:
 
 def _placed(draw: Draw, deciders: list[Json], registers: list[Json]) -> list[Json]:
     """All registers at addresses of their own: beside each other, or in an array, or in an array of arrays."""
-    place, inside = _of(draw, "alone", "array", "nested"), _of(draw, True, False)
+    place, inside = _of(draw, "alone", "array", "nested"), _maybe(draw, 2)
     for number, one in enumerate([*deciders, *registers]):
         one["at"] = STEP * number
     if place == "alone":

@@ -30,7 +30,7 @@ def test_a_key_that_nothing_looks_at_is_found() -> None:
 
 @pytest.mark.slow
 def test_no_key_is_ignored(capsys: pytest.CaptureFixture[str]) -> None:
-    verdicts = matrix.judged(every=ALL)
+    verdicts = matrix.judged_by_all_cores(every=ALL)
     with capsys.disabled():
         print(f"\n{matrix.table(verdicts)}")  # noqa: T201 (what this run is for)
     assert [one.line() for one in verdicts if one.fate == "ignored"] == []

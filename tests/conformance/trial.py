@@ -2,6 +2,7 @@
 
 import random
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from fractions import Fraction
 from math import isfinite
 from typing import Any
@@ -33,6 +34,7 @@ from .probes import Words
 from .suite import Built
 from .wire import Memory
 
+EXCEPTION = 0x80
 LIKELY = 0.8
 """How often a register holds what one is likely to hold; else anything."""
 FEW = 8
@@ -215,7 +217,7 @@ class Trial:
 
     def _value_written(self, register: Register, view: View, value: Fraction | str) -> Iterator[str]:
         declared = self.plain.registers[register.path]
-        given = _given(declared, value)
+        given = _given(declared, view, value)
         for device, memory in ((self.plain, self.memory), (self.driver, self.asked)):
             device.session.forget()
             before = self.device.state.stored(register.path)
@@ -244,44 +246,49 @@ class Trial:
 
     def _words_written(self, register: Register, view: View, words: Words) -> Iterator[str]:
         """A simulated device takes words whose value may be written, and refuses those whose value may not."""
-        try:
-            reading = decode(register, view, words, self._known(self.asked))
-            if reading.meaning is not Meaning.VALUE or reading.value is None:
-                return
-            if register.writable is not None and not holds(register.writable.when, self._known(self.asked)):
-                expected = False
-            else:
-                if encode(register, view, reading.value, self._known(self.asked)) != words:
-                    return  # other words of the same value: true is written as 1
-                expected = True
-        except UnknownValueError:
+        expected = self._may_take(register, view, words)
+        if expected is None:
             return
-        except RefusedError as refused:
-            if refused.reason not in {Reason.RANGE, Reason.MEMBER}:
-                return
-            expected = False
         before = self.device.state.stored(register.path)
         answer = self.device.handle(_request(view, words))
-        assert answer is not None
-        accepted = answer[0] < 0x80
-        told = judges.ask(self.device, view)
+        shown = judges.ask(self.device, view)
         self.device.state.store(register.path, before)
-        if accepted is not expected:
-            yield f"words {words}, {reading}: the simulator {'takes' if accepted else 'refuses'} them"
-        elif accepted and tuple(told) != words and said(decode(register, view, tuple(told), self._known(self.asked))) != said(reading):
-            yield f"words {words} were taken by the simulator, which shows {told}"
+        assert answer is not None
+        if (answer[0] < EXCEPTION) is not expected:
+            yield f"words {words}: the simulator {'refuses' if expected else 'takes'} them"
+        elif expected and tuple(shown) != words:
+            yield f"words {words} were taken by the simulator, which shows {shown}"
+
+    def _may_take(self, register: Register, view: View, words: Words) -> bool | None:
+        """Whether the reference writes just these words for their value; None where the map leaves it to the device."""
+        known = self._known(self.asked)
+        try:
+            if register.writable is not None and not holds(register.writable.when, known):
+                return False
+            reading = decode(register, view, words, known)
+            if reading.meaning is not Meaning.VALUE or reading.value is None:
+                return None
+            return True if encode(register, view, reading.value, known) == words else None
+        except RefusedError as refused:
+            return False if refused.reason in {Reason.RANGE, Reason.MEMBER} else None
+        except UnknownValueError:
+            return None
 
 
-def _given(declared: Any, value: Fraction | str) -> Any:
-    """A value as a program would hand it to a driver: an int, a float, a text, a member."""
+def _given(declared: Any, view: View, value: Fraction | str) -> Any:
+    """A value as a program would hand it to a driver: a member, an int, or a float.
+
+    A float counts as its shortest decimal, but also as what it is exactly, where the view carries just that.
+    """
     if isinstance(value, str):
         return value
     number = int(value) if value.denominator == 1 else float(value)
-    try:
+    with suppress(Exception):  # a kind refuses as it likes what it cannot be
         made = declared.kind.make(number)
-    except Exception:  # noqa: BLE001 (a kind refuses as it likes what it cannot be)
-        return number
-    return made if made == number else number
+        exactly = not isinstance(made, float) or Fraction(repr(made)) == value or view.type is WireType.FLOAT32
+        if made == number and exactly:
+            return made
+    return number
 
 
 def _sent(log: Iterable[Any]) -> object:

@@ -34,6 +34,17 @@ label = ReadWrite(0, (View("base", UINT16, words=3),), text)
 label_low_first = ReadWrite(0, (View("base", UINT16, words=3, byte_order="little"),), text)
 
 
+@pytest.mark.parametrize("value", [2.0**63, 2**63, 2.0**100, -(2.0**63), 1 + 2.0**-23])
+def test_what_a_float32_carries_exactly_is_written_though_its_shortest_decimal_is_another_number(value: float) -> None:
+    assert ieee.encode(value) == struct.unpack(">2H", struct.pack(">f", value))
+
+
+@pytest.mark.parametrize("value", [Decimal("9.223372036854776E+18"), Decimal("1.00000000000000001"), 1 + 2.0**-24])
+def test_what_is_no_float_counts_as_it_is_spelled(value: float) -> None:
+    with pytest.raises(ValueRefused, match="finer than float32"):
+        ieee.encode(value)
+
+
 @given(st.integers(0, 65535))
 def test_an_affine_scale_gives_the_float_nearest_to_the_exact_value(raw: int) -> None:
     value = tenths.decode((raw,))

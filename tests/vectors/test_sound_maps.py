@@ -47,6 +47,10 @@ SOUND = {
         "- {at: 0, name: M, access: rw, enum: {0: a, 1: b}}\n"
         "- {at: 1, name: V, type: int16, access: rw, scale: s, sentinels: {-1: none}}"
     ),
+    "limits in registers while no scale holds": (
+        "- {at: 0, name: M, access: rw, enum: {0: a, 1: b}}\n- {at: 1, name: Low, access: rw}\n"
+        "- {at: 2, name: V, type: int16, access: rw, scale: s, range: {from: low, to: 500}}"
+    ),
     "faults among bits": (
         "- {at: 0, name: A, type: int16, access: rw, fields: {x: {bits: 0..3}}, sentinels: {0: none, -1: bad}}\n"
         "- {at: 1, name: B, access: rw, flags: {3: b, 7: c}, sentinels: {0: none, 136: bad}}"

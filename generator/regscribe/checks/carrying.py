@@ -5,7 +5,7 @@ from enum import Enum
 from fractions import Fraction
 from typing import NamedTuple
 
-from regscribe.model import IDENTITY, Conversion, Decimals, Number, Range, Register, View, show
+from regscribe.model import IDENTITY, Conversion, Decimals, Number, Range, Register, Special, View, show
 from regscribe.model.reference import ieee_bits, ieee_number, shortest
 
 MOST_DECIMALS = 4
@@ -106,6 +106,11 @@ def best_fit(register: Register, values: tuple[Fraction, ...]) -> Fit:
 def end_values(limits: Range, number: Fraction) -> tuple[Fraction, ...]:
     """Every value that a printed limit can mean: the range's decimals divide it."""
     return tuple(number / factor for factor in factors(limits.decimals)) if limits.decimals else (number,)
+
+
+def values_of(register: Register, special: Special) -> tuple[Fraction, ...]:
+    """Every value of use that the code of a special value can be: the range's decimals divide it too."""
+    return tuple(special.code / factor for case in register.special_scale for factor in factors(case.then.decimals))
 
 
 def numbers(limits: Range) -> Iterator[Fraction]:

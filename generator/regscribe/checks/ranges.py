@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from itertools import pairwise
 
+from regscribe.checks.carrying import forms, values_of
 from regscribe.checks.registry import Finding, Scope, register_rule
 from regscribe.model import Number, Register, Rule, Sentinel, Special, show
 from regscribe.model.reference import RefusedError, UnknownValueError, choose, limits
@@ -77,11 +78,26 @@ def sentinels_twice(register: Register, _: Scope) -> Iterator[Finding]:
     Rule("RS0439", "Special value is a fault too", "One number cannot be both a setting and the report of a fault.")
 )
 def special_is_sentinel(register: Register, _: Scope) -> Iterator[Finding]:
-    """Compare special values with sentinels where the scale leaves numbers as they are stored."""
-    if any(case.then.multiply != 1 or case.then.add or case.then.decimals for case in register.scale):
-        return
-    faults = {sentinel.stored: sentinel for sentinel in register.sentinels}
-    for special in register.specials:
-        if special.code in faults:
+    """Compare sentinels with the stored number of each special value, under every scale."""
+    faults = {sentinel.stored for sentinel in register.sentinels}
+    every = forms(register)
+    for special in register.specials if faults else ():
+        stored = {form.stored(value) for value in values_of(register, special) for form in every}
+        if stored and stored <= faults:
             message = f'has {show(special.code)} as special value "{special.label}" and as a fault'
             yield Finding.at(register, message, "remove one of them")
+
+
+@register_rule(
+    Rule("RS0603", "Number with two codes", "A number that one special value stands for cannot be the code of another.")
+)
+def meant_by_two(register: Register, _: Scope) -> Iterator[Finding]:
+    """Compare what special values stand for with the codes of those that stand for nothing else."""
+    for special in register.specials:
+        others = [one for one in register.specials if one.means is None]
+        rivals = [one for one in others if special.means in values_of(register, one)]
+        if special.means is not None and rivals:
+            message = (
+                f'has {show(special.means)} as what "{special.label}" means and as the code of "{rivals[0].label}"'
+            )
+            yield Finding.at(register, message, "correct the number or the code")

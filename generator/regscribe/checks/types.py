@@ -3,7 +3,17 @@
 from collections.abc import Iterator
 from fractions import Fraction
 
-from regscribe.checks.carrying import Fit, best_fit, end_values, ends_of, factors, listed, numbers, tells_apart, widest
+from regscribe.checks.carrying import (
+    Fit,
+    best_fit,
+    end_values,
+    ends_of,
+    listed,
+    numbers,
+    tells_apart,
+    values_of,
+    widest,
+)
 from regscribe.checks.registry import Finding, Scope, register_rule, warning
 from regscribe.model import (
     IDENTITY,
@@ -53,9 +63,7 @@ def default_outside_type(register: Register, _: Scope) -> Iterator[Finding]:
 def special_outside_type(register: Register, _: Scope) -> Iterator[Finding]:
     """Try each special value as the ranges count it."""
     for special in register.specials:
-        values = tuple(
-            special.code / factor for case in register.special_scale for factor in factors(case.then.decimals)
-        )
+        values = values_of(register, special)
         fit = best_fit(register, values)
         if fit is Fit.EXACT and not any(tells_apart(register, value) for value in values):
             fit = Fit.TOO_FINE

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 from regscribe.runtime.errors import NotDecodable, Saturated, SensorFault, ValueNotDecodable, ValueRefused
 from regscribe.runtime.spec import Conversion, Converter, Givens, Limits, Ref, State, Text, View, choose
-from regscribe.runtime.wire import LITTLE, ROUNDINGS, brief, exact, shortest, show
+from regscribe.runtime.wire import FLOAT32, LITTLE, ROUNDINGS, brief, carries, exact, shortest, show
 
 if TYPE_CHECKING:
     from regscribe.runtime.register import Register
@@ -358,6 +358,8 @@ def encode(
     arrange = arranger(view, register.path, state)
     if register.kind.name == "string":
         return tuple(arrange(_from_text(register, view, value)))
+    if isinstance(value, float) and view.type is FLOAT32 and carries(FLOAT32, value):
+        value = Fraction(value)  # 2.0**63 is meant, whose shortest decimal is another number
     amount, special = _amount(register, int(value) & ~kept if kept else value, state, givens)  # type: ignore[call-overload] # flags are whole numbers
     amount += kept
     if not register.kind.coded:
@@ -469,8 +471,7 @@ def _float_words(register: "Register[Any]", view: View, exactly: Fraction, *, ro
     except OverflowError:
         raise ValueRefused(register.path, f"{show(exactly)} is too large for {view.type.name}") from None
     back = shortest(there, view.type)
-    same = exactly in (Fraction(there), Fraction(back)) or float(exactly) == there  # 2.0**63 is 9.223372036854776e18
-    if not same and not rounded:
+    if exactly not in (Fraction(there), Fraction(back)) and not rounded:
         raise ValueRefused(
             register.path, f"finer than {view.type.name} can carry; the nearest number on the wire is {back}"
         )

@@ -91,7 +91,8 @@ def read(register: Register[T], view_name: str | None) -> Task[T]:
             unknown = yield from _unknown(session, register.needs(view))
             made = codec.decoder(register, view, session.memory, session.givens, unknown)
             if unknown:
-                return made((yield from session.exchange(read_request(register, view))))
+                only_now: T = made((yield from session.exchange(read_request(register, view))))
+                return only_now  # what is unknown may have a value when it is read again
             session.prepared[key] = read_request(register, view), made
         request, decode = session.prepared[key]
         value: T = decode((yield from session.exchange(request)))

@@ -66,6 +66,14 @@ UINT64, INT64 = WireType("uint64", "Q"), WireType("int64", "q")
 FLOAT32, FLOAT64 = WireType("float32", "f"), WireType("float64", "d")
 
 
+def carries(wire_type: WireType, number: float) -> bool:
+    """Whether a float of a program is a number that the IEEE type has too."""
+    try:
+        return math.isfinite(number) and wire_type.unpack(wire_type.pack(number)) == number
+    except OverflowError:
+        return False
+
+
 def shortest(number: float, wire_type: WireType) -> Decimal:
     """The decimal with the fewest digits that reads back as the same IEEE number.
 

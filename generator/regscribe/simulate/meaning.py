@@ -72,7 +72,7 @@ class Meaning(ABC):
         return self.number(register, stored) if field is None else field_value(stored, field)
 
     def number(self, register: Register, stored: Fraction) -> Fraction:
-        """Return the value of use of a stored number: of what is true 1, of a special value the number it stands for."""
+        """Return the value of use of a stored number: 1 for what is true, for a special value what it stands for."""
         value = self.to_value(register, stored)
         if register.kind is Kind.BOOLEAN:
             return Fraction(value != 0)
@@ -99,7 +99,7 @@ class Meaning(ABC):
         return self.choose(register.scale) or IDENTITY
 
     def power(self, decimals: Decimals | None) -> int:
-        """10 to the number of decimals that a register holds now; what is no number of decimals counts as the nearest."""
+        """10 to the number of decimals that a register holds now; of what is none the nearest that is one."""
         if decimals is None:
             return 1
         digits = min(max(0, int(self.lookup(decimals.register))), MOST_DECIMALS)

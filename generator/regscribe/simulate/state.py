@@ -263,7 +263,7 @@ class State(Meaning):
     def _no_number(self, register: Register, value: NotANumber) -> NotANumber:
         whole = [view.name for view in register.views if not view.type.is_float]
         if whole:
-            message = f"register {register.path!r} cannot hold {value.value}: its view {whole[0]} has whole numbers only"
+            message = f"register {register.path!r} cannot hold {value.value}: view {whole[0]} has whole numbers only"
             raise SimulatorError(message)
         return value
 

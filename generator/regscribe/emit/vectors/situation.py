@@ -6,7 +6,7 @@ from fractions import Fraction
 from itertools import islice, product
 
 from regscribe.emit.vectors.subject import GivenTry, Questions, Tries, Values, questions_of, tries_of
-from regscribe.model import Conversion, Interval, Kind, Model, Number, Reference, Register, RegisterMap, View
+from regscribe.model import IDENTITY, Conversion, Interval, Kind, Model, Number, Reference, Register, RegisterMap, View
 from regscribe.model.condition import Cases, T
 from regscribe.model.reference import Surroundings, choose, decimal_factor, holds, word_order
 
@@ -188,8 +188,10 @@ def _with_limits(register: Register, situation: Situation) -> Situation:
     conversion = choose(register.scale, known)
     limits_now = choose(register.range, known) if register.access.writable else None
     factor = conversion and decimal_factor(conversion.decimals, known)
-    if conversion is None or limits_now is None or not factor or register.kind is Kind.STRING:
+    if limits_now is None or register.kind is Kind.STRING:
         return situation
+    if conversion is None or not factor:  # nothing can be written then, whatever the limits
+        conversion, factor = IDENTITY, Fraction(1)
     ends = sorted((conversion.multiply * stored + conversion.add) / factor for stored in (LOW_STORED, HIGH_STORED))
     values = dict(situation.values)
     for interval in limits_now.intervals:

@@ -6,7 +6,15 @@ written apart from it, so that neither inherits the other's mistakes.
 
 from regscribe.model.reference.codec import decode, encode, sentinel_number, special_value, version_text
 from regscribe.model.reference.ieee import NotFiniteError, ieee_bits, ieee_number, not_a_number, shortest
-from regscribe.model.reference.known import MOST_DECIMALS, NOTHING_KNOWN, Surroundings, choose, decimal_factor, holds, limits
+from regscribe.model.reference.known import (
+    MOST_DECIMALS,
+    NOTHING_KNOWN,
+    Surroundings,
+    choose,
+    decimal_factor,
+    holds,
+    limits,
+)
 from regscribe.model.reference.outcome import Meaning, Reading, Reason, RefusedError, UnknownValueError
 from regscribe.model.reference.words import carried, round_by, transmit, wire_number, word_order
 

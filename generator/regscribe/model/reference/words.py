@@ -15,7 +15,7 @@ from regscribe.model.reference.ieee import (
 from regscribe.model.reference.known import NOTHING_KNOWN, Surroundings
 from regscribe.model.reference.outcome import Reason, RefusedError
 from regscribe.model.value import NAN, NotANumber
-from regscribe.model.wire import Order, Rounding, View, WireType
+from regscribe.model.wire import Order, Rounding, View
 
 HALF = Fraction(1, 2)
 
@@ -111,7 +111,7 @@ def spelled(view: View, number: Fraction, order: Order, *, rounded: bool) -> tup
         if bits is None:
             raise RefusedError(Reason.TYPE, f"{show(number)} is beyond {view.type}")
         carried = ieee_number(bits, view.type)
-        if not rounded and number not in (carried, shortest(carried, view.type)) and not _floats_to(number, carried):
+        if not rounded and number not in (carried, shortest(carried, view.type)):
             raise RefusedError(Reason.RESOLUTION, f"{show(number)} is finer than {view.type}")
         return _words_of(view, bits, order)
     if number.denominator != 1 and not rounded:
@@ -121,12 +121,6 @@ def spelled(view: View, number: Fraction, order: Order, *, rounded: bool) -> tup
     if not lowest <= whole <= highest:
         raise RefusedError(Reason.TYPE, f"{whole} lies outside {lowest} to {highest} of {view.type}")
     return _words_of(view, whole % (1 << view.type.bits), order)
-
-
-def _floats_to(number: Fraction, carried: Fraction) -> bool:
-    """Whether a program that holds `number` in a float holds `carried`: 9223372036854776000 is 2 to the power of 63."""
-    bits = ieee_bits(number, WireType.FLOAT64)
-    return bits is not None and ieee_number(bits, WireType.FLOAT64) == carried
 
 
 def transmit(view: View, stored: Fraction | NotANumber, known: Surroundings = NOTHING_KNOWN) -> tuple[int, ...]:
