@@ -34,7 +34,7 @@ format: $(INSTALLED) ## format the code
 bench: $(INSTALLED) ## measure against the budgets and against other tools, side by side
 	$(BIN)/python tests/bench/run.py
 
-fuzz: $(INSTALLED) ## random sound maps in thousands (FUZZ_MAPS=..): driver and reference must agree
+fuzz: $(INSTALLED) ## random maps in thousands (FUZZ_MAPS=..): drivers, reference, simulator and vectors must agree
 	$(BIN)/pytest -q -m slow tests/conformance/test_differential.py
 
 conformance: $(INSTALLED) ## what the language means, as bytes and values: the cases of tests/conformance, by everybody who is judged

@@ -13,7 +13,9 @@ from .strategies import maps
 from .suite import Built, Json, diagnose, errors_of, module_of, whole_map
 from .trial import Trial
 
-FUZZ = int(os.environ.get("FUZZ_MAPS", "20000"))
+FUZZ = int(os.environ.get("FUZZ_MAPS", "10000"))
+"""How many maps `make fuzz` draws; about three of four are sound."""
+FEW = 250
 STEADY = settings(
     deadline=None,
     database=None,
@@ -33,7 +35,7 @@ def disagreements(parts: Json, seed: int) -> list[str]:
     return list(trial.differences())
 
 
-@settings(STEADY, max_examples=300, derandomize=True)
+@settings(STEADY, max_examples=FEW, derandomize=True)
 @given(parts=maps(), seed=st.integers(0, 2**32))
 def test_all_agree_on_random_maps(parts: Json, seed: int) -> None:
     assert disagreements(parts, seed) == []
