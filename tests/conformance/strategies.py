@@ -187,7 +187,8 @@ def _views(draw: Draw, kind: str, access: str, *, scaled: bool) -> Json:
         view |= {"offset": VIEW * number} if number else {}
         if number:
             view |= {"factor": _of(draw, 10, 100, 0.5, 0.1)} if scaled and _maybe(draw, 2) else {}
-            view |= {"rounding": _of(draw, "half_up", "half_away", "half_even", "down")} if _maybe(draw, 2) else {}
+            if view["type"] in INTEGERS and _maybe(draw, 2):
+                view["rounding"] = _of(draw, "half_up", "half_away", "half_even", "down")
             view |= {"saturates": True} if view["type"] in INTEGERS and _maybe(draw) else {}
             view |= (
                 {"preferred": True} if _maybe(draw) and not any("preferred" in one for one in views.values()) else {}

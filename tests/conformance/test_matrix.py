@@ -4,11 +4,11 @@ import os
 
 import pytest
 
-from . import matrix
+from . import matrix, matrix_views
 
 ALL = int(os.environ.get("MATRIX_EVERY", "23"))
 """Of so many combinations one is tried by `make conformance`; 1: all of them, which takes hours."""
-FEW = 701
+FEW, FEW_VIEWS = 701, 211
 """The same for `make test`. Both are prime, so that the steps run through all kinds, types, spaces and places."""
 
 
@@ -20,6 +20,22 @@ def test_of_some_combinations_no_key_is_ignored() -> None:
     verdicts = matrix.judged(every=FEW)
     assert [one.line() for one in verdicts if one.fate == "ignored"] == []
     assert len(verdicts) > 150
+
+
+def test_each_key_of_a_view_is_tried() -> None:
+    assert list(matrix_views.TRIALS) == list(matrix.SCHEMA["$defs"]["view"]["properties"])
+
+
+def test_of_some_views_no_key_is_ignored() -> None:
+    verdicts = list(matrix_views.judged(every=FEW_VIEWS))
+    assert [one.line() for one in verdicts if one.fate == "ignored"] == []
+    assert {"refused", "driver"} <= {one.fate for one in verdicts}
+
+
+@pytest.mark.slow
+def test_of_all_views_no_key_is_ignored() -> None:
+    verdicts = list(matrix_views.judged(every=1))
+    assert [one.line() for one in verdicts if one.fate == "ignored"] == []
 
 
 def test_a_key_that_nothing_looks_at_is_found() -> None:

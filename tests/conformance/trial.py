@@ -7,7 +7,7 @@ from fractions import Fraction
 from math import isfinite
 from typing import Any
 
-from regscribe.model import NotANumber, Register, View, WireType
+from regscribe.model import NotANumber, Register, Special, View, WireType
 from regscribe.model.reference import (
     Meaning,
     Reading,
@@ -18,6 +18,7 @@ from regscribe.model.reference import (
     decode,
     encode,
     holds,
+    special_value,
     transmit,
     wire_number,
     word_order,
@@ -34,6 +35,8 @@ from .probes import Words
 from .suite import Built
 from .wire import Memory
 
+Value = Fraction | str | Special
+"""What is written: a number of use, a text, or a special value by its name."""
 EXCEPTION = 0x80
 LIKELY = 0.8
 """How often a register holds what one is likely to hold; else anything."""
@@ -199,23 +202,25 @@ class Trial:
     # -- writing ------------------------------------------------------------------------------------------------
 
     def _written(self, register: Register, view: View) -> Iterator[str]:
-        values = probes.values(register)
+        values = [*probes.values(register), *(one for one in register.specials if one.means is None)]
         for value in self.chance.sample(values, min(len(values), FEW)):
             yield from self._value_written(register, view, value)
         if register.access.readable and any(view.allows(one) for one in (1, 3)):
             for words in self.words(register, view):
                 yield from self._words_written(register, view, words)
 
-    def _encoded(self, register: Register, view: View, value: Fraction | str, memory: Any) -> object:
+    def _encoded(self, register: Register, view: View, value: Value, memory: Any) -> object:
         known = self._known(memory)
         try:
+            if isinstance(value, Special):
+                value = special_value(register, value, known) or Fraction(0)
             if register.writable is not None and not holds(register.writable.when, known):
                 return judges.REFUSED
             return list(encode(register, view, value, known))
         except (RefusedError, UnknownValueError):
             return judges.REFUSED
 
-    def _value_written(self, register: Register, view: View, value: Fraction | str) -> Iterator[str]:
+    def _value_written(self, register: Register, view: View, value: Value) -> Iterator[str]:
         declared = self.plain.registers[register.path]
         given = _given(declared, view, value)
         for device, memory in ((self.plain, self.memory), (self.driver, self.asked)):
@@ -275,13 +280,15 @@ class Trial:
             return None
 
 
-def _given(declared: Any, view: View, value: Fraction | str) -> Any:
+def _given(declared: Any, view: View, value: Value) -> Any:
     """A value as a program would hand it to a driver: a member, an int, or a float.
 
     A float counts as its shortest decimal, but also as what it is exactly, where the view carries just that.
     """
     if isinstance(value, str):
         return value
+    if isinstance(value, Special):
+        return declared.kind.special[value.id]
     number = int(value) if value.denominator == 1 else float(value)
     with suppress(Exception):  # a kind refuses as it likes what it cannot be
         made = declared.kind.make(number)

@@ -5,7 +5,7 @@ from fractions import Fraction
 
 from regscribe.lower.ends import whole_ends
 from regscribe.lower.node import Node, elements_of, text_of, truth_of, whole_of
-from regscribe.lower.rules import IDLE_LENGTH, TYPE_BESIDE_VIEWS, UNKNOWN_VIEWS, WRONG_SORT
+from regscribe.lower.rules import IDLE_KEY, IDLE_LENGTH, TYPE_BESIDE_VIEWS, UNKNOWN_VIEWS, WRONG_SORT
 from regscribe.lower.scope import Scope, path_of
 from regscribe.lower.tree import Entry
 from regscribe.model import Order, OrderFromRegister, Rounding, Space, View, WireType
@@ -88,6 +88,7 @@ def _single(entry: Entry, home: Home, scope: Scope) -> View:
 def _view(name: str, node: Node, home: Home, scope: Scope) -> View:
     told = node.child("type")
     wire = told.choice(WireType, WireType.UINT16) if told else WireType.UINT16
+    _report_idle(name, node, wire)
     factor, rounding, region = node.child("factor"), node.child("rounding"), node.child("region")
     stride = whole_of(node, "stride", 1)
     return View(
@@ -107,6 +108,18 @@ def _view(name: str, node: Node, home: Home, scope: Scope) -> View:
         preferred=truth_of(node, "preferred"),
         stride=stride,
     )
+
+
+def _report_idle(name: str, node: Node, wire: WireType) -> None:
+    """Report what a view says of words or fractions that its type does not have (RS0338)."""
+    idle = {
+        "word_order": wire is not WireType.STRING and wire.words == 1 and "its value is one word",
+        "rounding": wire.is_float and "a float carries fractions",
+    }
+    for key, why in idle.items():
+        told = node.child(key)
+        if told and why:
+            told.report(IDLE_KEY, f"view `{name}` has `{key}`, but {why}", remedy="remove it", at_key=True)
 
 
 def _order(node: Node | None, scope: Scope) -> Order | OrderFromRegister:
