@@ -65,7 +65,8 @@ def judged(*, every: int) -> Iterator[Verdict]:
 def _judge(seed: Seed, view: str, key: str, value: Any) -> Verdict | None:
     plain = maps.whole(seed, {}, {})
     told = plain["views"]["two"][view]
-    if told.get(key) == value or matrix.compiled(plain)[0] is None:
+    is_preferred = key == "preferred" and (seed.place, view) == ("views", "base")  # the first is, where none is
+    if is_preferred or told.get(key) == value or matrix.compiled(plain)[0] is None:
         return None
     told[key] = value
     register_map, _ = matrix.compiled(plain)
