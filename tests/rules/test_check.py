@@ -176,3 +176,8 @@ def test_a_fault_is_no_state_that_a_condition_could_ask_for(
     diagnose: Diagnose, small: Small, cases: str, said: list[str]
 ) -> None:
     assert rules_of(diagnose(small(FAULTY, VALUE, top=f"scales: {{by_mode: {cases}}}"))) == said
+
+
+@pytest.mark.parametrize("scale", ["multiply: 1.0e-400", "multiply: 1.0e+400", "type: float64, multiply: 1.0e-330"])
+def test_a_scale_that_no_float_of_a_program_follows_is_an_error(diagnose: Diagnose, small: Small, scale: str) -> None:
+    assert "RS0604" in rules_of(diagnose(small(f"at: 0, name: Level, {scale}")))

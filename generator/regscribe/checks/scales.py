@@ -3,9 +3,9 @@
 from collections.abc import Iterator
 from fractions import Fraction
 
-from regscribe.checks.carrying import Fit, best_fit, end_values, listed, numbers
+from regscribe.checks.carrying import Fit, best_fit, end_values, forms, listed, numbers
 from regscribe.checks.registry import Finding, Scope, register_rule
-from regscribe.model import Kind, Register, Rule
+from regscribe.model import Kind, Register, Rule, show
 
 
 @register_rule(Rule("RS0430", "Scale of zero", "A factor of 0 makes every value the same and can never be undone."))
@@ -16,6 +16,29 @@ def scale_of_zero(register: Register, _: Scope) -> Iterator[Finding]:
     for view in register.views:
         if view.factor == 0:
             yield Finding.at(register, f"has view {view.name} with factor 0", "correct the view's `factor`")
+
+
+@register_rule(
+    Rule(
+        "RS0604",
+        "Scale beyond a float",
+        "A program reads numbers as floats of 64 bits; what these cannot tell apart, or hold, was misread.",
+    )
+)
+def beyond_a_float(register: Register, _: Scope) -> Iterator[Finding]:
+    """Compare the values of the stored numbers 0 and 1 as floats, under every scale."""
+    for form in forms(register) if register.kind in {Kind.NUMBER, Kind.INTEGER, Kind.RAW} else ():
+        values = [(form.conversion.multiply * stored + form.conversion.add) / form.factor for stored in (0, 1)]
+        try:
+            first, second = map(float, values)
+        except OverflowError:
+            first = second = 0.0
+        if first == second:
+            message = (
+                f"makes {show(values[0])} of 0 and {show(values[1])} of 1, which no float of a program tells apart"
+            )
+            yield Finding.at(register, message, "correct `multiply` and `add`, or `from` and `to`")
+            return
 
 
 @register_rule(

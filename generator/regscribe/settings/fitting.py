@@ -8,6 +8,7 @@ from regscribe.live.names import Driver
 from regscribe.live.reading import unit_of
 from regscribe.live.values import parse
 from regscribe.runtime import Register, ValueNotDecodable, ValueRefused, codec
+from regscribe.runtime.spec import View
 from regscribe.settings.saved import Backup, Saved
 from regscribe.settings.taking import is_number
 
@@ -118,4 +119,21 @@ def _contradiction(register: Register[Any], saved: Saved, value: object, world: 
         return f"its words {list(saved.raw)} are no value ({error})"
     if spelled != value:
         return f"the file says {saved.spelled}, but its words {list(saved.raw)} mean {spelled}: which one is right?"
-    return ""
+    return _lost_in_a_float(register, view, saved, spelled, world)
+
+
+def _lost_in_a_float(register: Register[Any], view: View, saved: Saved, value: object, world: _World) -> str:
+    """Why writing a value would send other words than it was read from: a float has fewer digits than they."""
+    told = isinstance(value, float) and value and set(register.limit_needs) <= set(world.there)
+    if not told:
+        return ""
+    try:
+        words = codec.encode(register, view, value, world.there, world.givens)
+    except ValueRefused:
+        return ""  # writing it says why
+    if words == saved.raw:
+        return ""
+    return (
+        f"its words {list(saved.raw)} have more digits than the number {saved.spelled} in a program, which would be "
+        f"written as {list(words)}: write the words themselves"
+    )
