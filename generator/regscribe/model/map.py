@@ -55,12 +55,12 @@ class Given:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One request of a command: words to an address, or a wait in milliseconds."""
+    """One request of a command: words to an address, or a wait in milliseconds (None: no wait, 0 is one)."""
 
     address: int = 0
     words: tuple[int, ...] = ()
     function: int = 16
-    wait: int = 0
+    wait: int | None = None
     register: str = ""
 
 

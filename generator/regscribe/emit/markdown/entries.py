@@ -189,7 +189,7 @@ def _steps(context: Context, steps: Sequence[Step]) -> Table:
 
 
 def _step(context: Context, number: int, step: Step) -> tuple[str, ...]:
-    if step.wait:
+    if step.wait is not None:
         return (str(number), f"wait {step.wait} ms", "", "", "", "", "")
     register = context.register(step.register) if step.register else Md()
     words = " ".join(map(str, step.words))

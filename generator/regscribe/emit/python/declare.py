@@ -8,7 +8,7 @@ from regscribe.emit.python.literals import docstring, exact, literal, plain
 from regscribe.emit.python.named import Content, enum_content, special_content, specials, word_content
 from regscribe.emit.python.specs import Specs
 from regscribe.emit.text import ACCESS, cases_words, listed, one_line, range_words
-from regscribe.model import Access, Case, Command, Kind, NotANumber, Register, Sentinel, show
+from regscribe.model import Access, Case, Command, Kind, NotANumber, Register, Sentinel, Step, show
 
 SHOWN_CASES = 2
 """Ranges of more cases are left to the reference: a docstring is for a glance."""
@@ -151,13 +151,14 @@ def range_text(register: Register) -> str:
 
 def command_call(command: Command) -> Call:
     """The declaration of a command."""
-    steps = []
-    for step in command.steps:
-        words = group([str(word) for word in step.words])
-        steps.append(
-            group(["0", str(step.wait), "()"] if step.wait else [str(step.function), str(step.address), words])
-        )
+    steps = (_step(step) for step in command.steps)
     return call("Command", *steps, danger=literal(one_line(command.danger)) if command.danger else None)
+
+
+def _step(step: Step) -> Call:
+    if step.wait is not None:
+        return group(["0", str(step.wait), "()"])
+    return group([str(step.function), str(step.address), group([str(word) for word in step.words])])
 
 
 def command_text(command: Command) -> str:
