@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 
 from regscribe.emit import markdown, vectors
+from regscribe.runtime import pdu
 from regscribe.simulate.device import SimulatedDevice
 
 HEAD = """
@@ -54,3 +55,49 @@ def test_a_wait_of_0_is_a_wait(told: Callable[..., Any]) -> None:
     assert link.device.commands_run == ("go",)
     assert _facts(register_map)[1] == {"wait": 0}
     assert "wait 0 ms" in _page(register_map)
+
+
+@pytest.mark.parametrize(
+    ("step", "frame", "fact"),
+    [
+        ("{register: start, value: 1}", "05 0007 FF00", {"function": 5, "address": 7, "words": [1]}),
+        ("{register: start, words: [0]}", "05 0007 0000", {"function": 5, "address": 7, "words": [0]}),
+        (
+            "{register: start, value: 1, function: 15}",
+            "0F 0007 0001 01 01",
+            {"function": 15, "address": 7, "words": [1]},
+        ),
+        ("{at: 20, words: [1], function: 5}", "05 0014 FF00", {"function": 5, "address": 20, "words": [1]}),
+        (
+            "{at: 20, words: [1, 0, 1], function: 15}",
+            "0F 0014 0003 01 05",
+            {"function": 15, "address": 20, "words": [1, 0, 1]},
+        ),
+    ],
+)
+def test_a_command_writes_coils(step: str, frame: str, fact: Any, told: Callable[..., Any]) -> None:
+    register_map, driver, link = told(step)
+    driver.commands.go()
+    assert [pdu.encode(one) for one in link.log] == [bytes.fromhex(frame)]
+    assert link.device.commands_run == ("go",)
+    assert _facts(register_map) == [fact]
+    (row,) = (line for line in _page(register_map).splitlines() if line.startswith("| 1 | write |"))
+    assert f"| {fact['function']:02d} | {fact['address']} |" in row
+    assert f" {' '.join(map(str, fact['words']))} " in row
+    assert "000" not in row
+
+
+def test_a_word_and_a_coil_at_one_address_are_two_steps(told: Callable[..., Any]) -> None:
+    _, driver, link = told("{at: 20, words: [1], function: 6}", "{at: 20, words: [1], function: 5}")
+    for _ in range(2):
+        assert link.device.handle(bytes.fromhex("06 0014 0001")) is not None
+    assert link.device.commands_run == ()
+    driver.commands.go()
+    assert link.device.commands_run == ("go",)
+
+
+def test_a_step_may_write_several_registers_at_once_and_beyond_their_limits(told: Callable[..., Any]) -> None:
+    _, driver, link = told("{at: 5, words: [85, 92]}")
+    driver.commands.go()
+    assert (driver.low.read_raw(), driver.high.read_raw()) == ((85,), (92,))
+    assert link.device.commands_run == ("go",)

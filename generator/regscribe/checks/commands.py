@@ -4,12 +4,11 @@ from bisect import bisect_left
 from collections.abc import Iterator
 from operator import attrgetter
 
-from regscribe.checks.addresses import Stretch, stretches
+from regscribe.checks.addresses import LAST_ADDRESS, Stretch, stretches
 from regscribe.checks.registry import Finding, Scope, model_rule
-from regscribe.model import Command, Register, Related, Rule, Space, Step
+from regscribe.model import WRITE_FUNCTIONS, Command, Register, Related, Rule, Space, Step, View
 
-WRITE_WORDS = (6, 16)
-ONE_WORD = 6
+ONE_VALUE = (5, 6)
 LONGEST = 125
 """Words of the longest value: no request reads more."""
 
@@ -24,20 +23,24 @@ def _at(command: Command, message: str, help_text: str, *related: Related) -> Fi
     return Finding(command.id, command.span, f"command `{command.id}` {message}", help_text, related)
 
 
-def _holding(scope: Scope) -> list[Stretch]:
-    """The stretches of space holding in the order of their addresses; sorted once for a model."""
-    if "holding" not in scope.memo:
+def _stretches(space: Space, scope: Scope) -> list[Stretch]:
+    """The stretches of a space in the order of their addresses; sorted once for a model."""
+    key = ("stretches", space)
+    if key not in scope.memo:
         every = (stretch for register in scope.model.registers for stretch in stretches(register))
-        mine = [stretch for stretch in every if stretch.space is Space.HOLDING]
-        scope.memo["holding"] = sorted(mine, key=attrgetter("first", "last"))
-    found = scope.memo["holding"]
+        scope.memo[key] = sorted((one for one in every if one.space is space), key=attrgetter("first", "last"))
+    found = scope.memo[key]
     return found if isinstance(found, list) else []
+
+
+def _last(step: Step) -> int:
+    return step.address + len(step.words) - 1
 
 
 def touched(step: Step, scope: Scope) -> Iterator[Stretch]:
     """The stretches of registers that a step writes to, in whole or in part."""
-    last = step.address + len(step.words) - 1
-    every = _holding(scope)
+    last = _last(step)
+    every = _stretches(step.space, scope)
     start = bisect_left(every, step.address - LONGEST, key=attrgetter("first"))
     for place in range(start, len(every)):
         stretch = every[place]
@@ -45,6 +48,18 @@ def touched(step: Step, scope: Scope) -> Iterator[Stretch]:
             return
         if stretch.last >= step.address:
             yield stretch
+
+
+def _around(step: Step, scope: Scope) -> Iterator[View]:
+    """A view of each rule for the region in which a step begins; the device knows these rules before any register."""
+    if "regions" not in scope.memo:
+        views = (view for register in scope.model.registers for view in register.views if view.region)
+        scope.memo["regions"] = {(view.space, view.region, view.align, view.functions): view for view in views}
+    found = scope.memo["regions"]
+    for view in found.values() if isinstance(found, dict) else ():
+        first, last = view.region
+        if view.space is step.space and first <= step.address <= last:
+            yield view
 
 
 @model_rule(
@@ -73,41 +88,72 @@ def step_by_another_function(scope: Scope) -> Iterator[Finding]:
                 message = f"uses function {step.function:02d} at {stretch} of `{stretch.register.path}`, which is"
                 message = f"{message} by functions {list(stretch.functions)} only"
                 yield _at(command, message, "name another `view` or `function`, or correct `functions`", related)
+        for view in () if any(touched(step, scope)) else _around(step, scope):
+            if not view.allows(step.function):
+                message = (
+                    f"uses function {step.function:02d} at {step.address}, in the region of view {view.name}, which is"
+                )
+                message = f"{message} by functions {list(view.functions)} only"
+                yield _at(command, message, "correct the step's address or `function`, or the `region`")
 
 
 @model_rule(
     Rule(
         "RS0479",
         "Command at an address that it cannot mean",
-        "Commands may go to addresses of no register, but not to reserved ones, nor into the middle of a value.",
+        "Commands may go to addresses of no register, but not to reserved or unused ones, nor to a part of a value.",
     )
 )
 def step_into_the_middle(scope: Scope) -> Iterator[Finding]:
-    """Compare the addresses of a step with reserved ones and with the ends of longer values."""
+    """Compare the addresses of a step with the ends of the space, with reserved ones, and with those of values."""
     for command, step in requests(scope):
-        first, last = step.address, step.address + len(step.words) - 1
-        for space, low, high in scope.register_map.reserved:
-            if space is Space.HOLDING and first <= high and last >= low:
-                message = f"writes {first}..{last}, but {low}..{high} are reserved"
-                yield _at(command, message, "correct the step's address")
-        for stretch in touched(step, scope):
-            if stretch.first < first or stretch.last > last:
-                related = Related(f"`{stretch.register.path}` takes {stretch}", stretch.register.span)
-                message = f"writes {first}..{last}, a part of `{stretch.register.path}` ({stretch}) only"
-                yield _at(command, message, "write the whole value in one step", related)
+        first, last = step.address, _last(step)
+        if first < 0 or last > LAST_ADDRESS:
+            yield _at(command, f"writes {first}..{last}, outside 0..{LAST_ADDRESS}", "correct the step's address")
+        for word, found in (("reserved", scope.register_map.reserved), ("unused", scope.model.unused)):
+            for space, low, high in found:
+                if space is step.space and first <= high and last >= low:
+                    message = f"writes {first}..{last}, but {low}..{high} are {word}"
+                    yield _at(command, message, "correct the step's address")
+        for view in _around(step, scope):
+            if first % view.align or len(step.words) % view.align:
+                message = (
+                    f"writes {first}..{last} in the region of view {view.name}, where all is multiples of {view.align}"
+                )
+                yield _at(command, message, "correct the step's address and words, or `align`")
+        yield from _values_in_part(command, step, list(touched(step, scope)))
+
+
+def _values_in_part(command: Command, step: Step, found: list[Stretch]) -> Iterator[Finding]:
+    """Values of which a step writes a part, or more than the one that it names, or some beside what is no value."""
+    first, last = step.address, _last(step)
+    for stretch in found:
+        related = Related(f"`{stretch.register.path}` takes {stretch}", stretch.register.span)
+        if stretch.first < first or stretch.last > last:
+            message = f"writes {first}..{last}, a part of `{stretch.register.path}` ({stretch}) only"
+            yield _at(command, message, "write the whole value in one step", related)
+        elif stretch.register.path == step.register and stretch.last < last:
+            message = f"writes {first}..{last}, more than `{step.register}` ({stretch})"
+            yield _at(command, message, "give as many words as the register has", related)
+    covered = {address for stretch in found for address in range(stretch.first, stretch.last + 1)}
+    bare = [address for address in range(first, last + 1) if address not in covered]
+    if covered and bare and not step.register:
+        message = f"writes {first}..{last}: registers, but at {bare[0]} there is none"
+        yield _at(command, message, "correct the address or the words, or split the step")
 
 
 @model_rule(
     Rule("RS0480", "Command longer than a request", "A step is one request; the device refuses or ignores longer ones.")
 )
 def step_too_long(scope: Scope) -> Iterator[Finding]:
-    """Compare the words of a step with the limit, and with the one word of function 06."""
-    limit = scope.register_map.protocol.write_words
+    """Compare the words of a step with the limit, and with the one of functions 05 and 06."""
+    protocol = scope.register_map.protocol
     for command, step in requests(scope):
-        most = 1 if step.function == ONE_WORD else limit
+        what, limit = ("bits", protocol.write_bits) if step.space.is_bits else ("words", protocol.write_words)
+        most = 1 if step.function in ONE_VALUE else limit
         if len(step.words) > most:
-            message = f"writes {len(step.words)} words by function {step.function:02d}, which takes {most} at most"
-            yield _at(command, message, "split the step, or correct `function` or `protocol.limits.write_words`")
+            message = f"writes {len(step.words)} {what} by function {step.function:02d}, which takes {most} at most"
+            yield _at(command, message, f"split the step, or correct `function` or `protocol.limits.write_{what}`")
 
 
 @model_rule(
@@ -116,15 +162,28 @@ def step_too_long(scope: Scope) -> Iterator[Finding]:
     )
 )
 def step_function(scope: Scope) -> Iterator[Finding]:
-    """Compare the function of a step with those of the protocol and with those that write words."""
+    """Compare the function of a step with those of the protocol and with those that write its space."""
     has = scope.register_map.protocol.functions
     for command, step in requests(scope):
         if step.function not in has:
             message = f"uses function {step.function:02d}, which `protocol.functions` {list(has)} lacks"
             yield _at(command, message, "correct one of them")
-        elif step.function not in WRITE_WORDS:
-            message = f"uses function {step.function:02d}, which writes no words"
-            yield _at(command, message, "use function 6 or 16")
+        elif step.function not in (writing := WRITE_FUNCTIONS.get(step.space, ())):
+            message = f"uses function {step.function:02d}, which does not write space {step.space}"
+            help_text = f"use function {' or '.join(map(str, writing))}" if writing else "nothing writes that space"
+            yield _at(command, message, help_text)
+
+
+@model_rule(
+    Rule("RS0650", "Command with words that are no bits", "A coil is 1 (on) or 0 (off), whatever is sent for it.")
+)
+def step_of_no_bits(scope: Scope) -> Iterator[Finding]:
+    """Look for other numbers than 0 and 1 in steps that write coils."""
+    for command, step in requests(scope):
+        strange = [word for word in step.words if step.space.is_bits and word not in {0, 1}]
+        if strange:
+            message = f"writes {strange[0]} to a coil by function {step.function:02d}"
+            yield _at(command, message, "write 1 for on (FF00 in a frame of function 05) and 0 for off")
 
 
 @model_rule(Rule("RS0485", "Command without a request", "A command that sends nothing does nothing."))

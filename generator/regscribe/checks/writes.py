@@ -66,8 +66,7 @@ def empty_group(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
 def unlock_circle(scope: Scope) -> Iterator[Finding]:
     """Find commands that write a register which needs that command before or after it."""
     for command in scope.model.commands:
-        for path in dict.fromkeys(step.register for step in command.steps if step.register in scope.registers):
-            register = scope.registers[path]
+        for register in {one.path: one for one in _written(command.id, scope)}.values():
             if command.id in (register.unlock, register.apply):
                 yield _circle(command, register)
 

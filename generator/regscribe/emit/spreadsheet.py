@@ -28,7 +28,6 @@ from regscribe.model import (
     Range,
     Register,
     RegisterMap,
-    Space,
     Step,
     View,
     always,
@@ -36,7 +35,6 @@ from regscribe.model import (
 )
 from regscribe.visible import cell
 
-BIT_FUNCTIONS = frozenset({5, 15})
 """Function codes that write coils; every other write goes to holding registers."""
 
 
@@ -128,7 +126,7 @@ def _command_row(register_map: RegisterMap, model: Model, command: Command) -> R
         model=one_line(model.name),
         id=command.id,
         name=one_line(command.name),
-        space=_step_space(first) if first else "",
+        space=first.space.value if first else "",
         address=str(first.address) if first else "",
         words=str(sum(len(step.words) for step in requests)),
         access="w",
@@ -137,10 +135,6 @@ def _command_row(register_map: RegisterMap, model: Model, command: Command) -> R
         group=command.group,
         section=one_line(command.section),
     )
-
-
-def _step_space(step: Step) -> str:
-    return (Space.COIL if step.function in BIT_FUNCTIONS else Space.HOLDING).value
 
 
 def _written(requests: Iterable[Step]) -> dict[str, str]:

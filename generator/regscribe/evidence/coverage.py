@@ -9,7 +9,6 @@ from regscribe.evidence.exemplified import exemplified
 from regscribe.evidence.statement import Addresses, MapCoverage, ModelCoverage, Remark
 from regscribe.model import Kind, Model, Open, Register, RegisterMap, Space
 
-BIT_FUNCTIONS = frozenset({5, 15})
 """Function codes that write coils; every other write of a command goes to holding registers."""
 
 INFERRED, OPEN_LIMIT, NOT_STATED = KINDS = ("inferred", "open limit", "decimals not stated")
@@ -110,8 +109,7 @@ def _commanded(model: Model) -> Iterator[Stretch]:
     for command in model.commands:
         for step in command.steps:
             if step.words:
-                space = Space.COIL if step.function in BIT_FUNCTIONS else Space.HOLDING
-                yield space, step.address, step.address + len(step.words) - 1
+                yield step.space, step.address, step.address + len(step.words) - 1
 
 
 def _remarks(register_map: RegisterMap) -> Iterator[Remark]:

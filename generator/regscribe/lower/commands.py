@@ -9,9 +9,7 @@ from regscribe.lower.node import Node, elements_of, items_of, text_of, whole_of,
 from regscribe.lower.presence import present
 from regscribe.lower.rules import UNKNOWN_VIEW
 from regscribe.lower.scope import Scope
-from regscribe.model import Command, Protocol, Register, Space, Step, View
-
-WRITE_COIL, WRITE_REGISTER, WRITE_COILS, WRITE_REGISTERS = 5, 6, 15, 16
+from regscribe.model import WRITE_FUNCTIONS, Command, Protocol, Register, Space, Step, View
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +50,9 @@ def _step(node: Node, device: Device) -> Step:
         return Step(wait=whole_of(node, "wait"))
     if register is None:
         words = unsigned(wholes_of(node, "words"))
-        return Step(whole_of(node, "at"), words, _function(node, len(words), None, device))
+        function = _function(node, len(words), None, device)
+        space = Space.COIL if function in WRITE_FUNCTIONS[Space.COIL] else Space.HOLDING
+        return Step(whole_of(node, "at"), words, function, space=space)
     entry = device.scope.register(register)
     if entry is None:
         return Step(register=register.text())
@@ -60,15 +60,14 @@ def _step(node: Node, device: Device) -> Step:
     view = view_of(node.child("view"), target) if node.child("view") else _written_view(target)
     value = node.child("value")
     words = words_of_value(value, target, view) if value else unsigned(wholes_of(node, "words"))
-    return Step(view.address, words, _function(node, len(words), view, device), register=entry.path)
+    function = _function(node, len(words), view, device)
+    return Step(view.address, words, function, register=entry.path, space=view.space)
 
 
 def _function(node: Node, count: int, view: View | None, device: Device) -> int:
     if node.child("function"):
         return whole_of(node, "function")
-    single, several = WRITE_REGISTER, WRITE_REGISTERS
-    if view and view.space is Space.COIL:
-        single, several = WRITE_COIL, WRITE_COILS
+    single, several = WRITE_FUNCTIONS[Space.COIL if view and view.space is Space.COIL else Space.HOLDING]
     allowed = [code for code in device.protocol.functions if not view or view.allows(code)]
     return single if count == 1 and single in allowed else several
 

@@ -55,13 +55,14 @@ class Given:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One request of a command: words to an address, or a wait in milliseconds (None: no wait, 0 is one)."""
+    """One request of a command: words (bits of coils) to an address, or, without words, a wait in milliseconds."""
 
     address: int = 0
     words: tuple[int, ...] = ()
     function: int = 16
-    wait: int | None = None
+    wait: int = 0
     register: str = ""
+    space: Space = Space.HOLDING
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

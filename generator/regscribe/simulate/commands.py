@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
-from regscribe.model import Command, Step
+from regscribe.model import Command, Space, Step
 
 
 class Commands:
@@ -19,17 +19,17 @@ class Commands:
         self.run: list[str] = []
         self.since_power: set[str] = set()
 
-    def is_step(self, function: int, address: int, words: Sequence[int]) -> bool:
+    def is_step(self, space: Space, function: int, address: int, words: Sequence[int]) -> bool:
         """Whether a request is, by its function too, a step of a command: for addresses that are no registers."""
-        return any(step.function == function and _matches(step, address, words) for step in self._steps())
+        return any(step.function == function and _matches(step, space, address, words) for step in self._steps())
 
-    def sets_register(self, address: int, words: Sequence[int]) -> bool:
-        """Whether these words, written to a register, are a step of a command: the device must take them."""
-        return any(_matches(step, address, words) for step in self._steps())
+    def sets_registers(self, space: Space, address: int, words: Sequence[int]) -> bool:
+        """Whether these words, written to registers, are a step of a command: the device must take them."""
+        return any(_matches(step, space, address, words) for step in self._steps())
 
-    def saw(self, address: int, words: Sequence[int]) -> tuple[str, ...]:
+    def saw(self, space: Space, address: int, words: Sequence[int]) -> tuple[str, ...]:
         """Note accepted words; returns the ids of the commands that they complete, now also in `run`."""
-        completed = tuple(self._advance(address, words))
+        completed = tuple(self._advance(space, address, words))
         self.run.extend(completed)
         self.since_power.update(completed)
         return completed
@@ -42,16 +42,17 @@ class Commands:
     def _steps(self) -> Iterator[Step]:
         return (step for steps in self._commands.values() for step in steps)
 
-    def _advance(self, address: int, words: Sequence[int]) -> Iterator[str]:
+    def _advance(self, space: Space, address: int, words: Sequence[int]) -> Iterator[str]:
         for name, steps in self._commands.items():
             at = self._progress[name]
-            if steps and _matches(steps[at], address, words):
+            if steps and _matches(steps[at], space, address, words):
                 self._progress[name] = (at + 1) % len(steps)
                 if at + 1 == len(steps):
                     yield name
-            elif steps and _matches(steps[0], address, words):
+            elif steps and _matches(steps[0], space, address, words):
                 self._progress[name] = 1
 
 
-def _matches(step: Step, address: int, words: Sequence[int]) -> bool:
-    return step.address == address and tuple(word & 0xFFFF for word in step.words) == tuple(words)
+def _matches(step: Step, space: Space, address: int, words: Sequence[int]) -> bool:
+    same_place = step.space is space and step.address == address
+    return same_place and tuple(word & 0xFFFF for word in step.words) == tuple(words)

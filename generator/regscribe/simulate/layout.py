@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from regscribe.model import Model, Register, Space, Step, View
+from regscribe.model import Model, Register, Space, View
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +50,7 @@ class Layout:
         for space in Space:
             self._regions[space] = _regions(model, space)
         steps = (step for command in model.commands for step in command.steps if step.words)
-        self.command_addresses = frozenset(address for step in steps for address in _addresses(step))
+        self.command_addresses = _each((step.space, step.address, step.address + len(step.words) - 1) for step in steps)
         self._bounds = {space: self._bounds_of(space) for space in Space}
 
     def place(self, space: Space, address: int) -> Place | None:
@@ -83,10 +83,6 @@ def places_of(register: Register) -> tuple[Place, ...]:
     """Every place where a register is transmitted: its views, then the aliases of the base view."""
     views = (Place(register, view, view.address) for view in register.views)
     return (*views, *(Place(register, register.base, address) for address in register.aliases))
-
-
-def _addresses(step: Step) -> range:
-    return range(step.address, step.address + len(step.words))
 
 
 def _regions(model: Model, space: Space) -> tuple[Region, ...]:

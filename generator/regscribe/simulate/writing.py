@@ -45,18 +45,20 @@ class Writer:
         check_request(self.protocol, self.layout, space, function, address, len(words), most=most)
         place = self.layout.place(space, address)
         holds = place is not None and place.register.access.writable  # a read-only register may still take a command
-        if space is Space.HOLDING and not holds and self.commands.is_step(function, address, words):
-            self.conduct.commanded(self.commands.saw(address, words))
+        if not holds and self.commands.is_step(space, function, address, words):
+            self.conduct.commanded(self.commands.saw(space, address, words))
             return len(words)
         return self._write_values(space, function, address, words)
 
     def _write_values(self, space: Space, function: int, address: int, words: Sequence[int]) -> int:
         written: list[_Written] = []
+        commanded = self.commands.sets_registers(space, address, words)
         done = 0
         try:
             while done < len(words):
                 place = self._place(space, function, address + done, len(words) - done)
-                written.append(self._write_value(place, tuple(words[done : done + place.words])))
+                value = tuple(words[done : done + place.words])
+                written.append(self._write_value(place, value, limited=not commanded))
                 done += place.words
         except Refusal:
             if not done or self.protocol.faults.later_write is not Later.STOP:
@@ -64,18 +66,20 @@ class Writer:
                 raise
         for each in written:
             self.conduct.written(each.place.register, each.before)
-            self.conduct.commanded(self.commands.saw(each.place.start, each.words))
+            self.conduct.commanded(self.commands.saw(space, each.place.start, each.words))
+        if len(written) > 1 and done == len(words):  # a step may write several values at once
+            self.conduct.commanded(self.commands.saw(space, address, words))
         return done
 
     def _undo(self, written: Sequence[_Written]) -> None:
         for each in reversed(written):
             self.state.store(each.place.register.path, each.before)
 
-    def _write_value(self, place: Place, words: tuple[int, ...]) -> _Written:
+    def _write_value(self, place: Place, words: tuple[int, ...], *, limited: bool) -> _Written:
         path = place.register.path
         self._check_access(place.register)
         before = self.state.stored(path)
-        self.state.store(path, self._accepted(place, words))
+        self.state.store(path, self._accepted(place, words, limited=limited))
         return _Written(place, words, before)
 
     def _place(self, space: Space, function: int, address: int, left: int) -> Place:
@@ -84,7 +88,7 @@ class Writer:
         if place is None:
             if (space, address) in self.layout.reserved:
                 raise Refusal(faults.read_only)
-            if space is Space.HOLDING and address in self.layout.command_addresses:
+            if (space, address) in self.layout.command_addresses:
                 raise Refusal(faults.value)
             raise Refusal(faults.unused_write if (space, address) in self.layout.unused else faults.address)
         if not place.view.allows(function):
@@ -103,7 +107,7 @@ class Writer:
         if register.unlock and register.unlock not in self.commands.since_power:
             raise Refusal(self.protocol.faults.condition)
 
-    def _accepted(self, place: Place, words: tuple[int, ...]) -> Stored:
+    def _accepted(self, place: Place, words: tuple[int, ...], *, limited: bool) -> Stored:
         register, view = place.register, place.view
         stored = codec.decode(view, words, self.state.order(view))
         if isinstance(stored, str):
@@ -111,7 +115,8 @@ class Writer:
         if stored is None:
             raise Refusal(self.protocol.faults.value)
         held = self.state.kept(register, stored)
-        if not self.commands.sets_register(place.start, words) and not self._fits(register, held):
+        limited = limited and not self.commands.sets_registers(view.space, place.start, words)
+        if limited and not self._fits(register, held):
             raise Refusal(self.protocol.faults.value)
         return held
 

@@ -189,9 +189,9 @@ def _steps(context: Context, steps: Sequence[Step]) -> Table:
 
 
 def _step(context: Context, number: int, step: Step) -> tuple[str, ...]:
-    if step.wait is not None:
+    if not step.words:
         return (str(number), f"wait {step.wait} ms", "", "", "", "", "")
     register = context.register(step.register) if step.register else Md()
     words = " ".join(map(str, step.words))
-    hexadecimal = " ".join(f"{word & 0xFFFF:04X}" for word in step.words)
+    hexadecimal = "" if step.space.is_bits else " ".join(f"{word & 0xFFFF:04X}" for word in step.words)
     return (str(number), "write", f"{step.function:02d}", str(step.address), register, words, hexadecimal)

@@ -156,7 +156,7 @@ def command_call(command: Command) -> Call:
 
 
 def _step(step: Step) -> Call:
-    if step.wait is not None:
+    if not step.words:
         return group(["0", str(step.wait), "()"])
     return group([str(step.function), str(step.address), group([str(word) for word in step.words])])
 

@@ -37,6 +37,6 @@ def _command(command: Command) -> Json:
 
 
 def _step(step: Step) -> Json:
-    if step.wait is not None:
+    if not step.words:
         return {"wait": step.wait}
     return {"function": step.function, "address": step.address, "words": [word & 0xFFFF for word in step.words]}
