@@ -89,15 +89,23 @@ def special_is_sentinel(register: Register, _: Scope) -> Iterator[Finding]:
 
 
 @register_rule(
-    Rule("RS0603", "Number with two codes", "A number that one special value stands for cannot be the code of another.")
+    Rule(
+        "RS0603",
+        "Number with two codes",
+        "A number that one special value stands for cannot be the code of another, nor what another stands for.",
+    )
 )
 def meant_by_two(register: Register, _: Scope) -> Iterator[Finding]:
-    """Compare what special values stand for with the codes of those that stand for nothing else."""
-    for special in register.specials:
-        others = [one for one in register.specials if one.means is None]
-        rivals = [one for one in others if special.means in values_of(register, one)]
-        if special.means is not None and rivals:
-            message = (
-                f'has {show(special.means)} as what "{special.label}" means and as the code of "{rivals[0].label}"'
-            )
-            yield Finding.at(register, message, "correct the number or the code")
+    """Compare what special values stand for with each other, and with the codes of those that stand for nothing."""
+    for place, special in enumerate(register.specials):
+        if special.means is None:
+            continue
+        shown = f'has {show(special.means)} as what "{special.label}" means'
+        for other in register.specials:
+            if other.means is None and special.means in values_of(register, other):
+                message = f'{shown} and as the code of "{other.label}"'
+                yield Finding.at(register, message, "correct the number or the code")
+        for other in register.specials[:place]:
+            if other.means == special.means:
+                message = f'{shown} and as what "{other.label}" means'
+                yield Finding.at(register, message, "correct one of the numbers: only one code could be written for it")
