@@ -113,6 +113,11 @@ def values_of(register: Register, special: Special) -> tuple[Fraction, ...]:
     return tuple(special.code / factor for case in register.special_scale for factor in factors(case.then.decimals))
 
 
+def is_meant(register: Register, value: Fraction) -> bool:
+    """Whether a special value stands for a number, which no words need to spell then."""
+    return any(special.means == value for special in register.specials)
+
+
 def numbers(limits: Range) -> Iterator[Fraction]:
     """The limits that are numbers, as printed."""
     for interval in limits.intervals:

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from fractions import Fraction
 
-from regscribe.checks.carrying import Fit, best_fit, end_values, forms, listed, numbers
+from regscribe.checks.carrying import Fit, best_fit, end_values, forms, is_meant, listed, numbers
 from regscribe.checks.registry import Finding, Scope, register_rule
 from regscribe.model import Kind, Register, Rule, show
 
@@ -54,14 +54,10 @@ def too_fine(register: Register, _scope: Scope) -> Iterator[Finding]:
         return
     fine: list[Fraction] = []
     for _what, value in register.beginnings:
-        if isinstance(value, Fraction) and not _is_meant(register, value):
+        if isinstance(value, Fraction) and not is_meant(register, value):
             fine += [value] if best_fit(register, (value,)) is Fit.TOO_FINE else []
     for case in register.range:
         fine += [n for n in numbers(case.then) if best_fit(register, end_values(case.then, n)) is Fit.TOO_FINE]
     if fine:
         message = f"has default or limits that its words cannot spell exactly: {listed(list(dict.fromkeys(fine)))}"
         yield Finding.at(register, message, "correct the number, the scale or the decimals")
-
-
-def _is_meant(register: Register, value: Fraction) -> bool:
-    return any(special.means == value for special in register.specials)

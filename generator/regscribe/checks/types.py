@@ -8,6 +8,7 @@ from regscribe.checks.carrying import (
     best_fit,
     end_values,
     ends_of,
+    is_meant,
     listed,
     numbers,
     tells_apart,
@@ -47,7 +48,7 @@ def _is_numeric(register: Register) -> bool:
 def default_outside_type(register: Register, _: Scope) -> Iterator[Finding]:
     """Try the default in every view under every scale."""
     for what, value in register.beginnings:
-        if not isinstance(value, Fraction) or register.kind is Kind.STRING:
+        if not isinstance(value, Fraction) or register.kind is Kind.STRING or is_meant(register, value):
             continue
         if register.kind in WORDS_OF_BITS:
             fits = 0 <= value < 1 << register.bits
@@ -155,7 +156,7 @@ def type_and_space(register: Register, _: Scope) -> Iterator[Finding]:
 def default_outside_range(register: Register, scope: Scope) -> Iterator[Finding]:
     """Judge the default with all other registers at theirs; what cannot be known so is not judged."""
     judged = [(what, value) for what, value in register.beginnings if isinstance(value, Fraction)]
-    named = {number for special in register.specials for number in (special.code, special.means)}
+    named = {special.value for special in register.specials}
     if not register.range or not _is_numeric(register):
         return
     try:

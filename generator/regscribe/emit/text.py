@@ -268,7 +268,7 @@ def _beginning_words(register: Register, value: Fraction | str | None, wording: 
 
 
 def _default_label(register: Register, default: Fraction) -> str:
-    specials = {special.code: special.label for special in register.specials}
+    specials = {special.value: special.label for special in register.specials}
     return labels_of(register.enum).get(int(default), "") if register.enum else specials.get(default, "")
 
 

@@ -72,8 +72,11 @@ class ProgramPlace:
 
     def code(self, node: Node, path: str) -> int:
         """The code of a member or special value of the register at `path`."""
+        return int(self._value(node, path))
+
+    def _value(self, node: Node, path: str) -> Fraction:
         entry = self.scope.entries.get(numbered(path, self.numbers[0], self.first))
-        return int(code_of_text(node, Subject(path, entry), self.scope)) if entry else 0
+        return code_of_text(node, Subject(path, entry), self.scope) if entry else Fraction(0)
 
     def values(self, node: Node | None) -> tuple[tuple[str, Fraction], ...]:
         """Paths and codes of a mapping from registers to their values."""
@@ -81,7 +84,7 @@ class ProgramPlace:
         for key, value in node.items() if node else ():
             path = self.found(value, key, at_key=True)
             if path:
-                found.append((path, value.number() if value.is_number else Fraction(self.code(value, path))))
+                found.append((path, value.number() if value.is_number else self._value(value, path)))
         return tuple(found)
 
     def outputs(self, node: Node | None) -> tuple[tuple[str, str], ...]:

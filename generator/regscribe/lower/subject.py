@@ -38,7 +38,7 @@ def subject_of(node: Node, key: str, scope: Scope) -> Subject | None:
 
 
 def code_of_text(node: Node, subject: Subject, scope: Scope) -> Fraction:
-    """The code of an enum member or a special value by its id; RS0305 where there is none."""
+    """The code of an enum member, or what a special value is, by its id; RS0305 where there is none."""
     text = node.text()
     known: list[str] = []
     found = enum_for(subject.entry, scope.at(subject.entry), subject.field)
@@ -50,6 +50,9 @@ def code_of_text(node: Node, subject: Subject, scope: Scope) -> Fraction:
         known = [member.id.lower() for member in enum.members]
     for name, code_node in special_ids(subject.entry):
         if name == text.lower() and not subject.field:
+            means = code_node.child("means") if code_node.is_mapping else None
+            if means is not None:
+                return means.number()
             _undivided(node, subject.entry, code_node)
             return code_node.key_number()
         known.append(name)

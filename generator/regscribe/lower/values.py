@@ -53,20 +53,29 @@ def version_of(node: Node | None) -> tuple[int, int]:
 
 
 def beginning_of(entry: Entry, key: str, kind: Kind, enum: Enum | None) -> Fraction | str | None:
-    """The `default` or `delivered` value as one of use; RS0322 where it names no member or special value."""
+    """The `default` or `delivered` value as one of use; RS0322 where it names no member or special value.
+
+    Manuals print the code of a special value here, too: it is the number that the code stands for.
+    """
     node = entry.settings.get(key)
-    return named_value(node, kind, enum, specials_of(entry), BAD_DEFAULT) if node else None
+    if node is None:
+        return None
+    specials = specials_of(entry)
+    value = named_value(node, kind, enum, specials, BAD_DEFAULT)
+    if value in {special.means for special in specials}:
+        return value
+    return next((special.value for special in specials if special.code == value), value)
 
 
 def named_value(node: Node, kind: Kind, enum: Enum | None, specials: tuple[Special, ...], rule: str) -> Fraction | str:
-    """A value as a map spells it: a number, a text, or the id of an enum member or special value."""
+    """A value of use as a map spells it: a number, a text, or the id of an enum member or special value."""
     if kind is Kind.STRING:
         return node.text()
     if not node.is_text:
         return node.number()
     text = node.text()
     named = {member.id.lower(): Fraction(member.code) for member in (enum.members if enum else ())}
-    named |= {special.id.lower(): special.code for special in specials}
+    named |= {special.id.lower(): special.value for special in specials}
     if text.lower() in named:
         return named[text.lower()]
     if kind is Kind.VERSION and _VERSION.fullmatch(text):

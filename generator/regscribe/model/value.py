@@ -88,6 +88,11 @@ class Special:
     id: str
     means: Fraction | None = None
 
+    @property
+    def value(self) -> Fraction:
+        """The number that it stands for, or else its code, which decimals of the range still divide."""
+        return self.code if self.means is None else self.means
+
 
 class NotANumber(Enumeration):
     """Any IEEE 754 pattern that is no number, as what a device sends in place of a value."""

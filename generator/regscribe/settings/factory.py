@@ -29,8 +29,7 @@ def default_of(register: Register[Any]) -> Any:  # noqa: ANN401 (a value of any 
     for member in kind.special or ():
         if exact(member.value) == number:
             return member
-    meant = (means for code, means in kind.means.items() if Fraction(code) == number)
-    return kind.make(Fraction(next(meant, number)))
+    return kind.make(number)
 
 
 def _saved(register: Register[Any], value: Any, state: dict[str, Any]) -> Saved:  # noqa: ANN401 (as above)

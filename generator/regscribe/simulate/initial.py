@@ -20,7 +20,7 @@ def initial_value(register_map: RegisterMap, model: Model, register: Register, s
         return _identifying(register, tests)
     for value in (register.delivered, register.default):
         if value is not None:
-            special = next((each for each in register.specials if each.code == value), None)
+            special = next((each for each in register.specials if each.means is None and each.code == value), None)
             return state.special(register, special) if special else value
     if accepts(register, Fraction(0), state):
         return Fraction(0)

@@ -83,7 +83,7 @@ class _Words:
         """A code of a register with its label."""
         found = self._found(path)
         names = labels_of(found.enum) if found else {}
-        special = next((one.label for one in found.specials if one.code == number), "") if found else ""
+        special = next((one.label for one in found.specials if one.value == number), "") if found else ""
         label = names.get(int(number), special)
         return md(show(Fraction(number)), " (", one_line(label), ")") if label else md(show(Fraction(number)))
 
