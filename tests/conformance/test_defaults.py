@@ -40,6 +40,7 @@ def new(*registers: Json, **tables: Json) -> New:
         (FAST | {"default": 7}, 7, (7,), "7"),
         (SWAPPED | {"default": 0}, 0, (5,), "0 = none"),
         (SWAPPED | {"default": "five"}, 5, (0,), "5 = five"),
+        ({"version": "nn.nn", "default": "01.20"}, "01.20", (120,), "01.20"),
         ({"special": {1: {"label": "far", "means": 100000}}, "default": "far"}, 100000, (1,), "100000 = far"),
     ],
 )
@@ -55,6 +56,10 @@ def test_a_new_device_reads_as_its_default(keys: Json, default: object, words: t
 
 def test_what_is_delivered_may_be_told_by_its_code() -> None:
     assert new({"name": "V", **FAST, "default": 3, "delivered": 0}).device.peek_words("v") == (0,)
+
+
+def test_what_is_delivered_of_a_version_is_its_text() -> None:
+    assert new({"name": "V", "version": "nn.nn", "delivered": "01.20"}).device.peek_words("v") == (120,)
 
 
 def test_a_condition_names_a_special_value_that_stands_for_another_number() -> None:

@@ -175,7 +175,7 @@ def test_specials_and_sentinels_have_ids_like_members(registers: Registers) -> N
         ("range: 4..9, special: {3: 'off'}, default: 'off'", Fraction(3)),
         ("decimals: 1, default: 12.5", Fraction(25, 2)),
         ("type: string, length: 2, default: M3", "M3"),
-        ("type: uint32, version: nn.nn, default: '01.31'", Fraction(131)),
+        ("type: uint32, version: nn.nn, default: '01.31'", "01.31"),
         ("range: 0..9", None),
     ],
 )

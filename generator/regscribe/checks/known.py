@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from fractions import Fraction
 
 from regscribe.model import GivenKind, Model, RegisterMap
-from regscribe.model.reference import Surroundings
+from regscribe.model.reference import Surroundings, number_of
 
 MOST_DECIMALS = 30
 """No display has so many digits."""
@@ -23,7 +23,8 @@ def with_fields(model: Model, values: dict[str, Fraction]) -> dict[str, Fraction
 
 def default_values(model: Model) -> dict[str, Fraction]:
     """The defaults of all registers of a model that are numbers, by path."""
-    return {register.path: register.default for register in model.registers if isinstance(register.default, Fraction)}
+    found = {register.path: number_of(register, register.default) for register in model.registers}
+    return {path: number for path, number in found.items() if number is not None}
 
 
 def _sensible(model: Model, values: dict[str, Fraction]) -> dict[str, Fraction]:

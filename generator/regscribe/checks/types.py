@@ -8,13 +8,13 @@ from regscribe.checks.carrying import (
     best_fit,
     end_values,
     ends_of,
-    is_meant,
     listed,
     numbers,
     tells_apart,
     values_of,
     widest,
 )
+from regscribe.checks.holding import outside_type, shown, wrong_sort
 from regscribe.checks.registry import Finding, Scope, register_rule, warning
 from regscribe.model import (
     IDENTITY,
@@ -48,14 +48,8 @@ def _is_numeric(register: Register) -> bool:
 def default_outside_type(register: Register, _: Scope) -> Iterator[Finding]:
     """Try the default in every view under every scale."""
     for what, value in register.beginnings:
-        if not isinstance(value, Fraction) or register.kind is Kind.STRING or is_meant(register, value):
-            continue
-        if register.kind in WORDS_OF_BITS:
-            fits = 0 <= value < 1 << register.bits
-        else:
-            fits = best_fit(register, (value,)) is not Fit.TOO_LARGE
-        if not fits:
-            yield Finding.at(register, f"has {what} {show(value)}, outside {ends_of(register)}", HELP_TYPE)
+        if not wrong_sort(register, value) and outside_type(register, value):
+            yield Finding.at(register, f"has {what} {shown(value)}, outside {ends_of(register)}", HELP_TYPE)
 
 
 @register_rule(
@@ -274,19 +268,19 @@ def scaled_codes(register: Register, _: Scope) -> Iterator[Finding]:
 
 
 @register_rule(
-    Rule("RS0428", "Default of the wrong sort", "A text for a number (or a text that is too long) cannot be written.")
+    Rule(
+        "RS0428",
+        "Default of the wrong sort",
+        "A text for a number, or one that the words or the pattern cannot spell, is never read and cannot be written.",
+    )
 )
 def default_of_wrong_sort(register: Register, _: Scope) -> Iterator[Finding]:
-    """Compare the default with the kind; a text with the words it has."""
-    textual = register.kind is Kind.STRING  # a version packs digits: its default is the number that they spell
+    """Compare the default with the kind; a text with the words it has, a version with its pattern."""
     for what, value in register.beginnings:
-        if textual != isinstance(value, str):
-            shown = repr(value) if isinstance(value, str) else show(value)
-            message = f"is of kind {register.kind} but has {what} {shown}"
-            yield Finding.at(register, message, f"correct the {what} or `kind`")
-        elif isinstance(value, str) and textual and len(value) > 2 * register.base.words:
-            message = f"has a {what} of {len(value)} characters and room for {2 * register.base.words}"
-            yield Finding.at(register, message, f"correct the {what} or `length`")
+        problem = wrong_sort(register, value)
+        if problem:
+            message = f"is of kind {register.kind} and has {what} {shown(value)}, {problem}"
+            yield Finding.at(register, message, f"correct the {what}, or the kind and its keys")
 
 
 @register_rule(

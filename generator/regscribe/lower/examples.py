@@ -12,6 +12,7 @@ from regscribe.lower.scope import Scope
 from regscribe.lower.subject import Subject, code_of_text, subject_of
 from regscribe.lower.values import named_value
 from regscribe.model import Example, FrameExample, Kind, Outcome, Register, TimingExample, ValueExample
+from regscribe.model.reference import number_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,8 +160,9 @@ def _write(key: str, node: Node, product: Product) -> tuple[str, Fraction]:
     if register is None:
         return key, Fraction(0)
     value = named_value(node, register.kind, register.enum, register.specials, UNKNOWN_MEMBER)
-    if isinstance(value, Fraction):
-        return register.path, value
+    number = number_of(register, value)
+    if number is not None:
+        return register.path, number
     node.report(WRONG_SORT, f"`{key}` is a text, not a number", remedy="give the `words` of the frame instead")
     return register.path, Fraction(0)
 

@@ -1,6 +1,5 @@
 """Single values: defaults, special values, sentinels and packed versions."""
 
-import re
 from fractions import Fraction
 
 from regscribe.lower.names import identifier, unknown
@@ -8,8 +7,6 @@ from regscribe.lower.node import Node, text_of
 from regscribe.lower.rules import BAD_DEFAULT, BAD_VERSION
 from regscribe.lower.tree import Entry
 from regscribe.model import NAN, Enum, Kind, Sentinel, Special
-
-_VERSION = re.compile(r"[0-9]{1,12}(\.[0-9]{1,12}){0,12}")
 
 
 def specials_of(entry: Entry) -> tuple[Special, ...]:
@@ -68,7 +65,7 @@ def beginning_of(entry: Entry, key: str, kind: Kind, enum: Enum | None) -> Fract
 
 
 def named_value(node: Node, kind: Kind, enum: Enum | None, specials: tuple[Special, ...], rule: str) -> Fraction | str:
-    """A value of use as a map spells it: a number, a text, or the id of an enum member or special value."""
+    """A value of use as a map spells it: a number, a text or version, or the id of an enum member or special value."""
     if kind is Kind.STRING:
         return node.text()
     if not node.is_text:
@@ -78,7 +75,7 @@ def named_value(node: Node, kind: Kind, enum: Enum | None, specials: tuple[Speci
     named |= {special.id.lower(): special.value for special in specials}
     if text.lower() in named:
         return named[text.lower()]
-    if kind is Kind.VERSION and _VERSION.fullmatch(text):
-        return Fraction(int(text.replace(".", "")))
+    if kind is Kind.VERSION:
+        return text
     unknown(node, rule, "member or special value", text, named)
     return Fraction(0)

@@ -71,7 +71,7 @@ class Register:
     `views[0]` is the base view; `aliases` are further addresses that transmit the base view.
     `scale` goes from the stored value to the value of use, `special_scale` from the code of a special value to its
     value of use (the decimals that divide the range); `default` is a value of use: a number (an enum's code, a word's
-    bits), a text, or None where the manual gives none; `delivered` is what a new device holds instead.
+    bits), a text or version, or None where the manual gives none; `delivered` is what a new device holds instead.
     `section` is where the manual describes it.
     `rescales` names the unit (of the map's units) whose registers the device converts when this one is written.
     `unlock` and `apply` name commands that must precede and follow a write.

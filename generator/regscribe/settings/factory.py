@@ -11,6 +11,8 @@ from regscribe.runtime.wire import exact
 from regscribe.settings.saved import Saved
 from regscribe.settings.taking import is_number, writable
 
+TEXTS = frozenset({"string", "version"})
+
 
 def factory(driver: Driver) -> dict[str, Saved]:
     """The settings of a model by path, where its manual gives a default."""
@@ -21,7 +23,7 @@ def factory(driver: Driver) -> dict[str, Saved]:
 def default_of(register: Register[Any]) -> Any:  # noqa: ANN401 (a value of any register)
     """The default as a driver would read it: a member of the enum, a special value, a number, a text."""
     kind, default = register.kind, register.default
-    if kind.name == "string" or default is None:
+    if kind.name in TEXTS or default is None:
         return default
     if kind.coded:
         return kind.make(int(default))

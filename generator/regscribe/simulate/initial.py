@@ -3,6 +3,7 @@
 from fractions import Fraction
 
 from regscribe.model import Kind, Model, Register, RegisterMap, Test
+from regscribe.model.reference import number_of
 from regscribe.simulate.limits import Present, accepts, limit_value
 from regscribe.simulate.values import with_field
 
@@ -44,7 +45,7 @@ def _identifying_tests(register_map: RegisterMap, model: Model, register: Regist
 
 
 def _identifying(register: Register, tests: tuple[Test, ...]) -> Fraction:
-    value = register.default if isinstance(register.default, Fraction) else Fraction(0)
+    value = number_of(register, register.default) or Fraction(0)
     for test in tests:
         code = test.codes[0].low
         field = next((each for each in register.fields if each.id == test.field), None)

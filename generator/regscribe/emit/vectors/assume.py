@@ -4,7 +4,7 @@ from fractions import Fraction
 from typing import Any
 
 from regscribe.model import GivenKind, RegisterMap, show
-from regscribe.model.reference import Surroundings
+from regscribe.model.reference import Surroundings, number_of
 
 Json = dict[str, Any]
 Pairs = tuple[tuple[str, Fraction], ...]
@@ -31,7 +31,8 @@ class Assumed:
     def __init__(self, register_map: RegisterMap, model: str, said: Pairs, writes: Pairs = ()) -> None:
         registers = register_map.model(model).registers
         self._said, self._writes = dict(said), dict(writes)
-        values = {one.path: one.default for one in registers if isinstance(one.default, Fraction)}
+        defaults = {one.path: number_of(one, one.default) for one in registers}
+        values = {path: number for path, number in defaults.items() if number is not None}
         values |= self._said | self._writes
         self._parts: dict[str, str] = {}
         for register in registers:

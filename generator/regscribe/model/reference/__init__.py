@@ -4,7 +4,15 @@ Words -> wire number -> stored value -> value of use, and back. Nothing is cache
 written apart from it, so that neither inherits the other's mistakes.
 """
 
-from regscribe.model.reference.codec import decode, encode, sentinel_number, special_value, version_text
+from regscribe.model.reference.codec import (
+    decode,
+    encode,
+    number_of,
+    sentinel_number,
+    special_value,
+    version_number,
+    version_text,
+)
 from regscribe.model.reference.ieee import NotFiniteError, ieee_bits, ieee_number, not_a_number, shortest
 from regscribe.model.reference.known import (
     MOST_DECIMALS,
@@ -38,11 +46,13 @@ __all__ = [
     "ieee_number",
     "limits",
     "not_a_number",
+    "number_of",
     "round_by",
     "sentinel_number",
     "shortest",
     "special_value",
     "transmit",
+    "version_number",
     "version_text",
     "wire_number",
     "word_order",

@@ -99,6 +99,16 @@ def version_number(register: Register, text: str) -> Fraction:
     raise RefusedError(Reason.TYPE, f"{text!r} is no version of {register.version_digits} digits")
 
 
+def number_of(register: Register, value: Fraction | str | None) -> Fraction | None:
+    """Return the number of a value, that which a version packs included; None for a text that packs none."""
+    if not isinstance(value, str):
+        return value
+    try:
+        return version_number(register, value) if register.kind is Kind.VERSION else None
+    except RefusedError:
+        return None
+
+
 def encode(
     register: Register,
     view: View,
