@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from regscribe.checks.holding import impossible, impossible_part, shown
 from regscribe.checks.registry import Finding, Scope, model_rule, register_rule
 from regscribe.model import Alarm, BitField, Effect, Kind, Output, Process, Register, Related, Rule, WireType
 
@@ -123,9 +124,15 @@ def _alarm(alarm: Alarm) -> Iterator[Role]:
     yield from ((f"alarms.{name}", getattr(alarm, name), False) for name in ("hysteresis", "delay", "inhibit"))
 
 
-@model_rule(Rule("RS0497", "Effect that a register cannot take", "A register without a default cannot return to it."))
+@model_rule(
+    Rule(
+        "RS0497",
+        "Effect that a register cannot take",
+        "A register without a default cannot return to it, and none can be set to what its words cannot spell.",
+    )
+)
 def impossible_effect(scope: Scope) -> Iterator[Finding]:
-    """Look at the defaults and the codes of all registers that an effect names."""
+    """Look at the defaults of all registers that an effect names, and at what it sets; ranges limit masters only."""
     for command in scope.model.commands:
         for effect in command.effects:
             for register, problem in _impossible(effect, scope):
@@ -141,6 +148,9 @@ def _impossible(effect: Effect, scope: Scope) -> Iterator[tuple[Register, str]]:
             yield register, f"returns `{path}` to its default, which it has not"
     for path, value in effect.sets:
         found = _found(path, scope)
-        enum = (found[1].enum if found[1] else found[0].enum) if found else None
-        if found is not None and enum is not None and value not in {member.code for member in enum.members}:
-            yield found[0], f"sets `{path}` to {value}, which is none of its codes"
+        if found is None:
+            continue
+        register, field = found
+        problem = impossible_part(field, value) if field is not None else impossible(register, value)
+        if problem:
+            yield register, f"sets `{path}` to {shown(value)}, {problem}"

@@ -2,8 +2,8 @@
 
 from fractions import Fraction
 
-from regscribe.checks.carrying import Fit, best_fit, is_meant
-from regscribe.model import Kind, Register, show
+from regscribe.checks.carrying import Fit, best_fit, ends_of, is_meant, tells_apart
+from regscribe.model import BitField, Kind, Register, show
 from regscribe.model.reference import RefusedError, number_of, version_number
 
 TEXTS = frozenset({Kind.STRING, Kind.VERSION})
@@ -53,3 +53,46 @@ def outside_type(register: Register, value: Fraction | str) -> bool:
     if register.kind in PATTERNS:
         return not 0 <= number < 1 << register.bits
     return best_fit(register, (number,)) is Fit.TOO_LARGE
+
+
+def too_fine(register: Register, value: Fraction | str) -> bool:
+    """Whether every view under every scale would show another number beside the value; never so of a text."""
+    if isinstance(value, str) or is_meant(register, value):
+        return False
+    if not register.fractional and value.denominator != 1:
+        return True
+    fit = best_fit(register, (value,))
+    return fit is Fit.TOO_FINE or (fit is Fit.EXACT and not tells_apart(register, value))
+
+
+def no_member(register: Register, value: Fraction | str) -> str:
+    """Which code of a value no enum lists, of the register or of a field in it, for a message; empty where none is."""
+    if isinstance(value, str) or value.denominator != 1:
+        return ""
+    parts = [("", register.enum, int(value))]
+    parts += [(f" of `{one.id}`", one.enum, int(value) >> one.low & (1 << one.width) - 1) for one in register.fields]
+    for where, enum, code in parts:
+        if enum is not None and all(member.code != code for member in enum.members):
+            codes = ", ".join(str(member.code) for member in enum.members)
+            return f"{code}{where}, which its enum does not list ({codes})"
+    return ""
+
+
+def impossible(register: Register, value: Fraction | str) -> str:
+    """Why a register cannot hold just a value, as `which is ...`; empty where it can."""
+    problem = wrong_sort(register, value)
+    if problem:
+        return problem
+    if outside_type(register, value):
+        return f"which is outside {ends_of(register)}"
+    if too_fine(register, value):
+        return "which its words cannot spell exactly"
+    return "which is none of its codes" if no_member(register, value) else ""
+
+
+def impossible_part(field: BitField, value: Fraction | str) -> str:
+    """Why the bits of a field cannot hold just a value, as `which is ...`; empty where they can."""
+    if isinstance(value, str) or value.denominator != 1 or not 0 <= value < 1 << field.width:
+        return f"which {field.width} {'bits' if field.width > 1 else 'bit'} cannot spell"
+    codes = {member.code for member in field.enum.members} if field.enum else {value}
+    return "" if value in codes else "which is none of its codes"

@@ -7,8 +7,8 @@ from regscribe.lower.conditions import condition
 from regscribe.lower.node import Node, elements_of, items_of, truth_of
 from regscribe.lower.presence import present
 from regscribe.lower.scope import Scope, path_of
-from regscribe.lower.subject import code_of_text, subject_of
-from regscribe.model import Effect, Register
+from regscribe.lower.subject import Subject, code_of_text, subject_of
+from regscribe.model import Effect, Kind, Register
 
 
 def effects_of(command: Node, scope: Scope, registers: Mapping[str, Register]) -> tuple[Effect, ...]:
@@ -22,21 +22,27 @@ def effects_of(command: Node, scope: Scope, registers: Mapping[str, Register]) -
 def _effect(node: Node, scope: Scope, registers: Mapping[str, Register]) -> Effect:
     return Effect(
         when=condition(node.child("when"), scope),
-        sets=tuple(_sets(node, scope)),
+        sets=tuple(_sets(node, scope, registers)),
         defaults=_defaults(node, scope, registers),
         unlatch=truth_of(node, "unlatch"),
     )
 
 
-def _sets(effect: Node, scope: Scope) -> list[tuple[str, Fraction | str]]:
+def _sets(effect: Node, scope: Scope, registers: Mapping[str, Register]) -> list[tuple[str, Fraction | str]]:
     found: list[tuple[str, Fraction | str]] = []
     for key, node in items_of(effect, "set"):
         subject = subject_of(node, key, scope)
         if subject is not None:
             path = path_of(subject.entry, subject.name)
-            value = code_of_text(node, subject, scope) if node.is_text else node.number()
-            found.append((f"{path}.{subject.field}" if subject.field else path, value))
+            kind = registers[path].kind if path in registers and not subject.field else Kind.NUMBER
+            found.append((f"{path}.{subject.field}" if subject.field else path, _value(node, subject, scope, kind)))
     return found
+
+
+def _value(node: Node, subject: Subject, scope: Scope, kind: Kind) -> Fraction | str:
+    if kind is Kind.STRING or (kind is Kind.VERSION and node.is_text):
+        return node.text()
+    return code_of_text(node, subject, scope) if node.is_text else node.number()
 
 
 def _defaults(effect: Node, scope: Scope, registers: Mapping[str, Register]) -> tuple[str, ...]:
