@@ -14,14 +14,14 @@ FAR = 10_000
 
 @dataclass(frozen=True, slots=True)
 class Stretch:
-    """Addresses that a register takes in one space, by which of its views or aliases, and by which functions."""
+    """Addresses that a register takes in one space, by which of its views (the base view for an alias)."""
 
     space: Space
     first: int
     last: int
     register: Register
     by: str
-    functions: tuple[int, ...] = ()
+    view: View
 
     def __str__(self) -> str:
         where = str(self.first) if self.first == self.last else f"{self.first}..{self.last}"
@@ -32,12 +32,12 @@ def stretches(register: Register) -> Iterator[Stretch]:
     """All stretches of a register: its views, then its aliases."""
     for view in register.views:
         by = f"view {view.name}" if len(register.views) > 1 else ""
-        yield Stretch(view.space, view.address, view.last, register, by, view.functions)
+        yield Stretch(view.space, view.address, view.last, register, by, view)
     for alias in dict.fromkeys(register.aliases):
         if alias == register.base.address:
             continue  # RS0403 speaks of it
         base = register.base
-        yield Stretch(base.space, alias, alias + base.words - 1, register, "alias", base.functions)
+        yield Stretch(base.space, alias, alias + base.words - 1, register, "alias", base)
 
 
 @model_rule(

@@ -83,10 +83,10 @@ def step_by_another_function(scope: Scope) -> Iterator[Finding]:
     """Compare the function of a step with those of the views that it touches."""
     for command, step in requests(scope):
         for stretch in touched(step, scope):
-            if stretch.functions and step.function not in stretch.functions:
+            if stretch.view.functions and step.function not in stretch.view.functions:
                 related = Related(f"`{stretch.register.path}` takes {stretch}", stretch.register.span)
                 message = f"uses function {step.function:02d} at {stretch} of `{stretch.register.path}`, which is"
-                message = f"{message} by functions {list(stretch.functions)} only"
+                message = f"{message} by functions {list(stretch.view.functions)} only"
                 yield _at(command, message, "name another `view` or `function`, or correct `functions`", related)
         for view in () if any(touched(step, scope)) else _around(step, scope):
             if not view.allows(step.function):

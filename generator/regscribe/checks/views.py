@@ -3,10 +3,13 @@
 from collections.abc import Iterator
 from itertools import combinations
 
-from regscribe.checks.registry import Finding, Scope, map_rule, register_rule
-from regscribe.model import READ_FUNCTIONS, WRITE_FUNCTIONS, Register, Rule, Space, View
+from regscribe.checks.addresses import stretches
+from regscribe.checks.registry import Finding, Scope, map_rule, model_rule, register_rule
+from regscribe.model import READ_FUNCTIONS, WRITE_FUNCTIONS, Register, Related, Rule, Space, View
 
 Shape = tuple[object, ...]
+Region = tuple[Space, str, int, int]
+"""Where the views of one name stand: their space, their name, the first and the last address."""
 
 
 def view_sets(scopes: tuple[Scope, ...]) -> Iterator[Register]:
@@ -20,18 +23,44 @@ def view_sets(scopes: tuple[Scope, ...]) -> Iterator[Register]:
                 yield register
 
 
+def regions(scope: Scope) -> dict[Region, Register]:
+    """The regions of a model, each with the first register that has it; view sets that state one alike share it."""
+    found: dict[Region, Register] = {}
+    for register in scope.model.registers:
+        for view in register.views:
+            if view.region:
+                found.setdefault((view.space, view.name, *view.region), register)
+    return found
+
+
 def _is_aligned(view: View) -> bool:
     return view.align <= 1 or not (view.address % view.align or view.words % view.align)
 
 
 @register_rule(Rule("RS0455", "View outside its region", "The manual gives each kind of view its own addresses."))
 def outside_region(register: Register, _: Scope) -> Iterator[Finding]:
-    """Compare the first and the last address of each view with its region."""
-    for view in register.views:
-        if view.region and not view.region[0] <= view.address <= view.last <= view.region[1]:
-            first, last = view.region
-            message = f"has view {view.name} at {view.address}..{view.last}, outside its region {first}..{last}"
-            yield Finding.at(register, message, "correct `at`, or the view's offset, stride or region")
+    """Compare the first and the last address of each view, and of the aliases of the base view, with its region."""
+    for stretch in stretches(register):
+        region = stretch.view.region
+        if region and not region[0] <= stretch.first <= stretch.last <= region[1]:
+            where = f"{stretch.by or f'view {stretch.view.name}'} at {stretch.first}..{stretch.last}"
+            message = f"has {where}, outside its region {region[0]}..{region[1]}"
+            yield Finding.at(register, message, "correct `at`, the alias, or the view's offset, stride or region")
+
+
+@model_rule(
+    Rule("RS0660", "Register in the region of a view", "Nothing else stands where a view has addresses of its own.")
+)
+def in_a_region(scope: Scope) -> Iterator[Finding]:
+    """Compare what has no region of its own with all regions; RS0455 and RS0457 keep those that have one apart."""
+    every = regions(scope)
+    for register in scope.model.registers:
+        for stretch in stretches(register):
+            for (space, name, first, last), owner in every.items() if not stretch.view.region else ():
+                if space == stretch.space and stretch.first <= last and first <= stretch.last:
+                    message = f"takes {stretch}, in the region {first}..{last} of view {name}"
+                    related = Related(f"`{owner.path}` has this view", owner.span)
+                    yield Finding.at(register, message, "correct `at`, the alias, or `region` of the view", related)
 
 
 @register_rule(
@@ -45,17 +74,15 @@ def misaligned(register: Register, _: Scope) -> Iterator[Finding]:
             yield Finding.at(register, message, "correct `at`, the view's offset and stride, or `align`")
 
 
-@map_rule(Rule("RS0457", "View regions overlap", "An address in two regions would have two meanings."))
-def regions_overlap(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
-    """Compare the regions of each view set in pairs, once."""
-    for register in view_sets(scopes):
-        with_region = [view for view in register.views if view.region]
-        for one, other in combinations(with_region, 2):
-            if one.space == other.space and one.region and other.region:
-                (low, high), (first, last) = one.region, other.region
-                if low <= last and first <= high:
-                    message = f"has views whose regions overlap: {one.name} {low}..{high}, {other.name} {first}..{last}"
-                    yield Finding.at(register, message, "correct `region` of one view")
+@model_rule(Rule("RS0457", "View regions overlap", "An address in two regions would have two meanings."))
+def regions_overlap(scope: Scope) -> Iterator[Finding]:
+    """Compare all regions of the model in pairs."""
+    for (one, register), (other, owner) in combinations(regions(scope).items(), 2):
+        (space, name, low, high), (other_space, other_name, first, last) = one, other
+        if space == other_space and low <= last and first <= high:
+            message = f"has a view whose region overlaps another: {name} {low}..{high}, {other_name} {first}..{last}"
+            related = Related(f"`{owner.path}` has view {other_name}", owner.span)
+            yield Finding.at(register, message, "correct `region` of one view", related)
 
 
 @register_rule(
