@@ -1,10 +1,22 @@
 """Registers that set the line they are written over: what their codes mean, and that they are not copied."""
 
 from collections.abc import Iterator
+from fractions import Fraction
 from itertools import product
 
+from regscribe.checks.carrying import Fit, best_fit
+from regscribe.checks.domains import domain
 from regscribe.checks.registry import Finding, Scope, register_rule
-from regscribe.model import Governs, Register, Rule, Serial, Setting
+from regscribe.model import Governs, Kind, Register, Rule, Serial, Setting
+
+ADDRESSES = frozenset({Kind.INTEGER, Kind.RAW})
+"""What a unit id can be: a whole number."""
+
+CODES = ADDRESSES | {Kind.NUMBER, Kind.ENUM, Kind.BOOLEAN}
+"""What a code can be: one value, no word of several parts and no text."""
+
+MOST_BAUD = 10_000_000
+"""The fastest speed that the language lets a line have."""
 
 ADDRESSINGS = ("modbus", "jbus")
 PARITIES = ("N", "E", "O")
@@ -36,20 +48,36 @@ def impossible_setting(register: Register, scope: Scope) -> Iterator[Finding]:
     governs = register.governs
     if governs is None:
         return
-    if governs.setting is Setting.ADDRESS and governs.codes:
+    kinds = ADDRESSES if governs.setting is Setting.ADDRESS else CODES
+    if register.kind not in kinds:
+        message = f"governs the {governs.setting} and is of kind {register.kind}"
+        yield Finding.at(register, message, f"possible are: {', '.join(sorted(kinds))}")
+    elif governs.setting is Setting.ADDRESS and governs.codes:
         yield Finding.at(register, "governs the address with codes", "remove them: the value itself is the address")
-        return
-    possible = _possible(governs.setting, scope.register_map.protocol.serial)
-    known = {member.code for member in register.enum.members} if register.enum else None
+    else:
+        yield from _codes(register, governs, _possible(governs.setting, scope.register_map.protocol.serial))
+
+
+def _codes(register: Register, governs: Governs, possible: tuple[str, ...]) -> Iterator[Finding]:
     for code, value in governs.codes:
-        if (possible and value not in possible) or (governs.setting is Setting.BAUD and not value.isdecimal()):
-            shown = ", ".join(possible) or "a number"
+        if (possible and value not in possible) or (governs.setting is Setting.BAUD and not _is_speed(value)):
+            shown = ", ".join(possible) or f"1 to {MOST_BAUD}"
             yield Finding.at(register, f"sets {governs.setting} to {value} by code {code}", f"possible are: {shown}")
-        elif known is not None and code not in known:
-            codes = ", ".join(str(one) for one in sorted(known))
-            yield Finding.at(
-                register, f"governs by code {code}, which is none of its values", f"its codes are: {codes}"
-            )
+        elif not _has_value(register, Fraction(code)):
+            message = f"governs by code {code}, which is none of its values"
+            yield Finding.at(register, message, "correct the code (a value of use, as scaled), the range or the type")
+
+
+def _is_speed(text: str) -> bool:
+    return text.isdecimal() and 0 < int(text) <= MOST_BAUD
+
+
+def _has_value(register: Register, value: Fraction) -> bool:
+    if register.enum is not None:
+        return value in {member.code for member in register.enum.members}
+    if register.kind is Kind.BOOLEAN:
+        return value in {0, 1}
+    return any(one.holds(value) for one in domain(register)) and best_fit(register, (value,)) is Fit.EXACT
 
 
 @register_rule(

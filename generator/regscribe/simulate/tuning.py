@@ -57,4 +57,5 @@ class Tuning:
         if governs.setting is Setting.ADDRESS:
             self.unit = int(value)
         elif governs.setting is Setting.ADDRESSING:
-            self.first = FIRST_ADDRESSES.get(dict(governs.codes).get(int(value), ""), self.first)
+            name = next((name for code, name in governs.codes if code == value), "")
+            self.first = FIRST_ADDRESSES.get(name, self.first)
