@@ -1,6 +1,8 @@
 """Writing what governs the line: the driver follows the device, or says where it was left."""
 
+import asyncio
 import os
+import struct
 import termios
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -10,6 +12,8 @@ import pytest
 
 from regscribe.runtime import LeftAt, NoAnswer, NotWritten, ReadBackDiffers, ValueRefused, WriteFailed
 from regscribe.simulate import SimulatedDevice, simulate
+
+from .conftest import KILN, AsyncDirectLink
 
 BAUDS = {0: termios.B4800, 1: termios.B9600}
 
@@ -87,6 +91,54 @@ def test_a_unit_id_at_which_another_device_answers_is_refused(kiln: Any, direct:
     with pytest.raises(ValueRefused, match="unit 7 answers already"):
         controller.own_address.write(7, confirm=True)
     assert controller.own_address.read() == 1
+
+
+BARE = KILN.replace("range: 1..50, default: 1, stays: address", "default: 2, stays: address")
+BARE = BARE.replace("unit_ids: 1..50", "unit_ids: 2..31")
+
+
+@pytest.mark.parametrize("unit", [0, 1, 32, 300])
+def test_a_unit_id_that_the_device_cannot_have_is_refused_before_anything_is_sent(
+    build: Any, direct: Any, unit: int
+) -> None:
+    bare = build(BARE)
+    device = SimulatedDevice(bare.map, "One", unit=2)
+    link, other = direct(device), AsyncDirectLink(device)
+    controller, twin = bare.driver("One")(link, unit=2), bare.module.AsyncKilnOne(other, unit=2)
+
+    with pytest.raises(ValueRefused, match="is no unit id of this device: they are 2 to 31"):
+        controller.own_address.write(unit, confirm=True)
+    with pytest.raises(ValueRefused, match="is no unit id of this device"):
+        asyncio.run(twin.own_address.write(unit, confirm=True))
+    assert (link.log, other.log) == ([], [])
+    with pytest.raises(ValueRefused, match="is no unit id of this device"):
+        controller.configure({"own_address": unit, "band": 20}, confirm=True)
+    assert (device.unit, device.peek("band"), controller.session.unit, twin.session.unit) == (2, 10, 2, 2)
+    controller.own_address.write(31, confirm=True)
+    assert (device.unit, controller.session.unit) == (31, 31)
+
+
+def test_the_driver_talks_as_before_whatever_breaks_a_change_of_the_line_off(
+    kiln: Any, direct: Any, device: SimulatedDevice
+) -> None:
+    def broken(kind: Any) -> Any:
+        class Broken(kind):  # type: ignore[misc] # a class from a parameter
+            def call(self, unit: int, request: Any) -> Any:
+                if unit == 7:
+                    raise struct.error
+                return super().call(unit, request)
+
+        return Broken(device)
+
+    controller = kiln.driver("One")(broken(direct), unit=1)
+    with pytest.raises(struct.error):
+        controller.own_address.write(7, confirm=True)
+    assert (controller.session.unit, controller.band.read()) == (1, 10)
+
+    twin = kiln.module.AsyncKilnOne(broken(AsyncDirectLink), unit=1)
+    with pytest.raises(struct.error):
+        asyncio.run(twin.own_address.write(7, confirm=True))
+    assert (twin.session.unit, asyncio.run(twin.band.read())) == (1, 10)
 
 
 def test_the_driver_follows_addresses_that_are_counted_from_one(controller: Any, device: SimulatedDevice) -> None:

@@ -35,7 +35,7 @@ def carry_out(operation: Operation[T], link: Link, unit: int, session: Session |
     except StopIteration as done:
         return cast("T", done.value)
     except BaseException as error:
-        _break_off(operation, error, session)
+        _break_off(operation, error, session, link)
         raise
 
 
@@ -59,17 +59,19 @@ async def carry_out_async(operation: Operation[T], link: AsyncLink, unit: int, s
     except StopIteration as done:
         return cast("T", done.value)
     except BaseException as error:
-        _break_off(operation, error, session)
+        _break_off(operation, error, session, link)
         raise
 
 
-def _break_off(operation: Operation[T], error: BaseException, session: Session | None) -> None:
-    """End an operation that is cancelled or interrupted; what it leaves half done is noted at the error."""
+def _break_off(operation: Operation[T], error: BaseException, session: Session | None, link: Link | AsyncLink) -> None:
+    """End an operation that failed, is cancelled or interrupted; what it leaves half done is noted at the error."""
     if session is None:
         operation.close()
         return
     before = session.broken_off
     operation.close()
+    if session.home is not None:
+        _retune(session.home, session, link)
     if session.broken_off is not None and session.broken_off is not before:
         error.add_note(f"configure was broken off in the middle: {session.broken_off.told}")
 

@@ -14,6 +14,7 @@ from regscribe.runtime.reads import read_request
 from regscribe.runtime.request import verify
 from regscribe.runtime.sending import applied, called, send
 from regscribe.runtime.session import Operation, Pause, Retune, Session
+from regscribe.runtime.wire import brief
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -29,6 +30,9 @@ MARKS = frozenset({"string", "version"})
 
 LATER = "restart"
 
+FIRST_UNIT = 1
+"""Unit 0 is the broadcast, which nobody answers."""
+
 
 class _Move(NamedTuple):
     """A change of the line: how to talk before and after, and the words by which the device is known again."""
@@ -41,6 +45,18 @@ class _Move(NamedTuple):
     marks: dict[str, Words]
 
 
+def allowed(session: Session, target: Target, words: Words, state: State) -> None:
+    """Refuse a unit id at which no such device can be reached: ValueRefused, before anything is sent."""
+    register, view = target
+    if not register.governs or register.governs.setting != "address":
+        return
+    value = meaning(register, view, words, state, session, named=False)
+    low, high = session.protocol.unit_ids
+    low = max(low, FIRST_UNIT)
+    if not low <= value <= high or value != int(value):
+        raise ValueRefused(register.path, f"{brief(value)} is no unit id of this device: they are {low} to {high}")
+
+
 def follow(session: Session, target: Target, words: Words, state: State) -> Operation[None]:
     """Write a register that governs the line, apply it, and talk on in the new setting.
 
@@ -50,12 +66,14 @@ def follow(session: Session, target: Target, words: Words, state: State) -> Oper
     old = _present(session)
     governs: Governs = register.governs  # type: ignore[assignment] # that is why we are here
     value = meaning(register, target[1], words, state, session)
-    new = list(_meant(governs, int(value))) or list(_guesses(session, governs))
+    new = list(_meant(governs, value)) or list(_guesses(session, governs))
+    session.home = old
     yield from _free(session, target, governs, words, old)
     marks = (yield from _marks(session)) if governs.setting == "addressing" else {}
     cause = yield from _told(session, target, words, governs)
     move = _Move(register, target, words, state, old, marks)  # pyright: ignore[reportArgumentType] # a register is a descriptor, but no attribute of this tuple
     yield from _found(session, move, [] if governs.since == LATER else new, cause, called(value))
+    session.home = None
 
 
 def _present(session: Session) -> Retune:
@@ -65,10 +83,10 @@ def _present(session: Session) -> Retune:
     return Retune(session.unit, line.baud, line.data_bits, line.parity, line.stop_bits, session.addressing)
 
 
-def _meant(governs: Governs, code: int) -> Iterator[Retune]:
-    """What a code of the register sets; nothing where the manual does not print it."""
+def _meant(governs: Governs, code: Any) -> Iterator[Retune]:
+    """What a code of the register, a value of use, sets; nothing where the manual does not print it."""
     if governs.setting == "address":
-        yield Retune(unit=code)
+        yield Retune(unit=int(code))
     elif code in governs.codes:
         yield _tuned(governs.setting, governs.codes[code])
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from regscribe.runtime import codec
 from regscribe.runtime.choices import unnamed_bits
 from regscribe.runtime.errors import ExceptionAnswer, ValueRefused, ValuesRefused
+from regscribe.runtime.governing import allowed
 from regscribe.runtime.lookback import in_view, meaning, read_back_needs, words_of
 from regscribe.runtime.reads import know
 from regscribe.runtime.report import Change, Fate
@@ -135,6 +136,7 @@ def intend(
             permitted(register, sight.state, session.givens)
             free = converted.intersection(register.limit_needs)
             words = words_of_wanted(session, one, sight, rounded=rounded, limited=not free)
+            allowed(session, (register, view), words, sight.state)
             change = _change(session, one, sight, words)
             confirmed(register, confirm=confirm or change.fate is Fate.EQUAL)
         except ValueRefused as refusal:

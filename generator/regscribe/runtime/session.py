@@ -118,12 +118,14 @@ class Session:
     operation under way has sent anything but reads. `proven` are registers that others depend on and that were read
     since the link was opened. `unused` addresses (space, first, last) read as 0; `absences` are
     those that this unit refused. `broken_off` is the report of the last `configure` that a cancelled task or Ctrl-C
-    ended in the middle, where nothing could be undone.
+    ended in the middle, where nothing could be undone. `home` is how the device talked before a write that governs the
+    line: what breaks the operation off, whatever it is, brings the driver back there.
     """
 
     __slots__ = (
-        "_ground", "_timed", "_tries", "absences", "addressing", "broken_off", "commands", "epoch", "givens", "groups",
-        "line", "memory", "prepared", "protocol", "proven", "registers", "retry", "unit", "unused", "wear", "wrote",
+        "_ground", "_timed", "_tries", "absences", "addressing", "broken_off", "commands", "epoch", "givens",
+        "groups", "home", "line", "memory", "prepared", "protocol", "proven", "registers", "retry", "unit", "unused",
+        "wear", "wrote",
     )  # fmt: skip # one name a line says no more
 
     def __init__(
@@ -153,6 +155,7 @@ class Session:
         self.retry: Retry | None = None
         self.wrote = False
         self.broken_off: WriteReport | None = None
+        self.home: Retune | None = None
         self._tries = Retry()
         self._timed: dict[Request, Request] = {}
         self.unused, self.absences = unused, Absences()
@@ -212,7 +215,7 @@ class Session:
             self.at_epoch(link.epoch)
         self.addressing = link.addressing
         self._tries = self.retry or link.retry
-        self.wrote = False
+        self.wrote, self.home = False, None
         line = link.line
         if line is not self.line and line != self.line:
             self.line = line

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from regscribe.runtime import codec
 from regscribe.runtime.choices import Flags, unnamed_bits
 from regscribe.runtime.errors import RegscribeError, ValueRefused
-from regscribe.runtime.governing import follow
+from regscribe.runtime.governing import allowed, follow
 from regscribe.runtime.lookback import fate_of_lost, in_view, is_lost, read_back_needs, verified, words_of
 from regscribe.runtime.reads import know, read
 from regscribe.runtime.sending import EEPROM, applied, condition_needs, confirmed, permitted, send, unlocked
@@ -51,6 +51,7 @@ def write(
         state = yield from know(session, (*condition_needs(register), *register.limit_needs), fresh=True)
         permitted(register, state, session.givens)
         words = codec.encode(register, chosen, value, state, session.givens, rounded=rounded, kept=kept)
+        allowed(session, (register, chosen), words, state)
         if (yield from _held(session, (register, chosen), words, state)):
             session.wear.add(register.path, spared=1)
             return
