@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from regscribe.checks.registry import MAP, Finding, Scope, map_rule, warning
 from regscribe.checks.worlds import Verdict, verdict
-from regscribe.model import Condition, Register, Rule, Span
+from regscribe.model import Condition, Identity, Kind, OrderFromRegister, Register, Rule, Span
 
 Ask = tuple[Condition, ...]
 
@@ -91,9 +91,45 @@ def never_holds(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
 def _identities(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
     for identity in scopes[0].register_map.identity:
         mine = [scope for scope in scopes if scope.model.name in identity.models]
-        if mine and not any(verdict((identity.when,), scope).possible for scope in mine):
-            message = f"`identify` for {', '.join(identity.models)} has a condition that can never hold on them"
-            yield Finding(MAP, mine[0].model.span, message, "compare the codes with what the register can be")
+        unmet = [_unmet(identity, scope) for scope in mine]
+        if mine and all(unmet):
+            message = f"`identify` for {', '.join(identity.models)} {unmet[0]}"
+            yield Finding(MAP, mine[0].model.span, message, "compare the codes and texts with what the register can be")
+
+
+def _unmet(identity: Identity, scope: Scope) -> str:
+    """Why a model never shows an identity; empty if it may."""
+    asked = (*identity.when.registers, *(path for path, _ in identity.texts))
+    for register in (scope.registers[path] for path in asked if path in scope.registers):
+        if not register.access.readable:
+            return f"asks for `{register.path}`, which can only be written"
+        if not _tells_alone(register):
+            return f"asks for `{register.path}`, whose value is not known before the model is"
+    if not verdict((identity.when,), scope).possible:
+        return "has a condition that can never hold on them"
+    for path, text in identity.texts:
+        if path in scope.registers and (why := _never_begins(scope.registers[path], text)):
+            return f"asks `{path}` for the text {text!r}, {why}"
+    return ""
+
+
+def _tells_alone(register: Register) -> bool:
+    """Whether the words of a register have a value without any other register, and without a given."""
+    scales = (*register.scale, *(register.special_scale if register.specials else ()))
+    fixed = any(not isinstance(view.word_order, OrderFromRegister) for view in register.views if view.readable)
+    return fixed and all(case.when.always and not case.then.decimals for case in scales)
+
+
+def _never_begins(register: Register, text: str) -> str:
+    """Why what is read of a register never begins with a text; empty if it may."""
+    room = 2 * max(view.words for view in register.views)
+    whys = {
+        f"and it is of kind {register.kind}": register.kind is not Kind.STRING,
+        "which is no ASCII text": not text.isascii() or "\0" in text,
+        "whose blanks at the end are dropped when it is read": text.endswith(" "),
+        f"and it has room for {room} characters": len(text) > room,
+    }
+    return next((why for why, holds in whys.items() if holds), "")
 
 
 @map_rule(
