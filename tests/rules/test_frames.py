@@ -1,9 +1,12 @@
 """Frames of worked examples, read by the standard; times by the manual's own arithmetic."""
 
+from collections.abc import Callable
+
 import pytest
 
 from regscribe.checks.frames import Frame, MalformedError, crc16, parse
 from regscribe.checks.worked import bits_per_character
+from regscribe.model import Diagnostic
 
 
 @pytest.mark.parametrize("frame", ["01 03 00 00 00 04 44 09", "9C 06 0F A9 00 32 C7 66"])
@@ -20,6 +23,10 @@ def test_the_crc_of_a_known_frame_is_as_printed(frame: str) -> None:
         ("01 06 00 48 68 25", False, Frame(1, 6, 72, 1, (26661,))),
         ("01 10 1B 58 00 02 04 00 55 00 5C", False, Frame(1, 16, 7000, 2, (85, 92))),
         ("01 10 1B 58 00 02", True, Frame(1, 16, 7000, 2)),
+        ("01 05 00 14 FF 00", False, Frame(1, 5, 20, 1, (0xFF00,), (1,))),
+        ("01 05 00 14 00 00", True, Frame(1, 5, 20, 1, (0,), (0,))),
+        ("01 0F 00 14 00 0A 02 CD 01", False, Frame(1, 15, 20, 10, *[(1, 0, 1, 1, 0, 0, 1, 1, 1, 0)] * 2)),
+        ("01 0F 00 14 00 0A", True, Frame(1, 15, 20, 10)),
         ("01 83 02", True, Frame(1, 3)),
         ("01 07", False, Frame(1, 7)),
     ],
@@ -29,9 +36,22 @@ def test_a_frame_says_unit_function_address_count_and_words(text: str, answer: b
 
 
 @pytest.mark.parametrize(
-    "text", ["01", "01 03 00 40 00", "01 10 00 00 00 02 04 00 55", "01 10 00 00 00 02 02 00 55", "01 10"]
+    "text",
+    [
+        "01",
+        "01 03 00 40 00",
+        "01 10 00 00 00 02 04 00 55",
+        "01 10 00 00 00 02 02 00 55",
+        "01 10",
+        "01 10 00 00 00 00 00",
+        "01 05 00 14 00 01",
+        "01 05 00 14 FF FF",
+        "01 0F 00 14 00 0A 01 CD",
+        "01 0F 00 14 00 03 02 05 00",
+        "01 0F 00 14 00 00 00",
+    ],
 )
-def test_a_frame_of_a_wrong_length_is_refused(text: str) -> None:
+def test_a_frame_that_no_device_takes_is_refused(text: str) -> None:
     with pytest.raises(MalformedError):
         parse(bytes.fromhex(text), answer=False)
 
@@ -39,3 +59,50 @@ def test_a_frame_of_a_wrong_length_is_refused(text: str) -> None:
 @pytest.mark.parametrize(("line", "bits"), [("8N1", 10), ("8E1", 11), ("8O1", 11), ("7E2", 11)])
 def test_a_character_has_start_data_parity_and_stop_bits(line: str, bits: int) -> None:
     assert bits_per_character(line) == bits
+
+
+PLACES = (
+    "at: 20, name: Coil, space: coil, type: bit",
+    "at: 21, name: Next, space: coil, type: bit",
+    "at: 20, name: Word",
+)
+
+
+@pytest.mark.parametrize(
+    ("frame", "writes", "said"),
+    [
+        ("01 05 00 14 FF 00", "coil: 1", ""),
+        ("01 05 00 14 00 00", "coil: 0", ""),
+        ("01 05 00 14 00 00", "coil: 1", "`coil`: 0000 is 0, the manual says 1"),
+        ("01 0F 00 14 00 02 01 02", "coil: 0, next: 1", ""),
+        ("01 0F 00 14 00 02 01 02", "coil: 1", "`coil`: 0000 is 0, the manual says 1"),
+        ("01 06 00 14 00 01", "coil: 1", "`coil`: it stands in space coil, which function 06 does not address"),
+        ("01 05 00 14 FF 00", "word: 1", "`word`: it stands in space holding, which function 05 does not address"),
+    ],
+)
+def test_what_a_frame_writes_is_compared(
+    frame: str, writes: str, said: str, diagnose: Callable[[str], list[Diagnostic]], small: Callable[..., str]
+) -> None:
+    top = "protocol: {functions: [1, 3, 5, 6, 15, 16]}"
+    tail = f"examples: [{{frame: {frame}, crc: false, writes: {{{writes}}}}}]\n"
+    found = diagnose(small(*PLACES, top=top, tail=tail))
+    assert [(one.rule, one.message) for one in found] == ([("RS0448", f"the frame: {said}")] if said else [])
+
+
+@pytest.mark.parametrize(
+    ("example", "said"),
+    [
+        ("register: word, words: [1], value: 2", "the example for `word`: "),
+        ("frame: 01 06 00 14, crc: false", "the frame: "),
+        (
+            "timing: {baud: 9600, format: 8N1, function: 3, words: 2}, gap: 4, earliest: 4, latest: 4",
+            "the timing example: ",
+        ),
+        ("source: '7.1', register: word, words: [1], value: 2", "the example of 7.1 for `word`: "),
+    ],
+)
+def test_an_example_without_a_source_is_told_of_without_a_gap(
+    example: str, said: str, diagnose: Callable[[str], list[Diagnostic]], small: Callable[..., str]
+) -> None:
+    (found,) = diagnose(small("at: 20, name: Word", tail=f"examples: [{{{example}}}]\n"))
+    assert found.message.startswith(said)

@@ -74,6 +74,10 @@ SOUND = {
     ),
     "texts of one word": "- {at: 0, name: A, type: string, length: 1, access: rw}",
     "bits": "- {at: 0, name: A, space: coil, access: rw}\n- {at: 0, name: B, space: discrete, access: r}",
+    "frames of coils, of another view and of an alias": (
+        "- {at: 20, name: Framed, space: coil, access: rw}\n- {at: 21, name: Next, space: coil, access: rw}\n"
+        "- {at: 30, name: Level, views: tens, aliases: [40], access: rw}"
+    ),
     "numbers beyond a double": "- {at: 0, name: A, type: float64, multiply: 1.0e+300, access: rw}",
     "wide whole numbers": "- {at: 0, name: A, type: uint64, multiply: 7, add: 3, access: rw}",
     "faults and special values in floats": (
@@ -94,6 +98,14 @@ SOUND = {
 TABLES = {
     "scale: s": "scales: {s: [{when: {m: 1}, multiply: 0.1}]}\n",
     "views: twice": "views: {twice: {base: {type: int16}, again: {offset: 100, type: int16}}}\n",
+    "views: tens": (
+        "views: {tens: {base: {type: int16}, wide: {offset: 100, type: int16, factor: 10}}}\n"
+        "examples:\n"
+        "  - {source: '1', frame: 01 05 00 14 FF 00, crc: false, writes: {framed: 1}}\n"
+        "  - {frame: 01 0F 00 14 00 02 01 02, crc: false, writes: {framed: 0, next: 1}}\n"
+        "  - {source: '1', frame: 01 06 00 82 00 46, crc: false, writes: {level: 7}}\n"
+        "  - {source: '1', frame: 01 06 00 28 00 07, crc: false, writes: {level: 7}}\n"
+    ),
     "views: tenth": "views: {tenth: {base: {type: float32, factor: 0.1, stride: 2}}}\n",
     "decimals: d": "decimals: {d: {register: p}}\n",
 }

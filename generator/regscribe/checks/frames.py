@@ -6,24 +6,34 @@ from fractions import Fraction
 
 from regscribe.checks.known import in_example
 from regscribe.checks.registry import MAP, Finding, Scope, map_rule
-from regscribe.checks.worked import compare, hexadecimal, unsigned
-from regscribe.model import FrameExample, Register, Rule, View
+from regscribe.checks.worked import compare, hexadecimal, printed, unsigned
+from regscribe.model import READ_FUNCTIONS, WRITE_FUNCTIONS, FrameExample, Protocol, Register, Rule, Space, View
 from regscribe.model.reference import RefusedError, Surroundings, UnknownValueError
 
 CRC_LENGTH = 2
 SHORTEST = 2
 EXCEPTION = 0x80
+BIT_WORDS = {0xFF00: 1, 0x0000: 0}
 
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """What a frame says; None where it has no such field (`address` of the answer to a read)."""
+    """What a frame says; None where it has no such field (`address` of the answer to a read).
+
+    `bits` are what it writes to coils, of which function 05 sends each as a word of its own (FF00 or 0000).
+    """
 
     unit: int
     function: int
     address: int | None = None
     count: int | None = None
     words: tuple[int, ...] | None = None
+    bits: tuple[int, ...] | None = None
+
+    @property
+    def carried(self) -> tuple[int, ...]:
+        """What it carries, as registers hold it."""
+        return (self.words if self.bits is None else self.bits) or ()
 
 
 class MalformedError(ValueError):
@@ -75,15 +85,42 @@ def _one_word(head: Frame, body: bytes) -> Frame:
     return replace(head, address=address, count=1, words=(word,))
 
 
+def _one_bit(head: Frame, body: bytes) -> Frame:
+    frame = _one_word(head, body)
+    (word,) = frame.words or ()
+    if word not in BIT_WORDS:
+        message = f"{word:04X} is no state of a coil: FF00 is on, 0000 is off"
+        raise MalformedError(message)
+    return replace(frame, bits=(BIT_WORDS[word],))
+
+
+def _many_bits(head: Frame, body: bytes) -> Frame:
+    address, count, data = _block(body)
+    if len(data) != (count + 7) // 8:
+        message = f"{count} bits are announced, but {len(data)} bytes"
+        raise MalformedError(message)
+    bits = tuple(data[place // 8] >> place % 8 & 1 for place in range(count))
+    return replace(head, address=address, count=count, words=bits, bits=bits)
+
+
 def _many_words(head: Frame, body: bytes) -> Frame:
+    address, count, data = _block(body)
+    if len(data) != 2 * count:
+        message = f"{count} words are announced, but {len(data)} bytes"
+        raise MalformedError(message)
+    return replace(head, address=address, count=count, words=_words(data))
+
+
+def _block(body: bytes) -> tuple[int, int, bytes]:
+    """Address, count and data of a write of several; at least one is written."""
     if len(body) < 5:  # noqa: PLR2004 (address, count, number of bytes)
         _length(body, 5)
     address, count = _words(body[:4])
     _length(body, 5 + body[4])
-    if body[4] != 2 * count:
-        message = f"{count} words are announced, but {body[4]} bytes"
+    if not count:
+        message = "it writes nothing"
         raise MalformedError(message)
-    return replace(head, address=address, count=count, words=_words(body[5:]))
+    return address, count, body[5:]
 
 
 def _words_read(head: Frame, body: bytes) -> Frame:
@@ -96,12 +133,15 @@ def _words_read(head: Frame, body: bytes) -> Frame:
 
 REQUESTS: dict[int, Callable[[Frame, bytes], Frame]] = {
     **dict.fromkeys((1, 2, 3, 4), _address_and_count),
-    **dict.fromkeys((5, 6), _one_word),
+    5: _one_bit,
+    6: _one_word,
+    15: _many_bits,
     16: _many_words,
 }
 ANSWERS: dict[int, Callable[[Frame, bytes], Frame]] = {
     **dict.fromkeys((3, 4), _words_read),
-    **dict.fromkeys((5, 6), _one_word),
+    5: _one_bit,
+    6: _one_word,
     **dict.fromkeys((15, 16), _address_and_count),
 }
 """Functions whose fields are compared (application protocol V1.1b3, 6); of others unit and function only."""
@@ -126,7 +166,7 @@ def frame_fields(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
     """Check the CRC, read the frame, compare its fields with those that the map states."""
     for example in _frames(scopes):
         for problem in _problems(example):
-            message = f"the frame of {example.source}: {problem}"
+            message = f"{printed('the frame', example)}: {problem}"
             yield Finding(MAP, example.span, message, "correct the bytes or the field; `crc: false` if it has no CRC")
 
 
@@ -170,7 +210,7 @@ def frame_values(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
             continue
         for problem in (*_values(example, frame, scope), *_command(example, frame, scope)):
             help_text = "correct the map; if the manual errs, tell in `errata`"
-            yield Finding(MAP, example.span, f"the frame of {example.source}: {problem}", help_text)
+            yield Finding(MAP, example.span, f"{printed('the frame', example)}: {problem}", help_text)
 
 
 def _values(example: FrameExample, frame: Frame, scope: Scope) -> Iterator[str]:
@@ -179,27 +219,48 @@ def _values(example: FrameExample, frame: Frame, scope: Scope) -> Iterator[str]:
         register = scope.registers.get(path)
         if register is None:
             yield f"model {scope.model.name} has no `{path}`"
-        elif problem := _value(example, frame, register, value, known):
+        elif problem := _value(example, frame, register, value, known, scope.register_map.protocol):
             yield f"`{path}`: {problem}"
 
 
-def _value(example: FrameExample, frame: Frame, register: Register, value: Fraction, known: Surroundings) -> str:
+def _value(
+    example: FrameExample, frame: Frame, register: Register, value: Fraction, known: Surroundings, protocol: Protocol
+) -> str:
     start = frame.address if frame.address is not None else example.address
-    words = frame.words or ()
     if start is None:
         return "the frame has no address; say it under `address`"
+    words = frame.carried
     for view, address in _places(register, example.view):
         offset = address - start
         if 0 <= offset <= len(words) - view.words:
-            if not view.allows(frame.function):
-                return f"its {view.name} view is by functions {list(view.functions)}, not {frame.function:02d}"
-            try:
-                return compare(register, view, words[offset : offset + view.words], value, known)
-            except UnknownValueError as unknown:
-                return f"it depends on `{unknown}`; say its value under `with`"
-            except RefusedError as refused:
-                return str(refused)
+            there = words[offset : offset + view.words]
+            return _unaddressed(view, frame.function, protocol) or _compared(register, view, there, value, known)
     return f"it is not among the addresses {start}..{start + len(words) - 1} of the frame"
+
+
+def _unaddressed(view: View, function: int, protocol: Protocol) -> str:
+    """Why a function does not address a view; empty if it does."""
+    if view.space not in _spaces(function, protocol):
+        return f"it stands in space {view.space}, which function {function:02d} does not address"
+    if not view.allows(function):
+        return f"its {view.name} view is by functions {list(view.functions)}, not {function:02d}"
+    return ""
+
+
+def _compared(register: Register, view: View, words: tuple[int, ...], value: Fraction, known: Surroundings) -> str:
+    try:
+        return compare(register, view, words, value, known)
+    except UnknownValueError as unknown:
+        return f"it depends on `{unknown}`; say its value under `with`"
+    except RefusedError as refused:
+        return str(refused)
+
+
+def _spaces(function: int, protocol: Protocol) -> set[Space]:
+    """The spaces that a function reads or writes, those included where another one does the same."""
+    same = {function, *(code for codes in protocol.alike if function in codes for code in codes)}
+    reads = {space for space, code in READ_FUNCTIONS.items() if code in same}
+    return reads | {space for space, codes in WRITE_FUNCTIONS.items() if same & set(codes)}
 
 
 def _places(register: Register, name: str) -> Iterator[tuple[View, int]]:
@@ -216,6 +277,6 @@ def _command(example: FrameExample, frame: Frame, scope: Scope) -> Iterator[str]
         yield f"model {scope.model.name} has no command `{example.command}`"
         return
     steps = [(step.function, step.address, unsigned(step.words)) for step in command.steps if step.words]
-    if (frame.function, frame.address, frame.words or ()) not in steps:
+    if (frame.function, frame.address, frame.carried) not in steps:
         told = "; ".join(f"function {code:02d} at {address}: {hexadecimal(words)}" for code, address, words in steps)
         yield f"no step of command `{command.id}` sends it ({told})"

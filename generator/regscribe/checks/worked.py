@@ -5,7 +5,18 @@ from fractions import Fraction
 
 from regscribe.checks.known import in_example
 from regscribe.checks.registry import MAP, Finding, Scope, map_rule
-from regscribe.model import Kind, Outcome, Protocol, Register, Rule, TimingExample, ValueExample, View, show
+from regscribe.model import (
+    FrameExample,
+    Kind,
+    Outcome,
+    Protocol,
+    Register,
+    Rule,
+    TimingExample,
+    ValueExample,
+    View,
+    show,
+)
 from regscribe.model.reference import (
     Meaning,
     Reading,
@@ -31,6 +42,11 @@ def hexadecimal(words: tuple[int, ...]) -> str:
 def unsigned(words: tuple[int, ...]) -> tuple[int, ...]:
     """Words as they stand on the wire: a map may write -1 for FFFF."""
     return tuple(word & 0xFFFF for word in words)
+
+
+def printed(what: str, example: ValueExample | FrameExample | TimingExample) -> str:
+    """What an example is and, where the map says so, where the manual prints it."""
+    return f"{what} of {example.source}" if example.source else what
 
 
 def shown(value: Fraction | str | None) -> str:
@@ -60,7 +76,7 @@ def value_examples(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
             continue
         problem = _judge(example, by_name[example.model])
         if problem:
-            message = f"the example of {example.source} for `{example.register}`: {problem}"
+            message = f"{printed('the example', example)} for `{example.register}`: {problem}"
             yield Finding(
                 example.register, example.span, message, "correct the map; if the manual errs, tell in `errata`"
             )
@@ -156,7 +172,7 @@ def timing_examples(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
     for example in register_map.examples:
         if isinstance(example, TimingExample):
             for problem in _times(example, register_map.protocol):
-                message = f"the timing example of {example.source}: {problem}"
+                message = f"{printed('the timing example', example)}: {problem}"
                 yield Finding(MAP, example.span, message, "correct `serial.gap_characters` or `latency`")
 
 

@@ -9,7 +9,10 @@ from regscribe.testing.compare import decoded, differs, encoded, refused, report
 from regscribe.testing.trial import Trial, known
 from regscribe.testing.vectors import Json, Vectors, number
 
-FUNCTION_WRITE_ONE = 6
+WRITE_COIL, WRITE_COILS = 5, 15
+WRITE_ONE = (5, 6)
+ON = 0xFF00
+"""What function 05 sends for a coil that is on."""
 WITH_DOMAIN = frozenset({"number", "integer", "raw", "enum"})
 """Kinds of which a vector says what can be written."""
 
@@ -160,17 +163,40 @@ class Bench:
 
     def _frame(self, example: Json, state: Mapping[str, Any], givens: Mapping[str, Any]) -> Iterator[str]:
         sent = bytes.fromhex(example["frame"])[: -2 if example["crc"] else None]
-        data = sent[4:] if example["function"] == FUNCTION_WRITE_ONE else sent[7:]
+        data = _carried(example["function"], sent)
         start = int.from_bytes(sent[2:4], "big")
         state = {**state, **{path: number(text) for path, text in example["writes"].items()}}
         for path, text in example["writes"].items():
             register = self.driver.registers[path]
-            view = register.view(example.get("view") or register.view_names[0])
+            view, address = _placed(register, example.get("view"), start, len(data))
             words = register.encode(number(text), view=view.name, state=state, givens=givens)
-            place = 2 * (view.address(register.at) - start)
-            there = data[place : place + 2 * len(words)] if place >= 0 else b""
-            expected = b"".join(word.to_bytes(2, "big") for word in words)
-            yield from differs(f"frame of {example['source']}", f"{path} = {text}", there.hex(" "), expected.hex(" "))
+            place = address - start
+            there = data[place : place + len(words)] if place >= 0 else ()
+            frame = f"frame of {example['source']}" if example["source"] else "frame"
+            yield from differs(frame, f"{path} = {text}", _hex(there), _hex(words))
+
+
+def _placed(register: Register[Any], name: str | None, start: int, count: int) -> tuple[Any, int]:
+    """The view (of this name) or alias that a frame of `count` words holds whole, and its address; else the first."""
+    base = register.views[0]
+    places = [(view, view.address(register.at)) for view in register.views if name in {None, view.name}]
+    places += [(base, alias) for alias in register.aliases if name in {None, base.name}]
+    held = ((view, address) for view, address in places if 0 <= address - start <= count - view.words)
+    return next(held, places[0])
+
+
+def _carried(function: int, sent: bytes) -> tuple[int, ...]:
+    """The words that a request writes, or the bits: function 05 sends FF00 for 1."""
+    data = sent[4:] if function in WRITE_ONE else sent[7:]
+    if function == WRITE_COILS:
+        count = int.from_bytes(sent[4:6], "big")
+        return tuple(data[place // 8] >> place % 8 & 1 for place in range(count))
+    words = tuple(int.from_bytes(data[place : place + 2], "big") for place in range(0, len(data), 2))
+    return tuple(int(word == ON) for word in words) if function == WRITE_COIL else words
+
+
+def _hex(words: tuple[int, ...]) -> str:
+    return " ".join(f"{word:04X}" for word in words)
 
 
 def _declaration(register: Register[Any]) -> tuple[object, ...]:
