@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import os
+import shlex
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -209,6 +210,43 @@ def test_a_full_disk_behind_the_output_is_said(arguments: list[str]) -> None:
     assert "standard output: No space left on device" in found.stderr
     assert "internal" not in found.stderr
     assert "Exception ignored" not in found.stderr
+
+
+@pytest.mark.parametrize(
+    "arguments", [["check"], ["devices"], ["explain", "RS0401"], ["--version"], ["generate", "--out", "out"]]
+)
+def test_a_closed_output_is_said_and_nothing_is_done(arguments: list[str], tmp_path: Path) -> None:
+    put_map(tmp_path)
+    found = _with_streams(">&-", arguments, tmp_path)
+    assert found.returncode == 2
+    assert found.stderr == "Error: standard output is closed, so nothing was done\n"
+    assert not (tmp_path / "out").exists()
+    assert _with_streams(">&- 2>&-", arguments, tmp_path).returncode == 2
+
+
+@pytest.mark.parametrize(
+    ("streams", "arguments", "code"),
+    [
+        ("2>&-", ["check"], 0),
+        ("2>&-", ["check", "--nope"], 2),
+        ("2>&-", ["read", "tcp:127.0.0.1:1?model=16C", "setpoint_ram"], 3),
+        ("2>&- <&-", ["generate", "--out", "out"], 0),
+        ("<&-", ["decode", "16C"], 1),
+    ],
+)
+def test_other_closed_streams_change_no_exit_code(
+    streams: str, arguments: list[str], code: int, tmp_path: Path
+) -> None:
+    put_map(tmp_path)
+    found = _with_streams(streams, arguments, tmp_path)
+    assert found.returncode == code
+    assert "internal" not in found.stdout + found.stderr
+
+
+def _with_streams(streams: str, arguments: list[str], folder: Path) -> subprocess.CompletedProcess[str]:
+    """Run the command where a shell has closed some of its streams."""
+    line = f"exec {shlex.join(_command(*arguments))} {streams}"
+    return subprocess.run(line, shell=True, capture_output=True, text=True, check=False, env=ENVIRONMENT, cwd=folder)  # noqa: S602 (only a shell closes streams)
 
 
 def test_a_reader_that_goes_away_ends_a_command_as_every_other_tool() -> None:

@@ -132,9 +132,11 @@ def main() -> NoReturn:
 
 def run(arguments: Sequence[str]) -> int:
     """Run one command line; return its exit code. No exception but SystemExit leaves it."""
+    closed = _stand_in_for_closed()
     for stream in (sys.stdout, sys.stderr):
         getattr(stream, "reconfigure", lambda **_: None)(errors="backslashreplace")  # a map may hold any character
     try:
+        _need_output(closed)
         code = regscribe.main(list(arguments), prog_name="regscribe", standalone_mode=False)
         sys.stdout.flush()
     except click.ClickException as error:
@@ -151,6 +153,23 @@ def run(arguments: Sequence[str]) -> int:
     except Exception as error:  # noqa: BLE001 - the last resort: a user never sees a bare traceback
         return _internal_error(error, debug="--debug" in arguments or bool(os.environ.get("REGSCRIBE_DEBUG")))
     return code if isinstance(code, int) else 0
+
+
+def _stand_in_for_closed() -> list[str]:
+    """Put the null device in place of standard streams that are closed (Python has None for them); their names.
+
+    In this order each takes its own number, so that no port or file is opened under the number of a stream.
+    """
+    closed = [name for name in ("stdin", "stdout", "stderr") if getattr(sys, name) is None]
+    for name in closed:
+        setattr(sys, name, Path(os.devnull).open("r" if name == "stdin" else "w"))  # noqa: SIM115 - open to the end
+    return closed
+
+
+def _need_output(closed: Sequence[str]) -> None:
+    if "stdout" in closed:
+        message = "standard output is closed, so nothing was done"
+        raise click.UsageError(message)
 
 
 def _forget_output() -> None:
