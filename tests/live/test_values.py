@@ -159,3 +159,13 @@ def test_any_text_or_number_is_a_value_or_refused(register: Register[Any], plain
 def test_a_number_of_use_is_read_as_it_is_shown(number: float) -> None:
     shown = values.show(OVEN["setpoint_ram"], number)
     assert values.parse(OVEN["setpoint_ram"], str(shown)) == number
+
+
+@pytest.mark.parametrize(
+    "text", ["1e5000", "1e+5000", "1_0", "1_0 °C", "1,5", "1 000", "1.2.3", "0x11112222333344445", "12'000"]
+)
+def test_what_is_no_number_of_use_is_not_taken_for_a_unit(text: str) -> None:
+    for name in ("setpoint_ram", "input_filter"):
+        with pytest.raises(ValueRefused) as refused:
+            values.parse(OVEN[name], text)
+        assert f"`{text}` is no number of use: they look like 1500, 150.5, 2e-7 or 0x1F" in str(refused.value)

@@ -16,6 +16,8 @@ Plain = str | int | float | bool | list[str]
 
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?")
 _WHOLE = re.compile(r"[+-]?(?:0[xX][0-9A-Fa-f]{1,16}|[0-9]{1,20})")
+_MORE_DIGITS = re.compile(r"[0-9_.,'xX]|\s[\s0-9_.,']*$")
+"""What behind a number is more of it (1_000, 1e5000, 0x and too many digits, 1 000) and no unit."""
 MOST_EXACT = 2.0**53
 """Up to here a float tells whole numbers apart."""
 _UNITS = {"degc": "°C", "degf": "°F", "c": "°C", "f": "°F", "℃": "°C", "℉": "°F", "k": "K", "percent": "%"}
@@ -124,6 +126,10 @@ def _number(register: Register[Any], plain: Plain, unit: str, current: str) -> A
     found = _WHOLE.fullmatch(text) or _NUMBER.match(text)
     if not found:
         raise ValueRefused(register.path, f"`{text[:60]}` is no number")
+    if _MORE_DIGITS.match(text, found.end()):
+        raise ValueRefused(
+            register.path, f"`{text[:60]}` is no number of use: they look like 1500, 150.5, 2e-7 or 0x1F"
+        )
     beside = text[found.end() :].strip()
     if beside and unit and _unit(beside) != _unit(unit):
         raise ValueRefused(register.path, f"`{text[:60]}` stands beside the unit {unit}: which one is meant?")
