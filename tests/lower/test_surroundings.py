@@ -135,7 +135,7 @@ def test_the_steps_of_a_command_become_words(lowered: Lowered) -> None:
         Step(2, (125,), 6, register="level"),
         Step(4, (2, 1), 16, register="total"),
         Step(6, (0x4049, 0x0E56), 16, register="ratio"),
-        Step(9, (1,), 15, register="relay"),
+        Step(9, (1,), 15, register="relay", space=Space.COIL),
         Step(120, (1,), 16),
         Step(wait=2000),
     )
