@@ -62,6 +62,10 @@ def test_what_is_delivered_of_a_version_is_its_text() -> None:
     assert new({"name": "V", "version": "nn.nn", "delivered": "01.20"}).device.peek_words("v") == (120,)
 
 
+def test_a_device_may_be_delivered_with_bits_that_have_no_name() -> None:
+    assert int(new({"name": "V", "flags": {0: "low"}, "delivered": 3}).driver.v.read()) == 3
+
+
 def test_a_condition_names_a_special_value_that_stands_for_another_number() -> None:
     made = new({"name": "V", **FAST}, {"name": "W", "writable": {"when": {"v": "fast"}, "reason": "when it is fast"}})
     made.driver.v.write(0.25)

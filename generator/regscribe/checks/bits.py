@@ -1,11 +1,12 @@
 """Bit fields and flags of a word."""
 
 from collections.abc import Iterator
+from fractions import Fraction
 from itertools import combinations
 
 from regscribe.checks.identifiers import normalised
 from regscribe.checks.registry import Finding, Scope, register_rule
-from regscribe.model import BitField, Register, Rule
+from regscribe.model import BitField, Kind, Register, Rule, show
 
 
 def _where(bits: BitField) -> str:
@@ -49,3 +50,21 @@ def bits_of_one_name(register: Register, _: Scope) -> Iterator[Finding]:
         if normalised(one.id) == normalised(other.id) or same_label:
             message = f'has bit fields {_where(one)} and {_where(other)} both called "{other.label}"'
             yield Finding.at(register, message, "correct one of them")
+
+
+@register_rule(
+    Rule(
+        "RS0655",
+        "Default with bits that mean nothing",
+        "A driver writes no bit that has no name, so it could never write this default.",
+    )
+)
+def default_of_no_name(register: Register, _: Scope) -> Iterator[Finding]:
+    """Compare the bits of a default with the flags; a device may be delivered with more of them set."""
+    if register.kind is not Kind.FLAGS or not isinstance(register.default, Fraction):
+        return
+    unnamed = int(register.default) & ~sum(((1 << bits.width) - 1) << bits.low for bits in register.fields)
+    if 0 <= register.default < 1 << register.bits and unnamed:
+        bits = ", ".join(str(bit) for bit in range(register.bits) if unnamed >> bit & 1)
+        message = f"has default {show(register.default)}, but no flag at bit {bits}"
+        yield Finding.at(register, message, "name the bits, or give the value as `delivered`")

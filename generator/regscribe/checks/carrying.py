@@ -66,7 +66,8 @@ def fit(form: Form, view: View, value: Fraction) -> Fit:
     """How one value of use does in one view under one conversion."""
     stored = form.stored(value)
     wire = stored if view.factor == 1 else stored * view.factor
-    fits = view.type.minimum <= wire <= view.type.maximum if view.type.is_integer else _spelled(view, wire) is not None
+    lowest, highest = view.type.minimum + view.saturates, view.type.maximum - view.saturates
+    fits = lowest <= wire <= highest if view.type.is_integer else _spelled(view, wire) is not None
     if not fits:
         return Fit.TOO_LARGE
     if form.too_fine(stored) or (view.type.is_integer and wire.denominator != 1):

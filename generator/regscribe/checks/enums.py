@@ -3,11 +3,11 @@
 import keyword
 from collections import defaultdict
 from collections.abc import Callable, Iterator
-from fractions import Fraction
 
+from regscribe.checks.holding import no_member
 from regscribe.checks.identifiers import ENUM_NAMES, normalised
 from regscribe.checks.registry import Finding, Scope, model_rule, register_rule
-from regscribe.model import Enum, Kind, Member, Register, Rule, WireType, show
+from regscribe.model import Enum, Member, Register, Rule, WireType
 
 
 def enums_of(scope: Scope) -> Iterator[tuple[Register, str, Enum]]:
@@ -81,14 +81,11 @@ def member_id_twice(scope: Scope) -> Iterator[Finding]:
     Rule("RS0443", "Default is no member of the enum", "The device leaves the factory with a code that has a meaning.")
 )
 def default_no_member(register: Register, _: Scope) -> Iterator[Finding]:
-    """Look for the default among the codes."""
-    if register.kind is not Kind.ENUM or register.enum is None:
-        return
+    """Look for the default among the codes of the register, and for its parts among those of the fields."""
     for what, value in register.beginnings:
-        if isinstance(value, Fraction) and value not in {member.code for member in register.enum.members}:
-            codes = ", ".join(str(member.code) for member in register.enum.members)
-            message = f"has {what} {show(value)}, which its enum does not list ({codes})"
-            yield Finding.at(register, message, f"correct the {what}, or add the member")
+        problem = no_member(register, value)
+        if problem:
+            yield Finding.at(register, f"has {what} {problem}", f"correct the {what}, or add the member")
 
 
 @model_rule(Rule("RS0444", "Enum without members", "A model on which no code is valid cannot have the register."))

@@ -2,7 +2,7 @@
 
 from fractions import Fraction
 
-from regscribe.checks.carrying import Fit, best_fit, ends_of, is_meant, tells_apart
+from regscribe.checks.carrying import Fit, best_fit, ends_of, forms, is_meant, tells_apart
 from regscribe.model import BitField, Kind, Register, show
 from regscribe.model.reference import RefusedError, number_of, version_number
 
@@ -63,6 +63,17 @@ def too_fine(register: Register, value: Fraction | str) -> bool:
         return True
     fit = best_fit(register, (value,))
     return fit is Fit.TOO_FINE or (fit is Fit.EXACT and not tells_apart(register, value))
+
+
+def is_fault(register: Register, value: Fraction | str) -> bool:
+    """Whether a value is stored, under every scale, as what the device reports a fault by."""
+    number = number_of(register, value)
+    if number is None or is_meant(register, number):
+        return False
+    if register.kind in PATTERNS:
+        return number in {fault % (1 << register.bits) for fault in register.faults}
+    stored = {form.stored(number) for form in forms(register)}
+    return bool(stored) and stored <= set(register.faults)
 
 
 def no_member(register: Register, value: Fraction | str) -> str:

@@ -3,9 +3,10 @@
 from collections.abc import Iterator
 from fractions import Fraction
 
-from regscribe.checks.carrying import Fit, best_fit, end_values, forms, is_meant, listed, numbers
+from regscribe.checks.carrying import Fit, Form, best_fit, end_values, forms, listed, numbers
+from regscribe.checks.holding import too_fine, wrong_sort
 from regscribe.checks.registry import Finding, Scope, register_rule
-from regscribe.model import Kind, Register, Rule, show
+from regscribe.model import Kind, Register, Rule
 
 
 @register_rule(Rule("RS0430", "Scale of zero", "A factor of 0 makes every value the same and can never be undone."))
@@ -26,19 +27,23 @@ def scale_of_zero(register: Register, _: Scope) -> Iterator[Finding]:
     )
 )
 def beyond_a_float(register: Register, _: Scope) -> Iterator[Finding]:
-    """Compare the values of the stored numbers 0 and 1 as floats, under every scale."""
+    """Look for two stored numbers that are two floats, under every scale."""
     for form in forms(register) if register.kind in {Kind.NUMBER, Kind.INTEGER, Kind.RAW} else ():
-        values = [(form.conversion.multiply * stored + form.conversion.add) / form.factor for stored in (0, 1)]
-        try:
-            first, second = map(float, values)
-        except OverflowError:
-            first = second = 0.0
-        if first == second:
-            message = (
-                f"makes {show(values[0])} of 0 and {show(values[1])} of 1, which no float of a program tells apart"
-            )
+        if len({_as_float(form, stored) for stored in (*_ends(register), 0, 1)} - {None}) <= 1:
+            message = "has a scale that makes one float of all its numbers, or more than a float can hold"
             yield Finding.at(register, message, "correct `multiply` and `add`, or `from` and `to`")
             return
+
+
+def _ends(register: Register) -> tuple[int, int]:
+    return (register.base.type.minimum, register.base.type.maximum) if register.base.type.is_integer else (-1, 1)
+
+
+def _as_float(form: Form, stored: int) -> float | None:
+    try:
+        return float((form.conversion.multiply * stored + form.conversion.add) / form.factor)
+    except OverflowError:
+        return None
 
 
 @register_rule(
@@ -48,14 +53,13 @@ def beyond_a_float(register: Register, _: Scope) -> Iterator[Finding]:
         "A default or limit between two steps can never be read or written: a decimal is missing, or one too many.",
     )
 )
-def too_fine(register: Register, _scope: Scope) -> Iterator[Finding]:
+def between_steps(register: Register, _scope: Scope) -> Iterator[Finding]:
     """Try the default and the numeric limits in every view under every scale."""
-    if register.kind not in {Kind.NUMBER, Kind.INTEGER, Kind.RAW}:
-        return
-    fine: list[Fraction] = []
-    for _what, value in register.beginnings:
-        if isinstance(value, Fraction) and not is_meant(register, value):
-            fine += [value] if best_fit(register, (value,)) is Fit.TOO_FINE else []
+    fine = [
+        value
+        for _, value in register.beginnings
+        if isinstance(value, Fraction) and not wrong_sort(register, value) and too_fine(register, value)
+    ]
     for case in register.range:
         fine += [n for n in numbers(case.then) if best_fit(register, end_values(case.then, n)) is Fit.TOO_FINE]
     if fine:

@@ -2,22 +2,26 @@
 
 from collections.abc import Iterator
 from fractions import Fraction
+from math import ceil, floor
 
 from regscribe.checks.carrying import (
     Fit,
+    Form,
     best_fit,
     end_values,
     ends_of,
+    forms,
     listed,
     numbers,
     tells_apart,
     values_of,
     widest,
 )
-from regscribe.checks.holding import outside_type, shown, wrong_sort
+from regscribe.checks.holding import is_fault, outside_type, shown, wrong_sort
 from regscribe.checks.registry import Finding, Scope, register_rule, warning
 from regscribe.model import (
     IDENTITY,
+    Interval,
     Kind,
     NotANumber,
     Number,
@@ -31,7 +35,7 @@ from regscribe.model import (
     WireType,
     show,
 )
-from regscribe.model.reference import RefusedError, UnknownValueError, choose, limits, sentinel_number
+from regscribe.model.reference import RefusedError, UnknownValueError, choose, limits, number_of, sentinel_number
 
 WORDS_OF_BITS = {Kind.FLAGS, Kind.FIELDS}
 UNSCALED = {Kind.ENUM, Kind.FLAGS, Kind.FIELDS, Kind.STRING, Kind.VERSION, Kind.BOOLEAN}
@@ -96,7 +100,7 @@ def _reports(view: View, sentinel: Sentinel) -> bool:
     Rule("RS0601", "Sentinel that is a value too", "One code cannot be both a setting and the report of a fault.")
 )
 def sentinel_is_code(register: Register, _: Scope) -> Iterator[Finding]:
-    """Compare sentinels with the codes of an enum and with true and false; a text and a bit have none to spare."""
+    """Compare sentinels with the default, the codes of an enum, true and false; a text and a bit have none to spare."""
     if register.sentinels and (register.kind is Kind.STRING or register.base.space.is_bits):
         message = (
             f"is of kind {register.kind} in {register.base.space} and has sentinels, which none of its values can be"
@@ -111,6 +115,10 @@ def sentinel_is_code(register: Register, _: Scope) -> Iterator[Finding]:
         if sentinel.stored in codes:
             message = f'has {sentinel.spelled} as "{codes[sentinel.stored]}" and as the fault "{sentinel.label}"'
             yield Finding.at(register, message, "remove one of them")
+    for what, value in register.beginnings if register.sentinels else ():
+        if number_of(register, value) not in codes and is_fault(register, value):
+            message = f"has {what} {shown(value)}, by which it reports a fault"
+            yield Finding.at(register, message, f"correct the {what} or the sentinels")
 
 
 BITS, STATUS = {Space.COIL, Space.DISCRETE}, {Space.STATUS}
@@ -192,6 +200,30 @@ def range_outside_type(register: Register, _: Scope) -> Iterator[Finding]:
             found = listed(list(numbers(case.then)))
             message = f"has a range ({found}) that lies wholly outside {ends_of(register)} as scaled"
             yield Finding.at(register, message, HELP_TYPE)
+        elif _only_faults(register, case.then):
+            message = "has a range of nothing but numbers by which it reports faults"
+            yield Finding.at(register, message, "correct the range or the sentinels")
+
+
+def _only_faults(register: Register, one: Range) -> bool:
+    """Whether whatever the base view spells within a range is a fault, under every scale."""
+    faults = {number * register.base.factor for number in register.faults}
+    spelled = [_spelled(register, form, one, interval) for form in forms(register) for interval in one.intervals]
+    return all(
+        numbers is not None and 0 < numbers.stop - numbers.start <= len(faults) and faults.issuperset(numbers)
+        for numbers in spelled
+    ) and bool(spelled)
+
+
+def _spelled(register: Register, form: Form, one: Range, interval: Interval) -> range | None:
+    """The whole numbers on the wire within an interval; None where they are not known, or not whole."""
+    if not register.base.type.is_integer:
+        return None
+    if not isinstance(interval.low, Number) or not isinstance(interval.high, Number):
+        return None
+    ends = [end for limit in (interval.low, interval.high) for end in end_values(one, limit.value)]
+    wire = [form.stored(end) * register.base.factor for end in ends]
+    return range(ceil(min(wire)), floor(max(wire)) + 1)
 
 
 def _reachable(register: Register, one: Range) -> bool:
