@@ -218,6 +218,18 @@ def _words(draw: Draw, sel: Decider, name: str) -> tuple[Json, Json]:
     return keys, tables
 
 
+def _default(draw: Draw, keys: Json) -> Any:
+    """What a new device may hold: of a special value or a member its code, its id or its number."""
+    if keys.get("type") == "string":
+        return _of(draw, "", "a", "ab c")
+    if "version" in keys:
+        return _of(draw, "1.2", "01.20", "120")
+    ids = {"special": ("follow", "fast"), "enum": ("on", "off", "open")}
+    named = [name for key in ids.keys() & keys.keys() for name in (*ids[key], *keys[key])]
+    of_bits = (*range(4), 2 ** draw(st.integers(0, 15))) if {"flags", "fields"} & keys.keys() else ()
+    return _of(draw, 0, 1, 7, 12.5, *named, *of_bits, _number(draw))
+
+
 def _register(draw: Draw, sel: Decider, number: int) -> tuple[Json, Json]:
     name = f"x{number}"
     form = _of(draw, *["words"] * 8, "coil", "discrete")
@@ -226,6 +238,8 @@ def _register(draw: Draw, sel: Decider, number: int) -> tuple[Json, Json]:
     else:
         keys, tables = {"space": form, "access": "r" if form == "discrete" else "rw"}, {}
         keys |= {"enum": {0: "open", 1: "closed"}} if _maybe(draw) else {}
+    if _maybe(draw, 4):
+        keys[_of(draw, "default", "default", "delivered")] = _default(draw, keys)
     if keys["access"] != "r" and _maybe(draw, 6):
         keys["writable"] = {"when": _condition(draw, sel), "reason": "only then"}
     return {"at": 0, "name": name.upper()} | keys, tables

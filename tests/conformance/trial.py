@@ -83,6 +83,7 @@ class Trial:
     def differences(self) -> Iterator[str]:
         """Everything that one says otherwise than another."""
         yield from self._of_vectors()
+        yield from self._of_defaults()
         self.hold()
         yield from self._of_snapshot()
         some = self.chance.sample(self.registers, min(len(self.registers), FEW))
@@ -132,6 +133,21 @@ class Trial:
                 check(bench)
             except AssertionError as error:
                 yield f"{check.__name__}: {error}"
+
+    def _of_defaults(self) -> Iterator[str]:
+        """A new device reads as the default, and takes it back; where others decide, as far as it can hold it now."""
+        for register in self.registers:
+            if register.default is None or not register.access.readable:
+                continue
+            view = register.read_view
+            if self._encoded(register, view, register.default, self.asked) == judges.REFUSED:
+                if register.writable is None and not self._needs(register, view):
+                    yield f"{register.path}: its default {register.default} may not be written"
+                continue
+            found = self._driver_reads(self.driver, register, view)
+            declared = self.driver.registers[register.path].default
+            if not (same(found, register.default) and declared == found):
+                yield f"{register.path} of a new device reads {found!r}, its default is {declared!r}"
 
     # -- reading ------------------------------------------------------------------------------------------------
 
@@ -245,9 +261,12 @@ class Trial:
 
     def _decided(self, register: Register, view: View, memory: Any) -> bool:
         """Whether everything has a value that may decide about a write."""
+        return all(path in judges.Present(self.built, memory) for path in self._needs(register, view))
+
+    def _needs(self, register: Register, view: View) -> set[str]:
+        """What decides about the words of a value, and whether it may be written."""
         declared = self.plain.registers[register.path]
-        needs = {*declared.needs(declared.view(view.name)), *declared.limit_needs, *condition_needs(declared)}
-        return all(path in judges.Present(self.built, memory) for path in needs)
+        return {*declared.needs(declared.view(view.name)), *declared.limit_needs, *condition_needs(declared)}
 
     def _words_written(self, register: Register, view: View, words: Words) -> Iterator[str]:
         """A simulated device takes words whose value may be written, and refuses those whose value may not."""
