@@ -2,10 +2,12 @@
 
 import struct
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 
 from regscribe.model import RegisterMap
+from regscribe.pipeline import compile_map
 from regscribe.simulate import SimulatedDevice
 
 
@@ -162,3 +164,55 @@ def test_devices_of_a_model_share_no_state(furnace: RegisterMap) -> None:
         {},
         100,
     )
+
+
+SMALL = """format: 1
+map: {id: test/small, title: Small, maker: Nobody, class_prefix: Small}
+manual: {title: Small Manual, number: "1"}
+models: {A: {}}
+decimals: {places: {register: places}}
+groups:
+  - id: all
+    name: All
+    source: "1"
+    each: {access: rw, type: int16}
+    registers:
+"""
+
+
+@pytest.fixture
+def shadows(tmp_path: Path) -> SimulatedDevice:
+    """C shadows B, which lasts, and A shadows C; E shadows F, which follows B; Places shadow Kept Places."""
+    path = tmp_path / "shadows.yaml"
+    registers = """
+      - {at: 0, name: A, access: r, shadows: c}
+      - {at: 5, name: B, default: 3, persistence: eeprom}
+      - {at: 6, name: C, shadows: b, default: 9}
+      - {at: 7, name: E, shadows: f}
+      - {at: 8, name: F, follows: b, default: 4}
+      - {at: 10, name: Value, decimals: places, default: 50}
+      - {at: 11, name: Places, range: 0..2, default: 0, shadows: kept_places}
+      - {at: 12, name: Kept Places, range: 0..2, default: 1, persistence: eeprom}
+"""
+    path.write_text(SMALL + registers, encoding="utf-8")
+    compiled = compile_map(path)
+    assert compiled.map is not None, compiled.diagnostics
+    return SimulatedDevice(compiled.map, "A")
+
+
+def test_a_new_device_has_just_got_power_so_its_shadows_hold_what_they_shadow(shadows: SimulatedDevice) -> None:
+    assert [shadows.peek(path) for path in "abcef"] == [3, 3, 3, 3, 3]
+    assert shadows.handle(struct.pack(">BHH", 3, 6, 1)) == bytes.fromhex("03 02 00 03")
+
+
+def test_a_shadow_of_a_shadow_takes_what_that_one_takes(shadows: SimulatedDevice) -> None:
+    write(shadows, 5, 8)
+    assert [shadows.peek(path) for path in "abc"] == [8, 8, 8]
+    write(shadows, 6, 9)
+    assert [shadows.peek(path) for path in "abc"] == [9, 8, 9]
+    shadows.power_cycle()
+    assert [shadows.peek(path) for path in "abce"] == [8, 8, 8, 8]
+
+
+def test_what_depends_on_a_shadow_begins_with_what_it_shadows(shadows: SimulatedDevice) -> None:
+    assert (shadows.peek("value"), shadows.peek_words("value")) == (50, (500,))

@@ -16,12 +16,15 @@ def _sources(register: Register) -> set[str]:
     followed = {case.then for case in register.follows}
     conditions = [case.when for case in register.follows]
     conditions += [field.follows for field in register.fields if field.follows is not None]
-    return followed | {path for condition in conditions for path in condition.registers}
+    shadowed = {register.shadows} if register.shadows else set()
+    return followed | shadowed | {path for condition in conditions for path in condition.registers}
 
 
-@model_rule(Rule("RS0431", "Registers follow each other", "Each would wait for the other to tell what it is."))
+@model_rule(
+    Rule("RS0431", "Registers follow or shadow each other", "Each would wait for the other to tell what it is.")
+)
 def follows_itself(scope: Scope) -> Iterator[Finding]:
-    """Walk from each follower along what it follows, and look for a way back."""
+    """Walk from each register along what it follows and shadows, and look for a way back."""
     edges = {register.path: _sources(register) for register in scope.model.registers}
     for register in scope.model.registers:
         seen: set[str] = set()
@@ -31,7 +34,7 @@ def follows_itself(scope: Scope) -> Iterator[Finding]:
             seen.add(path)
             ahead |= edges.get(path, set())
         if register.path in seen:
-            yield Finding.at(register, "follows itself", "let one of the registers on the way follow nothing")
+            yield Finding.at(register, "follows or shadows itself", "let one of the registers on the way do neither")
 
 
 @register_rule(
@@ -53,6 +56,9 @@ def cannot_take(register: Register, scope: Scope) -> Iterator[Finding]:
         related = Related(f"`{origin.path}` is kept in RAM", origin.span)
         message = f"shadows `{origin.path}`, which is lost without power, too"
         yield Finding.at(register, message, "name the register of lasting memory", related)
+    if register.shadows and register.delivered is not None:
+        message = f"shadows `{register.shadows}` and has a delivered value, but takes the other's when power comes"
+        yield Finding.at(register, message, "give `delivered` to the register of lasting memory")
     for field in register.fields:
         if field.follows is not None and field.width > 1:
             message = f"has the field `{field.id}` of {field.width} bits follow a condition"

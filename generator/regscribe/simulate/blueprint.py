@@ -26,8 +26,8 @@ class Blueprint:
 
     `stored` and `image` are the state of a new device, of which each device keeps only what is different; they are
     filled once, by `State`. `places` are where a register is transmitted, `ordered_by` the registers whose word order
-    a register sets, `followers` those that (or whose bits) change with it, `shadows` those that take their value from
-    it when power comes.
+    a register sets, `followers` those that (or whose bits) change with it, `shadows` all that take
+    their value from another one when power comes, each behind the one that it shadows.
     """
 
     register_map: RegisterMap
@@ -37,7 +37,7 @@ class Blueprint:
     places: Mapping[str, tuple[Place, ...]]
     ordered_by: Mapping[str, tuple[Register, ...]]
     followers: Mapping[str, tuple[Register, ...]]
-    shadows: Mapping[str, tuple[Register, ...]]
+    shadows: tuple[Register, ...]
     stored: dict[str, Stored] = field(default_factory=dict)
     image: Image = field(default_factory=lambda: {space: {} for space in Space})
 
@@ -52,7 +52,7 @@ def draw(register_map: RegisterMap, model: Model, givens: Mapping[str, GivenValu
         {register.path: places_of(register) for register in model.registers},
         _by_source(model.registers, _orderers),
         _by_source(model.registers, sources_of),
-        _by_source(model.registers, lambda register: {register.shadows} if register.shadows else set()),
+        _shadows(model),
     )
 
 
@@ -64,6 +64,20 @@ def _by_source(
         for path in sources(register):
             found.setdefault(path, []).append(register)
     return {path: tuple(dependents) for path, dependents in found.items()}
+
+
+def _shadows(model: Model) -> tuple[Register, ...]:
+    """All shadows of a model, those of a register that is no shadow itself first."""
+    origins = {register.path: register.shadows for register in model.registers if register.shadows}
+    return tuple(sorted((model.register(path) for path in origins), key=lambda one: _depth(one.path, origins)))
+
+
+def _depth(path: str, origins: Mapping[str, str]) -> int:
+    passed: list[str] = []
+    while path in origins and path not in passed:  # the latter: a circle, which has to end somewhere
+        passed.append(path)
+        path = origins[path]
+    return len(passed)
 
 
 def _orderers(register: Register) -> set[str]:

@@ -42,9 +42,7 @@ class Conduct:
             self._rescale(register, before, after)
         self._pass_on(register, after)
         self._own.add(path)
-        for shadow in state.blueprint.shadows.get(path, ()):
-            if register.persistence == BOTH or shadow.path not in self._own:
-                self._copy(register, shadow)
+        self._shade(register)
 
     def commanded(self, completed: Iterable[str]) -> None:
         """Commands were completed: what waited for them comes into effect, and they have effects of their own."""
@@ -64,10 +62,9 @@ class Conduct:
         for path in state.pending:
             state.take_effect(path)
         for register in state.blueprint.model.registers:
-            if register.shadows:
-                self._copy(state.register(register.shadows), register)
-            elif register.persistence == RAM and not source_of(register, state):
+            if register.persistence == RAM and not register.shadows and not source_of(register, state):
                 state.store(register.path, state.blueprint.stored[register.path])
+        state.wake()
         if self.controller is not None:
             self.controller.reset()
 
@@ -83,8 +80,14 @@ class Conduct:
         if effect.unlatch and self.controller is not None:
             self.controller.release()
 
-    def _copy(self, origin: Register, shadow: Register) -> None:
-        self._state.put(shadow.path, self._value(origin))
+    def _shade(self, register: Register) -> None:
+        """What is written to a register counts in its shadows, and in theirs, as long as these were not written."""
+        changed = {register.path: register}
+        for shadow in self._state.blueprint.shadows:
+            origin = changed.get(shadow.shadows)
+            if origin is not None and (origin.persistence == BOTH or shadow.path not in self._own):
+                self._state.put(shadow.path, self._value(origin))
+                changed[shadow.path] = shadow
 
     def _pass_on(self, register: Register, after: Stored) -> None:
         """What is written to a follower goes on to the register that it follows now, if that can be written."""

@@ -66,6 +66,7 @@ class State(Meaning):
             self.stored(register.path)
         for register in self._model.registers:
             self._follow(register)
+        self.wake()
         self.blueprint.stored.update(self._stored)
         for register in self._model.registers:
             self._show(register, self.blueprint.image)
@@ -105,6 +106,11 @@ class State(Meaning):
         """Let the value that a register shows come into effect."""
         if self._pending.pop(path, None) is not None:
             self._touch(path)
+
+    def wake(self) -> None:
+        """Power comes: each shadow takes the value of its origin, which may be a shadow itself."""
+        for register in self.blueprint.shadows:
+            self.put(register.path, self._shadowed(register))
 
     @property
     def pending(self) -> Mapping[str, Stored]:
@@ -240,9 +246,17 @@ class State(Meaning):
         if register.path in self._initial:  # a circle of dependencies: one of them must begin
             return Fraction(0)
         self._initial.add(register.path)
-        value = initial_value(self.blueprint.register_map, self._model, register, self)
+        if register.shadows:
+            value = self._shadowed(register)
+        else:
+            value = initial_value(self.blueprint.register_map, self._model, register, self)
         stored = self._to_stored(register, value)
         return self.quantise(register, stored) if isinstance(stored, Fraction) else stored
+
+    def _shadowed(self, register: Register) -> Plain:
+        origin = self._model.register(register.shadows)
+        stored = self.stored(origin.path)
+        return self.to_value(origin, stored) if isinstance(stored, Fraction) else stored
 
     def _to_stored(self, register: Register, value: Plain) -> Stored:
         if register.kind is Kind.STRING:
