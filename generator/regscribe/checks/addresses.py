@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import combinations
 from operator import attrgetter
 
 from regscribe.checks.registry import MAP, Finding, Scope, map_rule, model_rule, register_rule, warning
@@ -110,6 +111,19 @@ def unused(register: Register, scope: Scope) -> Iterator[Finding]:
             if stretch.space == space and stretch.first <= last and stretch.last >= first:
                 help_text = "correct `at`, or shorten the entry under `unused`"
                 yield Finding.at(register, f"takes {stretch}, but {first}..{last} are unused", help_text)
+
+
+@model_rule(
+    Rule("RS0662", "Addresses without a register listed twice", "They are reserved or unused, and need one entry only.")
+)
+def listed_twice(scope: Scope) -> Iterator[Finding]:
+    """Compare all entries of `reserved` and `unused` that count on the model in pairs."""
+    entries = [("reserved", *one) for one in scope.register_map.reserved]
+    entries += [("unused", *one) for one in scope.model.unused]
+    for (key, space, first, last), (other, other_space, low, high) in combinations(entries, 2):
+        if space == other_space and first <= high and low <= last:
+            message = f"`{other}` lists {space} {low}..{high}, of which `{key}` has {first}..{last} already"
+            yield Finding(MAP, scope.register_map.span, message, "remove one entry, or shorten it")
 
 
 @map_rule(

@@ -9,6 +9,8 @@ from regscribe.model import SILENCE, Protocol, RegisterMap, Rule
 READS = frozenset({1, 2, 3, 4, 7, 11, 12, 17, 20, 24})
 """Functions whose point is the answer, so that they cannot be broadcast."""
 
+ASCII = "ascii"
+
 LAST_FUNCTION, LAST_UNIT = 127, 255
 MOST = {"read_words": 125, "write_words": 123, "read_bits": 2000, "write_bits": 1968}
 """What fits a Modbus frame of 256 bytes (application protocol V1.1b3, 6.1 to 6.16)."""
@@ -117,3 +119,20 @@ def serial_default(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
         if default is not None and offered and default not in offered:
             message = f"the default {what} {default} is not among {', '.join(map(str, offered))}"
             yield Finding(MAP, register_map.span, message, f"correct `serial.default`, or list the {what}")
+
+
+@map_rule(
+    Rule(
+        "RS0661",
+        "Character format too short for RTU",
+        "RTU sends bytes of 8 bits; 7 carry ASCII alone (Modbus over serial line V1.02, 2.5.1).",
+    )
+)
+def too_short_for_rtu(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+    """Look for formats of 7 data bits where the line has no other mode than RTU."""
+    register_map, protocol = _the_map(scopes)
+    line = protocol.serial
+    short = dict.fromkeys(one for one in (*line.formats, line.default_format) if one.startswith("7"))
+    if short and ASCII not in line.modes:
+        message = f"the serial line has {', '.join(short)} and the modes {', '.join(line.modes)}: RTU needs 8 data bits"
+        yield Finding(MAP, register_map.span, message, "correct `serial.formats`, or list `ascii` under `serial.modes`")
