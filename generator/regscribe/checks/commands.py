@@ -57,8 +57,8 @@ def _around(step: Step, scope: Scope) -> Iterator[View]:
         scope.memo["regions"] = {(view.space, view.region, view.align, view.functions): view for view in views}
     found = scope.memo["regions"]
     for view in found.values() if isinstance(found, dict) else ():
-        first, last = view.region
-        if view.space is step.space and first <= step.address <= last:
+        region = view.region
+        if region and view.space is step.space and region[0] <= step.address <= region[1]:
             yield view
 
 

@@ -86,12 +86,12 @@ def _one_word(head: Frame, body: bytes) -> Frame:
 
 
 def _one_bit(head: Frame, body: bytes) -> Frame:
-    frame = _one_word(head, body)
-    (word,) = frame.words or ()
+    _length(body, 4)
+    address, word = _words(body)
     if word not in BIT_WORDS:
         message = f"{word:04X} is no state of a coil: FF00 is on, 0000 is off"
         raise MalformedError(message)
-    return replace(frame, bits=(BIT_WORDS[word],))
+    return replace(head, address=address, count=1, words=(word,), bits=(BIT_WORDS[word],))
 
 
 def _many_bits(head: Frame, body: bytes) -> Frame:
