@@ -15,7 +15,7 @@ from .trial import Trial
 
 FUZZ = int(os.environ.get("FUZZ_MAPS", "10000"))
 """How many maps `make fuzz` draws; about three of four are sound."""
-FEW = 250
+FEW = 200
 STEADY = settings(
     deadline=None,
     database=None,

@@ -8,7 +8,7 @@ from . import matrix, matrix_views
 
 ALL = int(os.environ.get("MATRIX_EVERY", "23"))
 """Of so many combinations one is tried by `make conformance`; 1: all of them, which takes hours."""
-FEW, FEW_VIEWS = 701, 211
+FEW, FEW_VIEWS = 701, 307
 """The same for `make test`. Both are prime, so that the steps run through all kinds, types, spaces and places."""
 
 

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from regscribe.model import WireType, reference
 from regscribe.runtime import (
     FLOAT32,
     INT16,
@@ -25,7 +26,7 @@ from regscribe.runtime import (
     within,
     word,
 )
-from regscribe.runtime.wire import ROUNDINGS, exact
+from regscribe.runtime.wire import FLOAT64, ROUNDINGS, exact, shortest
 
 tenths = ReadWrite(0, word(UINT16), number, scale=(((), Conversion(multiply="0.1", add="-1999.9")),))
 ieee = ReadWrite(0, (View("base", FLOAT32, words=2),), number)
@@ -70,6 +71,17 @@ def test_a_float32_reads_as_its_shortest_decimal_and_writes_back(value: float) -
 
     assert struct.pack(">f", shown) == struct.pack(">f", value + 0.0)
     assert ieee.encode(shown) == struct.unpack(">2H", struct.pack(">f", value + 0.0))
+
+
+@pytest.mark.parametrize(
+    ("wire_type", "lowest", "beyond"), [(WireType.FLOAT32, -149, 128), (WireType.FLOAT64, -1074, 1024)]
+)
+def test_every_power_of_two_reads_as_the_reference_says(wire_type: WireType, lowest: int, beyond: int) -> None:
+    mine = {WireType.FLOAT32: FLOAT32, WireType.FLOAT64: FLOAT64}[wire_type]
+    powers = [2.0**power for power in range(lowest, beyond)]
+    assert [Fraction(shortest(one, mine)) for one in powers] == [
+        reference.shortest(Fraction(one), wire_type) for one in powers
+    ]
 
 
 def test_a_float32_of_250_4_is_250_4() -> None:

@@ -11,6 +11,8 @@ FLOAT32_DIGITS, FEWER_DIGITS = range(6, 10), range(1, 10)
 """Significant digits tried for a float32: 6 are always exact, 9 always suffice (IEEE 754 binary32); of subnormal
 numbers, which have fewer bits, fewer may do."""
 SMALLEST_NORMAL = 2.0**-126
+ABOVE = {2.0**-96: "1.2621775E-29", 2.0**87: "1.5474251E+26", 2.0**90: "1.2379401E+27"}
+"""The float32 whose shortest decimal is not the nearest one of its length: below a power of two they lie closer."""
 
 
 class WireType:
@@ -81,6 +83,8 @@ def shortest(number: float, wire_type: WireType) -> Decimal:
     """
     if wire_type is FLOAT64:
         return Decimal(repr(number))
+    if abs(number) in ABOVE:
+        return Decimal(ABOVE[abs(number)]).copy_sign(Decimal(number))
     packed = FLOAT32.packer.pack(number)
     tried = FLOAT32_DIGITS if abs(number) >= SMALLEST_NORMAL else FEWER_DIGITS
     texts = (f"{number:.{digits}g}" for digits in tried)

@@ -1,6 +1,6 @@
 """IEEE 754 numbers in exact arithmetic: bits to fractions and back, and the shortest decimal that reads back."""
 
-from decimal import ROUND_HALF_EVEN, Context, Decimal
+from decimal import ROUND_HALF_EVEN, ROUND_UP, Context, Decimal
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -20,6 +20,10 @@ class Format(NamedTuple):
 
 
 FORMATS = {WireType.FLOAT32: Format(23, 8, 9), WireType.FLOAT64: Format(52, 11, 17)}
+
+
+NEAREST_FIRST = (ROUND_HALF_EVEN, ROUND_UP)
+"""Below a power of two the numbers lie closer together: the nearest decimal may be another's, the next one not."""
 
 
 def ieee_number(bits: int, wire_type: WireType) -> Fraction:
@@ -76,9 +80,10 @@ def shortest(number: Fraction, wire_type: WireType) -> Fraction:
     """Return the decimal of fewest digits whose nearest IEEE number is `number`: 0x437A6666 is 250.4."""
     bits = ieee_bits(number, wire_type)
     for digits in range(1, FORMATS[wire_type].digits + 1):
-        context = Context(prec=digits, rounding=ROUND_HALF_EVEN, Emax=999999, Emin=-999999)
-        text = context.divide(Decimal(number.numerator), Decimal(number.denominator))
-        if ieee_bits(Fraction(text), wire_type) == bits:
-            return Fraction(text)
+        for rounding in NEAREST_FIRST:
+            context = Context(prec=digits, rounding=rounding, Emax=999999, Emin=-999999)
+            text = context.divide(Decimal(number.numerator), Decimal(number.denominator))
+            if ieee_bits(Fraction(text), wire_type) == bits:
+                return Fraction(text)
     message = f"{number} is no {wire_type}"
     raise ValueError(message)
