@@ -15,6 +15,8 @@ settings.register_profile("here", deadline=None)
 settings.register_profile("ci", deadline=None, derandomize=True)
 settings.load_profile("ci" if os.environ.get("CI") else "here")
 
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell lets what it starts in the background ignore Ctrl-C
+
 HANG_SECONDS = 120.0
 """Of CPU time, far above what any test that is not slow takes: what is over it is no longer linear, or never ends."""
 
