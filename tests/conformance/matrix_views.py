@@ -9,7 +9,6 @@ from . import matrix
 from . import matrix_maps as maps
 from . import matrix_watch as watch
 from .matrix_maps import Seed
-from .suite import Json
 
 FRACTIONS = (1.26, 2.5, -2.5, 0.04, 120.05)
 """Values that a device would round."""
@@ -93,7 +92,7 @@ def _watched(register_map: Any, seed: Seed) -> tuple[Any, ...]:
     )
 
 
-def _rounded(module: Any, path: str) -> Iterator[Json | tuple[object, ...]]:
+def _rounded(module: Any, path: str) -> Iterator[tuple[object, ...]]:
     """What a driver sends of values that are finer than a view."""
     subject = watch.Subject(module, path)
     for view in subject.declared.views:

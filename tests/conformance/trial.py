@@ -27,7 +27,7 @@ from regscribe.runtime import ExceptionAnswer, ValueNotDecodable, ValueRefused
 from regscribe.runtime.sending import condition_needs
 from regscribe.simulate import codec as simulated_codec
 from regscribe.simulate.device import SimulatedDevice
-from regscribe.testing.bench import Bench
+from regscribe.testing.bench import CHECKS
 
 from . import judges, probes
 from .matrix_watch import Wire
@@ -42,16 +42,6 @@ LIKELY = 0.8
 """How often a register holds what one is likely to hold; else anything."""
 FEW = 8
 """How many words and how many values are tried of all that are worth it."""
-
-CHECKS = (
-    Bench.check_registers,
-    Bench.check_device,
-    Bench.check_decoding,
-    Bench.check_encoding,
-    Bench.check_refusals,
-    Bench.check_conditions_of_writing,
-)
-"""What a generated test asks of a driver and its vectors."""
 
 
 class Asked:

@@ -35,19 +35,11 @@ from regscribe.model import (
 )
 from regscribe.testing import Bench, Vectors, load
 from regscribe.testing import properties as hold
+from regscribe.testing.bench import CHECKS
 
 CAUGHT, SURVIVED, NOTHING = 0, 1, 2
 PROPERTIES = (hold.round_trip, hold.refusal, hold.total_decoding, hold.agreement, hold.covering_reads, hold.batches)
 few = settings(hold.each_run, max_examples=15)
-CHECKS = (
-    Bench.check_registers,
-    Bench.check_device,
-    Bench.check_decoding,
-    Bench.check_encoding,
-    Bench.check_refusals,
-    Bench.check_conditions_of_writing,
-    Bench.check_examples,
-)
 
 
 def compiled(text: str) -> RegisterMap | None:

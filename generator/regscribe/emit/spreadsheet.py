@@ -35,8 +35,6 @@ from regscribe.model import (
 )
 from regscribe.visible import cell
 
-"""Function codes that write coils; every other write goes to holding registers."""
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Row:

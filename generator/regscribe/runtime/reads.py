@@ -121,7 +121,8 @@ def read_unit(register: Register[Any]) -> Task[str]:
     def task(session: Session) -> Operation[str]:
         if isinstance(register.unit, str):
             return register.unit
-        state = yield from know(session, registers_of(register.unit))
+        unknown = yield from _unknown(session, registers_of(register.unit))
+        state = codec.known(register, session.memory, unknown)
         return str(choose(register.unit, state, session.givens) or "")
 
     return task

@@ -176,6 +176,18 @@ class Bench:
             yield from differs(frame, f"{path} = {text}", _hex(there), _hex(words))
 
 
+CHECKS = (
+    Bench.check_registers,
+    Bench.check_device,
+    Bench.check_decoding,
+    Bench.check_encoding,
+    Bench.check_refusals,
+    Bench.check_conditions_of_writing,
+    Bench.check_examples,
+)
+"""What generated tests ask of a driver and its vectors without drawing values."""
+
+
 def _placed(register: Register[Any], name: str | None, start: int, count: int) -> tuple[Any, int]:
     """The view (of this name) or alias that a frame of `count` words holds whole, and its address; else the first."""
     base = register.views[0]
