@@ -235,3 +235,27 @@ def test_addresses_that_a_notation_prints_are_warned_of() -> None:
     assert len(rules(f"      - {{at: 0, name: Z}}\n{both}")) == 1
     assert rules("      - {at: 4057, name: A}\n", "1") == []
     assert rules("      - {at: 4057, name: A}\n", "40001") == []
+
+
+UNITS = """\
+format: 1
+map: {id: test/units, title: Units, maker: Nobody, class_prefix: Units}
+manual: {title: None}
+models: {One: {}}
+units: {level: [{when: {kind: 1}, symbol: °C}, {when: {point: 1}, symbol: K}, {symbol: °F}]}
+groups:
+  - id: main
+    name: Main
+    source: "1"
+    each: {access: rw}
+    registers:
+      - {at: 0, name: Kind}
+      - {at: 1, name: Point, sentinels: {65535: none}}
+      - {at: 2, name: Value, unit: level}
+"""
+
+
+def test_a_unit_is_told_where_a_register_in_fault_decides_nothing(talk: Callable[..., Any]) -> None:
+    assert talk(UNITS, {0: 1, 1: 0xFFFF}).unit("value") == "°C"
+    with pytest.raises(NotDecodable, match="value: its meaning depends on point"):
+        talk(UNITS, {0: 0, 1: 0xFFFF}).unit("value")
