@@ -11,7 +11,9 @@ from hypothesis import strategies as st
 
 from regscribe import files, source
 
-TEXTS = st.text(st.characters(exclude_categories=["Cc", "Cs"]), max_size=20) | st.sampled_from(
+VISIBLE = st.characters(exclude_categories=["Cc", "Cs"], exclude_characters="\ufeff")
+"""What RS0104 lets into a file: a byte order mark is no more a part of a text than a control character."""
+TEXTS = st.text(VISIBLE, max_size=20) | st.sampled_from(
     ["off", "yes", "~", "null", "1e3", "0x1F", "010", "12:30", "-", "{a}", "1_000", ".inf", "2026-11-22", "", " x "]
 )
 VALUES = st.recursive(
