@@ -15,17 +15,17 @@ from measure import Row, at_least
 from planning import subjects
 from rivals import Task, fixed_gap
 
-from regscribe.cli.locate import find_map
-from regscribe.cli.planning import Subject
-from regscribe.live import catalogue
+from regscribe.cli.shared.map_by_id import find_map
+from regscribe.cli.shared.planning import Subject
 from regscribe.model import GivenKind
 from regscribe.pipeline import compile_map
-from regscribe.runtime import RegscribeError
-from regscribe.runtime.cost import Cost
-from regscribe.runtime.ground import Item
-from regscribe.runtime.link import serial
-from regscribe.runtime.request import READ_FUNCTIONS, Request
 from regscribe.simulate import Line, simulate
+from regscribe.tools.live import catalogue
+from regscribe_runtime import RegscribeError
+from regscribe_runtime.link.links import serial
+from regscribe_runtime.planning.address_ranges import RegisterSpan
+from regscribe_runtime.planning.cost import Cost
+from regscribe_runtime.wire.requests import READ_FUNCTIONS, Request
 
 BAUD = 9600
 GAP = 10
@@ -75,7 +75,7 @@ def _driver(driver: Any, path: str, unit: int, givens: dict[str, Any]) -> float:
         return time.perf_counter() - start
 
 
-def _items(subject: Subject) -> list[Item]:
+def _items(subject: Subject) -> list[RegisterSpan]:
     return list(dict.fromkeys(subject.ways(path)[0].item for path in subject.readable))
 
 
@@ -107,7 +107,7 @@ def _one_by_one(subject: Subject, path: str, unit: int) -> float:
         instrument.serial.close()
 
 
-def _read(instrument: Any, one: Item) -> None:
+def _read(instrument: Any, one: RegisterSpan) -> None:
     function = READ_FUNCTIONS[one.space]
     if one.space == "status":
         return  # minimalmodbus has no function 07: the comparison is in its favour

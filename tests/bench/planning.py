@@ -14,11 +14,11 @@ from rich.console import Console
 from rich.table import Table
 from rivals import GAPS, MODES, Task, fixed_gap
 
-from regscribe.cli.locate import find_maps
-from regscribe.cli.planning import Subject
+from regscribe.cli.shared.map_by_id import find_maps
+from regscribe.cli.shared.planning import Subject
 from regscribe.pipeline import compile_map
-from regscribe.runtime.cost import Cost, milliseconds
-from regscribe.runtime.plan import blocks
+from regscribe_runtime.planning.cost import Cost, milliseconds
+from regscribe_runtime.planning.plan import blocks
 
 MAPS = Path(__file__).parents[2] / "maps"
 SEED = 20240611

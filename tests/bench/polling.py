@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 from measure import Row, at_most, milliseconds
 from pymodbus.client import AsyncModbusSerialClient, AsyncModbusTcpClient, ModbusSerialClient, ModbusTcpClient
 
-from regscribe.runtime import INT16, AsyncBus, AsyncDevice, Device, ReadOnly, integer, word
+from regscribe_runtime import INT16, AsyncBus, AsyncDevice, Device, ReadOnly, integer, word
 
 READS = 100
 RUNS = 25

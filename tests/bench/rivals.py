@@ -10,10 +10,10 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import groupby
 from typing import NamedTuple
 
-from regscribe.runtime.ground import Item
-from regscribe.runtime.plan import Terms
+from regscribe_runtime.planning.address_ranges import RegisterSpan
+from regscribe_runtime.planning.plan import Terms
 
-Requests = tuple[Item, ...]
+Requests = tuple[RegisterSpan, ...]
 GAPS = range(126)
 MAX_INSERT = 50
 """Telegraf's own default of `optimization_max_register_fill`."""
@@ -22,19 +22,19 @@ MAX_INSERT = 50
 class Field(NamedTuple):
     """One address range that a user lists; `omit`: it fills a gap, nobody wants it."""
 
-    item: Item
+    item: RegisterSpan
     omit: bool = False
 
 
 class Task(NamedTuple):
     """What is to be read, and all that the device has: sorted, aligned, distinct."""
 
-    wanted: tuple[Item, ...]
-    known: tuple[Item, ...]
+    wanted: tuple[RegisterSpan, ...]
+    known: tuple[RegisterSpan, ...]
     terms: Terms
 
     @classmethod
-    def of(cls, wanted: Iterable[Item], known: Iterable[Item], terms: Terms) -> "Task":
+    def of(cls, wanted: Iterable[RegisterSpan], known: Iterable[RegisterSpan], terms: Terms) -> "Task":
         """Widen and sort; what cannot be read is left out of `known`."""
         wide = {terms.ground.widened(item) for item in wanted}
         rest = {terms.ground.widened(item) for item in known if terms.ground.stretch(item)}
@@ -45,19 +45,19 @@ class Task(NamedTuple):
         return sum(self.terms.cost.tariff(one.space).of(one.words) for one in requests)
 
 
-def stretches(items: Sequence[Item], terms: Terms) -> Iterator[list[Item]]:
+def stretches(items: Sequence[RegisterSpan], terms: Terms) -> Iterator[list[RegisterSpan]]:
     """Items in runs that one request could cover as far as the device is concerned."""
     for _, run in groupby(items, key=lambda item: (item.space, terms.ground.stretch(item))):
         yield list(run)
 
 
-def hull(items: Sequence[Item]) -> Item:
+def hull(items: Sequence[RegisterSpan]) -> RegisterSpan:
     """The request that covers items of one space."""
     start = min(item.address for item in items)
-    return Item(items[0].space, start, max(item.end for item in items) - start)
+    return RegisterSpan(items[0].space, start, max(item.end for item in items) - start)
 
 
-def chunks(items: Sequence[Item], terms: Terms, gap: int) -> Iterator[list[Item]]:
+def chunks(items: Sequence[RegisterSpan], terms: Terms, gap: int) -> Iterator[list[RegisterSpan]]:
     """Each item joins the request before it if the gap is at most `gap` and the limit allows it."""
     for run in stretches(items, terms):
         most = terms.limits.most(run[0].space)
@@ -116,16 +116,16 @@ MODES: dict[str, Callable[[Task], Requests]] = {
 }
 
 
-def _cheaper(task: Task, make: Callable[[tuple[Item, ...]], Requests]) -> Requests:
+def _cheaper(task: Task, make: Callable[[tuple[RegisterSpan, ...]], Requests]) -> Requests:
     return min((make(task.wanted), make(task.known)), key=task.cost)
 
 
-def _useful(task: Task, known: tuple[Item, ...]) -> Iterator[list[Item]]:
+def _useful(task: Task, known: tuple[RegisterSpan, ...]) -> Iterator[list[RegisterSpan]]:
     wanted = set(task.wanted)
     return (chunk for chunk in chunks(known, task.terms, 0) if not wanted.isdisjoint(chunk))
 
 
-def _consecutive(task: Task, known: tuple[Item, ...]) -> Iterator[list[Item]]:
+def _consecutive(task: Task, known: tuple[RegisterSpan, ...]) -> Iterator[list[RegisterSpan]]:
     """The wanted items of each row of addresses without a gap, however long."""
     wanted = set(task.wanted)
     for run in stretches(known, task.terms):
@@ -139,7 +139,7 @@ def _consecutive(task: Task, known: tuple[Item, ...]) -> Iterator[list[Item]]:
         yield [one for one in row if one in wanted]
 
 
-def _fewest(task: Task, rows: Iterable[list[Item]]) -> Iterator[Item]:
+def _fewest(task: Task, rows: Iterable[list[RegisterSpan]]) -> Iterator[RegisterSpan]:
     """Part each row into the fewest requests that the limit allows, with the fewest addresses."""
     for row in rows:
         if not row:

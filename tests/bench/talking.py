@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from measure import Row, at_least, at_most, milliseconds, paired
 from pymodbus.client import ModbusTcpClient
 
-from regscribe.runtime import INT16, Conversion, ReadOnly, integer, number, word
-from regscribe.runtime.ready import make_ready
-from regscribe.runtime.session import Protocol, Session
+from regscribe_runtime import INT16, Conversion, ReadOnly, integer, number, word
+from regscribe_runtime.operations.prepared_read import make_ready
+from regscribe_runtime.operations.session import Protocol, Session
 
 COUNT = 1000
 READS = 100

@@ -16,9 +16,9 @@ import pytest
 
 from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map
-from regscribe.runtime.frames import Rtu
 from regscribe.simulate import SimulatedDevice
-from regscribe.simulate.service import Service, Transport, start
+from regscribe.simulate.line.service import Service, Transport, start
+from regscribe_runtime.wire.framing import Rtu
 
 MAPS = Path(__file__).parents[2] / "maps"
 Plan = Callable[[bytes], Iterable[tuple[float, bytes]]]

@@ -7,13 +7,13 @@ from typing import Any
 import pytest
 
 from regscribe.model import RegisterMap
-from regscribe.runtime import AsyncBus, Bus, ValueRefused
-from regscribe.runtime.request import Request
-from regscribe.runtime.session import Pause
 from regscribe.simulate import SimulatedDevice
 from regscribe_devices.athena.platinum_m5000 import AthenaM5000
 from regscribe_devices.athena.series_c import AsyncAthena16C, Athena16C
 from regscribe_devices.fdc.series_100 import FdcC91 as Fdc
+from regscribe_runtime import AsyncBus, Bus, ValueRefused
+from regscribe_runtime.operations.session import Pause
+from regscribe_runtime.wire.requests import Request
 
 from .conftest import serving
 

@@ -6,12 +6,12 @@ from typing import Any
 
 import pytest
 
-from regscribe.runtime import AsyncBus, Retry
-from regscribe.runtime import link as links
-from regscribe.runtime.request import Request
-from regscribe.runtime.wires import wait
 from regscribe.simulate import SimulatedDevice
 from regscribe_devices.athena.series_c import AsyncAthena16C
+from regscribe_runtime import AsyncBus, Retry
+from regscribe_runtime.link import links
+from regscribe_runtime.link.streams import wait
+from regscribe_runtime.wire.requests import Request
 
 from .conftest import FarEnd, serving
 from .test_late import value_of
@@ -133,7 +133,7 @@ def test_a_thread_that_is_interrupted_leaves_the_line_in_order(far: FarEnd, monk
         return wait(wire, seconds)
 
     with monkeypatch.context() as patched:
-        patched.setattr("regscribe.runtime.transport.wait", interrupted)
+        patched.setattr("regscribe_runtime.link.transports.wait", interrupted)
         with pytest.raises(KeyboardInterrupt):
             link.call(1, Request(3, 28))
     assert link.call(2, Request(3, 29)).words == (29,)

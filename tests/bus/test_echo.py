@@ -4,10 +4,10 @@ from typing import Any
 
 import pytest
 
-from regscribe.runtime import NoAnswer, Retry, WrongAnswer
-from regscribe.runtime import link as links
-from regscribe.runtime.link import Link
-from regscribe.runtime.request import Request
+from regscribe_runtime import NoAnswer, Retry, WrongAnswer
+from regscribe_runtime.link import links
+from regscribe_runtime.link.links import Link
+from regscribe_runtime.wire.requests import Request
 
 from .conftest import FarEnd
 from .test_late import value_of

@@ -12,9 +12,9 @@ from typing import Any
 import pytest
 import serial  # type: ignore[import-untyped] # pyserial ships no types
 
-from regscribe.runtime import LinkLost, Retry, WrongAnswer
-from regscribe.runtime import link as links
-from regscribe.runtime.request import Request
+from regscribe_runtime import LinkLost, Retry, WrongAnswer
+from regscribe_runtime.link import links
+from regscribe_runtime.wire.requests import Request
 
 HOLD = "import serial, sys; p = serial.Serial(sys.argv[1], exclusive=True); print('open', flush=True); sys.stdin.read()"
 
@@ -52,7 +52,7 @@ def test_a_port_that_is_not_ours(monkeypatch: pytest.MonkeyPatch) -> None:
     def denied(*_: Any, **__: Any) -> None:
         raise serial.SerialException(errno.EACCES, "could not open port")
 
-    monkeypatch.setattr("regscribe.runtime.wires.serial.serial_for_url", denied)
+    monkeypatch.setattr("regscribe_runtime.link.streams.serial.serial_for_url", denied)
     with pytest.raises(LinkLost, match=r"permission denied. Add your user to the group"):
         opened("serial", "/dev/ttyS0", baud=9600)
 

@@ -8,12 +8,12 @@ from typing import Any
 
 import pytest
 
-from regscribe.runtime import NoAnswer, Retry, WrongAnswer, tcp
-from regscribe.runtime import link as links
-from regscribe.runtime.late import LATE_SECONDS, Late
-from regscribe.runtime.link import Link
-from regscribe.runtime.request import Request, verify
 from regscribe.simulate import simulate
+from regscribe_runtime import NoAnswer, Retry, WrongAnswer, tcp
+from regscribe_runtime.link import links
+from regscribe_runtime.link.links import Link
+from regscribe_runtime.link.stale_replies import LATE_SECONDS, StaleReplies
+from regscribe_runtime.wire.requests import Request, verify
 
 from .conftest import FarEnd, frame, words
 
@@ -21,8 +21,8 @@ NOW = 100.0
 READ, OTHER, WRITE = Request(3, 28), Request(3, 29), Request(6, 28, 1, (7,))
 
 
-def owing(request: Request = READ) -> Late:
-    late = Late()
+def owing(request: Request = READ) -> StaleReplies:
+    late = StaleReplies()
     late.owe(1, request, deadline=NOW, seconds=0.5)
     return late
 
@@ -76,7 +76,9 @@ def test_a_late_answer_on_a_serial_line_is_dropped_before_the_next_request(far: 
 
 
 def test_a_late_answer_is_no_answer_to_a_write_either(far: FarEnd, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("regscribe.runtime.late.LATE_SECONDS", 3600.0)  # waiting ends when the answer comes
+    monkeypatch.setattr(
+        "regscribe_runtime.link.stale_replies.LATE_SECONDS", 3600.0
+    )  # waiting ends when the answer comes
     far.plan = lambda request: [(0.8 if len(far.heard) == 1 else 0.0, request)]
     link = serial(far, timeout=0.5)
     with pytest.raises(NoAnswer):

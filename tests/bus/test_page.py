@@ -4,9 +4,9 @@ import doctest
 import re
 from pathlib import Path
 
-from regscribe.runtime import LinkSettings
-from regscribe.runtime.link import LineSettings
 from regscribe.simulate import SimulatedDevice
+from regscribe_runtime import LinkSettings
+from regscribe_runtime.link.links import LineSettings
 
 from .conftest import serving
 

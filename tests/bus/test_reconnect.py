@@ -13,11 +13,11 @@ from typing import Any
 
 import pytest
 
-from regscribe.runtime import LinkLost, NoAnswer, RegscribeError, Retry
-from regscribe.runtime import link as links
-from regscribe.runtime.request import Request
 from regscribe.simulate import SimulatedDevice, simulate
 from regscribe_devices.athena.series_c import AsyncAthena16C, Athena16C
+from regscribe_runtime import LinkLost, NoAnswer, RegscribeError, Retry
+from regscribe_runtime.link import links
+from regscribe_runtime.wire.requests import Request
 
 from .conftest import FarEnd, serving
 from .test_late import value_of
@@ -230,7 +230,7 @@ def test_a_device_may_have_a_policy_of_its_own(athena: Any) -> None:
 
 
 def test_a_host_that_does_not_answer_fails_in_seconds(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("regscribe.runtime.wires.CONNECT_SECONDS", 0.1)
+    monkeypatch.setattr("regscribe_runtime.link.streams.CONNECT_SECONDS", 0.1)
     with socket.socket() as full:
         full.bind(("127.0.0.1", 0))
         full.listen(0)
@@ -259,7 +259,7 @@ def test_a_link_that_cannot_be_opened_is_tried_twice_however_many_times_reads_ar
         message = "refused"
         raise LinkLost(message)
 
-    monkeypatch.setattr("regscribe.runtime.transport.open_tcp", refuse)
+    monkeypatch.setattr("regscribe_runtime.link.transports.open_tcp", refuse)
     with pytest.raises(LinkLost, match="refused"):
         device.controller_id.read()
     device.close()

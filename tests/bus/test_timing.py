@@ -2,9 +2,10 @@
 
 import pytest
 
-from regscribe.runtime import Line
-from regscribe.runtime.request import LOOPBACK, Request
-from regscribe.runtime.timing import (
+from regscribe_devices.athena.platinum_m5000 import AthenaM5000
+from regscribe_devices.athena.series_c import Athena16C
+from regscribe_runtime import Line
+from regscribe_runtime.link.timing import (
     GATEWAY_SECONDS,
     MARGIN_SECONDS,
     characters,
@@ -13,8 +14,7 @@ from regscribe.runtime.timing import (
     response_seconds,
     silence,
 )
-from regscribe_devices.athena.platinum_m5000 import AthenaM5000
-from regscribe_devices.athena.series_c import Athena16C
+from regscribe_runtime.wire.requests import LOOPBACK, Request
 
 AT_9600 = Line("", 9600)
 SERIES_C, PLATINUM = Athena16C.protocol, AthenaM5000.protocol

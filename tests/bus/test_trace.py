@@ -5,11 +5,11 @@ from typing import Any
 
 import pytest
 
-from regscribe.runtime import Bus, Retry, Trace, WrongAnswer
-from regscribe.runtime import link as links
-from regscribe.runtime.request import Request
 from regscribe.simulate import SimulatedDevice
 from regscribe_devices.athena.series_c import Athena16C
+from regscribe_runtime import Bus, Retry, Trace, WrongAnswer
+from regscribe_runtime.link import links
+from regscribe_runtime.wire.requests import Request
 
 from .conftest import FarEnd, frame, serving, words
 

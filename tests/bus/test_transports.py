@@ -6,12 +6,12 @@ from typing import Any
 import pytest
 
 from regscribe.model import RegisterMap
-from regscribe.runtime import NoAnswer, Trace, WrongAnswer
-from regscribe.runtime import link as links
-from regscribe.runtime.request import Request
 from regscribe.simulate import simulate
 from regscribe_devices.athena.platinum_m5000 import AsyncAthenaM5000, AthenaM5000
 from regscribe_devices.athena.series_c import AsyncAthena16C, Athena16C
+from regscribe_runtime import NoAnswer, Trace, WrongAnswer
+from regscribe_runtime.link import links
+from regscribe_runtime.wire.requests import Request
 
 from .conftest import FarEnd, frame
 

@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from regscribe.runtime.turns import FairLock
+from regscribe_runtime.link.locks import FairLock
 
 
 def waiting(lock: FairLock, many: int) -> None:
@@ -93,7 +93,7 @@ def test_who_gives_up_waiting_leaves_the_queue_and_holds_up_nobody(monkeypatch: 
 
     def give_up() -> None:
         with monkeypatch.context() as patched:
-            patched.setattr("regscribe.runtime.turns.threading.Lock", Interrupted)
+            patched.setattr("regscribe_runtime.link.locks.threading.Lock", Interrupted)
             with pytest.raises(KeyboardInterrupt):
                 lock.__enter__()
         came.set()

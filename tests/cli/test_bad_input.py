@@ -165,7 +165,7 @@ def test_an_internal_error_asks_for_a_report_without_a_traceback(
         message = "boom"
         raise RuntimeError(message)
 
-    monkeypatch.setattr("regscribe.cli.check.compile_map", broken)
+    monkeypatch.setattr("regscribe.cli.commands.check.compile_map", broken)
     result = cli("check")
     assert result.code == 1
     assert "internal error: RuntimeError: boom (test_bad_input.py:" in result.err
@@ -180,7 +180,7 @@ def test_an_internal_error_shows_its_traceback_on_request(
         message = "boom"
         raise RuntimeError(message)
 
-    monkeypatch.setattr("regscribe.cli.check.compile_map", broken)
+    monkeypatch.setattr("regscribe.cli.commands.check.compile_map", broken)
     if by == "environment":
         monkeypatch.setenv("REGSCRIBE_DEBUG", "1")
     assert app.run(["check"] if by == "environment" else ["--debug", "check"]) == 1

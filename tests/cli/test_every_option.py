@@ -89,7 +89,7 @@ def called(name: str, link: str) -> list[str]:
 
 def variants(name: str, value: str) -> Iterator[list[str]]:
     """Every option and argument of a command, and of those below it, with a strange value."""
-    command: click.Command = import_module(f"regscribe.cli.{name}").command
+    command: click.Command = import_module(f"regscribe.cli.commands.{name}").command
     below = command.commands if isinstance(command, click.Group) else {"": command}
     for sub, one in below.items():
         usual = [NOBODY if each == "TARGET" else "tcp:127.0.0.1:1" if each == "LINK" else each for each in USUAL[name]]
@@ -169,7 +169,7 @@ def test_all_that_commands_print_goes_through_one_door() -> None:
     raw = {f"sys.std{end}.{how}" for end in ("out", "err") for how in ("write", "writelines", "buffer.write")}
     raw |= {"print", "click.echo", "click.secho", "os.write"}
     found: dict[str, Any] = {}
-    for path in Path(regscribe.cli.__file__).parent.glob("*.py"):
+    for path in Path(regscribe.cli.__file__).parent.rglob("*.py"):
         if used := raw & set(_writes(ast.parse(path.read_text(encoding="utf-8")))):
             found[path.name] = used
     assert found == {"terminal.py": {"sys.stdout.write", "sys.stderr.write"}, "app.py": {"click.echo"}}

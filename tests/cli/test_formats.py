@@ -3,10 +3,10 @@ from pathlib import Path
 
 import pytest
 
-from regscribe.cli.excerpt import WIDTH, Sources
-from regscribe.cli.machine import as_github, as_json
-from regscribe.cli.sarif import as_sarif
-from regscribe.cli.text import findings, tally
+from regscribe.cli.shared.diagnostic_text import findings, tally
+from regscribe.cli.shared.json_report import as_github, as_json
+from regscribe.cli.shared.sarif import as_sarif
+from regscribe.cli.shared.source_excerpt import WIDTH, Sources
 from regscribe.model import Diagnostic, Related, Rule, Severity, Span
 from regscribe.visible import safe
 

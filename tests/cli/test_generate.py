@@ -91,7 +91,7 @@ def test_a_new_generator_renders_again_what_the_old_one_left(
     cli: Callable[..., Any], oven: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     cli("generate", oven)
-    monkeypatch.setattr("regscribe.emit.cache.LIBRARIES", ("click",))
+    monkeypatch.setattr("regscribe.emit.build_cache.LIBRARIES", ("click",))
     monkeypatch.setattr("regscribe.pipeline.compile_map", None)
     assert cli("generate", oven).code == 1
 

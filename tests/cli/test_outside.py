@@ -14,9 +14,9 @@ from typing import Any
 import pytest
 
 from regscribe.cli.app import run
-from regscribe.emit import cache
+from regscribe.emit import build_cache
 from regscribe.simulate import simulate as simulated
-from regscribe.simulate.maps import find_map
+from regscribe.simulate.map_search import find_map
 from regscribe.visible import INVISIBLE, cell, json_text, safe, safe_lines
 
 from .labelled import MAP, put_map
@@ -337,7 +337,7 @@ def test_a_file_that_begins_or_ceases_to_shadow_a_shipped_one_is_noticed(
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     folder = _local(tmp_path)
-    shipped = Path(cache.__file__).parents[3] / "maps" / "athena" / "series-c.yaml"
+    shipped = Path(build_cache.__file__).parents[3] / "maps" / "athena" / "series-c.yaml"
     arguments = ["generate", str(folder / "acme" / "mine.yaml"), "--out", "out"]
     assert run(arguments) == 0, _said(capsys)
     first = {path: path.read_bytes() for path in Path("out").rglob("mine.*")}
@@ -402,7 +402,7 @@ def test_a_link_that_leads_elsewhere_is_noticed(
 
 def test_a_simulator_notices_a_file_that_begins_to_shadow_a_shipped_one(tmp_path: Path) -> None:
     folder = _local(tmp_path)
-    shipped = Path(cache.__file__).parents[3] / "maps" / "athena" / "series-c.yaml"
+    shipped = Path(build_cache.__file__).parents[3] / "maps" / "athena" / "series-c.yaml"
     mine = folder / "acme" / "mine.yaml"
     before = find_map(mine)
     shadow = folder / "athena" / "series-c.yaml"
@@ -452,8 +452,8 @@ def test_a_spoilt_cache_is_not_believed(
 
 @pytest.mark.parametrize("form", ["8E1", "7O2"])
 def test_a_simulated_line_with_parity_is_opened_again_and_again(form: str) -> None:
-    from regscribe.runtime.device import serial_link  # noqa: PLC0415 (for this test alone)
     from regscribe_devices.athena.series_c import Athena16C  # noqa: PLC0415 (as above)
+    from regscribe_runtime.driver.device import serial_link  # noqa: PLC0415 (for this test alone)
 
     with simulated("athena/series-c", "16C", transport="pty") as device:
         for _ in range(3):

@@ -8,11 +8,9 @@ from fractions import Fraction
 from typing import Any
 
 from regscribe.emit.vectors import document
-from regscribe.live.decode import Decoder
-from regscribe.live.frames import Frame
 from regscribe.model import Kind, Register, View
 from regscribe.model import exact as exact_number
-from regscribe.model.reference import (
+from regscribe.reference import (
     Meaning,
     RefusedError,
     Surroundings,
@@ -22,11 +20,13 @@ from regscribe.model.reference import (
     holds,
     special_value,
 )
-from regscribe.runtime import SensorFault, ValueNotDecodable, ValueRefused
-from regscribe.simulate import codec as simulated_codec
-from regscribe.simulate.device import SimulatedDevice
-from regscribe.testing.bench import Bench
+from regscribe.simulate.device import codec as simulated_codec
+from regscribe.simulate.device.device import SimulatedDevice
+from regscribe.testing.driver_checks import DriverUnderTest
 from regscribe.testing.vectors import Vectors
+from regscribe.tools.live.captured_frames import CapturedFrame
+from regscribe.tools.live.decode import Decoder
+from regscribe_runtime import SensorFault, ValueNotDecodable, ValueRefused
 
 from .suite import Built, Json, words_of
 
@@ -294,8 +294,8 @@ def decoded_by_tool(built: Built, memory: Any, row: Json) -> str:
         own = register.path == row["register"]
         words = words_of(row["words"]) if own else memory.get(view.space.value, view.address, view.words)
         request, answer = _frames(view, words)
-        decoder.feed(Frame("tcp", 1, request, request), "sent")
-        for item in decoder.feed(Frame("tcp", 1, answer, answer), "received").items:
+        decoder.feed(CapturedFrame("tcp", 1, request, request), "sent")
+        for item in decoder.feed(CapturedFrame("tcp", 1, answer, answer), "received").items:
             if (item.name, item.view) == (register.path, view.name):
                 text = f"problem: {item.problem}" if item.problem else item.text
     return text
@@ -316,7 +316,7 @@ def _frames(view: View, words: list[int]) -> tuple[bytes, bytes]:
     return asked, bytes([function, len(data)]) + data
 
 
-def bench_of(built: Built) -> Bench:
+def bench_of(built: Built) -> DriverUnderTest:
     """The driver beside the vectors of its map."""
     found = document(built.map)
     vectors = Vectors(
@@ -327,4 +327,4 @@ def bench_of(built: Built) -> Bench:
         found["protocol"],
         tuple(found["commands"]),
     )
-    return Bench(built.module.CaseA, vectors)
+    return DriverUnderTest(built.module.CaseA, vectors)

@@ -3,7 +3,7 @@
 from copy import deepcopy
 from typing import Any, NamedTuple
 
-from regscribe.files.dumping import dump
+from regscribe.files.yaml_dump import dump
 
 from .suite import FUNCTIONS, Json
 

@@ -10,11 +10,13 @@ from unittest.mock import patch
 
 from regscribe.emit import markdown, python
 from regscribe.model import Register, RegisterMap, Space, View
-from regscribe.runtime import RegscribeError, ValueRefused, execute, pdu
-from regscribe.runtime.line import Line
-from regscribe.runtime.policy import NEVER
-from regscribe.runtime.turns import Turns
-from regscribe.simulate.device import SimulatedDevice
+from regscribe.simulate.device.device import SimulatedDevice
+from regscribe_runtime import RegscribeError, ValueRefused
+from regscribe_runtime.driver import executor
+from regscribe_runtime.link.locks import Turns
+from regscribe_runtime.link.retry import NEVER
+from regscribe_runtime.values.serial_line import Line
+from regscribe_runtime.wire import pdu
 
 from . import judges
 from .suite import module_of
@@ -91,7 +93,7 @@ def attempt(wire: Wire, do: Callable[[], Any]) -> tuple[object, ...]:
     wire.log.clear()
     noted = SimpleNamespace(sleep=lambda seconds: wire.log.append(("pause", seconds)))
     try:
-        with patch.object(execute, "time", noted):
+        with patch.object(executor, "time", noted):
             found: object = shown(do())
     except (ValueRefused, RegscribeError) as error:
         found = (type(error).__name__, getattr(error, "fault", ""))

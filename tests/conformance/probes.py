@@ -7,7 +7,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 from regscribe.model import Kind, NotANumber, Number, Order, Register, Space, View, WireType
-from regscribe.model.reference import RefusedError, transmit
+from regscribe.reference import RefusedError, transmit
 
 Words = tuple[int, ...]
 TEXTS = ("", "A", "AB\0", "ABCDEF", "1.2", "0.1", "00.01", "3", "123")

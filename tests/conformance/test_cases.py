@@ -8,8 +8,8 @@ from typing import Any
 import jsonschema
 import pytest
 
-from regscribe.live.values import as_text
-from regscribe.simulate.values import Plain
+from regscribe.simulate.device.value_arguments import Plain
+from regscribe.tools.live.value_text import as_text
 
 from . import judges
 from .suite import FOLDER, Built, Case, Json, build, cases, diagnose, errors_of, load, whole_map, words_of

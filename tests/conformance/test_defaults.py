@@ -6,8 +6,8 @@ import pytest
 
 from regscribe.emit import markdown
 from regscribe.model import RegisterMap
-from regscribe.settings import factory
-from regscribe.simulate.device import SimulatedDevice
+from regscribe.simulate.device.device import SimulatedDevice
+from regscribe.tools.settings import factory
 
 from .matrix_watch import Wire
 from .suite import Json, build, whole_map

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from regscribe.simulate.device import SimulatedDevice
+from regscribe.simulate.device.device import SimulatedDevice
 
 from .matrix_watch import Wire
 from .suite import Json, build, diagnose, errors_of, whole_map

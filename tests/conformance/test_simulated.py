@@ -6,7 +6,7 @@ import pytest
 
 from regscribe.model import NAN
 from regscribe.simulate import SimulatorError
-from regscribe.simulate.device import SimulatedDevice
+from regscribe.simulate.device.device import SimulatedDevice
 
 from .suite import Json, build, whole_map
 

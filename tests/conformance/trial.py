@@ -8,10 +8,10 @@ from math import isfinite
 from typing import Any
 
 from regscribe.model import NotANumber, Register, Special, View, WireType
-from regscribe.model.reference import (
+from regscribe.reference import (
     Meaning,
     Reading,
-    Reason,
+    RefusalReason,
     RefusedError,
     Surroundings,
     UnknownValueError,
@@ -23,11 +23,11 @@ from regscribe.model.reference import (
     wire_number,
     word_order,
 )
-from regscribe.runtime import ExceptionAnswer, ValueNotDecodable, ValueRefused
-from regscribe.runtime.sending import condition_needs
-from regscribe.simulate import codec as simulated_codec
-from regscribe.simulate.device import SimulatedDevice
-from regscribe.testing.bench import CHECKS
+from regscribe.simulate.device import codec as simulated_codec
+from regscribe.simulate.device.device import SimulatedDevice
+from regscribe.testing.driver_checks import CHECKS
+from regscribe_runtime import ExceptionAnswer, ValueNotDecodable, ValueRefused
+from regscribe_runtime.operations.write_request import condition_needs
 
 from . import judges, probes
 from .matrix_watch import Wire
@@ -284,7 +284,7 @@ class Trial:
                 return None
             return True if encode(register, view, reading.value, known) == words else None
         except RefusedError as refused:
-            return False if refused.reason in {Reason.RANGE, Reason.MEMBER} else None
+            return False if refused.reason in {RefusalReason.RANGE, RefusalReason.MEMBER} else None
         except UnknownValueError:
             return None
 

@@ -5,7 +5,7 @@ from fractions import Fraction
 import pytest
 
 from regscribe.model import SILENCE, Later, Number, Open, Reference, RegisterMap
-from regscribe.model.reference import Meaning, Surroundings, decode, limits
+from regscribe.reference import Meaning, Surroundings, decode, limits
 
 LINEAR = Fraction(14)
 J_THERMOCOUPLE = Fraction(3)

@@ -12,7 +12,7 @@ import pytest
 from regscribe.evidence import Comparison, compare_table, read
 from regscribe.model import RegisterMap
 from regscribe.model.number import exact
-from regscribe.model.reference import Surroundings, encode
+from regscribe.reference import Surroundings, encode
 
 ON_NO_DISPLAY = {("1ZC", "35"), ("1ZC", "4071")}
 """Section 5 gives these to the 1ZC too; section 4 does not, and the 1ZC has no display (an erratum of the map)."""

@@ -10,10 +10,10 @@ from typing import Any
 
 import pytest
 
-from regscribe.runtime import ValueRefused
 from regscribe.simulate import SimulatedDevice, ThermalProcess, find_map, simulate
 from regscribe_devices.athena.series_c import Athena16C
 from regscribe_devices.omega.cn8200 import OmegaCN8200
+from regscribe_runtime import ValueRefused
 
 COMPACT = [("athena/series-c", "16C", Athena16C), ("omega/cn8200", "CN8200", OmegaCN8200)]
 IDS = [model for _, model, _ in COMPACT]

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from markdown_it import MarkdownIt
 
-from regscribe.emit.language import render
+from regscribe.emit.language_reference import render
 from regscribe.schema import schema_json
 
 PAGE = Path(__file__).parents[2] / "docs" / "language.md"

@@ -14,8 +14,8 @@ from typing import Any
 import pytest
 from markdown_it import MarkdownIt
 
+from regscribe.emit.docs_index import render_index
 from regscribe.emit.header import header
-from regscribe.emit.index import render_index
 from regscribe.emit.markdown import render
 from regscribe.evidence import card
 from regscribe.model import RegisterMap

@@ -13,11 +13,6 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from regscribe.emit import markdown, picture_paths
-from regscribe.emit.pictures import drawings, render, style
-from regscribe.emit.pictures.drawing import WIDTH, Box, Drawing, Text
-from regscribe.emit.pictures.looks import looks
-from regscribe.emit.pictures.measure import clean, shorten, width, wrap
-from regscribe.emit.pictures.sections import layout, sections
 from regscribe.emit.write import origin_of
 from regscribe.model import (
     Access,
@@ -35,6 +30,11 @@ from regscribe.model import (
     View,
     WireType,
 )
+from regscribe.pictures import drawings, render, style
+from regscribe.pictures.address_rows import layout, sections
+from regscribe.pictures.cell_style import looks
+from regscribe.pictures.drawing import WIDTH, Box, Drawing, Text
+from regscribe.pictures.text_width import clean, shorten, width, wrap
 from regscribe.pipeline import compile_map
 
 ROOT = Path(__file__).parents[2]
@@ -188,7 +188,7 @@ def test_every_address_of_every_view_is_drawn(any_map: RegisterMap) -> None:
 def test_the_same_map_gives_the_same_bytes_whatever_the_hash_seed(oven_path: Path) -> None:
     script = (
         "import sys, hashlib\nfrom pathlib import Path\nfrom regscribe import lower, source\n"
-        "from regscribe.emit.pictures import render\n"
+        "from regscribe.pictures import render\n"
         "files = render(lower.lower(source.load(Path(sys.argv[1]))[0])[0])\n"
         "print(hashlib.sha256(repr(list(files.items())).encode()).hexdigest())"
     )
@@ -284,7 +284,7 @@ def test_the_region_of_each_view_is_a_strip_of_its_own(oven: RegisterMap) -> Non
 def test_a_hole_is_cut_at_the_regions_of_views() -> None:
     view = View("x10", Space.HOLDING, 1000, WireType.UINT16, region=(1000, 1999))
     place = replace(register("a", 5), views=(register("a", 5).base, view))
-    from regscribe.emit.pictures.places import places  # noqa: PLC0415 - only here
+    from regscribe.pictures.address_use import places  # noqa: PLC0415 - only here
 
     found = sections(places(family(model("A", [place]))), [(Space.HOLDING, 900, 1100)], ())
     assert [(section.region, section.holes) for section in found] == [
@@ -386,14 +386,14 @@ def test_shortened_and_wrapped_text_fits_its_room(text: str) -> None:
 
 
 def test_rows_of_a_section_follow_each_other_without_a_gap(any_map: RegisterMap) -> None:
-    from regscribe.emit.pictures.places import places, unused  # noqa: PLC0415 - only here
-    from regscribe.emit.pictures.sections import GRIDS, Row  # noqa: PLC0415 - only here
+    from regscribe.pictures.address_rows import GRIDS, AddressRow  # noqa: PLC0415 - only here
+    from regscribe.pictures.address_use import places, unused  # noqa: PLC0415 - only here
 
     for section in sections(places(any_map), unused(any_map), any_map.reserved):
         rows = layout(section, GRIDS[0])
         spans = [
             (row.cells[0].first, row.cells[-1].last)
-            if isinstance(row, Row)
+            if isinstance(row, AddressRow)
             else (row.stretches[0][1], row.stretches[-1][2])
             for row in rows
         ]

@@ -9,7 +9,7 @@ import pytest
 
 from regscribe.emit.spreadsheet import COLUMNS
 from regscribe.evidence import Comparison, TableError, compare_table, read
-from regscribe.evidence.cells import OBJECTS, differing
+from regscribe.evidence.cell_compare import OBJECTS, differing
 from regscribe.model import RegisterMap
 
 Held = Callable[..., Comparison]

@@ -25,10 +25,8 @@ from regscribe.model import (
     WireType,
     always,
 )
-from regscribe.model import (
-    Test as Ask,
-)
-from regscribe.model.reference import Surroundings
+from regscribe.model import Test as Ask
+from regscribe.reference import Surroundings
 
 Only = Callable[[Register], RegisterMap]
 POLL = Poll(name="oven", unit=7, host="10.0.0.7", port=1502)

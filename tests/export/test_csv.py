@@ -24,9 +24,7 @@ from regscribe.model import (
     Special,
     always,
 )
-from regscribe.model import (
-    Test as Ask,
-)
+from regscribe.model import Test as Ask
 
 ISSUE_COLUMNS = (
     "map, model, id, name, symbol, space, address, words, aliases, access, kind, type, unit, minimum, maximum, "

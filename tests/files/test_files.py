@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from regscribe import files, source
-from regscribe.source.decoding import find_invisible
+from regscribe.source.utf8 import find_invisible
 
 VISIBLE = st.characters(exclude_categories=["Cc", "Cs"]).filter(lambda one: find_invisible(one) is None)
 """What RS0104 lets into a file: no byte order or direction marks."""

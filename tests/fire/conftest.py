@@ -7,5 +7,5 @@ from .world import LATE_SECONDS
 
 @pytest.fixture(autouse=True)
 def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("regscribe.runtime.late.LATE_SECONDS", LATE_SECONDS)
-    monkeypatch.setattr("regscribe.runtime.lookback.LOOKS", (0.0, 0.02))
+    monkeypatch.setattr("regscribe_runtime.link.stale_replies.LATE_SECONDS", LATE_SECONDS)
+    monkeypatch.setattr("regscribe_runtime.operations.read_back.LOOKS", (0.0, 0.02))

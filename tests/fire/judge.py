@@ -7,7 +7,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from regscribe.runtime import (
+from regscribe.simulate.line.line_faults import LineFault
+from regscribe_runtime import (
     ExceptionAnswer,
     NotApplied,
     NotConfigured,
@@ -17,8 +18,7 @@ from regscribe.runtime import (
     WriteFailed,
     WriteUnknown,
 )
-from regscribe.runtime.report import Fate
-from regscribe.simulate.faults import LineFault
+from regscribe_runtime.report import Fate
 
 from .world import STALL, UNITS, Far, Op, Outcome, Written, furnace
 

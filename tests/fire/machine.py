@@ -8,7 +8,7 @@ from typing import Any
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, rule
 
-from regscribe.simulate.faults import USUAL, LineFault
+from regscribe.simulate.line.line_faults import USUAL, LineFault
 
 from .judge import READABLE, TALLY, Truth
 from .world import SIDES, TIMEOUT, UNITS, Far, Op, Outcome, SyncSide, furnace

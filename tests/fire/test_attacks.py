@@ -12,10 +12,11 @@ from typing import Any
 
 import pytest
 
-from regscribe.runtime import Retry, link
-from regscribe.runtime.request import Request as Asked
 from regscribe.simulate import Patience, Request, Service, SimulatedDevice, Transport, simulate, start
-from regscribe.simulate.framing import framer_for
+from regscribe.simulate.line.framing import framer_for
+from regscribe_runtime import Retry
+from regscribe_runtime.link import links
+from regscribe_runtime.wire.requests import Request as Asked
 
 from .world import FRAMINGS, LINE_FRAMINGS, furnace
 
@@ -66,7 +67,7 @@ def framed(transport: str, pdu: bytes) -> bytes:
 @contextmanager
 def honest(server: Any, transport: str) -> Iterator[Any]:
     """A link of our own, without any retry."""
-    made = link.tcp(server.host, port=server.port, framing=LINE_FRAMINGS[transport], timeout=PATIENCE, retry=Retry(0))
+    made = links.tcp(server.host, port=server.port, framing=LINE_FRAMINGS[transport], timeout=PATIENCE, retry=Retry(0))
     made.open()
     try:
         yield made

@@ -12,11 +12,12 @@ from typing import Any
 
 import pytest
 
-from regscribe.runtime import LinkLost, NoAnswer, NotWritten, RegscribeError, Retry, WrongAnswer, link
-from regscribe.runtime.conversation import Conversation
-from regscribe.runtime.frames import framing_for
-from regscribe.runtime.request import Reply, Request, verify
-from regscribe.simulate.faults import USUAL, LineFault
+from regscribe.simulate.line.line_faults import USUAL, LineFault
+from regscribe_runtime import LinkLost, NoAnswer, NotWritten, RegscribeError, Retry, WrongAnswer
+from regscribe_runtime.link import links
+from regscribe_runtime.link.exchange import Conversation
+from regscribe_runtime.wire.framing import framing_for
+from regscribe_runtime.wire.requests import Reply, Request, verify
 
 from .machine import descriptors
 from .world import FRAMINGS, SIDES, Far, Op, SyncSide
@@ -314,7 +315,7 @@ def asked_twice(kind: str, path: str) -> tuple[int, ...]:
     how: dict[str, Any] = {"baud": 115200, "timeout": 0.2, "echo": False}
 
     async def talk() -> tuple[int, ...]:
-        made = link.async_serial(path, **how)
+        made = links.async_serial(path, **how)
         await made.open()
         with pytest.raises(LinkLost):
             await made.call(UNIT, Request(3, 28))
@@ -324,7 +325,7 @@ def asked_twice(kind: str, path: str) -> tuple[int, ...]:
 
     if kind == "async":
         return asyncio.run(talk())
-    made = link.serial(path, **how)
+    made = links.serial(path, **how)
     made.open()
     with pytest.raises(LinkLost):
         made.call(UNIT, Request(3, 28))

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import HealthCheck, Phase, settings
 from hypothesis.stateful import run_state_machine_as_test
 
-from regscribe.simulate.faults import UNDETECTABLE, USUAL
+from regscribe.simulate.line.line_faults import UNDETECTABLE, USUAL
 
 from .judge import TALLY
 from .machine import machine

@@ -14,12 +14,13 @@ from typing import Any, NamedTuple
 from regscribe.emit import python
 from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map
-from regscribe.runtime import AsyncBus, Bus, Retry, link
-from regscribe.runtime.trace import SENT, Trace
 from regscribe.simulate import Exchange, Request, Service, SimulatedDevice, Transport, start
-from regscribe.simulate.connection import Patience, Piece
-from regscribe.simulate.faults import EXCEPTION_BIT, USUAL, Faults, LineFault
-from regscribe.simulate.framing import Framing
+from regscribe.simulate.line.connection import Chunk, Patience
+from regscribe.simulate.line.framing import Framing
+from regscribe.simulate.line.line_faults import EXCEPTION_BIT, USUAL, LineFault, LineFaults
+from regscribe_runtime import AsyncBus, Bus, Retry
+from regscribe_runtime.link import links
+from regscribe_runtime.link.trace import SENT, Trace
 
 FURNACE = Path(__file__).parent / "furnace.yaml"
 UNITS = (1, 2)
@@ -80,7 +81,7 @@ class Far:
         register_map, _ = furnace()
         self.devices = {unit: SimulatedDevice(register_map, "One", unit=unit) for unit in UNITS}
         able = [kind for kind in kinds if kind is not LineFault.HANGUP or transport != "pty"]
-        self.faults = Faults(FRAMINGS[transport], rate=rate, late=LATE, seed=seed, kinds=able)
+        self.faults = LineFaults(FRAMINGS[transport], rate=rate, late=LATE, seed=seed, kinds=able)
         self.executed: Counter[Written] = Counter()
         self.asked = time.time()
         self.lag = 0.0
@@ -112,7 +113,7 @@ class Far:
             self.executed.update(written(request))
         return answer
 
-    async def _deliver(self, exchange: Exchange) -> Sequence[Piece]:
+    async def _deliver(self, exchange: Exchange) -> Sequence[Chunk]:
         pieces = await self.faults.delivery(exchange)
         self.lag = max(self.lag, time.time() - self.asked)
         return pieces
@@ -191,7 +192,7 @@ class SyncSide:
         self.perform(Op("open"))
 
     def _links(self) -> Any:
-        return link.serial, link.tcp
+        return links.serial, links.tcp
 
     def _bus(self, line: Any) -> Any:
         return Bus(line)
@@ -224,7 +225,7 @@ class AsyncSide(SyncSide):
         super().__init__(far, transport)
 
     def _links(self) -> Any:
-        return link.async_serial, link.async_tcp
+        return links.async_serial, links.async_tcp
 
     def _bus(self, line: Any) -> Any:
         return AsyncBus(line)

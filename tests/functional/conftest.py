@@ -15,11 +15,12 @@ import pytest
 from regscribe import checks, lower, schema, source
 from regscribe.emit import python
 from regscribe.model import RegisterMap, Severity
-from regscribe.runtime import LinkLost, NoAnswer, WrongAnswer, pdu
-from regscribe.runtime.line import Line
-from regscribe.runtime.policy import NEVER
-from regscribe.runtime.request import Request
-from regscribe.runtime.turns import AsyncTurns, Turns
+from regscribe_runtime import LinkLost, NoAnswer, WrongAnswer
+from regscribe_runtime.link.locks import AsyncTurns, Turns
+from regscribe_runtime.link.retry import NEVER
+from regscribe_runtime.values.serial_line import Line
+from regscribe_runtime.wire import pdu
+from regscribe_runtime.wire.requests import Request
 
 OVEN = (Path(__file__).parent / "oven.yaml").read_text(encoding="utf-8")
 """A made-up controller with every hard fact of the real manuals in a few registers."""

@@ -10,10 +10,10 @@ import pytest
 
 from regscribe.emit import markdown
 from regscribe.emit.vectors import document
-from regscribe.runtime import ConditionNotMet, NotDecodable, ValueRefused
 from regscribe.simulate import SimulatedDevice, simulate
-from regscribe.testing import Bench, Vectors
-from regscribe.testing.reads import wrong_requests, wrong_values
+from regscribe.testing import DriverUnderTest, Vectors
+from regscribe.testing.simulated_read import wrong_requests, wrong_values
+from regscribe_runtime import ConditionNotMet, NotDecodable, ValueRefused
 
 Talking = Callable[[str, dict[int, int]], Any]
 
@@ -385,7 +385,7 @@ def test_the_vectors_of_a_map_hold_for_its_driver_in_every_element(talk: Talking
         commands=tuple(written["commands"]),
     )
     driver = type(device.driver)
-    bench = Bench(driver, vectors)
+    bench = DriverUnderTest(driver, vectors)
 
     bench.check_registers()
     bench.check_decoding()

@@ -6,8 +6,8 @@ from typing import Any
 import pytest
 
 from regscribe.emit import markdown, vectors
-from regscribe.runtime import pdu
-from regscribe.simulate.device import SimulatedDevice
+from regscribe.simulate.device.device import SimulatedDevice
+from regscribe_runtime.wire import pdu
 
 HEAD = """
 format: 1

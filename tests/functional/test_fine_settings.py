@@ -5,8 +5,8 @@ from typing import Any
 
 import pytest
 
-from regscribe import settings
-from regscribe.settings import UnfitError
+from regscribe.tools import settings
+from regscribe.tools.settings import UnfitError
 
 COUNTER = """\
 format: 1

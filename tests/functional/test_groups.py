@@ -5,9 +5,9 @@ from collections.abc import Callable
 from types import FrameType
 from typing import Any
 
-from regscribe.runtime.layout import lay_out
-from regscribe.runtime.ready import dependencies
-from regscribe.runtime.ways import ways
+from regscribe_runtime.operations.prepared_read import dependencies
+from regscribe_runtime.planning.alternatives import ways
+from regscribe_runtime.planning.read_order import lay_out
 
 HEAD = """\
 format: 1

@@ -8,8 +8,8 @@ import pytest
 
 from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map
-from regscribe.runtime import async_tcp, identify, identify_async, known_models, tcp
 from regscribe.simulate import simulate
+from regscribe_runtime import async_tcp, identify, identify_async, known_models, tcp
 
 MAPS = Path(__file__).parents[2] / "maps"
 

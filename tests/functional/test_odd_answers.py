@@ -7,10 +7,11 @@ from typing import Any
 import pytest
 
 from regscribe import checks, lower, source
-from regscribe.runtime import ExceptionAnswer, NotDecodable, ValueRefused, pdu
-from regscribe.runtime.request import Request, verify
-from regscribe.runtime.turns import AsyncTurns
-from regscribe.simulate.device import SimulatedDevice
+from regscribe.simulate.device.device import SimulatedDevice
+from regscribe_runtime import ExceptionAnswer, NotDecodable, ValueRefused
+from regscribe_runtime.link.locks import AsyncTurns
+from regscribe_runtime.wire import pdu
+from regscribe_runtime.wire.requests import Request, verify
 
 MAP = """
 format: 1

@@ -6,15 +6,8 @@ from typing import Any
 
 import pytest
 
-from regscribe.runtime import (
-    ExceptionAnswer,
-    LinkLost,
-    PartialWrite,
-    Saturated,
-    SensorFault,
-    ValueRefused,
-)
 from regscribe.simulate import simulate
+from regscribe_runtime import ExceptionAnswer, LinkLost, PartialWrite, Saturated, SensorFault, ValueRefused
 
 COOLED = {"cooled_codes": {1}}
 
@@ -287,7 +280,7 @@ def test_a_write_that_the_device_cut_short_names_the_first_word_not_written(cont
 
 
 def _two_words_at(address: int) -> Any:
-    from regscribe.runtime.request import Request  # noqa: PLC0415 (this one test speaks the wire itself)
+    from regscribe_runtime.wire.requests import Request  # noqa: PLC0415 (this one test speaks the wire itself)
 
     def task(session: Any) -> Any:
         return (yield from session.exchange(Request(16, address, 2, (1, 1))))
@@ -344,7 +337,7 @@ def test_every_transport_carries_the_same_driver(oven: Any, transport: str) -> N
 
 
 def test_a_foreign_unit_on_a_serial_line_gives_no_answer_and_names_what_was_asked(oven: Any) -> None:
-    from regscribe.runtime import NoAnswer  # noqa: PLC0415 (beside its only use)
+    from regscribe_runtime import NoAnswer  # noqa: PLC0415 (beside its only use)
 
     with simulate(oven.map, "Big", unit=1, transport="rtu-tcp", givens=COOLED) as running:
         driver = oven.driver("Big").tcp(
@@ -359,7 +352,7 @@ def test_a_foreign_unit_on_a_serial_line_gives_no_answer_and_names_what_was_aske
 
 def test_no_register_can_hide_a_name_of_the_driver() -> None:
     from regscribe.checks.identifiers import RUNTIME_NAMES  # noqa: PLC0415 (beside its only use)
-    from regscribe.runtime import AsyncDevice, Device  # noqa: PLC0415 (as above)
+    from regscribe_runtime import AsyncDevice, Device  # noqa: PLC0415 (as above)
 
     own = {name for cls in (Device, AsyncDevice) for name in dir(cls) if not name.startswith("_")}
 

@@ -8,11 +8,11 @@ from typing import Any
 import pytest
 
 from regscribe.cli.app import run
-from regscribe.live import catalogue
 from regscribe.model import GivenKind, RegisterMap
 from regscribe.pipeline import compile_map
-from regscribe.runtime.line import Line
 from regscribe.shipped import shipped
+from regscribe.tools.live import catalogue
+from regscribe_runtime.values.serial_line import Line
 
 Requests = list[tuple[int, int, int]]
 SERIAL = ("--baud", "9600", "--format", "8N1")

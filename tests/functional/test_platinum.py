@@ -9,10 +9,10 @@ import pytest
 
 from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map
-from regscribe.runtime import ExceptionAnswer, ValueRefused, identify, known_models, tcp
 from regscribe.simulate import simulate
 from regscribe_devices.athena.platinum_c10_m10 import AthenaC10
 from regscribe_devices.athena.platinum_x5000 import AthenaX5000
+from regscribe_runtime import ExceptionAnswer, ValueRefused, identify, known_models, tcp
 
 MAPS = Path(__file__).parents[2] / "maps"
 PATHS = sorted(path for path in MAPS.glob("*/*.yaml") if not path.name.endswith(".library.yaml"))
@@ -95,7 +95,7 @@ def test_a_read_only_word_is_refused_with_the_manuals_code() -> None:
 
 
 def _write(address: int) -> Any:
-    from regscribe.runtime.request import Request  # noqa: PLC0415 (this one test speaks the wire itself)
+    from regscribe_runtime.wire.requests import Request  # noqa: PLC0415 (this one test speaks the wire itself)
 
     def task(session: Any) -> Any:
         return (yield from session.exchange(Request(6, address, 1, (1,))))

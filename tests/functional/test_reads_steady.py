@@ -6,9 +6,9 @@ from typing import Any
 
 import pytest
 
-from regscribe.runtime import NotDecodable
-from regscribe.runtime.errors import Unsteady
 from regscribe.simulate import simulate
+from regscribe_runtime import NotDecodable
+from regscribe_runtime.errors import Unsteady
 
 COOLED = {"cooled_codes": {1}}
 ROW = """

@@ -266,7 +266,8 @@ def test_type_checkers_see_the_registers_that_a_model_has_and_no_others(out: Pat
     done = subprocess.run(  # noqa: S603 (our own command)
         [sys.executable, "-m", checker, *options, "regscribe_devices", "use.py"],
         cwd=out,
-        env=os.environ | {"MYPYPATH": f"{out}{os.pathsep}{ROOT / 'generator'}"},
+        env=os.environ
+        | {"MYPYPATH": os.pathsep.join(map(str, (out, ROOT / "generator", ROOT / "generator" / "runtime")))},
         capture_output=True,
         text=True,
         check=False,

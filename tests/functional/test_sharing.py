@@ -295,7 +295,8 @@ def test_type_checkers_accept_what_is_shared_and_refuse_what_was_dropped(out: Pa
     done = subprocess.run(  # noqa: S603 (our own command)
         [sys.executable, "-m", checker, *options, "regscribe_devices", "use.py"],
         cwd=out,
-        env=os.environ | {"MYPYPATH": f"{out}{os.pathsep}{ROOT / 'generator'}"},
+        env=os.environ
+        | {"MYPYPATH": os.pathsep.join(map(str, (out, ROOT / "generator", ROOT / "generator" / "runtime")))},
         capture_output=True,
         text=True,
         check=False,

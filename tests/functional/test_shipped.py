@@ -58,7 +58,7 @@ def generated(folder: Path, map_id: str, text: str) -> list[str]:
 
 def run(folder: Path, *command: str, own_first: bool = True) -> "subprocess.CompletedProcess[str]":
     """A command that finds the own drivers before or behind those that are installed."""
-    folders = [folder / "generated", ROOT / "generator", ROOT / "generated"]
+    folders = [folder / "generated", ROOT / "generator", ROOT / "generator" / "runtime", ROOT / "generated"]
     path = os.pathsep.join(map(str, folders if own_first else reversed(folders)))
     return subprocess.run(  # noqa: S603 (our own command)
         [sys.executable, *command],
@@ -105,7 +105,7 @@ def test_an_extension_of_a_shipped_map_cites_its_own_manual(tmp_path: Path) -> N
 def test_type_checkers_see_both_folders_of_drivers(tmp_path: Path, checker: str) -> None:
     generated(tmp_path, "athena/own", OWN)
     (tmp_path / "use.py").write_text(USE, encoding="utf-8")
-    folders = f'["generated", "{ROOT}/generator", "{ROOT}/generated"]'
+    folders = f'["generated", "{ROOT}/generator", "{ROOT}/generator/runtime", "{ROOT}/generated"]'
     (tmp_path / "pyrightconfig.json").write_text(f'{{"extraPaths": {folders}, "typeCheckingMode": "standard"}}')
     options = {
         "mypy": ["--strict", f"--cache-dir={tmp_path / 'cache'}", "--config-file=", "--explicit-package-bases"],

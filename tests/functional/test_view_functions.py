@@ -5,12 +5,12 @@ from typing import Any
 
 import pytest
 
-from regscribe.cli import write
-from regscribe.live.errors import TargetError
-from regscribe.runtime import NotWritten, ReadBackDiffers
-from regscribe.runtime.broadcast import request_for
-from regscribe.runtime.identify import Known, identity_of
-from regscribe.simulate.device import SimulatedDevice
+from regscribe.cli.commands import write
+from regscribe.simulate.device.device import SimulatedDevice
+from regscribe.tools.live.errors import TargetError
+from regscribe_runtime import NotWritten, ReadBackDiffers
+from regscribe_runtime.driver.broadcast import request_for
+from regscribe_runtime.driver.identify import Known, identity_of
 
 MAP = """
 format: 1

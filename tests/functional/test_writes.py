@@ -6,7 +6,8 @@ from typing import Any
 
 import pytest
 
-from regscribe.runtime import (
+from regscribe.simulate import SimulatedDevice, simulate
+from regscribe_runtime import (
     ConditionNotMet,
     LinkLost,
     NoAnswer,
@@ -18,7 +19,6 @@ from regscribe.runtime import (
     WriteUnknown,
     WrongAnswer,
 )
-from regscribe.simulate import SimulatedDevice, simulate
 
 Driver = Callable[..., Any]
 WRITES = frozenset({6, 16})
@@ -26,7 +26,7 @@ WRITES = frozenset({6, 16})
 
 @pytest.fixture(autouse=True)
 def no_waiting(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("regscribe.runtime.lookback.LOOKS", (0.0, 0.0))
+    monkeypatch.setattr("regscribe_runtime.operations.read_back.LOOKS", (0.0, 0.0))
 
 
 @pytest.fixture
@@ -142,9 +142,9 @@ def test_a_lost_write_is_unknown_when_nobody_answers_any_more(driver: Driver) ->
 
 
 def _raw_setpoint(controller: Any) -> Any:
-    from regscribe.runtime import operations  # noqa: PLC0415 (this one test skips the checks of a value)
+    from regscribe_runtime.operations import tasks  # noqa: PLC0415 (this one test skips the checks of a value)
 
-    return operations.write_raw(type(controller).setpoint, (150,), None)
+    return tasks.write_raw(type(controller).setpoint, (150,), None)
 
 
 def test_what_the_device_changes_by_itself_is_unknown_rather_than_not_written(driver: Driver) -> None:

@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from regscribe.runtime import (
+from regscribe.simulate import SimulatedDevice
+from regscribe_runtime import (
     Fate,
     NotConfigured,
     PartialWrite,
@@ -18,7 +19,6 @@ from regscribe.runtime import (
     ValuesRefused,
     WriteReport,
 )
-from regscribe.simulate import SimulatedDevice
 
 WRITES = frozenset({6, 16})
 MANY = {
@@ -41,7 +41,7 @@ Driver = Callable[..., Any]
 @pytest.fixture(autouse=True, scope="module")
 def no_waiting() -> Any:
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("regscribe.runtime.lookback.LOOKS", (0.0, 0.0))
+        patch.setattr("regscribe_runtime.operations.read_back.LOOKS", (0.0, 0.0))
         yield
 
 
@@ -407,7 +407,7 @@ def test_asyncio_drivers_configure_as_well(kiln: Any, device: SimulatedDevice, d
             return super().call(unit, request)
 
     async def talk() -> WriteReport:
-        from regscribe.runtime.turns import AsyncTurns  # noqa: PLC0415 (beside its only use)
+        from regscribe_runtime.link.locks import AsyncTurns  # noqa: PLC0415 (beside its only use)
 
         link = Awaited(device)
         link.lock = AsyncTurns()
@@ -439,7 +439,7 @@ def test_a_cancelled_task_tells_what_it_left_and_the_next_one_completes_it(
             return await asyncio.Event().wait()
 
     async def talk() -> None:
-        from regscribe.runtime.turns import AsyncTurns  # noqa: PLC0415 (beside its only use)
+        from regscribe_runtime.link.locks import AsyncTurns  # noqa: PLC0415 (beside its only use)
 
         link = Hanging(device)
         link.lock = AsyncTurns()

@@ -10,8 +10,8 @@ from typing import Any
 
 import pytest
 
-from regscribe.runtime import LeftAt, NoAnswer, NotWritten, ReadBackDiffers, ValueRefused, WriteFailed
 from regscribe.simulate import SimulatedDevice, simulate
+from regscribe_runtime import LeftAt, NoAnswer, NotWritten, ReadBackDiffers, ValueRefused, WriteFailed
 
 from .conftest import KILN, AsyncDirectLink
 
@@ -20,7 +20,7 @@ BAUDS = {0: termios.B4800, 1: termios.B9600}
 
 @pytest.fixture(autouse=True)
 def no_waiting(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("regscribe.runtime.lookback.LOOKS", (0.0, 0.0))
+    monkeypatch.setattr("regscribe_runtime.operations.read_back.LOOKS", (0.0, 0.0))
 
 
 @pytest.fixture

@@ -8,8 +8,8 @@ import pytest
 
 from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map
-from regscribe.runtime import Fate
 from regscribe.simulate import simulate
+from regscribe_runtime import Fate
 
 ROOT = Path(__file__).parents[2]
 

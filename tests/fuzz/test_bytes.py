@@ -13,25 +13,25 @@ import pytest
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
-from regscribe.live import catalogue, config, links, target
-from regscribe.live.capture import captured
-from regscribe.live.decode import Decoded, Decoder
-from regscribe.live.errors import TargetError
 from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map
-from regscribe.programs import files as programs
-from regscribe.runtime import RegscribeError
-from regscribe.runtime.conversation import Conversation
-from regscribe.runtime.request import Request as Asked
-from regscribe.runtime.request import verify
-from regscribe.settings import text as backups
-from regscribe.settings.differing import differences, side
-from regscribe.settings.fitting import fit
-from regscribe.settings.saved import BackupError
 from regscribe.simulate import SimulatedDevice, SimulatorError
-from regscribe.simulate.connection import MOST_WAITING, Connection, Manners
-from regscribe.simulate.framing import LONGEST_PDU, Framing, Request, framer_for
-from regscribe.simulate.station import Station
+from regscribe.simulate.line.connection import MOST_WAITING, Connection, ConnectionPolicy
+from regscribe.simulate.line.framing import LONGEST_PDU, Framing, Request, framer_for
+from regscribe.simulate.line.server_context import ServerContext
+from regscribe.tools.live import catalogue, config, link_names, target
+from regscribe.tools.live.capture import captured
+from regscribe.tools.live.decode import Decoded, Decoder
+from regscribe.tools.live.errors import TargetError
+from regscribe.tools.programs import program_file as programs
+from regscribe.tools.settings import backup_file as backups
+from regscribe.tools.settings.backup import BackupError
+from regscribe.tools.settings.compare import differences, side
+from regscribe.tools.settings.compatibility import fit
+from regscribe_runtime import RegscribeError
+from regscribe_runtime.link.exchange import Conversation
+from regscribe_runtime.wire.requests import Request as Asked
+from regscribe_runtime.wire.requests import verify
 
 ROOT = Path(__file__).parents[2]
 FAST = settings(
@@ -106,7 +106,7 @@ class Sink:
 def test_a_server_takes_any_bytes_keeps_few_and_answers_the_next_good_request(framing: Framing, data: Any) -> None:
     async def serve() -> None:
         sink = Sink()
-        connection = Connection(framer_for(framing), Station([device()]), Manners(), sink)
+        connection = Connection(framer_for(framing), ServerContext([device()]), ConnectionPolicy(), sink)
         for piece in data.draw(streams(framing)):
             connection.received(piece)
             assert len(connection._framer._buffer) <= MOST_KEPT  # type: ignore[attr-defined] # of each framer
@@ -407,8 +407,8 @@ pieces = st.one_of(
 
 
 def names() -> Iterator[Callable[[str], Any]]:
-    yield links.parse
-    yield links.split
+    yield link_names.parse
+    yield link_names.split
     yield target.parse
 
 

@@ -142,7 +142,7 @@ def assert_told_where(files: Example, result: Compiled, folder: Path) -> None:
 def assert_emitted(register_map: RegisterMap, tally: Tally, *, deep: bool) -> None:
     """What is rendered can be parsed; a driver of hostile text executes nothing of it."""
     for name in (name for name in EMITTERS if deep or name not in SLOW):
-        emitter = import_module(f"regscribe.emit.{name}")
+        emitter = import_module(EMITTERS[name])
         for path, text in tally.timed(name, emitter.render)(register_map).items():
             assert PARSERS[Path(path).suffix](text) is not None
             if name == "python":

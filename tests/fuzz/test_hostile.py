@@ -128,7 +128,7 @@ def rendered(maps: list[RegisterMap]) -> list[tuple[str, str]]:
     files = []
     for number, register_map in enumerate(maps):
         for name in emit.EMITTERS if number % 8 == 0 else [name for name in emit.EMITTERS if name != "vectors"]:
-            files += import_module(f"regscribe.emit.{name}").render(register_map).items()
+            files += import_module(emit.EMITTERS[name]).render(register_map).items()
     return files
 
 

@@ -19,26 +19,26 @@ from xml.etree import ElementTree as ET
 import pytest
 import yaml
 
-from regscribe.cli import output
+from regscribe.cli.shared import output
 from regscribe.emit import python
 from regscribe.emit.export import Poll, collectd_text, csv_text
-from regscribe.live.decode import Decoder
-from regscribe.live.errors import TargetError
-from regscribe.live.frames import Frame
-from regscribe.live.log import open_log
-from regscribe.live.reading import Reading
-from regscribe.live.watch import Round
 from regscribe.model import RegisterMap
-from regscribe.model.reference import Surroundings
 from regscribe.pipeline import compile_map
-from regscribe.programs.files import dump as program_text
-from regscribe.programs.files import load as load_program
-from regscribe.programs.model import Amount, Program, Segment
-from regscribe.programs.picture import picture
-from regscribe.runtime import tcp
-from regscribe.settings import text as backups
-from regscribe.settings.taking import backup
+from regscribe.reference import Surroundings
 from regscribe.simulate import simulate
+from regscribe.tools.live.captured_frames import CapturedFrame
+from regscribe.tools.live.decode import Decoder
+from regscribe.tools.live.errors import TargetError
+from regscribe.tools.live.log import open_log
+from regscribe.tools.live.reading import RegisterReading
+from regscribe.tools.live.watch import Round
+from regscribe.tools.programs.picture import picture
+from regscribe.tools.programs.program import Amount, Program, Segment
+from regscribe.tools.programs.program_file import dump as program_text
+from regscribe.tools.programs.program_file import load as load_program
+from regscribe.tools.settings import backup_file as backups
+from regscribe.tools.settings.take import backup
+from regscribe_runtime import tcp
 
 from .test_hostile import CANARY, REFUSED, hostile_map, texts
 
@@ -131,7 +131,7 @@ def _spelled(char: str) -> str:
 
 @pytest.mark.parametrize("text", [*SPREADSHEET, *TERMINAL, "', x); DROP TABLE readings; --", '"', "a,b", "\n"])
 def test_a_log_holds_what_a_device_says_as_text(text: str, tmp_path: Path) -> None:
-    readings = (Reading("label", text, text, text, None),)
+    readings = (RegisterReading("label", text, text, text, None),)
     said = Round(1, datetime(2026, 1, 1, tzinfo=UTC), 0.1, readings, frozenset(), None, late=False)
     for ending in ("csv", "jsonl", "sqlite"):
         log = open_log(tmp_path / f"log.{ending}", "oven")
@@ -199,9 +199,9 @@ def test_what_was_captured_of_a_hostile_map_is_decoded_into_text(maps: list[Regi
         decoder = Decoder(driver_of(register_map))
         for at in range(10):
             asked = bytes([3, 0, at, 0, 1])
-            decoder.feed(Frame("rtu", 1, asked, asked), "sent")
+            decoder.feed(CapturedFrame("rtu", 1, asked, asked), "sent")
             answer = bytes([3, 2, 0, 2])
-            assert decoder.feed(Frame("rtu", 1, answer, answer), "received")
+            assert decoder.feed(CapturedFrame("rtu", 1, answer, answer), "received")
 
 
 MOST = 100_000
@@ -236,6 +236,6 @@ def test_a_text_of_a_megabyte_is_refused_with_its_place_and_the_longest_is_rende
         assert compiled.diagnostics[0].span.line
     else:
         driver_of(compiled.map)
-        for name in ("markdown", "pictures"):
-            assert all(import_module(f"regscribe.emit.{name}").render(compiled.map).values())
+        for name in ("emit.markdown", "pictures"):
+            assert all(import_module(f"regscribe.{name}").render(compiled.map).values())
         assert csv_text([compiled.map])

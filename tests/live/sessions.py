@@ -17,11 +17,11 @@ from pathlib import Path
 from typing import Any
 from unittest import mock
 
-from regscribe.cli import watch as watching
 from regscribe.cli.app import run
-from regscribe.live.watch import Round, watch
+from regscribe.cli.commands import watch as watching
 from regscribe.pipeline import compile_map
 from regscribe.simulate import Running, simulate
+from regscribe.tools.live.watch import Round, watch
 
 ROOT = Path(__file__).parents[2]
 PAGES = (ROOT / "README.md", *(ROOT / "docs" / name for name in ("cli.md", "settings.md", "programs.md")))

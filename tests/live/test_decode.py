@@ -5,11 +5,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from regscribe.cli.decode import command
-from regscribe.live import catalogue
-from regscribe.live.capture import RECEIVED, SENT, captured
-from regscribe.live.decode import Decoded, Decoder
-from regscribe.live.frames import crc, frames
+from regscribe.cli.commands.decode import command
+from regscribe.tools.live import catalogue
+from regscribe.tools.live.capture import RECEIVED, SENT, captured
+from regscribe.tools.live.captured_frames import crc, frames
+from regscribe.tools.live.decode import Decoded, Decoder
 
 OVEN = catalogue.find("16C").driver
 STATE = {"input_type": 3, "display_unit_of_measure": 1, "ieee_register_ordering": 0}

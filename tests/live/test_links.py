@@ -5,18 +5,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from regscribe.live import links
-from regscribe.live.errors import TargetError
-from regscribe.live.links import LinkName
+from regscribe.tools.live import link_names
+from regscribe.tools.live.errors import TargetError
+from regscribe.tools.live.link_names import LinkName
 
 hosts = st.one_of(st.text(string.ascii_lowercase + string.digits + ".-", min_size=1), st.just("::1"))
 seconds = st.none() | st.integers(1, 60).map(float)
-addressings = st.sampled_from(links.ADDRESSINGS)
+addressings = st.sampled_from(link_names.ADDRESSINGS)
 tcp = st.builds(
     LinkName,
     host=hosts,
     port=st.integers(1, 65535),
-    framing=st.sampled_from(links.FRAMINGS),
+    framing=st.sampled_from(link_names.FRAMINGS),
     addressing=addressings,
     timeout=seconds,
 )
@@ -35,23 +35,23 @@ serial = st.builds(
 
 @given(tcp | serial)
 def test_the_text_of_a_link_names_the_same_link(link: LinkName) -> None:
-    assert links.parse(str(link)) == link
+    assert link_names.parse(str(link)) == link
 
 
 @given(st.sampled_from(["", "tcp:", "rtu:", "ascii:", "tcp:h?", "rtu:/dev/x?"]), st.text())
 def test_any_text_is_a_link_or_refused(start: str, text: str) -> None:
     with suppress(TargetError):
-        links.parse(start + text)
+        link_names.parse(start + text)
 
 
 def test_a_line_has_its_settings_behind_a_question_mark() -> None:
-    link = links.parse("rtu:/dev/ttyUSB0?baud=19200&parity=e&stop_bits=2&timeout=0.5")
+    link = link_names.parse("rtu:/dev/ttyUSB0?baud=19200&parity=e&stop_bits=2&timeout=0.5")
     assert link.settings() == {"baud": 19200, "parity": "E", "stop_bits": 2, "framing": "rtu", "addressing": "modbus"}
     assert (link.place, link.timeout) == ("/dev/ttyUSB0", 0.5)
 
 
 def test_tcp_carries_the_frames_of_a_line_where_its_name_says_so() -> None:
-    link = links.parse("tcp:[::1]:1502?framing=rtu&addressing=jbus")
+    link = link_names.parse("tcp:[::1]:1502?framing=rtu&addressing=jbus")
     assert (link.host, link.port, link.settings()["framing"], link.addressing) == ("::1", 1502, "rtu", "jbus")
 
 
@@ -77,5 +77,5 @@ def test_tcp_carries_the_frames_of_a_line_where_its_name_says_so() -> None:
 )
 def test_a_link_that_is_none_says_what_to_write(text: str, said: str) -> None:
     with pytest.raises(TargetError) as caught:
-        links.parse(text)
+        link_names.parse(text)
     assert said in str(caught.value)

@@ -8,18 +8,18 @@ from pathlib import Path
 
 import pytest
 
-from regscribe.live.errors import TargetError
-from regscribe.live.log import COLUMNS, LogError, open_log
-from regscribe.live.reading import Reading
-from regscribe.live.watch import Round
-from regscribe.runtime import LinkLost, SensorFault
+from regscribe.tools.live.errors import TargetError
+from regscribe.tools.live.log import COLUMNS, LogError, open_log
+from regscribe.tools.live.reading import RegisterReading
+from regscribe.tools.live.watch import Round
+from regscribe_runtime import LinkLost, SensorFault
 
 START = datetime(2026, 1, 2, 3, 4, 5, 678_000, UTC)
 FAULT = SensorFault("alarm", "low", "sensor low")
 READINGS = (
-    Reading("setpoint", 150.5, "150.5", "°F", None),
-    Reading("flags", ["A", "B"], "A, B", "", None),
-    Reading("alarm", None, "", "", FAULT),
+    RegisterReading("setpoint", 150.5, "150.5", "°F", None),
+    RegisterReading("flags", ["A", "B"], "A, B", "", None),
+    RegisterReading("alarm", None, "", "", FAULT),
 )
 ROUND = Round(1, START, 0.1, READINGS, frozenset(), None, late=False)
 LOST = Round(2, START, 0.1, (), frozenset(), LinkLost("the cable"), late=False)
@@ -118,7 +118,7 @@ import resource, sys
 from pathlib import Path
 sys.path[:0] = [sys.argv[3]]
 import test_log
-from regscribe.live.log import LogError, open_log
+from regscribe.tools.live.log import LogError, open_log
 log = open_log(Path(sys.argv[1]), "oven")
 resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[2]), resource.RLIM_INFINITY))
 done = 0
@@ -156,11 +156,11 @@ def test_a_table_on_a_full_disk_ends_with_a_whole_round(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("text", ["=1+1", "@SUM(A1)", "+cmd|' /C calc'!A0", "-2+3+cmd|' /C calc'!A0", " =1", "\n=1"])
 def test_a_spreadsheet_calculates_nothing_of_what_a_device_says(text: str, tmp_path: Path) -> None:
-    said = Round(1, START, 0.1, (Reading("label", text, text, "", None),), frozenset(), None, late=False)
+    said = Round(1, START, 0.1, (RegisterReading("label", text, text, "", None),), frozenset(), None, late=False)
     assert f"'{text}" in written(tmp_path / "log.csv", said).read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("text", ["-1999..9999", "+5 V", "-", "150.5"])
 def test_what_a_spreadsheet_shows_as_it_is_stays_as_it_is(text: str, tmp_path: Path) -> None:
-    said = Round(1, START, 0.1, (Reading("label", text, text, "", None),), frozenset(), None, late=False)
+    said = Round(1, START, 0.1, (RegisterReading("label", text, text, "", None),), frozenset(), None, late=False)
     assert f"label,{text}," in written(tmp_path / "log.csv", said).read_text(encoding="utf-8")

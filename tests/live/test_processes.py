@@ -193,7 +193,7 @@ def test_the_shell_completes_commands_devices_registers_and_values(start: Start,
 def test_the_version_imports_neither_a_driver_nor_a_library() -> None:
     script = (
         "import sys\nfrom regscribe.cli.app import run\nrun(['--version'])\nrun(['--help'])\n"
-        "print(sorted({'pymodbus', 'rich', 'yaml', 'plotille', 'sqlite3', 'regscribe.runtime'} & set(sys.modules)))"
+        "print(sorted({'pymodbus', 'rich', 'yaml', 'plotille', 'sqlite3', 'regscribe_runtime'} & set(sys.modules)))"
     )
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=True)  # noqa: S603 - our own
     assert done.stdout.splitlines()[-1] == "[]"

@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from regscribe import settings
 from regscribe.simulate import Running
+from regscribe.tools import settings
 
 Cli = Callable[..., Any]
 Serve = Callable[..., Any]

@@ -5,10 +5,10 @@ from typing import Any
 
 import pytest
 
-from regscribe.live import catalogue, config, target
-from regscribe.live.errors import TargetError
-from regscribe.runtime import NoAnswer
 from regscribe.simulate import Running
+from regscribe.tools.live import catalogue, config, target
+from regscribe.tools.live.errors import TargetError
+from regscribe_runtime import NoAnswer
 
 CONFIG = """\
 format: 1

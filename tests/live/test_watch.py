@@ -3,10 +3,10 @@ from typing import Any
 
 import pytest
 
-from regscribe.live import catalogue, names
-from regscribe.live.reading import Reading
-from regscribe.live.watch import GaveUp, watch
-from regscribe.runtime import NoAnswer, RegscribeError
+from regscribe.tools.live import catalogue, names
+from regscribe.tools.live.reading import RegisterReading
+from regscribe.tools.live.watch import GaveUp, watch
+from regscribe_runtime import NoAnswer, RegscribeError
 
 REGISTERS = [names.register_named(catalogue.find("16C").driver, "process_value")]
 SILENCE = NoAnswer(unit=1, function=3, address=0, seconds=1)
@@ -18,11 +18,11 @@ class Answers:
     def __init__(self, *found: float | RegscribeError) -> None:
         self._found = iter(found)
 
-    def run(self, _: object) -> tuple[Reading, ...]:
+    def run(self, _: object) -> tuple[RegisterReading, ...]:
         found = next(self._found)
         if isinstance(found, RegscribeError):
             raise found
-        return (Reading("process_value", found, str(found), "°F", None),)
+        return (RegisterReading("process_value", found, str(found), "°F", None),)
 
 
 class Naps:
@@ -58,7 +58,7 @@ def test_rounds_are_as_far_apart_as_was_asked_for() -> None:
 
 def test_the_line_is_left_to_others_for_a_tenth_of_what_a_round_takes(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = iter(range(0, 1000, 10))  # each look at the clock is 10 s later: a round takes 10 s
-    monkeypatch.setattr("regscribe.live.watch.time.monotonic", lambda: next(clock))
+    monkeypatch.setattr("regscribe.tools.live.watch.time.monotonic", lambda: next(clock))
     naps = Naps()
     rounds = list(watched(1.0, 1.0, sleep=naps, every=1))
     assert naps.taken == [1.0]

@@ -33,9 +33,9 @@ from regscribe.model import (
     RegisterMap,
     View,
 )
-from regscribe.testing import Bench, Vectors, load
+from regscribe.testing import DriverUnderTest, Vectors, load
 from regscribe.testing import properties as hold
-from regscribe.testing.bench import CHECKS
+from regscribe.testing.driver_checks import CHECKS
 
 CAUGHT, SURVIVED, NOTHING = 0, 1, 2
 PROPERTIES = (hold.round_trip, hold.refusal, hold.total_decoding, hold.agreement, hold.covering_reads, hold.batches)
@@ -62,7 +62,7 @@ def caught_by(register_map: RegisterMap, vectors: Vectors, *, models: int | None
     try:
         module = driver_of(register_map)
         for model in register_map.models[:models]:
-            bench = Bench(getattr(module, model.class_name), vectors)
+            bench = DriverUnderTest(getattr(module, model.class_name), vectors)
             for check in CHECKS:
                 check(bench)
             if models is None:
@@ -74,12 +74,12 @@ def caught_by(register_map: RegisterMap, vectors: Vectors, *, models: int | None
     return ""
 
 
-def _properties(bench: Bench) -> None:
+def _properties(bench: DriverUnderTest) -> None:
     for one in PROPERTIES:
         _tried(bench, one)
 
 
-def _tried(bench: Bench, one: Callable[[Bench, st.DataObject], None]) -> None:
+def _tried(bench: DriverUnderTest, one: Callable[[DriverUnderTest, st.DataObject], None]) -> None:
     @few
     @given(data=st.data())
     def run(data: st.DataObject) -> None:

@@ -21,7 +21,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-PACKAGE = Path("generator") / "regscribe"
+PACKAGE = Path("generator")
 WORKERS = 2
 SECONDS = 120
 SUITES = {
@@ -94,7 +94,7 @@ def tree(folder: Path, mutant: Mutant | None = None) -> None:
 
 def run(arguments: Iterable[str], root: Path) -> subprocess.CompletedProcess[str]:
     """Run Python with the packages below `root` first on its path."""
-    path = os.pathsep.join(str(root / name) for name in ("generator", "generated"))
+    path = os.pathsep.join(str(root / name) for name in ("generator", "generator/runtime", "generated"))
     return subprocess.run(  # noqa: S603 (our own interpreter and scripts)
         [sys.executable, "-P", *arguments],
         cwd=root,

@@ -13,13 +13,13 @@ from regscribe import checks, lower, schema, source
 from regscribe.emit import python
 from regscribe.model import RegisterMap, Severity
 from regscribe.pipeline import compile_map
-from regscribe.runtime import BareDevice
 from regscribe.simulate import Running, simulate
 from regscribe_devices.athena.platinum_m5000 import AthenaM5000
 from regscribe_devices.athena.platinum_x100_x400 import AthenaX100, AthenaX400
 from regscribe_devices.athena.platinum_x5000 import AthenaX5000
 from regscribe_devices.athena.series_c import Athena1ZC, Athena16C
 from regscribe_devices.omega.cn8200 import OmegaCN8200
+from regscribe_runtime import BareDevice
 
 MAPS = Path(__file__).parents[2] / "maps"
 KILN = (Path(__file__).parent / "kiln.yaml").read_text(encoding="utf-8")

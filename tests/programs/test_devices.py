@@ -6,13 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from regscribe import programs
-from regscribe.programs import FOREVER, Program
-from regscribe.runtime import BareDevice
 from regscribe.simulate import simulate
+from regscribe.tools import programs
+from regscribe.tools.programs import FOREVER, Program
 from regscribe_devices.athena.platinum_m5000 import AthenaM5000
 from regscribe_devices.athena.platinum_x5000 import AthenaX5000
 from regscribe_devices.athena.series_c import AsyncAthena16C, Athena1ZC, Athena16C
+from regscribe_runtime import BareDevice
 
 from .conftest import DRIVERS, Serve, shipped
 

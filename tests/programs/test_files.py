@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from regscribe import programs
-from regscribe.live.errors import TargetError
-from regscribe.programs import Amount, Final, Program, Segment, setting
+from regscribe.tools import programs
+from regscribe.tools.live.errors import TargetError
+from regscribe.tools.programs import Amount, Final, Program, Segment, setting
 
 SHORT = """\
 format: 1

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from regscribe import programs
-from regscribe.live.errors import TargetError
-from regscribe.programs import NotNow, Place, Program, ProgramRefused, ProgramRuns
-from regscribe.runtime import RegscribeError, ValueRefused
+from regscribe.tools import programs
+from regscribe.tools.live.errors import TargetError
+from regscribe.tools.programs import NotNow, Program, ProgramRefused, ProgramRuns, ProgramSlot
+from regscribe_runtime import RegscribeError, ValueRefused
 
 from .conftest import Bench, Built
 
@@ -32,12 +32,12 @@ def given(folder: Path, text: str) -> Program:
 
 
 @pytest.fixture
-def first(kiln: Bench) -> Place:
+def first(kiln: Bench) -> ProgramSlot:
     return programs.place(kiln.device, "recipe 1")
 
 
 @pytest.fixture
-def problems(kiln: Bench, first: Place, tmp_path: Path) -> Callable[..., list[str]]:
+def problems(kiln: Bench, first: ProgramSlot, tmp_path: Path) -> Callable[..., list[str]]:
     """What is wrong with the glaze after replacing parts of its text; nothing may have been written."""
 
     def found(*changes: tuple[str, str], text: str = GLAZE) -> list[str]:
@@ -55,27 +55,29 @@ def problems(kiln: Bench, first: Place, tmp_path: Path) -> Callable[..., list[st
     return found
 
 
-def test_a_program_in_stated_units_comes_back(kiln: Bench, first: Place, tmp_path: Path) -> None:
+def test_a_program_in_stated_units_comes_back(kiln: Bench, first: ProgramSlot, tmp_path: Path) -> None:
     program = given(tmp_path, GLAZE.replace("4 h", "240 min"))
     kiln.device.run(programs.write(first, program))
 
     assert kiln.device.run(programs.read(first)) == program
 
 
-def test_times_are_converted_to_the_unit_that_the_program_sets(kiln: Bench, first: Place, tmp_path: Path) -> None:
+def test_times_are_converted_to_the_unit_that_the_program_sets(kiln: Bench, first: ProgramSlot, tmp_path: Path) -> None:
     kiln.device.run(programs.write(first, given(tmp_path, GLAZE)))
 
     assert kiln.running.device.peek("recipes[1].steps[0].ramp_time") == 240
     assert kiln.device.run(programs.read(first)).segments[0].ramp == programs.Amount(Decimal(240), "min")
 
 
-def test_the_order_of_the_map_counts(kiln: Bench, first: Place, tmp_path: Path) -> None:
+def test_the_order_of_the_map_counts(kiln: Bench, first: ProgramSlot, tmp_path: Path) -> None:
     kiln.device.run(programs.write(first, given(tmp_path, GLAZE)))
 
     assert kiln.written.index(100) < kiln.written.index(110)
 
 
-def test_the_first_segment_is_not_counted_where_the_map_says_so(kiln: Bench, first: Place, tmp_path: Path) -> None:
+def test_the_first_segment_is_not_counted_where_the_map_says_so(
+    kiln: Bench, first: ProgramSlot, tmp_path: Path
+) -> None:
     kiln.device.run(programs.write(first, given(tmp_path, GLAZE)))
 
     assert kiln.running.device.peek("recipes[1].number_of_segments") == 1
@@ -141,7 +143,7 @@ def test_a_program_without_segments_is_refused(problems: Callable[..., list[str]
 
 @pytest.mark.parametrize(("state", "word"), [(1, "RUNNING"), (2, "WAITING"), (3, "PAUSED")])
 def test_nothing_is_written_while_a_program_runs(
-    kiln: Bench, first: Place, tmp_path: Path, state: int, word: str
+    kiln: Bench, first: ProgramSlot, tmp_path: Path, state: int, word: str
 ) -> None:
     kiln.poke(state=state)
 
@@ -150,7 +152,9 @@ def test_nothing_is_written_while_a_program_runs(
     assert kiln.written == []
 
 
-def test_what_the_manual_forbids_while_it_runs_cannot_be_forced(kiln: Bench, first: Place, tmp_path: Path) -> None:
+def test_what_the_manual_forbids_while_it_runs_cannot_be_forced(
+    kiln: Bench, first: ProgramSlot, tmp_path: Path
+) -> None:
     kiln.poke(state=1)
 
     with pytest.raises(ProgramRuns, match="the manual forbids"):
@@ -158,7 +162,7 @@ def test_what_the_manual_forbids_while_it_runs_cannot_be_forced(kiln: Bench, fir
     assert kiln.written == []
 
 
-def test_it_can_be_started_held_and_reset(kiln: Bench, first: Place) -> None:
+def test_it_can_be_started_held_and_reset(kiln: Bench, first: ProgramSlot) -> None:
     order = kiln.running.device.peek
     kiln.device.run(programs.act(first, "start"))
     assert order("order_1") == 1
@@ -179,7 +183,7 @@ def test_the_second_program_is_started_by_its_own_register_and_only_if_the_dange
     assert (kiln.running.device.peek("order_1"), kiln.running.device.peek("order_2")) == (0, 1)
 
 
-def test_an_act_that_means_nothing_now_is_refused(kiln: Bench, first: Place) -> None:
+def test_an_act_that_means_nothing_now_is_refused(kiln: Bench, first: ProgramSlot) -> None:
     for state, act in [(0, "hold"), (0, "reset"), (1, "start"), (3, "start"), (3, "hold")]:
         kiln.poke(state=state)
         with pytest.raises(NotNow, match=f"nothing to {act}"):
@@ -189,15 +193,15 @@ def test_an_act_that_means_nothing_now_is_refused(kiln: Bench, first: Place) -> 
     assert kiln.written == []
 
 
-def test_the_state_tells_what_runs_and_where(kiln: Bench, first: Place) -> None:
+def test_the_state_tells_what_runs_and_where(kiln: Bench, first: ProgramSlot) -> None:
     kiln.poke(state=2, segment_now=4, program_now=2)
 
-    assert kiln.device.run(programs.status(first)) == programs.State(
+    assert kiln.device.run(programs.status(first)) == programs.ProgramState(
         state="running", detail="WAITING", program=2, segment=4
     )
 
 
-def test_a_code_that_the_map_does_not_know_is_no_state(kiln: Bench, first: Place, tmp_path: Path) -> None:
+def test_a_code_that_the_map_does_not_know_is_no_state(kiln: Bench, first: ProgramSlot, tmp_path: Path) -> None:
     kiln.poke(state=9)
 
     assert kiln.device.run(programs.status(first)).state == "unknown"
@@ -205,7 +209,7 @@ def test_a_code_that_the_map_does_not_know_is_no_state(kiln: Bench, first: Place
         kiln.device.run(programs.write(first, given(tmp_path, GLAZE)))
 
 
-def test_a_write_that_breaks_off_is_given_back(kiln: Bench, first: Place, tmp_path: Path) -> None:
+def test_a_write_that_breaks_off_is_given_back(kiln: Bench, first: ProgramSlot, tmp_path: Path) -> None:
     kiln.device.run(programs.write(first, given(tmp_path, GLAZE)))
     before = kiln.device.run(programs.read(first))
     kiln.running.device.handle, sound = _refusing(112, kiln.running.device.handle), kiln.running.device.handle

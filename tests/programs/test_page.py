@@ -3,9 +3,9 @@
 import re
 from pathlib import Path
 
-from regscribe import programs
-from regscribe.programs.picture import picture
 from regscribe.simulate import simulate
+from regscribe.tools import programs
+from regscribe.tools.programs.picture import picture
 
 from .conftest import shipped
 

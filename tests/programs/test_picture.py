@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from regscribe.emit.pictures.drawing import Line, Text
-from regscribe.programs import Amount, Final, Program, Segment, setting
-from regscribe.programs.picture import RIGHT, drawing, picture
-from regscribe.programs.profile import profile
+from regscribe.pictures.drawing import DrawnLine, Text
+from regscribe.tools.programs import Amount, Final, Program, Segment, setting
+from regscribe.tools.programs.picture import RIGHT, drawing, picture
+from regscribe.tools.programs.profile import profile
 
 NAMES = {"svg": "http://www.w3.org/2000/svg"}
 
@@ -56,7 +56,7 @@ def test_the_picture_is_valid_and_the_same_every_time() -> None:
 
 
 def test_the_curve_passes_through_the_setpoints_at_their_times() -> None:
-    (curve,) = [item for item in drawing(ANNEAL).items if isinstance(item, Line) and item.style == "curve"]
+    (curve,) = [item for item in drawing(ANNEAL).items if isinstance(item, DrawnLine) and item.style == "curve"]
     points = curve.points
     span, height = RIGHT - 100, points[2][1] - points[0][1]
 
@@ -69,7 +69,7 @@ def test_what_is_not_known_is_dashed() -> None:
     with_final = Program(segments=ANNEAL.segments, final=Final(to=setting("20 °C")))
 
     def dashed(program: Program) -> int:
-        return sum(isinstance(item, Line) and "dashed" in item.style for item in drawing(program).items)
+        return sum(isinstance(item, DrawnLine) and "dashed" in item.style for item in drawing(program).items)
 
     assert (dashed(ANNEAL), dashed(with_final)) == (1, 2)
 

@@ -4,14 +4,14 @@ from pathlib import Path
 
 import pytest
 
-from regscribe import programs
-from regscribe.live.errors import TargetError
-from regscribe.programs import NotNow, Program, ProgramRefused, ProgramRuns
-from regscribe.runtime import ValueRefused
+from regscribe.tools import programs
+from regscribe.tools.live.errors import TargetError
+from regscribe.tools.programs import NotNow, Program, ProgramRefused, ProgramRuns
 from regscribe_devices.athena.platinum_c10_m10 import AthenaC10
 from regscribe_devices.athena.platinum_m5000 import AthenaM5000
 from regscribe_devices.athena.platinum_x5000 import AthenaX5000
 from regscribe_devices.athena.series_c import Athena1ZC, Athena16C
+from regscribe_runtime import ValueRefused
 
 from .conftest import Bench, Serve
 from .test_devices import M5000, SERIES_C, X5000

@@ -4,8 +4,8 @@ from collections.abc import Callable
 
 import pytest
 
-from regscribe.checks.frames import Frame, MalformedError, crc16, parse
-from regscribe.checks.worked import bits_per_character
+from regscribe.checks.worked_frames import Frame, MalformedError, crc16, parse
+from regscribe.checks.worked_values import bits_per_character
 from regscribe.model import Diagnostic
 
 

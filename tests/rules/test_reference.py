@@ -26,7 +26,7 @@ from regscribe.model import (
     always,
 )
 from regscribe.model import Test as Asked  # pytest collects what is called Test
-from regscribe.model.reference import Meaning, RefusedError, Surroundings, decode, encode, transmit
+from regscribe.reference import Meaning, RefusedError, Surroundings, decode, encode, transmit
 
 INT16 = View("base", Space.HOLDING, 36, WireType.INT16, rounding=Rounding.HALF_UP)
 UINT16 = View("base", Space.HOLDING, 0, WireType.UINT16)

@@ -11,7 +11,7 @@ from jsonschema import Draft202012Validator
 
 from regscribe.model import Diagnostic
 from regscribe.schema import schema_json, validate
-from regscribe.schema.validation import MAX_ERRORS
+from regscribe.schema.validate import MAX_ERRORS
 from regscribe.source import parse
 
 HEAD = "format: 1\nmap: {id: acme/one, title: One, maker: Acme, class_prefix: Acme}\nmodels: {A: {}, B: {}}\n"

@@ -7,13 +7,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from regscribe.runtime import FLOAT32, INT16, NoAnswer, Protocol, ReadOnly, View, WriteOnly, integer, number, word
-from regscribe.runtime.errors import Absent, ExceptionAnswer, RegscribeError
-from regscribe.runtime.reads import read_many
-from regscribe.runtime.register import Register
-from regscribe.runtime.request import Reply, Request
-from regscribe.runtime.session import Session
-from regscribe.runtime.snapshot import Snapshot
+from regscribe_runtime import FLOAT32, INT16, NoAnswer, Protocol, ReadOnly, View, WriteOnly, integer, number, word
+from regscribe_runtime.errors import Absent, ExceptionAnswer, RegscribeError
+from regscribe_runtime.operations.read import read_many
+from regscribe_runtime.operations.session import Session
+from regscribe_runtime.operations.snapshot import Snapshot
+from regscribe_runtime.registers.register import Register
+from regscribe_runtime.wire.requests import Reply, Request
 
 
 class Unit:

@@ -9,8 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from regscribe.model import WireType, reference
-from regscribe.runtime import (
+from regscribe import reference
+from regscribe.model import WireType
+from regscribe_runtime import (
     FLOAT32,
     INT16,
     INT32,
@@ -26,7 +27,7 @@ from regscribe.runtime import (
     within,
     word,
 )
-from regscribe.runtime.wire import FLOAT64, ROUNDINGS, exact, shortest
+from regscribe_runtime.values.wire_types import FLOAT64, ROUNDINGS, exact, shortest
 
 tenths = ReadWrite(0, word(UINT16), number, scale=(((), Conversion(multiply="0.1", add="-1999.9")),))
 ieee = ReadWrite(0, (View("base", FLOAT32, words=2),), number)

@@ -3,22 +3,22 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from regscribe.runtime import INT16, View
-from regscribe.runtime.cost import Cost, SerialLine
-from regscribe.runtime.ground import Ground, Item
-from regscribe.runtime.layout import Layout, lay_out
-from regscribe.runtime.plan import Limits, Terms
-from regscribe.runtime.ways import Way
+from regscribe_runtime import INT16, View
+from regscribe_runtime.planning.address_ranges import AddressRanges, RegisterSpan
+from regscribe_runtime.planning.alternatives import Way
+from regscribe_runtime.planning.cost import Cost, SerialLine
+from regscribe_runtime.planning.plan import RequestLimits, Terms
+from regscribe_runtime.planning.read_order import ReadOrder, lay_out
 
 VIEW = View("base", INT16)
-TERMS = Terms(Limits(), Ground({"holding": [(0, 10), (100, 110), (200, 210)]}), Cost(SerialLine()))
+TERMS = Terms(RequestLimits(), AddressRanges({"holding": [(0, 10), (100, 110), (200, 210)]}), Cost(SerialLine()))
 
 
 def ways(**places: int) -> dict[str, tuple[Way, ...]]:
-    return {path: (Way(VIEW, Item("holding", address, 1)),) for path, address in places.items()}
+    return {path: (Way(VIEW, RegisterSpan("holding", address, 1)),) for path, address in places.items()}
 
 
-def witnessed(layout: Layout, needs: dict[str, set[str]]) -> bool:
+def witnessed(layout: ReadOrder, needs: dict[str, set[str]]) -> bool:
     """Whether every dependency is checked at the end: not before what depends on it."""
     return all(
         layout.checks[need].block >= layout.places[path].block

@@ -7,10 +7,10 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from regscribe.runtime.cost import Cost, SerialLine
-from regscribe.runtime.ground import Ground, Item, Stretch
-from regscribe.runtime.plan import Block, Limits, Reason, Terms, Uncoverable, blocks, plan
-from regscribe.runtime.session import Latency
+from regscribe_runtime.operations.session import Latency
+from regscribe_runtime.planning.address_ranges import AddressRanges, AddressStretch, RegisterSpan
+from regscribe_runtime.planning.cost import Cost, SerialLine
+from regscribe_runtime.planning.plan import Block, RequestLimits, SplitReason, Terms, Uncoverable, blocks, plan
 
 SLOW = {function: Latency(5, 15, 2, 60, 3) for function in (1, 2, 3, 4)}
 LINES = [
@@ -23,22 +23,22 @@ LINES = [
 ]
 SPACES = ["holding", "coil"]
 
-items = st.builds(Item, st.sampled_from(SPACES), st.integers(0, 40), st.integers(1, 3))
+items = st.builds(RegisterSpan, st.sampled_from(SPACES), st.integers(0, 40), st.integers(1, 3))
 wants = st.lists(st.lists(items, min_size=1, max_size=3, unique=True).map(tuple), max_size=5)
 costs = st.sampled_from(LINES)
-limits = st.builds(Limits, words=st.integers(4, 40), bits=st.integers(4, 40))
+limits = st.builds(RequestLimits, words=st.integers(4, 40), bits=st.integers(4, 40))
 holes = st.lists(st.tuples(st.integers(0, 44), st.integers(1, 4)), max_size=3)
 
 
-def whole(space_refused: Sequence[tuple[int, int]] = (), *, align: int = 1) -> Ground:
+def whole(space_refused: Sequence[tuple[int, int]] = (), *, align: int = 1) -> AddressRanges:
     """Ground where everything from 0 to 63 may be read but some holes; from 20 on in steps of `align`."""
     gone = {space: [(first, first + count) for first, count in space_refused] for space in SPACES}
     known = {space: [(0, 64)] for space in SPACES}
-    aligned = {"holding": [Stretch(20, 64, align)]} if align > 1 else {}
-    return Ground(known, refused=gone, aligned=aligned)
+    aligned = {"holding": [AddressStretch(20, 64, align)]} if align > 1 else {}
+    return AddressRanges(known, refused=gone, aligned=aligned)
 
 
-def partitions(these: Sequence[Item]) -> Iterator[list[list[Item]]]:
+def partitions(these: Sequence[RegisterSpan]) -> Iterator[list[list[RegisterSpan]]]:
     """Every way to put items into groups."""
     if not these:
         yield []
@@ -50,7 +50,7 @@ def partitions(these: Sequence[Item]) -> Iterator[list[list[Item]]]:
             yield [*groups[:place], [first, *groups[place]], *groups[place + 1 :]]
 
 
-def price(group: Sequence[Item], terms: Terms) -> float:
+def price(group: Sequence[RegisterSpan], terms: Terms) -> float:
     """What one request for a group costs; infinite if the device refuses it. Says anew what a request may be."""
     space = group[0].space
     low, high = min(item.address for item in group), max(item.end for item in group)
@@ -70,11 +70,11 @@ def price(group: Sequence[Item], terms: Terms) -> float:
     return terms.cost.tariff(space).of(high - low)
 
 
-def cheapest(wanted: Sequence[tuple[Item, ...]], terms: Terms) -> float:
+def cheapest(wanted: Sequence[tuple[RegisterSpan, ...]], terms: Terms) -> float:
     """The least cost over all choices of items and all partitions of them."""
-    known: dict[tuple[Item, ...], float] = {}
+    known: dict[tuple[RegisterSpan, ...], float] = {}
 
-    def cost(group: list[Item]) -> float:
+    def cost(group: list[RegisterSpan]) -> float:
         key = tuple(group)
         if key not in known:
             known[key] = price(group, terms)
@@ -84,7 +84,7 @@ def cheapest(wanted: Sequence[tuple[Item, ...]], terms: Terms) -> float:
     return min((sum(map(cost, groups)) for chosen in choices for groups in partitions(chosen)), default=float("inf"))
 
 
-def readable(wanted: Sequence[tuple[Item, ...]], ground: Ground) -> list[tuple[Item, ...]]:
+def readable(wanted: Sequence[tuple[RegisterSpan, ...]], ground: AddressRanges) -> list[tuple[RegisterSpan, ...]]:
     """The wants without items that the ground refuses."""
     left = [tuple(item for item in want if ground.stretch(item)) for want in wanted]
     return [want for want in left if want]
@@ -97,7 +97,7 @@ def total(made: Sequence[Block], terms: Terms) -> int:
 @settings(max_examples=150)
 @given(wants, limits, costs, holes, st.sampled_from([1, 2]))
 def test_no_partition_and_no_choice_of_places_costs_less(
-    wanted: list[tuple[Item, ...]], within: Limits, cost: Cost, gaps: list[tuple[int, int]], align: int
+    wanted: list[tuple[RegisterSpan, ...]], within: RequestLimits, cost: Cost, gaps: list[tuple[int, int]], align: int
 ) -> None:
     terms = Terms(within, whole(gaps, align=align), cost)
     left = readable(wanted, terms.ground)
@@ -108,16 +108,18 @@ def test_no_partition_and_no_choice_of_places_costs_less(
     assert total(made, terms) == cheapest(left, terms)
 
 
-near = st.builds(Item, st.just("holding"), st.integers(0, 20), st.integers(1, 2))
+near = st.builds(RegisterSpan, st.just("holding"), st.integers(0, 20), st.integers(1, 2))
 pairs = st.lists(st.lists(near, min_size=1, max_size=2, unique=True).map(tuple), min_size=3, max_size=6)
 
 
 @settings(max_examples=150)
 @given(
-    pairs, st.builds(Limits, words=st.integers(2, 8)), st.integers(0, 4).map(lambda gap: Cost(SerialLine(), gap=gap))
+    pairs,
+    st.builds(RequestLimits, words=st.integers(2, 8)),
+    st.integers(0, 4).map(lambda gap: Cost(SerialLine(), gap=gap)),
 )
 def test_choices_between_crowded_places_are_the_cheapest(
-    wanted: list[tuple[Item, ...]], within: Limits, cost: Cost
+    wanted: list[tuple[RegisterSpan, ...]], within: RequestLimits, cost: Cost
 ) -> None:
     terms = Terms(within, whole(), cost)
 
@@ -129,7 +131,7 @@ def test_choices_between_crowded_places_are_the_cheapest(
 
 @given(wants, limits, costs, holes, st.sampled_from([1, 2]))
 def test_every_want_lies_in_a_request_that_the_device_takes(
-    wanted: list[tuple[Item, ...]], within: Limits, cost: Cost, gaps: list[tuple[int, int]], align: int
+    wanted: list[tuple[RegisterSpan, ...]], within: RequestLimits, cost: Cost, gaps: list[tuple[int, int]], align: int
 ) -> None:
     terms = Terms(within, whole(gaps, align=align), cost)
     left = readable(wanted, terms.ground)
@@ -140,18 +142,28 @@ def test_every_want_lies_in_a_request_that_the_device_takes(
     assert len(set(carried)) == len(carried) <= len(set(left))
     assert all(set(want) & set(carried) for want in left)
     for block in made:
-        assert price([Item(block.space, block.address, block.quantity)], terms) < float("inf")
+        assert price([RegisterSpan(block.space, block.address, block.quantity)], terms) < float("inf")
         assert all(block.address <= item.address and item.end <= block.end for item in block.items)
 
 
-one_place = st.lists(st.builds(Item, st.sampled_from(SPACES), st.integers(0, 50), st.integers(1, 4)), max_size=7)
+one_place = st.lists(
+    st.builds(RegisterSpan, st.sampled_from(SPACES), st.integers(0, 50), st.integers(1, 4)), max_size=7
+)
 
 
 @settings(max_examples=150)
 @given(one_place, limits, costs)
-@example([Item("coil", 0, 1), Item("coil", 8, 1), Item("coil", 15, 1)], Limits(), LINES[0])
-@example([Item("holding", 0, 4), Item("holding", 1, 1), Item("holding", 3, 4)], Limits(words=5), LINES[0])
-def test_registers_at_one_place_each_are_read_at_the_least_cost(wanted: list[Item], within: Limits, cost: Cost) -> None:
+@example(
+    [RegisterSpan("coil", 0, 1), RegisterSpan("coil", 8, 1), RegisterSpan("coil", 15, 1)], RequestLimits(), LINES[0]
+)
+@example(
+    [RegisterSpan("holding", 0, 4), RegisterSpan("holding", 1, 1), RegisterSpan("holding", 3, 4)],
+    RequestLimits(words=5),
+    LINES[0],
+)
+def test_registers_at_one_place_each_are_read_at_the_least_cost(
+    wanted: list[RegisterSpan], within: RequestLimits, cost: Cost
+) -> None:
     terms = Terms(within, whole(), cost)
     singles = [(item,) for item in wanted]
 
@@ -160,8 +172,8 @@ def test_registers_at_one_place_each_are_read_at_the_least_cost(wanted: list[Ite
 
 def test_ten_thousand_registers_are_planned() -> None:
     """A quadratic planner would need minutes, and be stopped."""
-    terms = Terms(Limits(), Ground({}, holes=True, unreadable={"holding": []}), LINES[0])
-    wanted = [(Item("holding", 5 * place + place % 3, 1 + place % 2),) for place in range(10_000)]
+    terms = Terms(RequestLimits(), AddressRanges({}, holes=True, unreadable={"holding": []}), LINES[0])
+    wanted = [(RegisterSpan("holding", 5 * place + place % 3, 1 + place % 2),) for place in range(10_000)]
 
     made, exact = blocks(wanted, terms)
 
@@ -171,60 +183,62 @@ def test_ten_thousand_registers_are_planned() -> None:
 
 def test_the_reasons_of_a_plan_say_why_each_request_is_its_own() -> None:
     known = {"holding": [(0, 30), (40, 60)], "coil": [(0, 8)]}
-    ground = Ground(
+    ground = AddressRanges(
         known,
         unreadable={"holding": [(60, 61)]},
         refused={"holding": [(8, 9)]},
         aligned={
-            "holding": [Stretch(50, 60, 2)],
+            "holding": [AddressStretch(50, 60, 2)],
         },
     )
     cost = Cost(SerialLine(9600), latencies={3: Latency(0, 0, 5, 100)})
     at = [("coil", 0, 1), ("holding", 0, 2), ("holding", 2, 6), ("holding", 9, 1), ("holding", 20, 1)]
     more = [("holding", 40, 2), ("holding", 47, 2), ("holding", 50, 2)]
 
-    found = plan([(Item(*one),) for one in at + more], Terms(Limits(words=6), ground, cost))
+    found = plan([(RegisterSpan(*one),) for one in at + more], Terms(RequestLimits(words=6), ground, cost))
 
     assert [(one.block.address, one.carried, one.split.reason) for one in found.requests] == [
-        (0, 1, Reason.FIRST),
-        (0, 2, Reason.SPACE),
-        (2, 6, Reason.LIMIT),
-        (9, 1, Reason.REFUSED),
-        (20, 1, Reason.LIMIT),
-        (40, 2, Reason.HOLE),
-        (47, 2, Reason.LIMIT),
-        (50, 2, Reason.ALIGNMENT),
+        (0, 1, SplitReason.FIRST),
+        (0, 2, SplitReason.SPACE),
+        (2, 6, SplitReason.LIMIT),
+        (9, 1, SplitReason.REFUSED),
+        (20, 1, SplitReason.LIMIT),
+        (40, 2, SplitReason.HOLE),
+        (47, 2, SplitReason.LIMIT),
+        (50, 2, SplitReason.ALIGNMENT),
     ]
-    apart = plan([(Item("holding", 0, 1),), (Item("holding", 3, 1),)], Terms(Limits(), ground, cost))
-    assert apart.requests[1].split.reason is Reason.CHEAPER
+    apart = plan(
+        [(RegisterSpan("holding", 0, 1),), (RegisterSpan("holding", 3, 1),)], Terms(RequestLimits(), ground, cost)
+    )
+    assert apart.requests[1].split.reason is SplitReason.CHEAPER
     assert apart.requests[1].split.detail == "2 between, saves 88.3 ms"  # 2 words of 54.6 ms against 20 characters
 
 
 def test_a_register_that_can_only_be_written_is_never_read_along() -> None:
     known = {"holding": [(0, 3), (4, 6)]}
-    terms = Terms(Limits(), Ground(known, unreadable={"holding": [(3, 4)]}, holes=True), LINES[0])
+    terms = Terms(RequestLimits(), AddressRanges(known, unreadable={"holding": [(3, 4)]}, holes=True), LINES[0])
 
-    found = plan([(Item("holding", 0, 3),), (Item("holding", 4, 2),)], terms)
+    found = plan([(RegisterSpan("holding", 0, 3),), (RegisterSpan("holding", 4, 2),)], terms)
 
     assert [(one.block.address, one.carried) for one in found.requests] == [(0, 3), (4, 2)]
-    assert found.requests[1].split.reason is Reason.UNREADABLE
+    assert found.requests[1].split.reason is SplitReason.UNREADABLE
     with pytest.raises(Uncoverable, match=r"holding 2\.\.4 cannot be read"):
-        plan([(Item("holding", 2, 3),)], terms)
+        plan([(RegisterSpan("holding", 2, 3),)], terms)
 
 
 def test_an_address_in_an_aligned_view_is_asked_for_with_its_neighbour() -> None:
-    terms = Terms(Limits(words=5), whole(align=2), LINES[0])
+    terms = Terms(RequestLimits(words=5), whole(align=2), LINES[0])
 
-    made, _ = blocks([(Item("holding", 23, 1),), (Item("holding", 26, 1),)], terms)
+    made, _ = blocks([(RegisterSpan("holding", 23, 1),), (RegisterSpan("holding", 26, 1),)], terms)
 
     assert [(block.address, block.quantity) for block in made] == [(22, 2), (26, 2)]
 
 
 def test_a_gap_is_crossed_where_a_second_request_costs_more() -> None:
-    wanted = [(Item("holding", 0, 1),), (Item("holding", 10, 1),)]
+    wanted = [(RegisterSpan("holding", 0, 1),), (RegisterSpan("holding", 10, 1),)]
 
     def counts(cost: Cost) -> list[int]:
-        return [block.quantity for block in blocks(wanted, Terms(Limits(), whole(), cost))[0]]
+        return [block.quantity for block in blocks(wanted, Terms(RequestLimits(), whole(), cost))[0]]
 
     assert counts(Cost(SerialLine(9600))) == [11]  # 9 words: 18 characters; a request: 13, and 7 of silence
     assert counts(Cost(SerialLine(9600), gap=2)) == [1, 1]  # 13 and 4 of silence

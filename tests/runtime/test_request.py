@@ -2,8 +2,8 @@
 
 import pytest
 
-from regscribe.runtime import ExceptionAnswer, PartialWrite, WrongAnswer
-from regscribe.runtime.request import Reply, Request, verify
+from regscribe_runtime import ExceptionAnswer, PartialWrite, WrongAnswer
+from regscribe_runtime.wire.requests import Reply, Request, verify
 
 READ = Request(3, 100, 2)
 WRITE = Request(6, 100, 1, (7,))

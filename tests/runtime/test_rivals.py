@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from regscribe.runtime.cost import Cost, SerialLine
-from regscribe.runtime.ground import Ground, Item
-from regscribe.runtime.plan import Limits, Terms
+from regscribe_runtime.planning.address_ranges import AddressRanges, RegisterSpan
+from regscribe_runtime.planning.cost import Cost, SerialLine
+from regscribe_runtime.planning.plan import RequestLimits, Terms
 
 BENCH = Path(__file__).parents[1] / "bench"
 GAPS = (0, 1, 2, 4, 8, 11, 16, 32, 64, 125)
@@ -63,11 +63,11 @@ def test_every_rival_reads_all_that_is_wanted_and_keeps_to_the_device(bench: Any
 
 
 def test_the_rules_of_the_rivals_are_those_of_their_documentation(bench: Any) -> None:
-    everywhere = Ground({"holding": [(0, 200)]}, holes=True)
-    terms = Terms(Limits(), everywhere, Cost(SerialLine()))
+    everywhere = AddressRanges({"holding": [(0, 200)]}, holes=True)
+    terms = Terms(RequestLimits(), everywhere, Cost(SerialLine()))
 
-    def at(*addresses: int) -> list[Item]:
-        return [Item("holding", address, 1) for address in addresses]
+    def at(*addresses: int) -> list[RegisterSpan]:
+        return [RegisterSpan("holding", address, 1) for address in addresses]
 
     row = bench.Task.of(at(2, 5, 9), at(*range(1, 8), 9), terms)
     wide = bench.Task.of(at(2, 60, 190), at(2, 60, 190), terms)

@@ -9,12 +9,13 @@ from typing import Any, NamedTuple
 import pytest
 
 import regscribe
-from regscribe.live import catalogue
 from regscribe.model import GivenKind, RegisterMap
 from regscribe.pipeline import compile_map
-from regscribe.runtime import BareDevice, LinkLost, execute
-from regscribe.runtime.link import tcp
 from regscribe.simulate import SimulatedDevice, simulate
+from regscribe.tools.live import catalogue
+from regscribe_runtime import BareDevice, LinkLost
+from regscribe_runtime.driver import executor
+from regscribe_runtime.link.links import tcp
 
 ROOT = Path(regscribe.__file__).parents[2]
 
@@ -85,4 +86,4 @@ def serve() -> Serve:
 @pytest.fixture
 def hurried(monkeypatch: pytest.MonkeyPatch) -> None:
     """A driver that does not wait between attempts: what it waits for is in this process."""
-    monkeypatch.setattr(execute.time, "sleep", lambda _: None)
+    monkeypatch.setattr(executor.time, "sleep", lambda _: None)

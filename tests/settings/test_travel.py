@@ -8,11 +8,11 @@ from typing import Any
 
 import pytest
 
-from regscribe import settings
-from regscribe.runtime import RegscribeError
-from regscribe.runtime.link import async_tcp
-from regscribe.settings import Backup, Saved, UnfitError
+from regscribe.tools import settings
+from regscribe.tools.settings import Backup, Saved, UnfitError
 from regscribe_devices.athena.series_c import AsyncAthena16C
+from regscribe_runtime import RegscribeError
+from regscribe_runtime.link.links import async_tcp
 
 Serve = Callable[..., Any]
 MODELS = (

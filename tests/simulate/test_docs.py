@@ -43,7 +43,7 @@ def test_the_bad_line_of_the_page_loses_an_answer_and_no_value() -> None:
 def test_the_options_of_the_page_exist() -> None:
     from click.testing import CliRunner  # noqa: PLC0415 - here only
 
-    from regscribe.cli.simulate import command  # noqa: PLC0415 - as above
+    from regscribe.cli.commands.simulate import command  # noqa: PLC0415 - as above
 
     usage = CliRunner().invoke(command, ["--help"]).output
     named = set(re.findall(r"(?<!`)(--[a-z]+)", TEXT))

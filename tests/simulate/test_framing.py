@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from regscribe.simulate.framing import AsciiFramer, Framing, MbapFramer, Request, RtuFramer, framer_for
+from regscribe.simulate.line.framing import AsciiFramer, Framing, MbapFramer, Request, RtuFramer, framer_for
 
 READ = Request(1, b"\x03\0\0\0\1")
 WRITE = Request(1, b"\x10\0\0\0\1\2\0\5")

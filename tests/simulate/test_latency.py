@@ -15,8 +15,8 @@ import pytest
 
 from regscribe.model import Latency, RegisterMap, Serial
 from regscribe.simulate import Line, Running, SimulatedDevice, SimulatorError, find_map, simulate
-from regscribe.simulate.framing import Request, RtuFramer
-from regscribe.simulate.latency import Pace, factor_of
+from regscribe.simulate.line.framing import Request, RtuFramer
+from regscribe.simulate.line.response_delay import Pace, factor_of
 
 READ_ONE = struct.pack(">BHH", 3, 2, 1)
 READ_FOUR = struct.pack(">BHH", 3, 2, 4)

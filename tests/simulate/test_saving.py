@@ -12,8 +12,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from regscribe.model import RegisterMap
-from regscribe.settings import backup, to_text
 from regscribe.simulate import Running, SimulatedDevice, SimulatorError, find_map, simulate
+from regscribe.tools.settings import backup, to_text
 from regscribe_devices.athena.series_c import Athena16C
 from regscribe_devices.fdc.series_100 import FdcC21
 

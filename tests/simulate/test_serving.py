@@ -22,9 +22,9 @@ from regscribe.simulate import (
     in_thread,
     start,
 )
-from regscribe.simulate.connection import MOST_WAITING, Connection, Manners
-from regscribe.simulate.framing import Framing, framer_for
-from regscribe.simulate.station import Station
+from regscribe.simulate.line.connection import MOST_WAITING, Connection, ConnectionPolicy
+from regscribe.simulate.line.framing import Framing, framer_for
+from regscribe.simulate.line.server_context import ServerContext
 
 READ = bytes.fromhex("0001 0000 0006 01 03 0002 0001")
 ANSWER = 11
@@ -105,14 +105,14 @@ class Outlet:
         self.reading = False
 
 
-def connected(device: SimulatedDevice, manners: Manners) -> tuple[Connection, Outlet]:
+def connected(device: SimulatedDevice, manners: ConnectionPolicy) -> tuple[Connection, Outlet]:
     outlet = Outlet()
-    return Connection(framer_for(Framing.MBAP), Station([device]), manners, outlet), outlet
+    return Connection(framer_for(Framing.MBAP), ServerContext([device]), manners, outlet), outlet
 
 
 def test_a_client_that_does_not_read_is_not_read_from_until_it_does(controller: RegisterMap) -> None:
     async def run() -> None:
-        connection, outlet = connected(SimulatedDevice(controller, "16C"), Manners())
+        connection, outlet = connected(SimulatedDevice(controller, "16C"), ConnectionPolicy())
         connection.paused()
         assert not outlet.reading
         connection.resumed()
@@ -129,7 +129,7 @@ def test_a_client_with_too_many_requests_waiting_is_not_read_from_until_they_are
             await let_go.wait()
             return each.frame
 
-        connection, outlet = connected(SimulatedDevice(controller, "16C"), Manners(delivery=hold))
+        connection, outlet = connected(SimulatedDevice(controller, "16C"), ConnectionPolicy(delivery=hold))
         connection.received(READ * (MOST_WAITING - 1))
         assert outlet.reading
         connection.received(READ * 2)

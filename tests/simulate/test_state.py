@@ -7,8 +7,9 @@ from itertools import product
 import pytest
 
 from regscribe.model import Order, RegisterMap, Rounding, Space, View, WireType
-from regscribe.model.reference import Surroundings, transmit, wire_number
-from regscribe.simulate import SimulatedDevice, SimulatorError, codec
+from regscribe.reference import Surroundings, transmit, wire_number
+from regscribe.simulate import SimulatedDevice, SimulatorError
+from regscribe.simulate.device import codec
 
 
 @pytest.fixture

@@ -10,10 +10,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from regscribe.runtime.plan import Block
-from regscribe.testing import Bench, Vectors, load, number
+from regscribe.testing import DriverUnderTest, Vectors, load, number
 from regscribe.testing import properties as hold
 from regscribe_devices.fdc import series_100
+from regscribe_runtime.planning.plan import Block
 
 PATH = Path(__file__).parents[2] / "generated" / "vectors" / "fdc" / "series-100.json"
 Change = Callable[[dict[str, Any]], object]
@@ -27,10 +27,10 @@ def entry() -> dict[str, Any]:
     return found
 
 
-def bench(entry: dict[str, Any], change: Change) -> Bench:
+def bench(entry: dict[str, Any], change: Change) -> DriverUnderTest:
     changed = copy.deepcopy(entry)
     change(changed)
-    return Bench(series_100.FdcC21, Vectors("fdc/series-100", ("C21",), (changed,), ()))
+    return DriverUnderTest(series_100.FdcC21, Vectors("fdc/series-100", ("C21",), (changed,), ()))
 
 
 def first(entry: dict[str, Any], what: str) -> dict[str, Any]:
@@ -85,13 +85,13 @@ def test_a_driver_that_decodes_wrongly_does_not_come_back(
 
 
 def test_a_request_over_the_limit_or_asked_twice_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    tried = Bench(series_100.FdcC21, load(PATH))
+    tried = DriverUnderTest(series_100.FdcC21, load(PATH))
 
     def one_block(wants: Any, _: object) -> tuple[tuple[Block, ...], bool]:
         items = tuple(want[0] for want in wants)
         return ((Block(3, 0, 80, items),) if items else ()), True
 
-    monkeypatch.setattr("regscribe.runtime.layout.blocks", one_block)
+    monkeypatch.setattr("regscribe_runtime.planning.read_order.blocks", one_block)
 
     @settings(hold.each_run, max_examples=5)
     @given(data=st.data())

@@ -10,7 +10,7 @@ import jsonschema
 import pytest
 
 from regscribe.emit.vectors import render
-from regscribe.emit.vectors.layout import dumps
+from regscribe.emit.vectors.json_layout import dumps
 from regscribe.model import RegisterMap
 
 ROOT = Path(__file__).parents[2]
@@ -111,7 +111,7 @@ def test_the_test_module_is_valid_python_for_any_title(compiled: Compiled) -> No
     found = compiled("- {at: 1, id: level, name: Level}")
     text = render(found)["tests/example/test_controller.py"]
     assert isinstance(ast.parse(text), ast.Module)
-    assert "driver.ExampleA1," in text
+    assert "module.ExampleA1," in text
     assert "agreement" not in text
 
 

@@ -13,7 +13,7 @@ import pytest
 from regscribe import checks, lower, schema, source
 from regscribe.emit import render
 from regscribe.model import RegisterMap, Severity
-from regscribe.runtime import codec
+from regscribe_runtime.registers import codec
 
 HEAD = """\
 format: 1

@@ -14,9 +14,9 @@ from independent.refusals import SERIES_100, SERIES_C, Case, platinum
 from independent.stage import service, staged
 
 from regscribe.model import Space, WireType
-from regscribe.runtime.link import tcp
-from regscribe.runtime.request import Reply, Request
 from regscribe.simulate import SimulatedDevice
+from regscribe_runtime.link.links import tcp
+from regscribe_runtime.wire.requests import Reply, Request
 
 pytestmark = pytest.mark.wire
 

@@ -18,10 +18,10 @@ from independent.families import FAMILIES, compiled
 from independent.stage import Stage, service, staged
 
 from regscribe.model import FrameExample, RegisterMap, Space
-from regscribe.runtime.errors import NoAnswer
-from regscribe.runtime.link import Link, tcp
-from regscribe.runtime.request import LOOPBACK, READ_STATUS, Request
 from regscribe.simulate import SimulatedDevice
+from regscribe_runtime.errors import NoAnswer
+from regscribe_runtime.link.links import Link, tcp
+from regscribe_runtime.wire.requests import LOOPBACK, READ_STATUS, Request
 
 SOON = 0.2
 """Seconds to wait where no answer must come."""

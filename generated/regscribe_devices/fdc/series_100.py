@@ -6,7 +6,7 @@
 from collections.abc import Collection
 from typing import Self, Unpack
 
-from regscribe.runtime import (
+from regscribe_runtime import (
     UINT16,
     AsyncBareDevice,
     AsyncLink,
@@ -28,8 +28,8 @@ from regscribe.runtime import (
     Protocol,
     ReadOnly,
     ReadWrite,
-    Section,
     SerialSettings,
+    SubPart,
     TcpSettings,
     Word,
     async_serial_link,
@@ -704,7 +704,7 @@ class FdcBTC9100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Series10
     protocol = _PROTOCOL
     identity = (Identity((Is("prog", ((6, "6.99"),)),)),)
     groups = Series100Groups
-    commands = Section(Series100Commands, AsyncSeries100Commands)
+    commands = SubPart(Series100Commands, AsyncSeries100Commands)
 
 
 class AsyncFdcBTC9100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _AsyncSeries100Device):
@@ -716,7 +716,7 @@ class AsyncFdcBTC9100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Asy
     protocol = _PROTOCOL
     identity = (Identity((Is("prog", ((6, "6.99"),)),)),)
     groups = Series100Groups
-    commands = Section(Series100Commands, AsyncSeries100Commands)
+    commands = SubPart(Series100Commands, AsyncSeries100Commands)
 
 
 class FdcBTC8100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Series100Device):
@@ -728,7 +728,7 @@ class FdcBTC8100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Series10
     protocol = _PROTOCOL
     identity = (Identity((Is("prog", ((11, "11.99"),)),)),)
     groups = Series100Groups
-    commands = Section(Series100Commands, AsyncSeries100Commands)
+    commands = SubPart(Series100Commands, AsyncSeries100Commands)
 
 
 class AsyncFdcBTC8100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _AsyncSeries100Device):
@@ -740,7 +740,7 @@ class AsyncFdcBTC8100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Asy
     protocol = _PROTOCOL
     identity = (Identity((Is("prog", ((11, "11.99"),)),)),)
     groups = Series100Groups
-    commands = Section(Series100Commands, AsyncSeries100Commands)
+    commands = SubPart(Series100Commands, AsyncSeries100Commands)
 
 
 class FdcBTC4100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Series100Device):
@@ -752,7 +752,7 @@ class FdcBTC4100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Series10
     protocol = _PROTOCOL
     identity = (Identity((Is("prog", ((12, "12.99"),)),)),)
     groups = Series100Groups
-    commands = Section(Series100Commands, AsyncSeries100Commands)
+    commands = SubPart(Series100Commands, AsyncSeries100Commands)
 
 
 class AsyncFdcBTC4100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _AsyncSeries100Device):
@@ -764,7 +764,7 @@ class AsyncFdcBTC4100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Asy
     protocol = _PROTOCOL
     identity = (Identity((Is("prog", ((12, "12.99"),)),)),)
     groups = Series100Groups
-    commands = Section(Series100Commands, AsyncSeries100Commands)
+    commands = SubPart(Series100Commands, AsyncSeries100Commands)
 
 
 class FdcBTC7100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Series100Device):
@@ -776,7 +776,7 @@ class FdcBTC7100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Series10
     protocol = _PROTOCOL
     identity = (Identity((Is("prog", ((13, "13.99"),)),)),)
     groups = Series100Groups
-    commands = Section(Series100Commands, AsyncSeries100Commands)
+    commands = SubPart(Series100Commands, AsyncSeries100Commands)
 
 
 class AsyncFdcBTC7100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _AsyncSeries100Device):
@@ -788,7 +788,7 @@ class AsyncFdcBTC7100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Asy
     protocol = _PROTOCOL
     identity = (Identity((Is("prog", ((13, "13.99"),)),)),)
     groups = Series100Groups
-    commands = Section(Series100Commands, AsyncSeries100Commands)
+    commands = SubPart(Series100Commands, AsyncSeries100Commands)
 
 
 class FdcC21(_Series100, _Series100OfC21C91, _Series100Device):
@@ -800,7 +800,7 @@ class FdcC21(_Series100, _Series100OfC21C91, _Series100Device):
     protocol = _PROTOCOL
     identity = (Identity((Is("prog", ((33, "33.99"),)),)),)
     groups = Series100Groups
-    commands = Section(Series100Commands, AsyncSeries100Commands)
+    commands = SubPart(Series100Commands, AsyncSeries100Commands)
 
 
 class AsyncFdcC21(_Series100, _Series100OfC21C91, _AsyncSeries100Device):
@@ -812,7 +812,7 @@ class AsyncFdcC21(_Series100, _Series100OfC21C91, _AsyncSeries100Device):
     protocol = _PROTOCOL
     identity = (Identity((Is("prog", ((33, "33.99"),)),)),)
     groups = Series100Groups
-    commands = Section(Series100Commands, AsyncSeries100Commands)
+    commands = SubPart(Series100Commands, AsyncSeries100Commands)
 
 
 class FdcC91(_Series100, _Series100OfC21C91, _Series100Device):
@@ -824,7 +824,7 @@ class FdcC91(_Series100, _Series100OfC21C91, _Series100Device):
     protocol = _PROTOCOL
     identity = (Identity((Is("prog", ((34, "34.99"),)),)),)
     groups = Series100Groups
-    commands = Section(Series100Commands, AsyncSeries100Commands)
+    commands = SubPart(Series100Commands, AsyncSeries100Commands)
 
 
 class AsyncFdcC91(_Series100, _Series100OfC21C91, _AsyncSeries100Device):
@@ -836,4 +836,4 @@ class AsyncFdcC91(_Series100, _Series100OfC21C91, _AsyncSeries100Device):
     protocol = _PROTOCOL
     identity = (Identity((Is("prog", ((34, "34.99"),)),)),)
     groups = Series100Groups
-    commands = Section(Series100Commands, AsyncSeries100Commands)
+    commands = SubPart(Series100Commands, AsyncSeries100Commands)

@@ -9,99 +9,103 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from regscribe.testing import Bench, load
+from regscribe.testing import DriverUnderTest, load
 from regscribe.testing import properties as hold
-from regscribe_devices.athena import series_c as driver
+from regscribe_devices.athena import series_c as module
 
 VECTORS = load(Path(__file__).parents[2] / "vectors" / "athena" / "series-c.json")
 CLASSES = (
-    driver.Athena1ZC,
-    driver.Athena16C,
-    driver.Athena18C,
-    driver.Athena25C,
+    module.Athena1ZC,
+    module.Athena16C,
+    module.Athena18C,
+    module.Athena25C,
 )
-BENCHES = [Bench(cls, VECTORS) for cls in CLASSES]
+DRIVERS = [DriverUnderTest(cls, VECTORS) for cls in CLASSES]
 
 
-def models(benches: list[Bench]) -> pytest.MarkDecorator:
-    return pytest.mark.parametrize("bench", benches, ids=[bench.model for bench in benches])
+def models(drivers: list[DriverUnderTest]) -> pytest.MarkDecorator:
+    return pytest.mark.parametrize("driver", drivers, ids=[one.model for one in drivers])
 
 
-every_model = models(BENCHES)
-
-
-@every_model
-def test_the_driver_has_the_registers_of_its_model_at_their_addresses(bench: Bench) -> None:
-    bench.check_registers()
+every_model = models(DRIVERS)
 
 
 @every_model
-def test_requests_keep_to_the_limits_of_the_device_and_commands_send_what_the_map_says(bench: Bench) -> None:
-    bench.check_device()
+def test_the_driver_has_the_registers_of_its_model_at_their_addresses(driver: DriverUnderTest) -> None:
+    driver.check_registers()
 
 
 @every_model
-def test_words_decode_to_the_values_of_the_vectors(bench: Bench) -> None:
-    bench.check_decoding()
+def test_requests_keep_to_the_limits_of_the_device_and_commands_send_what_the_map_says(driver: DriverUnderTest) -> None:
+    driver.check_device()
 
 
 @every_model
-def test_values_encode_to_the_words_of_the_vectors(bench: Bench) -> None:
-    bench.check_encoding()
+def test_words_decode_to_the_values_of_the_vectors(driver: DriverUnderTest) -> None:
+    driver.check_decoding()
 
 
 @every_model
-def test_values_that_no_words_can_carry_are_refused(bench: Bench) -> None:
-    bench.check_refusals()
+def test_values_encode_to_the_words_of_the_vectors(driver: DriverUnderTest) -> None:
+    driver.check_encoding()
 
 
 @every_model
-def test_writes_are_allowed_exactly_under_their_conditions(bench: Bench) -> None:
-    bench.check_conditions_of_writing()
+def test_values_that_no_words_can_carry_are_refused(driver: DriverUnderTest) -> None:
+    driver.check_refusals()
 
 
 @every_model
-def test_the_worked_examples_of_the_manual_hold(bench: Bench) -> None:
-    bench.check_examples()
+def test_writes_are_allowed_exactly_under_their_conditions(driver: DriverUnderTest) -> None:
+    driver.check_conditions_of_writing()
+
+
+@every_model
+def test_the_worked_examples_of_the_manual_hold(driver: DriverUnderTest) -> None:
+    driver.check_examples()
 
 
 @every_model
 @hold.each_run
 @given(data=st.data())
-def test_any_words_give_a_value_or_a_documented_error(bench: Bench, data: st.DataObject) -> None:
-    hold.total_decoding(bench, data)
+def test_any_words_give_a_value_or_a_documented_error(driver: DriverUnderTest, data: st.DataObject) -> None:
+    hold.total_decoding(driver, data)
 
 
-@models([bench for bench in BENCHES if bench.readable])
+@models([driver for driver in DRIVERS if driver.readable])
 @hold.each_run
 @given(data=st.data())
-def test_a_read_covers_each_register_once_and_crosses_no_hole_and_no_limit(bench: Bench, data: st.DataObject) -> None:
-    hold.covering_reads(bench, data)
+def test_a_read_covers_each_register_once_and_crosses_no_hole_and_no_limit(
+    driver: DriverUnderTest, data: st.DataObject
+) -> None:
+    hold.covering_reads(driver, data)
 
 
-@models([bench for bench in BENCHES if bench.readable])
+@models([driver for driver in DRIVERS if driver.readable])
 @hold.each_run
 @given(data=st.data())
-def test_registers_read_together_have_the_values_that_they_have_alone(bench: Bench, data: st.DataObject) -> None:
-    hold.batches(bench, data)
+def test_registers_read_together_have_the_values_that_they_have_alone(
+    driver: DriverUnderTest, data: st.DataObject
+) -> None:
+    hold.batches(driver, data)
 
 
-@models([bench for bench in BENCHES if bench.written])
+@models([driver for driver in DRIVERS if driver.written])
 @hold.each_run
 @given(data=st.data())
-def test_what_was_encoded_decodes_to_the_same_value(bench: Bench, data: st.DataObject) -> None:
-    hold.round_trip(bench, data)
+def test_what_was_encoded_decodes_to_the_same_value(driver: DriverUnderTest, data: st.DataObject) -> None:
+    hold.round_trip(driver, data)
 
 
-@models([bench for bench in BENCHES if bench.written])
+@models([driver for driver in DRIVERS if driver.written])
 @hold.each_run
 @given(data=st.data())
-def test_a_value_outside_the_domain_is_refused(bench: Bench, data: st.DataObject) -> None:
-    hold.refusal(bench, data)
+def test_a_value_outside_the_domain_is_refused(driver: DriverUnderTest, data: st.DataObject) -> None:
+    hold.refusal(driver, data)
 
 
-@models([bench for bench in BENCHES if bench.mirrored])
+@models([driver for driver in DRIVERS if driver.mirrored])
 @hold.each_run
 @given(data=st.data())
-def test_the_views_of_a_register_agree(bench: Bench, data: st.DataObject) -> None:
-    hold.agreement(bench, data)
+def test_the_views_of_a_register_agree(driver: DriverUnderTest, data: st.DataObject) -> None:
+    hold.agreement(driver, data)

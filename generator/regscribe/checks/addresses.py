@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from itertools import combinations
 from operator import attrgetter
 
-from regscribe.checks.registry import MAP, Finding, Scope, map_rule, model_rule, register_rule, warning
+from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule, model_rule, register_rule, warning
 from regscribe.model import READ_FUNCTIONS, WRITE_FUNCTIONS, Register, Related, Rule, Space, View
 
 LAST_ADDRESS = 0xFFFF
@@ -48,7 +48,7 @@ def stretches(register: Register) -> Iterator[Stretch]:
         "Two registers (or two views of one) at the same address cannot both be right: one of the rows was misread.",
     )
 )
-def overlap(scope: Scope) -> Iterator[Finding]:
+def overlap(scope: RuleScope) -> Iterator[Finding]:
     """Compare each stretch with the one before it that reaches furthest."""
     every = (stretch for register in scope.model.registers for stretch in stretches(register))
     furthest: Stretch | None = None
@@ -71,7 +71,7 @@ def _overlap(earlier: Stretch, later: Stretch) -> Finding:
 @register_rule(
     Rule("RS0402", "Address outside the address space", "A Modbus address is 16 bits; function 07 has one address, 0.")
 )
-def outside_space(register: Register, _: Scope) -> Iterator[Finding]:
+def outside_space(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Look at the first and the last address of each view and alias."""
     for stretch in stretches(register):
         limit = 0 if stretch.space is Space.STATUS else LAST_ADDRESS
@@ -82,7 +82,7 @@ def outside_space(register: Register, _: Scope) -> Iterator[Finding]:
 @register_rule(
     Rule("RS0403", "Alias equals an address that the register has", "An alias says nothing if it is no other address.")
 )
-def alias_of_itself(register: Register, _: Scope) -> Iterator[Finding]:
+def alias_of_itself(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare aliases with the base address and with one another."""
     for place, alias in enumerate(register.aliases):
         if alias == register.base.address or alias in register.aliases[:place]:
@@ -92,7 +92,7 @@ def alias_of_itself(register: Register, _: Scope) -> Iterator[Finding]:
 @register_rule(
     Rule("RS0404", "Register at a reserved address", "The manual cannot both reserve an address and describe it.")
 )
-def reserved(register: Register, scope: Scope) -> Iterator[Finding]:
+def reserved(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """Compare each stretch with the reserved ones."""
     for space, first, last in scope.register_map.reserved:
         for stretch in stretches(register):
@@ -104,7 +104,7 @@ def reserved(register: Register, scope: Scope) -> Iterator[Finding]:
 @register_rule(
     Rule("RS0407", "Register at an unused address", "The manual cannot both list an address as unused and describe it.")
 )
-def unused(register: Register, scope: Scope) -> Iterator[Finding]:
+def unused(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """Compare each stretch with those that the model does not use."""
     for space, first, last in scope.model.unused:
         for stretch in stretches(register):
@@ -116,7 +116,7 @@ def unused(register: Register, scope: Scope) -> Iterator[Finding]:
 @model_rule(
     Rule("RS0662", "Addresses without a register listed twice", "They are reserved or unused, and need one entry only.")
 )
-def listed_twice(scope: Scope) -> Iterator[Finding]:
+def listed_twice(scope: RuleScope) -> Iterator[Finding]:
     """Compare all entries of `reserved` and `unused` that count on the model in pairs."""
     entries = [("reserved", *one) for one in scope.register_map.reserved]
     entries += [("unused", *one) for one in scope.model.unused]
@@ -129,7 +129,7 @@ def listed_twice(scope: Scope) -> Iterator[Finding]:
 @map_rule(
     Rule("RS0405", "Notation declared twice", "Two offsets under one name leave a printed address with two meanings.")
 )
-def notation_twice(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+def notation_twice(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Find a notation whose name and space were seen before."""
     seen: set[tuple[str, Space]] = set()
     for notation in scopes[0].register_map.notations:
@@ -148,7 +148,7 @@ def notation_twice(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
         "A register that can be read or written needs a function code of its space that the device supports.",
     )
 )
-def no_function(register: Register, scope: Scope) -> Iterator[Finding]:
+def no_function(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """Look for functions that read and write the views that drivers take, and any other that may be named to them."""
     has = scope.register_map.protocol.functions
     wanted: list[tuple[str, View, tuple[int, ...]]] = []
@@ -177,7 +177,7 @@ def no_function(register: Register, scope: Scope) -> Iterator[Finding]:
         "`at` is the address in the request, which counts from 0; a printed 40001 is address 0 on the wire.",
     )
 )
-def in_a_notation(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+def in_a_notation(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Look for spaces most of whose registers stand where a notation of the map counts, not at wire addresses."""
     for notation in scopes[0].register_map.notations:
         found = {

@@ -5,7 +5,7 @@ from fractions import Fraction
 from itertools import combinations
 
 from regscribe.checks.identifiers import normalised
-from regscribe.checks.registry import Finding, Scope, register_rule
+from regscribe.checks.rule import Finding, RuleScope, register_rule
 from regscribe.model import BitField, Kind, Register, Rule, show
 
 
@@ -14,7 +14,7 @@ def _where(bits: BitField) -> str:
 
 
 @register_rule(Rule("RS0450", "Bit fields overlap", "One bit has one meaning: a row of the bit table was misread."))
-def bits_overlap(register: Register, _: Scope) -> Iterator[Finding]:
+def bits_overlap(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare the fields of a word in pairs (there are 64 at most)."""
     for one, other in combinations(register.fields, 2):
         if one.low <= other.high and other.low <= one.high:
@@ -23,7 +23,7 @@ def bits_overlap(register: Register, _: Scope) -> Iterator[Finding]:
 
 
 @register_rule(Rule("RS0451", "Bit outside the word", "A bit beyond the word's width can never be read."))
-def bit_outside_word(register: Register, _: Scope) -> Iterator[Finding]:
+def bit_outside_word(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare each field with the width of the base view."""
     for bits in register.fields:
         if bits.low < 0 or bits.high >= register.bits:
@@ -32,7 +32,7 @@ def bit_outside_word(register: Register, _: Scope) -> Iterator[Finding]:
 
 
 @register_rule(Rule("RS0452", "Enum wider than its bit field", "A code that the bits cannot spell never occurs."))
-def enum_wider_than_field(register: Register, _: Scope) -> Iterator[Finding]:
+def enum_wider_than_field(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare the codes of each field's enum with its width."""
     for bits in register.fields:
         outside = [m.code for m in bits.enum.members if not 0 <= m.code < 1 << bits.width] if bits.enum else []
@@ -43,7 +43,7 @@ def enum_wider_than_field(register: Register, _: Scope) -> Iterator[Finding]:
 
 
 @register_rule(Rule("RS0453", "Bit fields of one name", "Two bits of one id or label cannot be told apart."))
-def bits_of_one_name(register: Register, _: Scope) -> Iterator[Finding]:
+def bits_of_one_name(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare ids and labels of the fields of a word."""
     for one, other in combinations(register.fields, 2):
         same_label = one.label and one.label.casefold() == other.label.casefold()
@@ -59,7 +59,7 @@ def bits_of_one_name(register: Register, _: Scope) -> Iterator[Finding]:
         "A driver writes no bit that has no name, so it could never write this default.",
     )
 )
-def default_of_no_name(register: Register, _: Scope) -> Iterator[Finding]:
+def default_of_no_name(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare the bits of a default with the flags; a device may be delivered with more of them set."""
     if register.kind is not Kind.FLAGS or not isinstance(register.default, Fraction):
         return

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from operator import attrgetter
 
 from regscribe.checks.addresses import LAST_ADDRESS, Stretch, stretches
-from regscribe.checks.registry import Finding, Scope, model_rule
+from regscribe.checks.rule import Finding, RuleScope, model_rule
 from regscribe.model import WRITE_FUNCTIONS, Command, Register, Related, Rule, Space, Step, View
 
 ONE_VALUE = (5, 6)
@@ -13,7 +13,7 @@ LONGEST = 125
 """Words of the longest value: no request reads more."""
 
 
-def requests(scope: Scope) -> Iterator[tuple[Command, Step]]:
+def requests(scope: RuleScope) -> Iterator[tuple[Command, Step]]:
     """All steps of a model that are requests, with their commands."""
     for command in scope.model.commands:
         yield from ((command, step) for step in command.steps if step.words)
@@ -23,7 +23,7 @@ def _at(command: Command, message: str, help_text: str, *related: Related) -> Fi
     return Finding(command.id, command.span, f"command `{command.id}` {message}", help_text, related)
 
 
-def _stretches(space: Space, scope: Scope) -> list[Stretch]:
+def _stretches(space: Space, scope: RuleScope) -> list[Stretch]:
     """The stretches of a space in the order of their addresses; sorted once for a model."""
     key = ("stretches", space)
     if key not in scope.memo:
@@ -37,7 +37,7 @@ def _last(step: Step) -> int:
     return step.address + len(step.words) - 1
 
 
-def touched(step: Step, scope: Scope) -> Iterator[Stretch]:
+def touched(step: Step, scope: RuleScope) -> Iterator[Stretch]:
     """The stretches of registers that a step writes to, in whole or in part."""
     last = _last(step)
     every = _stretches(step.space, scope)
@@ -50,7 +50,7 @@ def touched(step: Step, scope: Scope) -> Iterator[Stretch]:
             yield stretch
 
 
-def _around(step: Step, scope: Scope) -> Iterator[View]:
+def _around(step: Step, scope: RuleScope) -> Iterator[View]:
     """A view of each rule for the region in which a step begins; the device knows these rules before any register."""
     if "regions" not in scope.memo:
         views = (view for register in scope.model.registers for view in register.views if view.region)
@@ -65,7 +65,7 @@ def _around(step: Step, scope: Scope) -> Iterator[View]:
 @model_rule(
     Rule("RS0478", "Command writes a read-only register", "The device refuses it: address or access was misread.")
 )
-def step_on_read_only(scope: Scope) -> Iterator[Finding]:
+def step_on_read_only(scope: RuleScope) -> Iterator[Finding]:
     """Look at the access of every register that a step touches."""
     for command, step in requests(scope):
         for stretch in touched(step, scope):
@@ -79,7 +79,7 @@ def step_on_read_only(scope: Scope) -> Iterator[Finding]:
 @model_rule(
     Rule("RS0637", "Command by a function that a view does not allow", "The device refuses it, as it would a driver.")
 )
-def step_by_another_function(scope: Scope) -> Iterator[Finding]:
+def step_by_another_function(scope: RuleScope) -> Iterator[Finding]:
     """Compare the function of a step with those of the views that it touches."""
     for command, step in requests(scope):
         for stretch in touched(step, scope):
@@ -104,7 +104,7 @@ def step_by_another_function(scope: Scope) -> Iterator[Finding]:
         "Commands may go to addresses of no register, but not to reserved or unused ones, nor to a part of a value.",
     )
 )
-def step_into_the_middle(scope: Scope) -> Iterator[Finding]:
+def step_into_the_middle(scope: RuleScope) -> Iterator[Finding]:
     """Compare the addresses of a step with the ends of the space, with reserved ones, and with those of values."""
     for command, step in requests(scope):
         first, last = step.address, _last(step)
@@ -145,7 +145,7 @@ def _values_in_part(command: Command, step: Step, found: list[Stretch]) -> Itera
 @model_rule(
     Rule("RS0480", "Command longer than a request", "A step is one request; the device refuses or ignores longer ones.")
 )
-def step_too_long(scope: Scope) -> Iterator[Finding]:
+def step_too_long(scope: RuleScope) -> Iterator[Finding]:
     """Compare the words of a step with the limit, and with the one of functions 05 and 06."""
     protocol = scope.register_map.protocol
     for command, step in requests(scope):
@@ -161,7 +161,7 @@ def step_too_long(scope: Scope) -> Iterator[Finding]:
         "RS0481", "Command by a function that the device lacks", "The device answers such a request with an exception."
     )
 )
-def step_function(scope: Scope) -> Iterator[Finding]:
+def step_function(scope: RuleScope) -> Iterator[Finding]:
     """Compare the function of a step with those of the protocol and with those that write its space."""
     has = scope.register_map.protocol.functions
     for command, step in requests(scope):
@@ -177,7 +177,7 @@ def step_function(scope: Scope) -> Iterator[Finding]:
 @model_rule(
     Rule("RS0650", "Command with words that are no bits", "A coil is 1 (on) or 0 (off), whatever is sent for it.")
 )
-def step_of_no_bits(scope: Scope) -> Iterator[Finding]:
+def step_of_no_bits(scope: RuleScope) -> Iterator[Finding]:
     """Look for other numbers than 0 and 1 in steps that write coils."""
     for command, step in requests(scope):
         strange = [word for word in step.words if step.space.is_bits and word not in {0, 1}]
@@ -187,7 +187,7 @@ def step_of_no_bits(scope: Scope) -> Iterator[Finding]:
 
 
 @model_rule(Rule("RS0485", "Command without a request", "A command that sends nothing does nothing."))
-def no_request(scope: Scope) -> Iterator[Finding]:
+def no_request(scope: RuleScope) -> Iterator[Finding]:
     """Find commands that have no steps but waits."""
     for command in scope.model.commands:
         if not any(step.words for step in command.steps):

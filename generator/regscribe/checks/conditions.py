@@ -3,15 +3,15 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from regscribe.checks.registry import MAP, Finding, Scope, map_rule, warning
-from regscribe.checks.worlds import Verdict, verdict
+from regscribe.checks.probe_states import Verdict, verdict
+from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule, warning
 from regscribe.model import Condition, Identity, Kind, OrderFromRegister, Register, Rule, Span
 
 Ask = tuple[Condition, ...]
 
 
 @dataclass(slots=True)
-class Asked:
+class AskedSubject:
     """The conditions of one set of cases: who has them first, what they decide, and the verdict over all models.
 
     `faulty`: whatever has them can report a fault, which needs no scale.
@@ -32,7 +32,7 @@ def _cases_of(register: Register) -> Iterator[tuple[str, Ask]]:
         yield "condition for a write", (register.writable.when,)
 
 
-def _asked(scopes: tuple[Scope, ...]) -> list[tuple[Ask, Asked]]:
+def _asked(scopes: tuple[RuleScope, ...]) -> list[tuple[Ask, AskedSubject]]:
     """All sets of conditions of the map, each once: what can hold on one model can hold. Kept for all rules."""
     found = scopes[0].memo.setdefault("asked", [])
     if not isinstance(found, list):  # pragma: no cover (the key names what is kept)
@@ -42,13 +42,13 @@ def _asked(scopes: tuple[Scope, ...]) -> list[tuple[Ask, Asked]]:
     return found
 
 
-def _collected(scopes: tuple[Scope, ...]) -> list[tuple[Ask, Asked]]:
-    every: dict[tuple[str, Ask], Asked] = {}
+def _collected(scopes: tuple[RuleScope, ...]) -> list[tuple[Ask, AskedSubject]]:
+    every: dict[tuple[str, Ask], AskedSubject] = {}
     for scope in scopes:
         for register in scope.model.registers:
             for what, ask in _cases_of(register):
                 now = verdict(ask, scope)
-                asked = every.setdefault((what, ask), Asked(register.path, register.span, what, now))
+                asked = every.setdefault((what, ask), AskedSubject(register.path, register.span, what, now))
                 asked.found = _either(asked.found, now)
                 asked.faulty &= bool(register.sentinels)
     return [(ask, asked) for (_, ask), asked in every.items()]
@@ -74,7 +74,7 @@ def _shown(condition: Condition, place: int) -> str:
         "It asks for a code, or for codes at once, that the tested registers cannot have on any model.",
     )
 )
-def never_holds(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+def never_holds(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Try every condition in every state that it tells apart; each condition is reported once."""
     seen: set[Condition] = set()
     for ask, asked in _asked(scopes):
@@ -88,7 +88,7 @@ def never_holds(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
     yield from _identities(scopes)
 
 
-def _identities(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+def _identities(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     for identity in scopes[0].register_map.identity:
         mine = [scope for scope in scopes if scope.model.name in identity.models]
         unmet = [_unmet(identity, scope) for scope in mine]
@@ -97,7 +97,7 @@ def _identities(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
             yield Finding(MAP, mine[0].model.span, message, "compare the codes and texts with what the register can be")
 
 
-def _unmet(identity: Identity, scope: Scope) -> str:
+def _unmet(identity: Identity, scope: RuleScope) -> str:
     """Why a model never shows an identity; empty if it may."""
     asked = (*identity.when.registers, *(path for path, _ in identity.texts))
     for register in (scope.registers[path] for path in asked if path in scope.registers):
@@ -135,7 +135,7 @@ def _never_begins(register: Register, text: str) -> str:
 @map_rule(
     Rule("RS0471", "Case that is never reached", "The first case that holds counts, and an earlier one always does.")
 )
-def never_reached(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+def never_reached(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Find cases that can hold, but never first."""
     for ask, asked in _asked(scopes):
         for place in sorted(asked.found.possible - asked.found.reached):
@@ -146,7 +146,7 @@ def never_reached(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
 
 
 @map_rule(warning("RS0472", "States that no case covers", "In such a state a value can be neither read nor written."))
-def not_covered(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+def not_covered(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Look for a state in which none of the cases of a scale or a range holds; units may be absent."""
     seen: set[Ask] = set()
     for ask, asked in _asked(scopes):
@@ -161,7 +161,7 @@ def not_covered(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
 @map_rule(
     Rule("RS0473", "Given that nothing needs", "Users must find out every given; one that decides nothing is in vain.")
 )
-def given_unused(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+def given_unused(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Collect the givens of all conditions of all models."""
     used = {test.given for ask, _ in _asked(scopes) for condition in ask for test in condition.tests}
     for given in scopes[0].register_map.givens:

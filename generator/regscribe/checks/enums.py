@@ -4,13 +4,13 @@ import keyword
 from collections import defaultdict
 from collections.abc import Callable, Iterator
 
-from regscribe.checks.holding import no_member
+from regscribe.checks.held_values import no_member
 from regscribe.checks.identifiers import ENUM_NAMES, normalised
-from regscribe.checks.registry import Finding, Scope, model_rule, register_rule
+from regscribe.checks.rule import Finding, RuleScope, model_rule, register_rule
 from regscribe.model import Enum, Member, Register, Rule, WireType
 
 
-def enums_of(scope: Scope) -> Iterator[tuple[Register, str, Enum]]:
+def enums_of(scope: RuleScope) -> Iterator[tuple[Register, str, Enum]]:
     """Every enum of a model once: the first register that has it, the field if it is one's, the enum."""
     seen: set[int] = set()
     for register in scope.model.registers:
@@ -30,7 +30,7 @@ def _finding(register: Register, field: str, enum: Enum, message: str, help_text
 @register_rule(
     Rule("RS0440", "Enum code outside the type", "A code that the word cannot spell can never be read or written.")
 )
-def code_outside_type(register: Register, _: Scope) -> Iterator[Finding]:
+def code_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare the codes with the type of the base view."""
     if register.enum is None or not register.base.type.is_integer or register.base.type is WireType.STRING:
         return
@@ -59,7 +59,7 @@ def _codes(members: list[Member]) -> str:
 
 
 @model_rule(Rule("RS0441", "Label used twice in an enum", "Two codes of one meaning: one of them was misread."))
-def label_twice(scope: Scope) -> Iterator[Finding]:
+def label_twice(scope: RuleScope) -> Iterator[Finding]:
     """Compare labels without case and blanks."""
     for register, field, enum in enums_of(scope):
         for label, members in _together(enum, _label):
@@ -68,7 +68,7 @@ def label_twice(scope: Scope) -> Iterator[Finding]:
 
 
 @model_rule(Rule("RS0442", "Enum members of one id", "Labels that differ in signs only become one Python name."))
-def member_id_twice(scope: Scope) -> Iterator[Finding]:
+def member_id_twice(scope: RuleScope) -> Iterator[Finding]:
     """Compare ids without case and `_`; equal labels are RS0441's."""
     for register, field, enum in enums_of(scope):
         for name, members in _together(enum, lambda member: normalised(member.id)):
@@ -80,7 +80,7 @@ def member_id_twice(scope: Scope) -> Iterator[Finding]:
 @register_rule(
     Rule("RS0443", "Default is no member of the enum", "The device leaves the factory with a code that has a meaning.")
 )
-def default_no_member(register: Register, _: Scope) -> Iterator[Finding]:
+def default_no_member(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Look for the default among the codes of the register, and for its parts among those of the fields."""
     for what, value in register.beginnings:
         problem = no_member(register, value)
@@ -89,7 +89,7 @@ def default_no_member(register: Register, _: Scope) -> Iterator[Finding]:
 
 
 @model_rule(Rule("RS0444", "Enum without members", "A model on which no code is valid cannot have the register."))
-def no_members(scope: Scope) -> Iterator[Finding]:
+def no_members(scope: RuleScope) -> Iterator[Finding]:
     """Find enums that lost all members on this model."""
     for register, field, enum in enums_of(scope):
         if not enum.members:
@@ -104,7 +104,7 @@ def no_members(scope: Scope) -> Iterator[Finding]:
         "A cell without a column, or the reverse, says nothing certain.",
     )
 )
-def cells_of_columns(scope: Scope) -> Iterator[Finding]:
+def cells_of_columns(scope: RuleScope) -> Iterator[Finding]:
     """Count the cells of each member that has some."""
     for register, field, enum in enums_of(scope):
         for member in enum.members:
@@ -114,7 +114,7 @@ def cells_of_columns(scope: Scope) -> Iterator[Finding]:
 
 
 @model_rule(Rule("RS0445", "Member id is no Python name", "A member becomes an attribute of an IntEnum class."))
-def member_no_name(scope: Scope) -> Iterator[Finding]:
+def member_no_name(scope: RuleScope) -> Iterator[Finding]:
     """Refuse what is no identifier, a keyword, or a name that `enum` uses itself."""
     checks: tuple[Callable[[str], bool], ...] = (keyword.iskeyword, lambda name: name.upper() in ENUM_NAMES)
     for register, field, enum in enums_of(scope):

@@ -4,7 +4,7 @@ import keyword
 import re
 from collections.abc import Iterator
 
-from regscribe.checks.registry import Finding, Scope, model_rule, register_rule, warning
+from regscribe.checks.rule import Finding, RuleScope, model_rule, register_rule, warning
 from regscribe.model import Array, Enum, Kind, Register, Related, Rule, Span
 
 RUNTIME_NAMES = frozenset(
@@ -37,7 +37,7 @@ def camel(name: str) -> str:
     return "".join(part[:1].upper() + part[1:] for part in name.split("_"))
 
 
-def _named(scope: Scope) -> Iterator[tuple[str, str, Span]]:
+def _named(scope: RuleScope) -> Iterator[tuple[str, str, Span]]:
     """Every id that becomes an attribute: what it is, the id, where it stands; array members once."""
 
     def walk(members: tuple[Register | Array, ...]) -> Iterator[tuple[str, str, Span]]:
@@ -60,7 +60,7 @@ def _named(scope: Scope) -> Iterator[tuple[str, str, Span]]:
         "RS0410", "Id is no Python name", "An id becomes an attribute of the driver, so it must be a Python identifier."
     )
 )
-def not_a_name(scope: Scope) -> Iterator[Finding]:
+def not_a_name(scope: RuleScope) -> Iterator[Finding]:
     """Refuse keywords, and what is no identifier in lower case."""
     for what, name, span in _named(scope):
         if keyword.iskeyword(name) or keyword.issoftkeyword(name):
@@ -73,7 +73,7 @@ def not_a_name(scope: Scope) -> Iterator[Finding]:
 @model_rule(
     Rule("RS0411", "Id hides a name of the driver", "A register called `write` would replace the method `write`.")
 )
-def hides_runtime(scope: Scope) -> Iterator[Finding]:
+def hides_runtime(scope: RuleScope) -> Iterator[Finding]:
     """Refuse ids that a driver's class uses itself."""
     for what, name, span in _named(scope):
         if name in HIDDEN.get(what, ()):
@@ -82,7 +82,7 @@ def hides_runtime(scope: Scope) -> Iterator[Finding]:
 
 
 @model_rule(Rule("RS0412", "Id used twice", "Two things of one id cannot both be reached from the driver."))
-def id_twice(scope: Scope) -> Iterator[Finding]:
+def id_twice(scope: RuleScope) -> Iterator[Finding]:
     """Compare ids without `_`, among the registers and arrays of one owner, the groups and the commands."""
 
     def walk(members: tuple[Register | Array, ...], owner: str) -> Iterator[tuple[str, str, Span]]:
@@ -112,7 +112,7 @@ def _repeated(named: Iterator[tuple[str, str, Span]]) -> Iterator[Finding]:
 @model_rule(
     warning("RS0413", "Name used twice", "Readers tell registers apart by their names; equal names mislead them.")
 )
-def name_twice(scope: Scope) -> Iterator[Finding]:
+def name_twice(scope: RuleScope) -> Iterator[Finding]:
     """Compare names, letters and digits only, inside each group and each array."""
     seen: dict[tuple[str, str, str], Register] = {}
     for register in scope.model.registers:
@@ -128,7 +128,7 @@ def name_twice(scope: Scope) -> Iterator[Finding]:
 @model_rule(
     Rule("RS0414", "Class name used twice", "Models and enums become classes of one module; each needs its own name.")
 )
-def class_twice(scope: Scope) -> Iterator[Finding]:
+def class_twice(scope: RuleScope) -> Iterator[Finding]:
     """Compare the classes of all models (sync and async) and of the enums of this one."""
     taken: dict[str, tuple[str, Span]] = {}
     for model in scope.register_map.models[: scope.register_map.models.index(scope.model)]:
@@ -144,7 +144,7 @@ def class_twice(scope: Scope) -> Iterator[Finding]:
             yield Finding(subject, span, message, "give one another id (a model: `class`)", related)
 
 
-def _enums(scope: Scope) -> Iterator[Enum]:
+def _enums(scope: RuleScope) -> Iterator[Enum]:
     """Every enum object once; hashing them by value would cost more than all the rest."""
     seen: set[int] = set()
     for register in scope.model.registers:
@@ -154,14 +154,14 @@ def _enums(scope: Scope) -> Iterator[Enum]:
                 yield enum
 
 
-def _classes(scope: Scope) -> tuple[str, str]:
+def _classes(scope: RuleScope) -> tuple[str, str]:
     return scope.model.class_name, f"Async{scope.model.class_name}"
 
 
 @register_rule(
     warning("RS0415", "Description repeats the name", "A description that says no more than the name wastes a line.")
 )
-def description_is_name(register: Register, _: Scope) -> Iterator[Finding]:
+def description_is_name(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare both, letters and digits only."""
     if register.description and normalised(register.description) == normalised(register.name):
         yield Finding.at(register, "is described by its own name", "say what it does, or remove `description`")

@@ -3,18 +3,8 @@
 from collections import Counter
 from collections.abc import Iterator
 
-from regscribe.checks.registry import Finding, Scope, model_rule
-from regscribe.model import (
-    Kind,
-    Limit,
-    Number,
-    ProgramCounts,
-    Register,
-    Related,
-    Rule,
-    SetpointProgram,
-    numbered,
-)
+from regscribe.checks.rule import Finding, RuleScope, model_rule
+from regscribe.model import Kind, Limit, Number, ProgramCounts, Register, Related, Rule, SetpointProgram, numbered
 
 NUMBERS = frozenset({Kind.NUMBER, Kind.INTEGER, Kind.RAW})
 WHOLE = frozenset({Kind.INTEGER, Kind.RAW})
@@ -60,7 +50,7 @@ def _watched(program: SetpointProgram) -> Iterator[Role]:
     yield from (("setpoint_limits", path, NUMBERS) for path in program.setpoint_limits or ())
 
 
-def _register(path: str, program: SetpointProgram, scope: Scope) -> Register | None:
+def _register(path: str, program: SetpointProgram, scope: RuleScope) -> Register | None:
     """The register of the first program and its first segment, which stands for those of all others."""
     return scope.registers.get(numbered(path, program.numbers[0], program.segments.first)) if path else None
 
@@ -76,7 +66,7 @@ def _here(register: Register) -> Related:
 @model_rule(
     Rule("RS0408", "Program in registers that cannot be written", "A program is written, and read back to be verified.")
 )
-def not_writable(scope: Scope) -> Iterator[Finding]:
+def not_writable(scope: RuleScope) -> Iterator[Finding]:
     """Look at the access of all registers that a program names."""
     for program in scope.model.programs:
         for role, path, _ in (*_written(program), *_acting(program)):
@@ -96,7 +86,7 @@ def not_writable(scope: Scope) -> Iterator[Finding]:
         "RS0409", "Program in registers of the wrong kind", "A setpoint is a number, and a state is one of some codes."
     )
 )
-def wrong_kind(scope: Scope) -> Iterator[Finding]:
+def wrong_kind(scope: RuleScope) -> Iterator[Finding]:
     """Compare the kind of each register with what it is in the program."""
     for program in scope.model.programs:
         for role, path, kinds in (*_written(program), *_acting(program), *_watched(program)):
@@ -110,7 +100,7 @@ def wrong_kind(scope: Scope) -> Iterator[Finding]:
 @model_rule(
     Rule("RS0416", "State of a program not told apart", "In every state a program runs, is held or does neither.")
 )
-def states(scope: Scope) -> Iterator[Finding]:
+def states(scope: RuleScope) -> Iterator[Finding]:
     """Compare the codes of the states with the members of the register that tells them."""
     for program in scope.model.programs:
         status = program.status
@@ -129,7 +119,7 @@ def states(scope: Scope) -> Iterator[Finding]:
 @model_rule(
     Rule("RS0417", "Times of a program without a unit", "Thirty seconds and thirty hours are not the same program.")
 )
-def times(scope: Scope) -> Iterator[Finding]:
+def times(scope: RuleScope) -> Iterator[Finding]:
     """Look for the unit of each time: its own, or one for every member of the register that sets it."""
     for program in scope.model.programs:
         unit = program.time_unit
@@ -152,7 +142,7 @@ def times(scope: Scope) -> Iterator[Finding]:
         "RS0418", "More segments than there are", "A number of segments beyond the last one was misread, or the array."
     )
 )
-def too_many(scope: Scope) -> Iterator[Finding]:
+def too_many(scope: RuleScope) -> Iterator[Finding]:
     """Compare the range of the number of segments with the array."""
     for program in scope.model.programs:
         register = _register(program.count, program, scope)

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import fields
 
-from regscribe.checks.registry import MAP, Finding, Scope, map_rule, warning
+from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule, warning
 from regscribe.model import SILENCE, Protocol, RegisterMap, Rule
 
 READS = frozenset({1, 2, 3, 4, 7, 11, 12, 17, 20, 24})
@@ -16,14 +16,14 @@ MOST = {"read_words": 125, "write_words": 123, "read_bits": 2000, "write_bits": 
 """What fits a Modbus frame of 256 bytes (application protocol V1.1b3, 6.1 to 6.16)."""
 
 
-def _the_map(scopes: tuple[Scope, ...]) -> tuple[RegisterMap, Protocol]:
+def _the_map(scopes: tuple[RuleScope, ...]) -> tuple[RegisterMap, Protocol]:
     return scopes[0].register_map, scopes[0].register_map.protocol
 
 
 @map_rule(
     warning("RS0486", "Fault without a meaning", "An exception reaches the user with the device's own meaning of it.")
 )
-def fault_without_meaning(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+def fault_without_meaning(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Compare the codes of the faults with the exceptions, if the map lists any."""
     register_map, protocol = _the_map(scopes)
     known = {exception.code for exception in protocol.exceptions} | {SILENCE}
@@ -37,7 +37,7 @@ def fault_without_meaning(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
 @map_rule(
     Rule("RS0690", "Accepted limit that is no more than the limit", "What a device accepts beyond its limits is more.")
 )
-def accepts(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+def accepts(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Compare `protocol.accepts` with `protocol.limits`."""
     register_map, protocol = _the_map(scopes)
     for limit, most in protocol.accepts:
@@ -49,7 +49,7 @@ def accepts(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
 @map_rule(
     Rule("RS0488", "Unit ids that cannot be", "A unit id is 1 to 255 (0 broadcasts); the default is one of them.")
 )
-def unit_ids(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+def unit_ids(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Look at both ends and at the default."""
     register_map, protocol = _the_map(scopes)
     low, high = protocol.unit_ids
@@ -64,7 +64,7 @@ def unit_ids(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
 @map_rule(
     Rule("RS0489", "Latency that cannot be", "A latency belongs to a function that the device has, and is a time.")
 )
-def latency(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+def latency(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Look at the function and the ends of every latency."""
     register_map, protocol = _the_map(scopes)
     for one in protocol.latencies:
@@ -78,7 +78,7 @@ def latency(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
 
 
 @map_rule(Rule("RS0490", "Function that cannot be broadcast", "Nobody answers a broadcast, so it can only be a write."))
-def broadcast(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+def broadcast(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Compare the broadcast functions with the supported ones and with those that need an answer."""
     register_map, protocol = _the_map(scopes)
     for code in protocol.broadcast:
@@ -93,7 +93,7 @@ def broadcast(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
         "RS0492", "Functions alike that cannot be", "Each function of the device does one thing, alone or like others."
     )
 )
-def alike(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+def alike(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Look for functions that the device lacks, and for those that stand in two lists."""
     register_map, protocol = _the_map(scopes)
     every = [code for codes in protocol.alike for code in codes]
@@ -107,7 +107,7 @@ def alike(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
 @map_rule(
     Rule("RS0491", "Default of the serial line is not offered", "The default is one of the speeds and formats listed.")
 )
-def serial_default(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+def serial_default(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Compare the default speed and format with the lists."""
     register_map, protocol = _the_map(scopes)
     line = protocol.serial
@@ -128,7 +128,7 @@ def serial_default(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
         "RTU sends bytes of 8 bits; 7 carry ASCII alone (Modbus over serial line V1.02, 2.5.1).",
     )
 )
-def too_short_for_rtu(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+def too_short_for_rtu(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Look for formats of 7 data bits where the line has no other mode than RTU."""
     register_map, protocol = _the_map(scopes)
     line = protocol.serial

@@ -3,12 +3,12 @@
 from collections import Counter
 from collections.abc import Iterator
 
-from regscribe.checks.registry import MAP, Finding, Scope, map_rule, register_rule, warning
+from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule, register_rule, warning
 from regscribe.model import Condition, Register, Rule
 
 
 @map_rule(Rule("RS0494", "Models not told apart", "`identify` says for every model, once, how it answers."))
-def identification(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+def identification(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Count models and conditions of the identification, if the map has one."""
     register_map = scopes[0].register_map
     conditions: set[tuple[Condition, tuple[tuple[str, str], ...]]] = set()
@@ -29,7 +29,7 @@ def identification(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
 @register_rule(
     warning("RS0495", "Register without section", "A reader must be able to look every value up in the manual.")
 )
-def no_section(register: Register, _: Scope) -> Iterator[Finding]:
+def no_section(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Look at the section, inherited from the group or its own."""
     if not register.section:
         yield Finding.at(register, "does not say where the manual describes it", "add `source` here or at its group")
@@ -40,7 +40,7 @@ def no_section(register: Register, _: Scope) -> Iterator[Finding]:
         "RS0496", "Manual not identified", "Makers reissue manuals: number or date tells which one was transcribed."
     )
 )
-def manual_not_identified(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+def manual_not_identified(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Look for the number or the date."""
     register_map = scopes[0].register_map
     if not (register_map.manual.number.strip() or register_map.manual.date.strip()):
@@ -49,7 +49,7 @@ def manual_not_identified(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
 
 
 @map_rule(Rule("RS0498", "Erratum or given that does not say enough", "A blank reason cannot be judged by a reviewer."))
-def blank_reasons(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+def blank_reasons(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Look for blank texts."""
     register_map = scopes[0].register_map
     for erratum in register_map.errata:

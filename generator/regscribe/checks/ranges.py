@@ -3,10 +3,10 @@
 from collections.abc import Iterator
 from itertools import pairwise
 
-from regscribe.checks.carrying import forms, values_of
-from regscribe.checks.registry import Finding, Scope, register_rule
+from regscribe.checks.representable import forms, values_of
+from regscribe.checks.rule import Finding, RuleScope, register_rule
 from regscribe.model import Number, Register, Rule, Sentinel, Special, show
-from regscribe.model.reference import RefusedError, UnknownValueError, choose, limits
+from regscribe.reference import RefusedError, UnknownValueError, choose, limits
 
 
 @register_rule(
@@ -14,7 +14,7 @@ from regscribe.model.reference import RefusedError, UnknownValueError, choose, l
         "RS0435", "Range that is empty at the defaults", "A device is not shipped so that nothing can be written to it."
     )
 )
-def empty(register: Register, scope: Scope) -> Iterator[Finding]:
+def empty(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """Compare the ends of each interval with all other registers at their defaults; skip what cannot be known."""
     try:
         now = choose(register.range, scope.defaults)
@@ -30,7 +30,7 @@ def empty(register: Register, scope: Scope) -> Iterator[Finding]:
 @register_rule(
     Rule("RS0436", "Intervals of a range overlap", "Parts of a union are apart; where they touch, one end was misread.")
 )
-def intervals_overlap(register: Register, _: Scope) -> Iterator[Finding]:
+def intervals_overlap(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare each interval of a union with the one above it."""
     for case in register.range:
         known = [
@@ -47,7 +47,7 @@ def intervals_overlap(register: Register, _: Scope) -> Iterator[Finding]:
 @register_rule(
     Rule("RS0437", "Special values not told apart", "Two special values of one code, id or label cannot both be meant.")
 )
-def specials_twice(register: Register, _: Scope) -> Iterator[Finding]:
+def specials_twice(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare codes, ids and labels of special values."""
     seen: dict[tuple[str, object], Special] = {}
     for one in register.specials:
@@ -62,7 +62,7 @@ def specials_twice(register: Register, _: Scope) -> Iterator[Finding]:
 
 
 @register_rule(Rule("RS0438", "Sentinels not told apart", "Two faults of one number or id cannot both be reported."))
-def sentinels_twice(register: Register, _: Scope) -> Iterator[Finding]:
+def sentinels_twice(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare numbers and ids of sentinels."""
     seen: dict[tuple[str, object], Sentinel] = {}
     for one in register.sentinels:
@@ -77,7 +77,7 @@ def sentinels_twice(register: Register, _: Scope) -> Iterator[Finding]:
 @register_rule(
     Rule("RS0439", "Special value is a fault too", "One number cannot be both a setting and the report of a fault.")
 )
-def special_is_sentinel(register: Register, _: Scope) -> Iterator[Finding]:
+def special_is_sentinel(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare sentinels with the stored number of each special value, under every scale."""
     faults = {sentinel.stored for sentinel in register.sentinels}
     every = forms(register)
@@ -95,7 +95,7 @@ def special_is_sentinel(register: Register, _: Scope) -> Iterator[Finding]:
         "A number that one special value stands for cannot be the code of another, nor what another stands for.",
     )
 )
-def meant_by_two(register: Register, _: Scope) -> Iterator[Finding]:
+def meant_by_two(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare what special values stand for with each other, and with the codes of those that stand for nothing."""
     for place, special in enumerate(register.specials):
         if special.means is None:

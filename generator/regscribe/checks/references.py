@@ -3,19 +3,9 @@
 from collections.abc import Iterator
 from fractions import Fraction
 
-from regscribe.checks.domains import domain
-from regscribe.checks.registry import Finding, Scope, model_rule, register_rule
-from regscribe.model import (
-    Kind,
-    Order,
-    OrderFromRegister,
-    Reference,
-    Register,
-    Related,
-    Rule,
-    registers_of,
-    show,
-)
+from regscribe.checks.probe_values import domain
+from regscribe.checks.rule import Finding, RuleScope, model_rule, register_rule
+from regscribe.model import Kind, Order, OrderFromRegister, Reference, Register, Related, Rule, registers_of, show
 
 WHOLE = {Kind.INTEGER, Kind.RAW, Kind.ENUM, Kind.BOOLEAN}
 CODES_LISTED = 64
@@ -67,7 +57,7 @@ def _limits(register: Register) -> Iterator[str]:
         "It is read before the first long value, so it must be one whole word of an order that does not depend on it.",
     )
 )
-def order_register(register: Register, scope: Scope) -> Iterator[Finding]:
+def order_register(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """The register must be a whole number or an enum with a single integer view."""
     for view in register.views:
         if not isinstance(view.word_order, OrderFromRegister):
@@ -83,21 +73,21 @@ def order_register(register: Register, scope: Scope) -> Iterator[Finding]:
 
 
 @model_rule(Rule("RS0462", "Registers need each other", "A value that needs itself to be decoded can never be read."))
-def circle(scope: Scope) -> Iterator[Finding]:
+def circle(scope: RuleScope) -> Iterator[Finding]:
     """Walk what registers need to be read (scale, decimals, word order); each circle is reported once."""
     done: set[str] = set()
     for start in scope.registers:
         yield from (_circular(ring, scope) for ring in _rings(start, done, scope))
 
 
-def _circular(ring: list[str], scope: Scope) -> Finding:
+def _circular(ring: list[str], scope: RuleScope) -> Finding:
     register = min((scope.registers[name] for name in ring), key=lambda one: one.span)
     place = ring.index(register.path)
     chain = " needs ".join(f"`{name}`" for name in (*ring[place:], *ring[:place], register.path))
     return Finding(register.path, register.span, chain, "make one of them independent of the others")
 
 
-def _rings(start: str, done: set[str], scope: Scope) -> Iterator[list[str]]:
+def _rings(start: str, done: set[str], scope: RuleScope) -> Iterator[list[str]]:
     """Circles that are met on the way from `start`: depth first, on a stack of our own (chains may be long)."""
     if start in done:
         return
@@ -116,14 +106,14 @@ def _rings(start: str, done: set[str], scope: Scope) -> Iterator[list[str]]:
             turns.append(_others(name, scope))
 
 
-def _others(name: str, scope: Scope) -> Iterator[str]:
+def _others(name: str, scope: RuleScope) -> Iterator[str]:
     return iter(dict.fromkeys(path for path, _ in needed(scope.registers[name])))
 
 
 @register_rule(
     Rule("RS0463", "Needed register cannot be read", "A value that decides must be readable, or it is never known.")
 )
-def unreadable(register: Register, scope: Scope) -> Iterator[Finding]:
+def unreadable(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """Look at the access of every register that this one needs."""
     for path, why in dict.fromkeys((*needed(register), *limiting(register))):
         other = scope.registers.get(path)
@@ -135,7 +125,7 @@ def unreadable(register: Register, scope: Scope) -> Iterator[Finding]:
 @register_rule(
     Rule("RS0464", "Decimals from a register that is no whole number", "A number of decimals is 0, 1, 2 ...")
 )
-def decimals_register(register: Register, scope: Scope) -> Iterator[Finding]:
+def decimals_register(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """The register must be of a whole kind, and not below 0."""
     for path in dict.fromkeys((*_decimals(register), *_places(register), *_range_decimals(register))):
         other = scope.registers.get(path)
@@ -151,7 +141,7 @@ def decimals_register(register: Register, scope: Scope) -> Iterator[Finding]:
 @register_rule(
     Rule("RS0465", "Limit from a register that is no number", "A code or a text has no size to compare with.")
 )
-def limit_register(register: Register, scope: Scope) -> Iterator[Finding]:
+def limit_register(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """The registers that limits name must be numbers."""
     for path in dict.fromkeys(_limits(register)):
         other = scope.registers.get(path)
@@ -163,7 +153,7 @@ def limit_register(register: Register, scope: Scope) -> Iterator[Finding]:
 @register_rule(
     Rule("RS0466", "Word order not stated for a code", "With that code set, no long value could be read or written.")
 )
-def order_codes(register: Register, scope: Scope) -> Iterator[Finding]:
+def order_codes(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """Compare the codes of a word order with the members or the range of the register it comes from."""
     for view in register.views:
         if not isinstance(view.word_order, OrderFromRegister):

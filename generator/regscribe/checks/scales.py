@@ -3,14 +3,14 @@
 from collections.abc import Iterator
 from fractions import Fraction
 
-from regscribe.checks.carrying import Fit, Form, best_fit, end_values, forms, listed, numbers
-from regscribe.checks.holding import too_fine, wrong_sort
-from regscribe.checks.registry import Finding, Scope, register_rule
+from regscribe.checks.held_values import too_fine, wrong_sort
+from regscribe.checks.representable import Fit, Form, best_fit, end_values, forms, listed, numbers
+from regscribe.checks.rule import Finding, RuleScope, register_rule
 from regscribe.model import Kind, Register, Rule
 
 
 @register_rule(Rule("RS0430", "Scale of zero", "A factor of 0 makes every value the same and can never be undone."))
-def scale_of_zero(register: Register, _: Scope) -> Iterator[Finding]:
+def scale_of_zero(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Look at the factor of every case and every view."""
     if any(case.then.multiply == 0 for case in register.scale):
         yield Finding.at(register, "has a scale that multiplies by 0", "correct `multiply`, or `from` and `to`")
@@ -26,7 +26,7 @@ def scale_of_zero(register: Register, _: Scope) -> Iterator[Finding]:
         "A program reads numbers as floats of 64 bits; what these cannot tell apart, or hold, was misread.",
     )
 )
-def beyond_a_float(register: Register, _: Scope) -> Iterator[Finding]:
+def beyond_a_float(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Look for two stored numbers that are two floats, under every scale."""
     for form in forms(register) if register.kind in {Kind.NUMBER, Kind.INTEGER, Kind.RAW} else ():
         if len({_as_float(form, stored) for stored in (*_ends(register), 0, 1)} - {None}) <= 1:
@@ -53,7 +53,7 @@ def _as_float(form: Form, stored: int) -> float | None:
         "A default or limit between two steps can never be read or written: a decimal is missing, or one too many.",
     )
 )
-def between_steps(register: Register, _scope: Scope) -> Iterator[Finding]:
+def between_steps(register: Register, _scope: RuleScope) -> Iterator[Finding]:
     """Try the default and the numeric limits in every view under every scale."""
     fine = [
         value

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from regscribe.checks.addresses import stretches
-from regscribe.checks.registry import Finding, Scope, map_rule, model_rule, register_rule
+from regscribe.checks.rule import Finding, RuleScope, map_rule, model_rule, register_rule
 from regscribe.model import READ_FUNCTIONS, WRITE_FUNCTIONS, Register, Related, Rule, Space, View
 
 Shape = tuple[object, ...]
@@ -12,7 +12,7 @@ Region = tuple[Space, str, int, int]
 """Where the views of one name stand: their space, their name, the first and the last address."""
 
 
-def view_sets(scopes: tuple[Scope, ...]) -> Iterator[Register]:
+def view_sets(scopes: tuple[RuleScope, ...]) -> Iterator[Register]:
     """One register for each view set of the map: registers whose views differ in their addresses only count once."""
     seen: set[Shape] = set()
     for scope in scopes:
@@ -23,7 +23,7 @@ def view_sets(scopes: tuple[Scope, ...]) -> Iterator[Register]:
                 yield register
 
 
-def regions(scope: Scope) -> dict[Region, Register]:
+def regions(scope: RuleScope) -> dict[Region, Register]:
     """The regions of a model, each with the first register that has it; view sets that state one alike share it."""
     found: dict[Region, Register] = {}
     for register in scope.model.registers:
@@ -38,7 +38,7 @@ def _is_aligned(view: View) -> bool:
 
 
 @register_rule(Rule("RS0455", "View outside its region", "The manual gives each kind of view its own addresses."))
-def outside_region(register: Register, _: Scope) -> Iterator[Finding]:
+def outside_region(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare the first and the last address of each view, and of the aliases of the base view, with its region."""
     for stretch in stretches(register):
         region = stretch.view.region
@@ -51,7 +51,7 @@ def outside_region(register: Register, _: Scope) -> Iterator[Finding]:
 @model_rule(
     Rule("RS0660", "Register in the region of a view", "Nothing else stands where a view has addresses of its own.")
 )
-def in_a_region(scope: Scope) -> Iterator[Finding]:
+def in_a_region(scope: RuleScope) -> Iterator[Finding]:
     """Compare what has no region of its own with all regions; RS0455 and RS0457 keep those that have one apart."""
     every = regions(scope)
     for register in scope.model.registers:
@@ -66,7 +66,7 @@ def in_a_region(scope: Scope) -> Iterator[Finding]:
 @register_rule(
     Rule("RS0456", "Misaligned view", "The device refuses an address or a number of words that splits a value.")
 )
-def misaligned(register: Register, _: Scope) -> Iterator[Finding]:
+def misaligned(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Divide the address and the words of each view by its alignment."""
     for view in register.views:
         if not _is_aligned(view):
@@ -75,7 +75,7 @@ def misaligned(register: Register, _: Scope) -> Iterator[Finding]:
 
 
 @model_rule(Rule("RS0457", "View regions overlap", "An address in two regions would have two meanings."))
-def regions_overlap(scope: Scope) -> Iterator[Finding]:
+def regions_overlap(scope: RuleScope) -> Iterator[Finding]:
     """Compare all regions of the model in pairs."""
     for (one, register), (other, owner) in combinations(regions(scope).items(), 2):
         (space, name, low, high), (other_space, other_name, first, last) = one, other
@@ -88,7 +88,7 @@ def regions_overlap(scope: Scope) -> Iterator[Finding]:
 @register_rule(
     Rule("RS0458", "Value longer than a request", "A value that does not fit one request can never be read whole.")
 )
-def longer_than_request(register: Register, scope: Scope) -> Iterator[Finding]:
+def longer_than_request(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """Compare the words of each view with the limits of the protocol."""
     protocol = scope.register_map.protocol
     for view in register.views:
@@ -107,7 +107,7 @@ def longer_than_request(register: Register, scope: Scope) -> Iterator[Finding]:
 @register_rule(
     Rule("RS0459", "View by a function that the device lacks", "Only a function that the device supports can reach it.")
 )
-def unsupported_function(register: Register, scope: Scope) -> Iterator[Finding]:
+def unsupported_function(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """Compare the functions of each view with the protocol's."""
     has = scope.register_map.protocol.functions
     for view in register.views:
@@ -125,7 +125,7 @@ _OTHERS = {Space.HOLDING: (22, 23)}
 @register_rule(
     Rule("RS0635", "View by a function of another space", "A function code reads or writes in one space only.")
 )
-def function_of_another_space(register: Register, _: Scope) -> Iterator[Finding]:
+def function_of_another_space(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare the functions of each view with those of its space."""
     for view in register.views:
         known = (READ_FUNCTIONS[view.space], *WRITE_FUNCTIONS.get(view.space, ()), *_OTHERS.get(view.space, ()))
@@ -137,7 +137,7 @@ def function_of_another_space(register: Register, _: Scope) -> Iterator[Finding]
 
 
 @map_rule(Rule("RS0460", "More than one preferred view", "A driver uses one view unless told otherwise."))
-def preferred_twice(scopes: tuple[Scope, ...]) -> Iterator[Finding]:
+def preferred_twice(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Count the preferred views of each view set, once."""
     for register in view_sets(scopes):
         names = [view.name for view in register.views if view.preferred]

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterator
 
-from regscribe.checks.registry import Finding, warning
+from regscribe.checks.rule import Finding, warning
 from regscribe.model import RegisterMap, Rule, Waiver
 
 NOTHING_WAIVED = warning("RS0467", "Waiver that waives nothing", "What it excused is gone; it would hide the next one.")

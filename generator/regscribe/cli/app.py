@@ -73,7 +73,7 @@ class LazyCommands(click.Group):
         """Import one command; None if there is none of that name."""
         if cmd_name not in COMMANDS:
             return None
-        command: click.Command = import_module(f"regscribe.cli.{cmd_name}").command
+        command: click.Command = import_module(f"regscribe.cli.commands.{cmd_name}").command
         return command
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002 - click's

@@ -7,14 +7,14 @@ which each value still knows the file that it stands in. A map that stands alone
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from regscribe.compose.extension import extended
-from regscribe.compose.findings import Findings
+from regscribe.compose.extend import extended
+from regscribe.compose.file_loader import ENDINGS, LIBRARY, MAP, FileLoader, LoadedFile, folder_of
+from regscribe.compose.findings import ComposeFindings
 from regscribe.compose.libraries import as_map, with_libraries
 from regscribe.compose.rules import CYCLE, OTHER_ID, RULES
-from regscribe.compose.shelf import ENDINGS, LIBRARY, MAP, File, Shelf, folder_of
 from regscribe.compose.tree import cut, elements, in_file, members, text
 from regscribe.model import Diagnostic, Override
-from regscribe.source import Document, Node
+from regscribe.source import Document, SourceNode
 
 __all__ = ["RULES", "Composed", "as_map", "compose", "is_library", "misplaced"]
 
@@ -52,9 +52,9 @@ class Composed:
 class _Part:
     """A map of the chain as far as it is composed, where it lies, and the libraries in it."""
 
-    root: Node
+    root: SourceNode
     path: Path
-    libraries: tuple[File, ...] = ()
+    libraries: tuple[LoadedFile, ...] = ()
     overrides: tuple[Override, ...] = ()
     base: Path | None = None
 
@@ -79,11 +79,11 @@ def compose(document: Document, path: Path) -> Composed:
     null = any(command.value is None for command in ((root.child("commands") or root).members or {}).values())
     if is_library(document) or not (null or any(root.child(key) for key in COMPOSING)):
         return Composed(document)
-    findings = Findings()
+    findings = ComposeFindings()
     root = in_file(root, document.name)
     about = root.child(MAP) or root
-    own = File(text(about.child("id")), path, root)
-    shelf = Shelf(folder_of(path, own.id), findings)
+    own = LoadedFile(text(about.child("id")), path, root)
+    shelf = FileLoader(folder_of(path, own.id), findings)
     part = _build(own, shelf, (own,))
     files = tuple(shelf.hashes.items())
     if part is None or findings.diagnostics:
@@ -104,11 +104,11 @@ def compose(document: Document, path: Path) -> Composed:
     )
 
 
-def _document(library: File, shelf: Shelf) -> Document:
+def _document(library: LoadedFile, shelf: FileLoader) -> Document:
     return Document(library.path.name, "", library.root.value, shelf.hashes[library.path], library.root)
 
 
-def _build(file: File, shelf: Shelf, chain: tuple[File, ...]) -> _Part | None:
+def _build(file: LoadedFile, shelf: FileLoader, chain: tuple[LoadedFile, ...]) -> _Part | None:
     """Compose one map of a chain of extensions, the deepest first; None if something that it needs is missing."""
     base = _base(file, shelf, chain)
     known = base.libraries if base else ()
@@ -126,7 +126,7 @@ def _build(file: File, shelf: Shelf, chain: tuple[File, ...]) -> _Part | None:
     return _Part(_plain(root), file.path, every, overrides, base.path)
 
 
-def _base(file: File, shelf: Shelf, chain: tuple[File, ...]) -> _Part | None:
+def _base(file: LoadedFile, shelf: FileLoader, chain: tuple[LoadedFile, ...]) -> _Part | None:
     node = file.root.child("extends")
     found = shelf.find(node, MAP, file) if node else None
     if node is None or found is None:
@@ -137,7 +137,7 @@ def _base(file: File, shelf: Shelf, chain: tuple[File, ...]) -> _Part | None:
     return _build(found, shelf, (*chain, found))
 
 
-def _refuse_cycle(found: File, shelf: Shelf, chain: tuple[File, ...]) -> None:
+def _refuse_cycle(found: LoadedFile, shelf: FileLoader, chain: tuple[LoadedFile, ...]) -> None:
     """Report the circle at the map that is compiled, with each further step of it."""
     names = " -> ".join([*(each.id for each in chain), found.id])
     steps = [(each.id, each.root.child("extends") or each.root) for each in chain]
@@ -147,7 +147,7 @@ def _refuse_cycle(found: File, shelf: Shelf, chain: tuple[File, ...]) -> None:
     )
 
 
-def _plain(root: Node) -> Node:
+def _plain(root: SourceNode) -> SourceNode:
     for key in COMPOSING:
         root = cut(root, key) if root.child(key) is not None else root
     return root

@@ -5,23 +5,23 @@ from dataclasses import dataclass, field
 from difflib import get_close_matches
 
 from regscribe.model import Diagnostic, Related
-from regscribe.source import Node, Place, shorten
+from regscribe.source import SourceNode, SourcePlace, shorten
 
 _LISTED = 12
 
 
 @dataclass(slots=True)
-class Findings:
+class ComposeFindings:
     """The diagnostics so far; every place knows its file."""
 
     diagnostics: list[Diagnostic] = field(default_factory=list)
 
-    def add(self, rule: str, message: str, place: Place, advice: str, *related: tuple[str, Place]) -> None:
+    def add(self, rule: str, message: str, place: SourcePlace, advice: str, *related: tuple[str, SourcePlace]) -> None:
         """Keep one, with the other parties."""
         others = tuple(Related(said, where.span("")) for said, where in related)
         self.diagnostics.append(Diagnostic(rule, message, place.span(""), advice, related=others))
 
-    def reason(self, rule: str, node: Node | None, subject: str) -> None:
+    def reason(self, rule: str, node: SourceNode | None, subject: str) -> None:
         """Refuse a reason of blanks."""
         if node is not None and not str(node.value).strip():
             self.add(rule, f"{subject} gives no reason", node.place, "say in your own words why the siblings differ")

@@ -1,18 +1,18 @@
 """Libraries: their names become names of the map, their commands, errata and notes come along."""
 
-from regscribe.compose.findings import Findings, meant
+from regscribe.compose.file_loader import LoadedFile
+from regscribe.compose.findings import ComposeFindings, meant
 from regscribe.compose.merge import TABLES, append, merge_notations, merge_protocol, merge_tables, replace
 from regscribe.compose.rules import LEAVES_NOTHING_OUT
-from regscribe.compose.shelf import File
 from regscribe.compose.tree import cut, edit, key_place, listing, mapping, members, put, scalar
-from regscribe.source import Document, Node
+from regscribe.source import Document, SourceNode
 
 _LISTS = ("errata", "notes")
 _WHOLE = ("process",)
 _MERGED = {*TABLES, *_LISTS, "notations", "protocol"}
 
 
-def with_libraries(root: Node, libraries: list[File], findings: Findings) -> Node:
+def with_libraries(root: SourceNode, libraries: list[LoadedFile], findings: ComposeFindings) -> SourceNode:
     """The map with all that its libraries hold, less the commands that it gives as null."""
     left_out = _left_out(root)
     below = mapping({}, {}, root.place)
@@ -35,18 +35,18 @@ def with_libraries(root: Node, libraries: list[File], findings: Findings) -> Nod
     return merged
 
 
-def _laid(below: Node, above: Node, findings: Findings, *, owner: str, advice: str) -> Node:
+def _laid(below: SourceNode, above: SourceNode, findings: ComposeFindings, *, owner: str, advice: str) -> SourceNode:
     below = merge_tables(below, above, findings, owner=owner, advice=advice)
     below = append(merge_notations(below, above, findings, owner=owner), above, _LISTS)
     protocol = merge_protocol(below.child("protocol"), above.child("protocol"))
     return below if protocol is None else put(below, "protocol", protocol, key_place(above, "protocol"))
 
 
-def _left_out(root: Node) -> set[str]:
+def _left_out(root: SourceNode) -> set[str]:
     return {name for name, command in members(root.child("commands")).items() if command.value is None}
 
 
-def _without(root: Node, commands: set[str]) -> Node:
+def _without(root: SourceNode, commands: set[str]) -> SourceNode:
     for name in sorted(commands):
         root = edit(root, ("commands", name), lambda _: None)
     return root

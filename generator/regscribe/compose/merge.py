@@ -2,10 +2,10 @@
 
 from collections.abc import Iterable
 
-from regscribe.compose.findings import Findings
+from regscribe.compose.findings import ComposeFindings
 from regscribe.compose.rules import NAME_CLASH
 from regscribe.compose.tree import elements, key_place, listing, mapping, members, put, text
-from regscribe.source import Node
+from regscribe.source import SourceNode
 
 TABLES = {
     "givens": "given",
@@ -28,7 +28,7 @@ NESTED = ("limits", "accepts", "faults", "exceptions", "latency", "serial")
 """Keys of `protocol` that are merged key by key in turn."""
 
 
-def merge_protocol(below: Node | None, above: Node | None) -> Node | None:
+def merge_protocol(below: SourceNode | None, above: SourceNode | None) -> SourceNode | None:
     """The protocol of both; what stands above wins, key by key."""
     if below is None or above is None:
         return above or below
@@ -40,13 +40,15 @@ def merge_protocol(below: Node | None, above: Node | None) -> Node | None:
     return merged
 
 
-def _over(below: Node, above: Node) -> Node:
+def _over(below: SourceNode, above: SourceNode) -> SourceNode:
     for key, value in members(above).items():
         below = put(below, key, value, key_place(above, key))
     return below
 
 
-def merge_tables(below: Node, above: Node, findings: Findings, *, owner: str, advice: str) -> Node:
+def merge_tables(
+    below: SourceNode, above: SourceNode, findings: ComposeFindings, *, owner: str, advice: str
+) -> SourceNode:
     """`below` with the entries of the tables of `above`; a name that both have is an error at the one above.
 
     `owner` says whose the names below are; they stand first.
@@ -69,7 +71,7 @@ def merge_tables(below: Node, above: Node, findings: Findings, *, owner: str, ad
     return below
 
 
-def merge_notations(below: Node, above: Node, findings: Findings, *, owner: str) -> Node:
+def merge_notations(below: SourceNode, above: SourceNode, findings: ComposeFindings, *, owner: str) -> SourceNode:
     """`below` with the notations of `above`; one name for one space in both is an error."""
     have = {(text(one.child("name")), text(one.child("space"))): one for one in elements(below.child("notations"))}
     for one in elements(above.child("notations")):
@@ -81,7 +83,7 @@ def merge_notations(below: Node, above: Node, findings: Findings, *, owner: str)
     return append(below, above, ("notations",))
 
 
-def append(below: Node, above: Node, keys: Iterable[str]) -> Node:
+def append(below: SourceNode, above: SourceNode, keys: Iterable[str]) -> SourceNode:
     """`below` with the elements of the lists of `above` behind its own."""
     for key in keys:
         added = above.child(key)
@@ -92,7 +94,7 @@ def append(below: Node, above: Node, keys: Iterable[str]) -> Node:
     return below
 
 
-def replace(below: Node, above: Node, keys: Iterable[str]) -> Node:
+def replace(below: SourceNode, above: SourceNode, keys: Iterable[str]) -> SourceNode:
     """`below` with the values that `above` has under these keys."""
     for key in keys:
         value = above.child(key)

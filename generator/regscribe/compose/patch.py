@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from regscribe.compose.tree import cut, key_place, members, put
 from regscribe.schema import inline
-from regscribe.source import Node, Place, shorten
+from regscribe.source import SourceNode, SourcePlace, shorten
 
 _LONGEST = 160
 _NOTHING = "nothing"
@@ -16,8 +16,8 @@ class Idle:
     """A key that changes nothing: its path, its place, that of the value below; or null for a default's key."""
 
     path: str
-    place: Place
-    below: Place
+    place: SourcePlace
+    below: SourcePlace
     is_default: bool = False
 
 
@@ -28,11 +28,11 @@ class Patch:
     `defaults` are the keys that count where the mapping below has none of its own, the innermost first.
     """
 
-    defaults: tuple[Node, ...] = ()
+    defaults: tuple[SourceNode, ...] = ()
     changed: list[str] = field(default_factory=list)
     idle: list[Idle] = field(default_factory=list)
 
-    def lay(self, below: Node, above: Node, path: str = "") -> Node:
+    def lay(self, below: SourceNode, above: SourceNode, path: str = "") -> SourceNode:
         """`below` with the keys of `above`; mappings in both are merged in turn."""
         for key, new in members(above).items():
             old, name, where = below.child(key), f"{path}{key}", key_place(above, key)
@@ -50,22 +50,22 @@ class Patch:
         return below
 
 
-def _same(old: Node | None, new: Node) -> bool:
+def _same(old: SourceNode | None, new: SourceNode) -> bool:
     if old is None:
         return new.value is None
     return type(old.value) is type(new.value) and bool(old.value == new.value)
 
 
-def _clean(node: Node) -> Node:
+def _clean(node: SourceNode) -> SourceNode:
     """A new mapping without the keys that are null: there is nothing below to remove."""
     for key in _null_keys(node):
         node = cut(node, key)
     return node
 
 
-def _null_keys(node: Node) -> Iterator[str]:
+def _null_keys(node: SourceNode) -> Iterator[str]:
     return (key for key, member in members(node).items() if member.value is None)
 
 
-def _shown(node: Node | None) -> str:
+def _shown(node: SourceNode | None) -> str:
     return _NOTHING if node is None or node.value is None else shorten(inline(node.value), _LONGEST)

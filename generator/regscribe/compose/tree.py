@@ -2,32 +2,32 @@
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 
-from regscribe.model.name import snake, unindexed
-from regscribe.source import Node, Place, Plain
+from regscribe.model.identifiers import snake, unindexed
+from regscribe.source import Plain, SourceNode, SourcePlace
 
 Step = str | int
 Location = tuple[Step, ...]
 """Keys and list indices from the top of the tree to a value."""
 
 
-def mapping(members: Mapping[str, Node], keys: Mapping[str, Place], place: Place) -> Node:
+def mapping(members: Mapping[str, SourceNode], keys: Mapping[str, SourcePlace], place: SourcePlace) -> SourceNode:
     """A mapping of these values; a key without a place of its own stands where its value does."""
     known = {key: keys.get(key, member.place) for key, member in members.items()}
-    return Node({key: member.value for key, member in members.items()}, place, known, dict(members))
+    return SourceNode({key: member.value for key, member in members.items()}, place, known, dict(members))
 
 
-def listing(elements: Iterable[Node], place: Place) -> Node:
+def listing(elements: Iterable[SourceNode], place: SourcePlace) -> SourceNode:
     """A list of these values."""
     every = list(elements)
-    return Node([element.value for element in every], place, elements=every)
+    return SourceNode([element.value for element in every], place, elements=every)
 
 
-def scalar(value: Plain, place: Place) -> Node:
+def scalar(value: Plain, place: SourcePlace) -> SourceNode:
     """A text or a number."""
-    return Node(value, place)
+    return SourceNode(value, place)
 
 
-def in_file(node: Node, name: str) -> Node:
+def in_file(node: SourceNode, name: str) -> SourceNode:
     """The same tree, with the file's name at each place: so it can be told from values of other files."""
     place = node.place._replace(file=name)
     if node.members is not None:
@@ -38,47 +38,47 @@ def in_file(node: Node, name: str) -> Node:
     return node._replace(place=place)
 
 
-def members(node: Node | None) -> dict[str, Node]:
+def members(node: SourceNode | None) -> dict[str, SourceNode]:
     """The values of a mapping by key, without `x-` keys; none of any other value."""
     every = (node.members if node else None) or {}
     return {key: member for key, member in every.items() if not key.startswith("x-")}
 
 
-def elements(node: Node | None) -> list[Node]:
+def elements(node: SourceNode | None) -> list[SourceNode]:
     """The elements of a list; none of any other value."""
     return (node.elements if node else None) or []
 
 
-def key_place(node: Node, key: str) -> Place:
+def key_place(node: SourceNode, key: str) -> SourcePlace:
     """Where a key stands; where there is none of that name, where the mapping does."""
     return (node.keys or {}).get(key, node.place)
 
 
-def text(node: Node | None) -> str:
+def text(node: SourceNode | None) -> str:
     """A scalar as text; empty for none."""
     return "" if node is None or node.value is None else str(node.value)
 
 
-def put(node: Node, key: str, value: Node, place: Place) -> Node:
+def put(node: SourceNode, key: str, value: SourceNode, place: SourcePlace) -> SourceNode:
     """The mapping with another value under a key; a new key comes last."""
     return mapping({**(node.members or {}), key: value}, {**(node.keys or {}), key: place}, node.place)
 
 
-def cut(node: Node, key: str) -> Node:
+def cut(node: SourceNode, key: str) -> SourceNode:
     """The mapping without a key."""
     kept = {name: member for name, member in (node.members or {}).items() if name != key}
     return mapping(kept, node.keys or {}, node.place)
 
 
-def at(node: Node, location: Location) -> Node | None:
+def at(node: SourceNode, location: Location) -> SourceNode | None:
     """The value at a location, if there is one."""
-    found: Node | None = node
+    found: SourceNode | None = node
     for step in location:
         found = found.child(step) if found else None
     return found
 
 
-def edit(node: Node, location: Location, change: Callable[[Node], Node | None]) -> Node:
+def edit(node: SourceNode, location: Location, change: Callable[[SourceNode], SourceNode | None]) -> SourceNode:
     """The tree with `change` applied to what stands at a location that exists; None removes it."""
     step, rest = location[0], location[1:]
     child = node.child(step)
@@ -92,12 +92,12 @@ def edit(node: Node, location: Location, change: Callable[[Node], Node | None]) 
     return cut(node, key) if new is None else put(node, key, new, key_place(node, key))
 
 
-def id_of(node: Node) -> str:
+def id_of(node: SourceNode) -> str:
     """The id of a register, an array or a group: given, or made of its name."""
     return text(node.child("id")) or snake(unindexed(text(node.child("name"))))
 
 
-def registers(root: Node) -> Iterator[tuple[str, Location]]:
+def registers(root: SourceNode) -> Iterator[tuple[str, Location]]:
     """Every register and array of a map, in groups and in sets: its id with those of arrays around it, and where."""
     for number, group in enumerate(elements(root.child("groups"))):
         yield from _registers(group.child("registers"), ("groups", number, "registers"), "")
@@ -105,7 +105,7 @@ def registers(root: Node) -> Iterator[tuple[str, Location]]:
         yield from _registers(one, ("sets", name), "")
 
 
-def _registers(node: Node | None, location: Location, prefix: str) -> Iterator[tuple[str, Location]]:
+def _registers(node: SourceNode | None, location: Location, prefix: str) -> Iterator[tuple[str, Location]]:
     for number, element in enumerate(elements(node)):
         if element.child("set"):
             continue

@@ -5,8 +5,13 @@ from typing import Protocol, cast
 
 from regscribe.model import RegisterMap
 
-EMITTERS = ("python", "markdown", "pictures", "vectors")
-"""What `regscribe generate` writes: `regscribe.emit.<name>` for each name, imported when first needed."""
+EMITTERS = {
+    "python": "regscribe.emit.python",
+    "markdown": "regscribe.emit.markdown",
+    "pictures": "regscribe.pictures",
+    "vectors": "regscribe.emit.vectors",
+}
+"""What `regscribe generate` writes, and the package of each emitter, imported when first needed."""
 
 
 class Emitter(Protocol):
@@ -20,8 +25,8 @@ class Emitter(Protocol):
 def render(register_map: RegisterMap) -> dict[str, str]:
     """Return all files of a map by path, relative to the output directory. ValueError if two emitters share a path."""
     files: dict[str, str] = {}
-    for name in EMITTERS:
-        emitter = cast("Emitter", import_module(f"{__name__}.{name}"))
+    for name, package in EMITTERS.items():
+        emitter = cast("Emitter", import_module(package))
         rendered = emitter.render(register_map)
         if shared := files.keys() & rendered.keys():
             message = f"the emitter {name} renders {', '.join(sorted(shared))}, as another emitter does"

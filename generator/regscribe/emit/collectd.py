@@ -9,11 +9,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import isfinite
 
-from regscribe.emit.text import one_line, sentinel_words
+from regscribe.emit.words import one_line, sentinel_words
 from regscribe.model import IDENTITY, Kind, Model, Order, Register, RegisterMap, Space, View, WireType
-from regscribe.model.reference import Surroundings, UnknownValueError
-from regscribe.model.reference.known import choose, decimal_factor
-from regscribe.model.reference.words import word_order
+from regscribe.reference import Surroundings, UnknownValueError
+from regscribe.reference.surroundings import choose, decimal_factor
+from regscribe.reference.words import word_order
 
 NUMBERS = frozenset({Kind.NUMBER, Kind.INTEGER, Kind.RAW, Kind.ENUM, Kind.FLAGS, Kind.FIELDS})
 READS = {Space.HOLDING: "ReadHolding", Space.INPUT: "ReadInput"}

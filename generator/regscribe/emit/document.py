@@ -8,7 +8,17 @@ from fractions import Fraction
 from typing import Any
 
 from regscribe.emit.header import FORMAT
-from regscribe.model import Array, FrameExample, Model, Register, RegisterMap, TimingExample, ValueExample, exact, show
+from regscribe.model import (
+    Array,
+    FrameExample,
+    Model,
+    Register,
+    RegisterMap,
+    TimingExample,
+    ValueExample,
+    exact,
+    show,
+)
 
 EXAMPLES = {ValueExample: "value", FrameExample: "frame", TimingExample: "timing"}
 PLACES = frozenset({"span", "by_path", "base", "renumber", "libraries", "shipped"})

@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import astuple, dataclass, fields, replace
 
-from regscribe.emit.text import (
+from regscribe.emit.words import (
     bits_words,
     cases_words,
     conversion_words,

@@ -5,12 +5,12 @@ from dataclasses import replace
 from difflib import get_close_matches
 
 from regscribe.emit.spreadsheet import COLUMNS
-from regscribe.emit.text import one_line
-from regscribe.evidence.cells import differing
+from regscribe.emit.words import one_line
+from regscribe.evidence.cell_compare import differing
 from regscribe.evidence.columns import Columns, choose, fold
-from regscribe.evidence.entry import Entry, Spot, of_map, of_table
-from regscribe.evidence.matching import Matching, match
-from regscribe.evidence.result import Comparison, Difference
+from regscribe.evidence.differences import CellDifference, Comparison
+from regscribe.evidence.row_matching import Matching, match
+from regscribe.evidence.rows import ComparedRow, Spot, of_map, of_table
 from regscribe.evidence.table import Table, TableError
 from regscribe.model import RegisterMap, Space
 
@@ -84,7 +84,7 @@ def compare_maps(
     return _comparison(matching, ours=ours.id, theirs=theirs.id, columns=chosen, loose=loose, notes=tuple(unpaired))
 
 
-def _of_models(register_map: RegisterMap, labels: Mapping[str, str]) -> list[Entry]:
+def _of_models(register_map: RegisterMap, labels: Mapping[str, str]) -> list[ComparedRow]:
     names = {one_line(name): label for name, label in labels.items()}
     return [replace(entry, model=names[entry.model]) for entry in of_map(register_map) if entry.model in names]
 
@@ -127,13 +127,15 @@ def _comparison(
     )
 
 
-def _differences(ours: Entry, theirs: Entry, *, columns: Iterable[str], loose: bool) -> Iterator[Difference]:
+def _differences(
+    ours: ComparedRow, theirs: ComparedRow, *, columns: Iterable[str], loose: bool
+) -> Iterator[CellDifference]:
     for column in columns:
         left, right = ours.cells.get(column, ""), theirs.cells[column]
         if column == "space" and not right.strip():
             continue  # a row that leaves the space open was looked for in all of them
         if apart := differing(column, left, right, loose=loose):
-            yield Difference(replace(ours.place, line=theirs.line), column, *apart)
+            yield CellDifference(replace(ours.place, line=theirs.line), column, *apart)
 
 
 def _silent(register_map: RegisterMap) -> set[tuple[str, Spot]]:
@@ -150,7 +152,7 @@ def _silent(register_map: RegisterMap) -> set[tuple[str, Spot]]:
     return found
 
 
-def _stands_in(row: Entry, places: set[tuple[str, Spot]]) -> bool:
+def _stands_in(row: ComparedRow, places: set[tuple[str, Spot]]) -> bool:
     """Whether one of the places where a row may stand is among `places`; a row without space may stand in any."""
     spots = [(own, address) for space, address in row.spots for own in ([space] if space else Space)]
     return any((row.model, (str(own), address)) in places for own, address in spots)
@@ -181,7 +183,7 @@ def _model(register_map: RegisterMap, table: Table, chosen: Columns, model: str)
     return names[0]
 
 
-def _notes(register_map: RegisterMap, table: Table, chosen: Columns, theirs: Sequence[Entry]) -> Iterator[str]:
+def _notes(register_map: RegisterMap, table: Table, chosen: Columns, theirs: Sequence[ComparedRow]) -> Iterator[str]:
     """Yield what is left out of the comparison, and models that the map does not have."""
     places = dict(chosen.at)
     if "map" in places:

@@ -4,9 +4,9 @@ import re
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator
 
-from regscribe.emit.text import one_line
+from regscribe.emit.words import one_line
+from regscribe.evidence.coverage_values import Addresses, MapCoverage, ModelCoverage, Remark
 from regscribe.evidence.exemplified import exemplified
-from regscribe.evidence.statement import Addresses, MapCoverage, ModelCoverage, Remark
 from regscribe.model import Kind, Model, Open, Register, RegisterMap, Space
 
 """Function codes that write coils; every other write of a command goes to holding registers."""

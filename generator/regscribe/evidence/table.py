@@ -20,7 +20,7 @@ class TableError(Exception):
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class TableRow:
     """The cells of one row, as many as the header has, and the line of the file on which the row starts."""
 
     line: int
@@ -33,7 +33,7 @@ class Table:
 
     name: str
     header: tuple[str, ...]
-    rows: tuple[Row, ...]
+    rows: tuple[TableRow, ...]
 
 
 def read(content: bytes, name: str) -> Table:
@@ -77,7 +77,7 @@ def _text(content: bytes, name: str) -> str:
         raise TableError(message) from None
 
 
-def _rows(text: str, name: str) -> Iterator[Row]:
+def _rows(text: str, name: str) -> Iterator[TableRow]:
     """Yield the rows that have any content; a quoted cell may hold line ends."""
     first, _, rest = text.partition("\n")
     hint = first.strip().strip('"')
@@ -89,7 +89,7 @@ def _rows(text: str, name: str) -> Iterator[Row]:
     try:
         for cells in reader:
             if any(cell.strip() for cell in cells):
-                yield Row(line, tuple(cells))
+                yield TableRow(line, tuple(cells))
             line = before + reader.line_num + 1
     except csv.Error as error:
         message = (
@@ -104,7 +104,7 @@ def _separator(header: str) -> str:
     return max(SEPARATORS, key=header.count)
 
 
-def _fitted(row: Row, header: tuple[str, ...], name: str) -> Row:
+def _fitted(row: TableRow, header: tuple[str, ...], name: str) -> TableRow:
     """Return the row with the header's number of cells: trailing empty cells are added or dropped."""
     extra = row.cells[len(header) :]
     if any(cell.strip() for cell in extra) or len(row.cells) < len(header):
@@ -113,4 +113,4 @@ def _fitted(row: Row, header: tuple[str, ...], name: str) -> Row:
             "that holds a separator, and write empty cells too"
         )
         raise TableError(message)
-    return Row(row.line, row.cells[: len(header)])
+    return TableRow(row.line, row.cells[: len(header)])

@@ -4,8 +4,8 @@
 all. Every mistake is a FileError with its place.
 """
 
-from regscribe.files.dumping import OneLine, dump
-from regscribe.files.reading import FileError, parse, read
-from regscribe.files.saving import save
+from regscribe.files.atomic_save import save
+from regscribe.files.yaml_dump import OneLine, dump
+from regscribe.files.yaml_load import FileError, parse, read
 
 __all__ = ["FileError", "OneLine", "dump", "parse", "read", "save"]

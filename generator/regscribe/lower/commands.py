@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass
 
+from regscribe.lower.command_words import words_of_value
 from regscribe.lower.effects import effects_of
-from regscribe.lower.encoding import words_of_value
 from regscribe.lower.names import identifier, unknown
-from regscribe.lower.node import Node, elements_of, items_of, text_of, whole_of, wholes_of
+from regscribe.lower.node import Value, elements_of, items_of, text_of, whole_of, wholes_of
 from regscribe.lower.presence import present
 from regscribe.lower.rules import UNKNOWN_VIEW
 from regscribe.lower.scope import Scope
@@ -13,7 +13,7 @@ from regscribe.model import WRITE_FUNCTIONS, Command, Protocol, Register, Space,
 
 
 @dataclass(frozen=True, slots=True)
-class Device:
+class CommandScope:
     """What the steps of a command need to know of the model they are for."""
 
     scope: Scope
@@ -21,7 +21,7 @@ class Device:
     protocol: Protocol
 
 
-def commands_of(root: Node, device: Device) -> tuple[Command, ...]:
+def commands_of(root: Value, device: CommandScope) -> tuple[Command, ...]:
     """The commands that a model has."""
     models = device.scope.models
     return tuple(
@@ -31,7 +31,7 @@ def commands_of(root: Node, device: Device) -> tuple[Command, ...]:
     )
 
 
-def _command(name: str, node: Node, device: Device) -> Command:
+def _command(name: str, node: Value, device: CommandScope) -> Command:
     return Command(
         id=identifier(node, label=name, given=None) if not name.isidentifier() else name,
         name=text_of(node, "name", name),
@@ -44,7 +44,7 @@ def _command(name: str, node: Node, device: Device) -> Command:
     )
 
 
-def _step(node: Node, device: Device) -> Step:
+def _step(node: Value, device: CommandScope) -> Step:
     register = node.child("register")
     if node.child("wait"):
         return Step(wait=whole_of(node, "wait"))
@@ -64,7 +64,7 @@ def _step(node: Node, device: Device) -> Step:
     return Step(view.address, words, function, register=entry.path, space=view.space)
 
 
-def _function(node: Node, count: int, view: View | None, device: Device) -> int:
+def _function(node: Value, count: int, view: View | None, device: CommandScope) -> int:
     if node.child("function"):
         return whole_of(node, "function")
     single, several = WRITE_FUNCTIONS[Space.COIL if view and view.space is Space.COIL else Space.HOLDING]
@@ -77,7 +77,7 @@ def _written_view(register: Register) -> View:
     return next((view for view in register.views if view.writable), register.base)
 
 
-def view_of(node: Node | None, register: Register) -> View:
+def view_of(node: Value | None, register: Register) -> View:
     """The view of a register that `node` names, the base view where it is None; RS0323 for an unknown one."""
     found = [view for view in register.views if node is None or view.name == node.text()]
     if not found and node is not None:

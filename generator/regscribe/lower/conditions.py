@@ -3,9 +3,9 @@
 from dataclasses import replace
 from fractions import Fraction
 
-from regscribe.lower.ends import ends
+from regscribe.lower.interval_text import ends
 from regscribe.lower.names import unknown
-from regscribe.lower.node import Node
+from regscribe.lower.node import Value
 from regscribe.lower.rules import BAD_MATCHER, UNKNOWN_CONDITION, UNKNOWN_GIVEN, WRONG_SORT
 from regscribe.lower.scope import Scope, path_of
 from regscribe.lower.subject import Subject, code_of_text, subject_of
@@ -14,7 +14,7 @@ from regscribe.model import ALWAYS, CodeRange, Condition, Test
 _SETS = ("in", "not_in")
 
 
-def condition(node: Node | None, scope: Scope) -> Condition:
+def condition(node: Value | None, scope: Scope) -> Condition:
     """The condition at a `when`: a name, tests by subject, or a list of these; None: always."""
     if node is None:
         return ALWAYS
@@ -52,24 +52,24 @@ def _contrary(test: Test, other: Test) -> bool:
     return not any(a.low <= b.high and b.low <= a.high for a in test.codes for b in other.codes)
 
 
-def _named(node: Node, scope: Scope) -> Condition:
+def _named(node: Value, scope: Scope) -> Condition:
     found = scope.named(node, "conditions", rule=UNKNOWN_CONDITION, what="condition")
     return Condition(condition(found, scope).tests if found and found.is_mapping else (), name=node.text())
 
 
-def _tests(key: str, matcher: Node, scope: Scope) -> list[Test]:
+def _tests(key: str, matcher: Value, scope: Scope) -> list[Test]:
     if key == "given":
         return [_given_test(element, scope) for element in matcher.elements()]
     subject = subject_of(matcher, key, scope)
     return [] if subject is None else [_test(matcher, subject, scope, negated=False)]
 
 
-def _given_test(node: Node, scope: Scope) -> Test:
+def _given_test(node: Value, scope: Scope) -> Test:
     contrary = node.child("not")
     return Test(register="", given=_given(contrary or node, scope, "boolean"), negated=contrary is not None)
 
 
-def _given(node: Node, scope: Scope, kind: str) -> str:
+def _given(node: Value, scope: Scope, kind: str) -> str:
     found = scope.named(node, "givens", rule=UNKNOWN_GIVEN, what="given")
     told = found.child("type") if found else None
     if told and told.text() != kind:
@@ -78,7 +78,7 @@ def _given(node: Node, scope: Scope, kind: str) -> str:
     return node.text()
 
 
-def _test(matcher: Node, subject: Subject, scope: Scope, *, negated: bool) -> Test:
+def _test(matcher: Value, subject: Subject, scope: Scope, *, negated: bool) -> Test:
     register, field = path_of(subject.entry, subject.name), subject.field
     for key, node in matcher.items():
         if key == "not":
@@ -91,7 +91,7 @@ def _test(matcher: Node, subject: Subject, scope: Scope, *, negated: bool) -> Te
     return Test(register=register, field=field, codes=codes, negated=negated)
 
 
-def _code(node: Node, subject: Subject, scope: Scope) -> CodeRange:
+def _code(node: Value, subject: Subject, scope: Scope) -> CodeRange:
     if node.is_mapping or node.is_list:
         remedy = "a list holds numbers, ranges and enum members; use one `not`, `in` or `not_in` beside no others"
         node.report(BAD_MATCHER, "this cannot stand in a list of codes", remedy=remedy)

@@ -4,14 +4,14 @@ from collections.abc import Mapping
 from fractions import Fraction
 
 from regscribe.lower.conditions import condition
-from regscribe.lower.node import Node, elements_of, items_of, truth_of
+from regscribe.lower.node import Value, elements_of, items_of, truth_of
 from regscribe.lower.presence import present
 from regscribe.lower.scope import Scope, path_of
 from regscribe.lower.subject import Subject, code_of_text, subject_of
 from regscribe.model import Effect, Kind, Register
 
 
-def effects_of(command: Node, scope: Scope, registers: Mapping[str, Register]) -> tuple[Effect, ...]:
+def effects_of(command: Value, scope: Scope, registers: Mapping[str, Register]) -> tuple[Effect, ...]:
     """The effects of a command on the model of the scope."""
     nodes = (
         node for node in elements_of(command, "effects") if scope.model in present(node, scope.models, scope.models)
@@ -19,7 +19,7 @@ def effects_of(command: Node, scope: Scope, registers: Mapping[str, Register]) -
     return tuple(_effect(node, scope, registers) for node in nodes)
 
 
-def _effect(node: Node, scope: Scope, registers: Mapping[str, Register]) -> Effect:
+def _effect(node: Value, scope: Scope, registers: Mapping[str, Register]) -> Effect:
     return Effect(
         when=condition(node.child("when"), scope),
         sets=tuple(_sets(node, scope, registers)),
@@ -28,7 +28,7 @@ def _effect(node: Node, scope: Scope, registers: Mapping[str, Register]) -> Effe
     )
 
 
-def _sets(effect: Node, scope: Scope, registers: Mapping[str, Register]) -> list[tuple[str, Fraction | str]]:
+def _sets(effect: Value, scope: Scope, registers: Mapping[str, Register]) -> list[tuple[str, Fraction | str]]:
     found: list[tuple[str, Fraction | str]] = []
     for key, node in items_of(effect, "set"):
         subject = subject_of(node, key, scope)
@@ -39,13 +39,13 @@ def _sets(effect: Node, scope: Scope, registers: Mapping[str, Register]) -> list
     return found
 
 
-def _value(node: Node, subject: Subject, scope: Scope, kind: Kind) -> Fraction | str:
+def _value(node: Value, subject: Subject, scope: Scope, kind: Kind) -> Fraction | str:
     if kind is Kind.STRING or (kind is Kind.VERSION and node.is_text):
         return node.text()
     return code_of_text(node, subject, scope) if node.is_text else node.number()
 
 
-def _defaults(effect: Node, scope: Scope, registers: Mapping[str, Register]) -> tuple[str, ...]:
+def _defaults(effect: Value, scope: Scope, registers: Mapping[str, Register]) -> tuple[str, ...]:
     node = effect.child("defaults")
     if node is None:
         return ()

@@ -1,20 +1,20 @@
 """Enums and bit fields, as one model has them."""
 
-from regscribe.lower.ends import whole_ends
+from regscribe.lower.interval_text import whole_ends
 from regscribe.lower.names import identifier
-from regscribe.lower.node import Node, text_of, texts_of
+from regscribe.lower.node import Value, text_of, texts_of
 from regscribe.lower.presence import present
 from regscribe.lower.rules import BAD_BITS, UNKNOWN_ENUM
 from regscribe.lower.scope import Scope
-from regscribe.lower.tree import Entry
+from regscribe.lower.tree import TreeNode
 from regscribe.model import BitField, Enum, Member
-from regscribe.model.name import snake
+from regscribe.model.identifiers import snake
 
 COLUMNS = "columns"
 """The key beside the codes of an enum that names the columns of the manual's table."""
 
 
-def enum_of(node: Node, scope: Scope, *, inline_id: str) -> Enum | None:
+def enum_of(node: Value, scope: Scope, *, inline_id: str) -> Enum | None:
     """The enum that `node` names or spells; None with RS0304 where the name is unknown."""
     if not node.is_text:
         return enum_at(node, scope, inline_id)
@@ -27,7 +27,7 @@ def enum_of(node: Node, scope: Scope, *, inline_id: str) -> Enum | None:
     return scope.enums[name]
 
 
-def enum_at(table: Node, scope: Scope, name: str) -> Enum:
+def enum_at(table: Value, scope: Scope, name: str) -> Enum:
     """The enum whose members stand at `table`, as the model of the scope has it."""
     members = []
     invalid = []
@@ -41,25 +41,25 @@ def enum_at(table: Node, scope: Scope, name: str) -> Enum:
     return Enum(id=name, members=tuple(members), invalid=tuple(invalid), span=table.key_span, columns=columns)
 
 
-def _codes(table: Node) -> list[Node]:
+def _codes(table: Value) -> list[Value]:
     """The members of an enum, without what stands beside the codes."""
     return [node for key, node in table.items() if key != COLUMNS]
 
 
-def _member(node: Node) -> Member:
+def _member(node: Value) -> Member:
     label = _label(node)
     name = identifier(node.child("label") or node, label=label, given=node.child("id"), capitals=True)
     return Member(node.key_whole(), label, name, text_of(node, "description"), texts_of(node, "cells"))
 
 
-def _label(node: Node) -> str:
+def _label(node: Value) -> str:
     """What a code or a bit is called; a code without a label by its cells."""
     if not node.is_mapping:
         return node.text()
     return text_of(node, "label") or ", ".join(texts_of(node, "cells"))
 
 
-def code_anywhere(node: Node, text: str) -> int | None:
+def code_anywhere(node: Value, text: str) -> int | None:
     """The code of the member `text` in the enum at `node`, whichever models have it; None if there is none."""
     for member in _codes(node):
         label = _label(member)
@@ -69,7 +69,7 @@ def code_anywhere(node: Node, text: str) -> int | None:
     return None
 
 
-def enum_for(entry: Entry, scope: Scope, field: str = "") -> tuple[Node, Enum] | None:
+def enum_for(entry: TreeNode, scope: Scope, field: str = "") -> tuple[Value, Enum] | None:
     """The enum of a register (or of one of its bit fields), with the place of its members; None if it has none."""
     node = entry.settings.get("enum")
     name = entry.qualified_id
@@ -85,7 +85,7 @@ def enum_for(entry: Entry, scope: Scope, field: str = "") -> tuple[Node, Enum] |
     return (table, enum) if table else None
 
 
-def fields_of(entry: Entry, scope: Scope) -> tuple[BitField, ...]:
+def fields_of(entry: TreeNode, scope: Scope) -> tuple[BitField, ...]:
     """The flags or fields of a register, those that the model has."""
     flags = entry.settings.get("flags")
     fields = entry.settings.get("fields")
@@ -96,18 +96,18 @@ def fields_of(entry: Entry, scope: Scope) -> tuple[BitField, ...]:
     return tuple(found)
 
 
-def _here(node: Node, scope: Scope) -> bool:
+def _here(node: Value, scope: Scope) -> bool:
     return scope.model in present(node, scope.models, scope.models)
 
 
-def _flag(node: Node) -> BitField:
+def _flag(node: Value) -> BitField:
     label = _label(node)
     bit = _bit(node, node.key_whole(), at_key=True)
     name = identifier(node.child("label") or node, label=label, given=node.child("id")).lower()
     return BitField(id=name, label=label, low=bit, high=bit, description=text_of(node, "description"))
 
 
-def _field(name: str, node: Node, scope: Scope, entry: Entry) -> BitField:
+def _field(name: str, node: Value, scope: Scope, entry: TreeNode) -> BitField:
     bits = node.child("bits") or node.child("bit")
     low, high = whole_ends(bits) if bits else (0, 0)
     if bits is None:
@@ -126,7 +126,7 @@ def _field(name: str, node: Node, scope: Scope, entry: Entry) -> BitField:
     )
 
 
-def _bit(node: Node, bit: int, *, at_key: bool = False) -> int:
+def _bit(node: Value, bit: int, *, at_key: bool = False) -> int:
     if 0 <= bit <= 63:  # noqa: PLR2004 - the widest wire type has bits 0 to 63
         return bit
     node.report(BAD_BITS, f"there is no bit {bit}", remedy="bits count from 0, the least significant", at_key=at_key)

@@ -5,14 +5,14 @@ from fractions import Fraction
 
 from regscribe.lower.commands import unsigned, view_of
 from regscribe.lower.names import unknown
-from regscribe.lower.node import Node, elements_of, items_of, text_of, truth_of, whole_of, wholes_of
+from regscribe.lower.node import Value, elements_of, items_of, text_of, truth_of, whole_of, wholes_of
 from regscribe.lower.presence import named_models
 from regscribe.lower.rules import UNKNOWN_COMMAND, UNKNOWN_FLAG, UNKNOWN_MEMBER, UNKNOWN_SENTINEL, WRONG_SORT
 from regscribe.lower.scope import Scope
+from regscribe.lower.special_values import named_value
 from regscribe.lower.subject import Subject, code_of_text, subject_of
-from regscribe.lower.values import named_value
 from regscribe.model import Example, FrameExample, Kind, Outcome, Register, TimingExample, ValueExample
-from regscribe.model.reference import number_of
+from regscribe.reference import number_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,26 +23,26 @@ class Product:
     registers: dict[str, Register]
     commands: tuple[str, ...]
 
-    def register(self, node: Node, name: str, *, at_key: bool = False) -> Register | None:
+    def register(self, node: Value, name: str, *, at_key: bool = False) -> Register | None:
         """The register that `node` names; RS0301 or RS0302 where there is none."""
         entry = self.scope.register(node, name, at_key=at_key)
         return self.registers[entry.path] if entry else None
 
 
-def examples_of(root: Node, products: list[Product]) -> tuple[Example, ...]:
+def examples_of(root: Value, products: list[Product]) -> tuple[Example, ...]:
     """All examples of a map; nothing if the map has no model."""
     nodes = elements_of(root, "examples") if products else []
     return tuple(_example(node, products) for node in nodes)
 
 
-def _example(node: Node, products: list[Product]) -> Example:
+def _example(node: Value, products: list[Product]) -> Example:
     if node.child("timing"):
         return _timing(node)
     product = _product(node, products)
     return _frame(node, product) if node.child("frame") else _value(node, product)
 
 
-def _product(node: Node, products: list[Product]) -> Product:
+def _product(node: Value, products: list[Product]) -> Product:
     """The model that the example names, or else the first that has all its registers."""
     told = node.child("model")
     every = products[0].scope.models
@@ -55,12 +55,12 @@ def _product(node: Node, products: list[Product]) -> Product:
     return next((each for each in products if all(each.scope.find(name) for name in wanted)), (first or products)[0])
 
 
-def _state(node: Node, product: Product) -> tuple[tuple[str, Fraction], ...]:
+def _state(node: Value, product: Product) -> tuple[tuple[str, Fraction], ...]:
     pairs = [_fact(key, value, product.scope) for key, value in items_of(node, "with")]
     return tuple(pair for pair in pairs if pair)
 
 
-def _fact(key: str, value: Node, scope: Scope) -> tuple[str, Fraction] | None:
+def _fact(key: str, value: Value, scope: Scope) -> tuple[str, Fraction] | None:
     """What a key of `with` is about: a register, a bit field, or a given (whose codes are those of its register)."""
     givens = scope.map.child("givens")
     given = givens.child(key) if givens and scope.find(key) is None else None
@@ -73,7 +73,7 @@ def _fact(key: str, value: Node, scope: Scope) -> tuple[str, Fraction] | None:
     return key, code_of_text(value, subject, scope) if value.is_text else value.number()
 
 
-def _value(node: Node, product: Product) -> ValueExample:
+def _value(node: Value, product: Product) -> ValueExample:
     name = node.child("register") or node
     register = product.register(name, name.text()) if name is not node else None
     fault, stored = node.child("fault"), node.child("stored")
@@ -95,13 +95,13 @@ def _value(node: Node, product: Product) -> ValueExample:
     )
 
 
-def _outcome(node: Node) -> Outcome:
+def _outcome(node: Value) -> Outcome:
     if node.child("fault"):
         return Outcome.FAULT
     return Outcome.SATURATED if truth_of(node, "saturated") else Outcome.VALUE
 
 
-def _reading(node: Node | None, register: Register | None) -> tuple[Fraction | str | None, tuple[str, ...] | None]:
+def _reading(node: Value | None, register: Register | None) -> tuple[Fraction | str | None, tuple[str, ...] | None]:
     if node is None or register is None:
         return None, None
     if node.is_list:
@@ -115,14 +115,14 @@ def _reading(node: Node | None, register: Register | None) -> tuple[Fraction | s
     return named_value(node, register.kind, register.enum, register.specials, UNKNOWN_MEMBER), None
 
 
-def _fault(node: Node, register: Register | None) -> str:
+def _fault(node: Value, register: Register | None) -> str:
     known = {sentinel.id.lower(): sentinel.id for sentinel in register.sentinels} if register else {}
     if register and node.text().lower() not in known:
         unknown(node, UNKNOWN_SENTINEL, "sentinel", node.text(), known, of=register.path)
     return known.get(node.text().lower(), "")
 
 
-def _frame(node: Node, product: Product) -> FrameExample:
+def _frame(node: Value, product: Product) -> FrameExample:
     frame = _bytes(node)
     address, count, words = node.child("address"), node.child("count"), node.child("words")
     return FrameExample(
@@ -144,7 +144,7 @@ def _frame(node: Node, product: Product) -> FrameExample:
     )
 
 
-def _bytes(node: Node) -> bytes:
+def _bytes(node: Value) -> bytes:
     frame = node.child("frame")
     try:
         return bytes.fromhex(frame.text()) if frame else b""
@@ -155,7 +155,7 @@ def _bytes(node: Node) -> bytes:
         return b""
 
 
-def _write(key: str, node: Node, product: Product) -> tuple[str, Fraction]:
+def _write(key: str, node: Value, product: Product) -> tuple[str, Fraction]:
     register = product.register(node, key, at_key=True)
     if register is None:
         return key, Fraction(0)
@@ -167,14 +167,14 @@ def _write(key: str, node: Node, product: Product) -> tuple[str, Fraction]:
     return register.path, Fraction(0)
 
 
-def _command(node: Node, product: Product) -> str:
+def _command(node: Value, product: Product) -> str:
     command = node.child("command")
     if command and command.text() not in product.commands:
         unknown(command, UNKNOWN_COMMAND, "command", command.text(), product.commands)
     return command.text() if command else ""
 
 
-def _timing(node: Node) -> TimingExample:
+def _timing(node: Value) -> TimingExample:
     line = node.child("timing") or node
     gap, earliest, latest = (_milliseconds(node, key) for key in ("gap", "earliest", "latest"))
     return TimingExample(
@@ -190,6 +190,6 @@ def _timing(node: Node) -> TimingExample:
     )
 
 
-def _milliseconds(node: Node, key: str) -> Fraction:
+def _milliseconds(node: Value, key: str) -> Fraction:
     child = node.child(key)
     return child.number() if child else Fraction(0)

@@ -1,10 +1,10 @@
 """What a register sets of the line: short form or in full."""
 
-from regscribe.lower.node import Node, items_of, text_of
+from regscribe.lower.node import Value, items_of, text_of
 from regscribe.model import Governs, Setting
 
 
-def governs_of(node: Node | None) -> Governs | None:
+def governs_of(node: Value | None) -> Governs | None:
     """The key `governs` of a register; the short form is the setting alone."""
     if node is None:
         return None

@@ -4,13 +4,13 @@ from collections.abc import Callable
 from functools import partial
 from typing import TypeVar
 
-from regscribe.lower.arrays import members_of
-from regscribe.lower.commands import Device, commands_of
+from regscribe.lower.commands import CommandScope, commands_of
 from regscribe.lower.enums import enum_at
-from regscribe.lower.node import Context, Node, items_of, text_of
+from regscribe.lower.members import members_of
+from regscribe.lower.node import Collector, Value, items_of, text_of
 from regscribe.lower.protocol import protocol_of
 from regscribe.lower.scope import Scope
-from regscribe.lower.tree import Place, entries_of, items_in
+from regscribe.lower.tree import TreePosition, entries_of, items_in
 from regscribe.model import USUAL_PROTOCOL, Library, Model, Protocol, Severity
 from regscribe.source import Document
 
@@ -21,7 +21,7 @@ EVERY = ("",)
 
 def library_of(document: Document) -> Library:
     """What a library declares for every map; whatever needs something of a map is left to that map."""
-    root = Node(Context(document), (), document.data)
+    root = Value(Collector(document), (), document.data)
     about = root.child("library") or root
     protocol = _alone(document, _protocol)
     scope = Scope(root, "", EVERY, {}, {})
@@ -32,26 +32,27 @@ def library_of(document: Document) -> Library:
         content_hash=document.content_hash,
         enums=tuple(enum_at(table, scope, name) for name, table in items_of(root, "enums")),
         sets=tuple(found for found in sets if found is not None),
-        commands=_alone(document, lambda root: commands_of(root, Device(scope, {}, protocol or USUAL_PROTOCOL))) or (),
+        commands=_alone(document, lambda root: commands_of(root, CommandScope(scope, {}, protocol or USUAL_PROTOCOL)))
+        or (),
         protocol=protocol,
     )
 
 
-def _alone(document: Document, part: Callable[[Node], T]) -> T | None:
+def _alone(document: Document, part: Callable[[Value], T]) -> T | None:
     """A part of a library; None if it is wrong without the map that it is meant for."""
-    context = Context(document)
-    found = part(Node(context, (), document.data))
+    context = Collector(document)
+    found = part(Value(context, (), document.data))
     return None if any(one.severity is Severity.ERROR for one in context.diagnostics) else found
 
 
-def _protocol(root: Node) -> Protocol | None:
+def _protocol(root: Value) -> Protocol | None:
     return protocol_of(root.child("protocol")) if root.child("protocol") else None
 
 
-def _set(root: Node, name: str) -> Model | None:
+def _set(root: Value, name: str) -> Model | None:
     sets = root.child("sets")
     table = sets.child(name) if sets else None
-    place = Place(model="", every=EVERY, among=EVERY, group="", section="", sets=sets, open=(name,))
+    place = TreePosition(model="", every=EVERY, among=EVERY, group="", section="", sets=sets, open=(name,))
     items = items_in(table.elements() if table else [], place)
     entries = {entry.path: entry for entry in entries_of(items)}
     scope = Scope(root, "", EVERY, entries, dict.fromkeys(entries, EVERY))

@@ -5,9 +5,9 @@ import re
 from collections.abc import Iterable
 from difflib import get_close_matches
 
-from regscribe.lower.node import Node, brief, text_of
+from regscribe.lower.node import Value, brief, text_of
 from regscribe.lower.rules import NO_IDENTIFIER, NO_MODULE
-from regscribe.model.name import snake, unindexed
+from regscribe.model.identifiers import snake, unindexed
 
 _RUN = re.compile(r"[A-Za-z0-9]+")
 _LISTED = 12
@@ -18,7 +18,7 @@ def letters_and_digits(text: str) -> str:
     return "".join(_RUN.findall(text))
 
 
-def module_id(about: Node) -> str:
+def module_id(about: Value) -> str:
     """The id of a map or library, each part of which becomes a part of a module's name; RS0335 where none can."""
     map_id = text_of(about, "id")
     for part in map_id.split("/"):
@@ -28,7 +28,7 @@ def module_id(about: Node) -> str:
     return map_id
 
 
-def identifier(node: Node, *, label: str, given: Node | None, capitals: bool = False) -> str:
+def identifier(node: Value, *, label: str, given: Value | None, capitals: bool = False) -> str:
     """The identifier `given` in the map, or else the one derived from `label`; RS0317 where that is none."""
     name = given.text() if given else snake(unindexed(label))
     if not name.isidentifier():
@@ -40,7 +40,7 @@ def identifier(node: Node, *, label: str, given: Node | None, capitals: bool = F
 
 
 def unknown(
-    node: Node, rule: str, what: str, name: str, known: Iterable[str], *, of: str = "", at_key: bool = False
+    node: Value, rule: str, what: str, name: str, known: Iterable[str], *, of: str = "", at_key: bool = False
 ) -> None:
     """Report that there is no `what` of this name (in the thing `of`), with the nearest one and those that exist."""
     if node.context.spoke(rule, node.key_span if at_key else node.span):

@@ -25,7 +25,7 @@ def brief(text: str) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Context:
+class Collector:
     """The document in work and the diagnostics found in it so far; `sizes` of sets, and how far models have `grown`.
 
     `offered` are the defaults for several registers, by the path of where they stand, `taken` the paths of all keys
@@ -37,7 +37,7 @@ class Context:
     found: dict[tuple[str, Span], Diagnostic] = field(default_factory=dict)
     grown: dict[str, int] = field(default_factory=dict)
     sizes: dict[str, int] = field(default_factory=dict)
-    offered: dict[Path, "Node"] = field(default_factory=dict)
+    offered: dict[Path, "Value"] = field(default_factory=dict)
     taken: set[Path] = field(default_factory=set)
 
     def report(
@@ -62,14 +62,14 @@ class Context:
 
 
 @dataclass(frozen=True, slots=True)
-class Node:
+class Value:
     """One value of the document: `value` as `regscribe.source` gives it, `path` from the top.
 
     The readers (`text`, `number`, ...) are total: where the value is of another sort they report RS0330 and return a
     placeholder, so that lowering goes on and finds the other mistakes.
     """
 
-    context: Context
+    context: Collector
     path: Path
     value: Any
 
@@ -95,26 +95,26 @@ class Node:
         span = self.key_span if at_key else self.span
         self.context.report(rule, message, span=span, remedy=remedy, related=related)
 
-    def child(self, key: str) -> "Node | None":
+    def child(self, key: str) -> "Value | None":
         """The value of a key; None where the key is absent or null."""
         value = self.value.get(key) if isinstance(self.value, dict) else None
-        return None if value is None else Node(self.context, (*self.path, key), value)
+        return None if value is None else Value(self.context, (*self.path, key), value)
 
-    def items(self) -> Iterator[tuple[str, "Node"]]:
+    def items(self) -> Iterator[tuple[str, "Value"]]:
         """Keys and values of a mapping, without `x-` keys; nothing for any other value."""
         if isinstance(self.value, dict):
             for key, value in self.value.items():
                 if not key.startswith("x-"):
-                    yield key, Node(self.context, (*self.path, key), value)
+                    yield key, Value(self.context, (*self.path, key), value)
 
-    def values(self) -> list["Node"]:
+    def values(self) -> list["Value"]:
         """The values of a mapping, without `x-` keys; nothing for any other value."""
         return [node for _, node in self.items()]
 
-    def elements(self) -> list["Node"]:
+    def elements(self) -> list["Value"]:
         """The values of a list; a single value counts as a list of one, null as an empty one."""
         if isinstance(self.value, list):
-            return [Node(self.context, (*self.path, index), value) for index, value in enumerate(self.value)]
+            return [Value(self.context, (*self.path, index), value) for index, value in enumerate(self.value)]
         return [] if self.value is None else [self]
 
     @property
@@ -201,43 +201,43 @@ class Node:
         return other
 
 
-def text_of(node: Node, key: str, otherwise: str = "") -> str:
+def text_of(node: Value, key: str, otherwise: str = "") -> str:
     """The text of a key, or `otherwise` where it is absent."""
     child = node.child(key)
     return child.text().strip() if child else otherwise
 
 
-def whole_of(node: Node, key: str, otherwise: int = 0) -> int:
+def whole_of(node: Value, key: str, otherwise: int = 0) -> int:
     """The whole number of a key, or `otherwise` where it is absent."""
     child = node.child(key)
     return child.whole() if child else otherwise
 
 
-def truth_of(node: Node, key: str, *, otherwise: bool = False) -> bool:
+def truth_of(node: Value, key: str, *, otherwise: bool = False) -> bool:
     """The truth value of a key, or `otherwise` where it is absent."""
     child = node.child(key)
     return child.truth() if child else otherwise
 
 
-def wholes_of(node: Node, key: str, otherwise: tuple[int, ...] = ()) -> tuple[int, ...]:
+def wholes_of(node: Value, key: str, otherwise: tuple[int, ...] = ()) -> tuple[int, ...]:
     """The list of whole numbers of a key, or `otherwise` where it is absent."""
     child = node.child(key)
     return tuple(element.whole() for element in child.elements()) if child else otherwise
 
 
-def texts_of(node: Node, key: str, otherwise: tuple[str, ...] = ()) -> tuple[str, ...]:
+def texts_of(node: Value, key: str, otherwise: tuple[str, ...] = ()) -> tuple[str, ...]:
     """The list of texts of a key, or `otherwise` where it is absent."""
     child = node.child(key)
     return tuple(element.text() for element in child.elements()) if child else otherwise
 
 
-def elements_of(node: Node | None, key: str) -> list[Node]:
+def elements_of(node: Value | None, key: str) -> list[Value]:
     """The elements of the list of a key; none where it is absent."""
     child = node.child(key) if node else None
     return child.elements() if child else []
 
 
-def items_of(node: Node | None, key: str) -> list[tuple[str, Node]]:
+def items_of(node: Value | None, key: str) -> list[tuple[str, Value]]:
     """The keys and values of the mapping of a key; none where it is absent."""
     child = node.child(key) if node else None
     return list(child.items()) if child else []

@@ -1,8 +1,8 @@
 """Which registers control the process value, and how: the key `process`."""
 
 from regscribe.lower.conditions import condition
-from regscribe.lower.following import subject_at
-from regscribe.lower.node import Node, elements_of, text_of, whole_of
+from regscribe.lower.followed_values import subject_at
+from regscribe.lower.node import Value, elements_of, text_of, whole_of
 from regscribe.lower.presence import present
 from regscribe.lower.scope import Scope
 from regscribe.model import ALWAYS, Alarm, Condition, OnOff, Output, Pid, Process, Ramp, Trip, TripKind
@@ -10,7 +10,7 @@ from regscribe.model import ALWAYS, Alarm, Condition, OnOff, Output, Pid, Proces
 _MINUTE = 60
 
 
-def process_of(node: Node | None, scope: Scope) -> Process | None:
+def process_of(node: Value | None, scope: Scope) -> Process | None:
     """The process of the model of the scope; None where the map has none."""
     if node is None:
         return None
@@ -32,20 +32,20 @@ def process_of(node: Node | None, scope: Scope) -> Process | None:
     )
 
 
-def _here(node: Node, key: str, scope: Scope) -> list[Node]:
+def _here(node: Value, key: str, scope: Scope) -> list[Value]:
     return [each for each in elements_of(node, key) if scope.model in present(each, scope.models, scope.models)]
 
 
-def _role(node: Node, key: str, scope: Scope) -> str:
+def _role(node: Value, key: str, scope: Scope) -> str:
     return subject_at(node.child(key), scope)
 
 
-def _maybe(node: Node, key: str, scope: Scope) -> Condition | None:
+def _maybe(node: Value, key: str, scope: Scope) -> Condition | None:
     child = node.child(key)
     return condition(child, scope) if child else None
 
 
-def _output(node: Node, scope: Scope) -> Output:
+def _output(node: Value, scope: Scope) -> Output:
     full, pid, on_off = node.child("full"), node.child("pid"), node.child("on_off")
     given = {} if full is None else {"full": full.number()}
     return Output(
@@ -62,13 +62,13 @@ def _output(node: Node, scope: Scope) -> Output:
     )
 
 
-def _cools(node: Node | None, scope: Scope) -> Condition | None:
+def _cools(node: Value | None, scope: Scope) -> Condition | None:
     if node is None or node.value is False:
         return None
     return ALWAYS if node.value is True else condition(node, scope)
 
 
-def _pid(node: Node, scope: Scope) -> Pid:
+def _pid(node: Value, scope: Scope) -> Pid:
     ends = [subject_at(each, scope) for each in elements_of(node, "span")]
     return Pid(
         when=condition(node.child("when"), scope),
@@ -80,11 +80,11 @@ def _pid(node: Node, scope: Scope) -> Pid:
     )
 
 
-def _on_off(node: Node, scope: Scope) -> OnOff:
+def _on_off(node: Value, scope: Scope) -> OnOff:
     return OnOff(when=condition(node.child("when"), scope), hysteresis=_role(node, "hysteresis", scope))
 
 
-def _ramp(node: Node, scope: Scope) -> Ramp:
+def _ramp(node: Value, scope: Scope) -> Ramp:
     return Ramp(
         rises=_role(node, "rises", scope),
         falls=_role(node, "falls", scope),
@@ -94,7 +94,7 @@ def _ramp(node: Node, scope: Scope) -> Ramp:
     )
 
 
-def _alarm(node: Node, scope: Scope) -> Alarm:
+def _alarm(node: Value, scope: Scope) -> Alarm:
     return Alarm(
         active=tuple(subject_at(each, scope) for each in elements_of(node, "active")),
         trips=tuple(trip for each in elements_of(node, "trips") for trip in _trips(each, scope)),
@@ -106,6 +106,6 @@ def _alarm(node: Node, scope: Scope) -> Alarm:
     )
 
 
-def _trips(node: Node, scope: Scope) -> list[Trip]:
+def _trips(node: Value, scope: Scope) -> list[Trip]:
     when = condition(node.child("when"), scope)
     return [Trip(kind, _role(node, kind, scope), when) for kind in TripKind if node.child(kind)]

@@ -2,11 +2,11 @@
 
 from dataclasses import replace
 
-from regscribe.lower.commands import Device
+from regscribe.lower.commands import CommandScope
 from regscribe.lower.conditions import condition
-from regscribe.lower.node import Node, elements_of, items_of, text_of
+from regscribe.lower.node import Value, elements_of, items_of, text_of
 from regscribe.lower.presence import present
-from regscribe.lower.program_place import ProgramPlace, numbers_of
+from regscribe.lower.program_registers import ProgramPlace, numbers_of
 from regscribe.lower.rules import UNKNOWN_COMMAND
 from regscribe.lower.scope import Scope
 from regscribe.model import (
@@ -25,7 +25,7 @@ from regscribe.model import (
 )
 
 
-def programs_of(root: Node, device: Device) -> tuple[SetpointProgram, ...]:
+def programs_of(root: Value, device: CommandScope) -> tuple[SetpointProgram, ...]:
     """The setpoint programs that a model has."""
     scope = device.scope
     return tuple(
@@ -35,7 +35,7 @@ def programs_of(root: Node, device: Device) -> tuple[SetpointProgram, ...]:
     )
 
 
-def _program(name: str, node: Node, scope: Scope) -> SetpointProgram:
+def _program(name: str, node: Value, scope: Scope) -> SetpointProgram:
     array = node.child("array")
     numbers = numbers_of(array, array.text(), scope) if array else []
     place = ProgramPlace(scope, tuple(numbers) or (0,), f"{array.text()}[{{i}}]." if array and numbers else "")
@@ -53,7 +53,7 @@ def _program(name: str, node: Node, scope: Scope) -> SetpointProgram:
     return _run(node, place, _made(node, place, made))
 
 
-def _made(node: Node, place: ProgramPlace, program: SetpointProgram) -> SetpointProgram:
+def _made(node: Value, place: ProgramPlace, program: SetpointProgram) -> SetpointProgram:
     """The program with what it is made of beside its segments."""
     count, cycles, forever = node.child("count"), place.path(node, "cycles"), node.child("forever")
     counts = count.child("counts") if count else None
@@ -74,7 +74,7 @@ def _made(node: Node, place: ProgramPlace, program: SetpointProgram) -> Setpoint
     )
 
 
-def _run(node: Node, place: ProgramPlace, program: SetpointProgram) -> SetpointProgram:
+def _run(node: Value, place: ProgramPlace, program: SetpointProgram) -> SetpointProgram:
     """The program with how it is run and watched."""
     requires, running = node.child("requires"), node.child("while_running")
     when = condition(requires.child("when"), place.scope) if requires else None
@@ -94,12 +94,12 @@ def _run(node: Node, place: ProgramPlace, program: SetpointProgram) -> SetpointP
     )
 
 
-def _order(node: Node) -> tuple[ProgramPart, ...]:
+def _order(node: Value) -> tuple[ProgramPart, ...]:
     told = tuple(one.choice(ProgramPart, ProgramPart.SEGMENTS) for one in elements_of(node, "write_order"))
     return (*(part for part in ProgramPart if part not in told), *told)
 
 
-def _segments(node: Node, around: ProgramPlace) -> ProgramSegments:
+def _segments(node: Value, around: ProgramPlace) -> ProgramSegments:
     array = node.child("array") or node
     name = array.text() if array.is_text else ""
     first = [f"{numbered(prefix, around.numbers[0])}{name}" for prefix in dict.fromkeys((around.prefix, ""))]
@@ -118,20 +118,20 @@ def _segments(node: Node, around: ProgramPlace) -> ProgramSegments:
     )
 
 
-def _final(node: Node | None, place: ProgramPlace) -> ProgramFinal | None:
+def _final(node: Value | None, place: ProgramPlace) -> ProgramFinal | None:
     return ProgramFinal(setpoint=place.path(node, "setpoint"), outputs=place.outputs(node)) if node else None
 
 
-def _time_unit(node: Node | None, place: ProgramPlace) -> ProgramTimeUnit | None:
+def _time_unit(node: Value | None, place: ProgramPlace) -> ProgramTimeUnit | None:
     if node is None:
         return None
     path = place.path(node, "register")
     units = items_of(node, "codes")
-    codes = [(place.code(Node(one.context, one.path, member), path), one.text()) for member, one in units]
+    codes = [(place.code(Value(one.context, one.path, member), path), one.text()) for member, one in units]
     return ProgramTimeUnit(register=path, codes=tuple(codes))
 
 
-def _status(node: Node | None, place: ProgramPlace) -> ProgramStatus | None:
+def _status(node: Value | None, place: ProgramPlace) -> ProgramStatus | None:
     if node is None:
         return None
     path = place.path(node, "register")
@@ -142,7 +142,7 @@ def _status(node: Node | None, place: ProgramPlace) -> ProgramStatus | None:
 _STATES = ("running", "held", "ended")
 
 
-def _action(node: Node | None, place: ProgramPlace) -> ProgramAction:
+def _action(node: Value | None, place: ProgramPlace) -> ProgramAction:
     if node is None or not node.is_text:
         return ProgramAction(writes=place.values(node))
     place.scope.named(node, "commands", rule=UNKNOWN_COMMAND, what="command")

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 
-from regscribe.lower.ends import ends, whole_ends
-from regscribe.lower.node import Node, elements_of, items_of, text_of, texts_of, truth_of, whole_of, wholes_of
+from regscribe.lower.interval_text import ends, whole_ends
+from regscribe.lower.node import Value, elements_of, items_of, text_of, texts_of, truth_of, whole_of, wholes_of
 from regscribe.lower.rules import WRONG_SORT
 from regscribe.model import SILENCE, ExceptionCode, Faults, Latency, Later, Protocol, Serial
 
@@ -16,7 +16,7 @@ _CODES = (
 )
 
 
-def protocol_of(node: Node | None) -> Protocol:
+def protocol_of(node: Value | None) -> Protocol:
     """The protocol of a map; what the map does not tell is as the Modbus specification has it."""
     plain = Protocol()
     if node is None:
@@ -45,7 +45,7 @@ def protocol_of(node: Node | None) -> Protocol:
     )
 
 
-def _parts(node: Node) -> Iterator[Node]:
+def _parts(node: Value) -> Iterator[Value]:
     """Yield the mappings inside the protocol whose keys have a meaning of their own."""
     for key in ("limits", "faults", "serial"):
         part = node.child(key)
@@ -53,7 +53,7 @@ def _parts(node: Node) -> Iterator[Node]:
             yield part
 
 
-def _faults(node: Node | None) -> Faults:
+def _faults(node: Value | None) -> Faults:
     faults = Faults()
     if node is None:
         return faults
@@ -68,26 +68,26 @@ def _faults(node: Node | None) -> Faults:
     )
 
 
-def _code(node: Node) -> int:
+def _code(node: Value) -> int:
     return SILENCE if node.value == "silence" else node.whole()
 
 
-def _exception(node: Node) -> ExceptionCode:
+def _exception(node: Value) -> ExceptionCode:
     return ExceptionCode(node.key_whole(), text_of(node, "name"), text_of(node, "meaning"))
 
 
-def _latency(node: Node) -> Latency:
+def _latency(node: Value) -> Latency:
     fixed, each = _times(node.child("fixed")), _times(node.child("per_word"))
     told = node.child("characters")
     characters = told.number() if told else Fraction(0)
     return Latency(node.key_whole(), *fixed, *each, characters, text_of(node, "note"))
 
 
-def _times(node: Node | None) -> tuple[Fraction, Fraction]:
+def _times(node: Value | None) -> tuple[Fraction, Fraction]:
     return ends(node) if node else (Fraction(0), Fraction(0))
 
 
-def _serial(node: Node | None) -> Serial:
+def _serial(node: Value | None) -> Serial:
     plain = Serial()
     if node is None:
         return plain
@@ -104,7 +104,7 @@ def _serial(node: Node | None) -> Serial:
     )
 
 
-def _default(node: Node | None) -> tuple[int | None, str]:
+def _default(node: Value | None) -> tuple[int | None, str]:
     words = node.text().split() if node else []
     if node is None or (len(words) == 2 and words[0].isdecimal()):  # noqa: PLR2004 - the speed and the format
         return (int(words[0]), words[1]) if words else (None, "")

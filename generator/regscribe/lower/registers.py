@@ -5,17 +5,17 @@ from fractions import Fraction
 
 from regscribe.lower.conditions import condition
 from regscribe.lower.enums import enum_of, fields_of
-from regscribe.lower.following import followed_fields, follows_of, shadowed
+from regscribe.lower.followed_values import followed_fields, follows_of, shadowed
 from regscribe.lower.governs import governs_of
-from regscribe.lower.idle import report_idle
-from regscribe.lower.limits import range_of
-from regscribe.lower.node import Node, text_of
+from regscribe.lower.idle_keys import report_idle
+from regscribe.lower.node import Value, text_of
+from regscribe.lower.ranges import range_of
 from regscribe.lower.rules import NO_ACCESS, UNKNOWN_COMMAND
 from regscribe.lower.scales import NOT_STATED, Scaling, decimals_rule, scale_of
 from regscribe.lower.scope import Scope
-from regscribe.lower.tree import Entry
+from regscribe.lower.special_values import beginning_of, sentinels_of, specials_of, version_of
+from regscribe.lower.tree import TreeNode
 from regscribe.lower.units import rescaled, unit_of
-from regscribe.lower.values import beginning_of, sentinels_of, specials_of, version_of
 from regscribe.lower.views import views_of
 from regscribe.model import (
     IDENTITY,
@@ -31,12 +31,12 @@ from regscribe.model import (
     Writable,
     always,
 )
-from regscribe.model.name import has_mark, indexed
+from regscribe.model.identifiers import has_mark, indexed
 
 _BY_KEY = {"enum": Kind.ENUM, "flags": Kind.FLAGS, "fields": Kind.FIELDS, "version": Kind.VERSION}
 
 
-def register_of(entry: Entry, everywhere: Scope) -> Register:
+def register_of(entry: TreeNode, everywhere: Scope) -> Register:
     """Give the keys of a register their meaning on the model of the scope."""
     scope = everywhere.at(entry)
     settings = entry.settings
@@ -94,7 +94,7 @@ def register_of(entry: Entry, everywhere: Scope) -> Register:
     return register
 
 
-def kind_of(entry: Entry, views: tuple[View, ...], scaling: tuple[Scaling, ...]) -> Kind:
+def kind_of(entry: TreeNode, views: tuple[View, ...], scaling: tuple[Scaling, ...]) -> Kind:
     """What the value is to a program: told by the map, or else by the other keys."""
     settings = entry.settings
     if "kind" in settings:
@@ -111,7 +111,7 @@ def kind_of(entry: Entry, views: tuple[View, ...], scaling: tuple[Scaling, ...])
     return Kind.NUMBER if _has_fractions(entry, views, scaling) else Kind.INTEGER
 
 
-def _has_fractions(entry: Entry, views: tuple[View, ...], scaling: tuple[Scaling, ...]) -> bool:
+def _has_fractions(entry: TreeNode, views: tuple[View, ...], scaling: tuple[Scaling, ...]) -> bool:
     return (
         any(view.type.is_float or (1 / (view.factor or Fraction(1))).denominator != 1 for view in views)
         or any(_makes_fractions(part.conversion) for part in scaling)
@@ -125,18 +125,18 @@ def _makes_fractions(conversion: Conversion) -> bool:
     return not whole or conversion.decimals is not None or conversion.places is not None
 
 
-def _special_scale(entry: Entry, scope: Scope) -> Cases[Conversion]:
+def _special_scale(entry: TreeNode, scope: Scope) -> Cases[Conversion]:
     """What makes a value of use of a special value's code: the decimals that divide the range divide it as well."""
     rule = entry.settings.get("range_decimals")
     divides = any(special.code for special in specials_of(entry))  # 0 stays 0
     return decimals_rule(rule, scope) if rule and divides else always(IDENTITY)
 
 
-def _text(entry: Entry, key: str) -> str:
+def _text(entry: TreeNode, key: str) -> str:
     return entry.settings[key].text().strip() if key in entry.settings else ""
 
 
-def _name(entry: Entry) -> str:
+def _name(entry: TreeNode) -> str:
     """The manual's name, in an array with the index of the element (those of arrays in arrays joined by dots)."""
     name, index = _text(entry, "name"), entry.place.index
     if not index or has_mark(name):
@@ -144,7 +144,7 @@ def _name(entry: Entry) -> str:
     return f"{name} {'.'.join(map(str, index))}"
 
 
-def folded(entry: Entry, everywhere: Scope) -> Register:
+def folded(entry: TreeNode, everywhere: Scope) -> Register:
     """A register of an array's first element as one of all elements.
 
     It is named without an index, marks as they are, and what it refers to in its own element has empty brackets.
@@ -154,7 +154,7 @@ def folded(entry: Entry, everywhere: Scope) -> Register:
     return replace(register, name=name, symbol=symbol, printed=printed)
 
 
-def _access(entry: Entry) -> Access:
+def _access(entry: TreeNode) -> Access:
     node = entry.settings.get("access")
     if node is not None:
         return node.choice(Access, Access.READ)
@@ -165,23 +165,23 @@ def _access(entry: Entry) -> Access:
     return Access.READ
 
 
-def _aliases(entry: Entry, base: View) -> tuple[int, ...]:
+def _aliases(entry: TreeNode, base: View) -> tuple[int, ...]:
     node = entry.settings.get("aliases")
     shift = entry.place.shift * base.stride
     return tuple(element.whole() + shift for element in node.elements()) if node else ()
 
 
-def _writable(node: Node | None, scope: Scope) -> Writable | None:
+def _writable(node: Value | None, scope: Scope) -> Writable | None:
     return Writable(condition(node.child("when"), scope), text_of(node, "reason")) if node else None
 
 
-def _command(node: Node | None, scope: Scope) -> str:
+def _command(node: Value | None, scope: Scope) -> str:
     if node is None:
         return ""
     scope.named(node, "commands", rule=UNKNOWN_COMMAND, what="command")
     return node.text()
 
 
-def _inferred(node: Node | None) -> tuple[Inferred, ...]:
+def _inferred(node: Value | None) -> tuple[Inferred, ...]:
     elements = node.elements() if node else []
     return tuple(Inferred(text_of(element, "what"), text_of(element, "why")) for element in elements)

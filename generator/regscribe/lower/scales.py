@@ -4,11 +4,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from regscribe.lower.conditions import condition
-from regscribe.lower.ends import unordered
-from regscribe.lower.node import Node
+from regscribe.lower.interval_text import unordered
+from regscribe.lower.node import Value
 from regscribe.lower.rules import NO_ENDS, TWO_SCALES, UNKNOWN_DECIMALS, UNKNOWN_SCALE, WRONG_SORT
 from regscribe.lower.scope import Scope, path_of
-from regscribe.lower.tree import Entry
+from regscribe.lower.tree import TreeNode
 from regscribe.model import ALWAYS, IDENTITY, Case, Cases, Condition, Conversion, Decimals, WireType, always, show
 
 NOT_STATED = "not_stated"
@@ -28,7 +28,7 @@ class Scaling:
     ends: tuple[Fraction, Fraction] | None = None
 
 
-def scale_of(entry: Entry, wire: WireType, scope: Scope) -> tuple[Scaling, ...]:
+def scale_of(entry: TreeNode, wire: WireType, scope: Scope) -> tuple[Scaling, ...]:
     """The conversion of a register by case; RS0318 where the map gives two."""
     settings = entry.settings
     given = [key for key in settings if key in _WAYS]
@@ -42,23 +42,23 @@ def scale_of(entry: Entry, wire: WireType, scope: Scope) -> tuple[Scaling, ...]:
     return (Scaling(ALWAYS, _linear(settings.get("multiply"), settings.get("add"))),)
 
 
-def _linear(multiply: Node | None, add: Node | None) -> Conversion:
+def _linear(multiply: Value | None, add: Value | None) -> Conversion:
     return Conversion(multiply.number() if multiply else Fraction(1), add.number() if add else Fraction(0))
 
 
-def _scale(node: Node, wire: WireType, scope: Scope) -> tuple[Scaling, ...]:
+def _scale(node: Value, wire: WireType, scope: Scope) -> tuple[Scaling, ...]:
     if node.is_text and ".." in node.text():
         return (_affine(node, ALWAYS, unordered(node), wire),)
     found = scope.named(node, "scales", rule=UNKNOWN_SCALE, what="scale")
     return (scale_at(found, wire, scope) if found else ()) or (Scaling(ALWAYS, IDENTITY),)
 
 
-def scale_at(node: Node, wire: WireType, scope: Scope) -> tuple[Scaling, ...]:
+def scale_at(node: Value, wire: WireType, scope: Scope) -> tuple[Scaling, ...]:
     """The cases of the scale that stands at `node`, for raw codes of the type `wire`."""
     return tuple(_case(case, wire, scope) for case in node.elements())
 
 
-def _case(node: Node, wire: WireType, scope: Scope) -> Scaling:
+def _case(node: Value, wire: WireType, scope: Scope) -> Scaling:
     when = condition(node.child("when"), scope)
     low, high, digits = node.child("from"), node.child("to"), node.child("decimals")
     if low and high:
@@ -68,7 +68,7 @@ def _case(node: Node, wire: WireType, scope: Scope) -> Scaling:
     return Scaling(when, _linear(node.child("multiply"), node.child("add")))
 
 
-def _affine(node: Node, when: Condition, ends: tuple[Fraction, Fraction], wire: WireType) -> Scaling:
+def _affine(node: Value, when: Condition, ends: tuple[Fraction, Fraction], wire: WireType) -> Scaling:
     if not wire.is_integer:
         message = f"the scale from {show(ends[0])} to {show(ends[1])} needs a whole number on the wire, not {wire}"
         node.report(NO_ENDS, message, remedy="use `multiply` and `add`")
@@ -77,7 +77,7 @@ def _affine(node: Node, when: Condition, ends: tuple[Fraction, Fraction], wire: 
     return Scaling(when, Conversion(multiply=multiply, add=ends[0] - multiply * wire.minimum), ends)
 
 
-def _power(node: Node) -> Fraction:
+def _power(node: Value) -> Fraction:
     digits = node.whole()
     if 0 <= digits <= _MOST_DIGITS:
         return Fraction(1, 10**digits)
@@ -85,26 +85,26 @@ def _power(node: Node) -> Fraction:
     return Fraction(1)
 
 
-def decimals_of(node: Node, scope: Scope) -> Cases[Conversion]:
+def decimals_of(node: Value, scope: Scope) -> Cases[Conversion]:
     """The conversion that `decimals` stands for: digits, `not_stated`, or a rule."""
     if node.is_number:
         return always(Conversion(multiply=_power(node)))
     return always(IDENTITY) if node.text() == NOT_STATED else decimals_rule(node, scope)
 
 
-def decimals_rule(node: Node, scope: Scope) -> Cases[Conversion]:
+def decimals_rule(node: Value, scope: Scope) -> Cases[Conversion]:
     """The cases of the decimals rule that `node` names: the rule's own, then identity if it has a condition."""
     rule = scope.named(node, "decimals", rule=UNKNOWN_DECIMALS, what="decimals rule")
     return rule_at(rule, scope) if rule else always(IDENTITY)
 
 
-def rule_at(rule: Node, scope: Scope) -> Cases[Conversion]:
+def rule_at(rule: Value, scope: Scope) -> Cases[Conversion]:
     """The cases of the decimals rule that stands at `rule`; where none of its own holds, the identity."""
     cases = tuple(_decimals_case(node, scope) for node in rule.elements())
     return cases if any(case.when.always for case in cases) else (*cases, Case(ALWAYS, IDENTITY))
 
 
-def _decimals_case(node: Node, scope: Scope) -> Case[Conversion]:
+def _decimals_case(node: Value, scope: Scope) -> Case[Conversion]:
     when = condition(node.child("when"), scope)
     register, at_most, step, stores = (node.child(key) for key in ("register", "at_most", "step", "stores"))
     if register is None:

@@ -3,12 +3,12 @@
 from dataclasses import dataclass, field, replace
 
 from regscribe.lower.names import unknown
-from regscribe.lower.node import Node
+from regscribe.lower.node import Value
 from regscribe.lower.presence import Models
 from regscribe.lower.rules import OTHER_MODELS, UNKNOWN_REGISTER
-from regscribe.lower.tree import Entry
+from regscribe.lower.tree import TreeNode
 from regscribe.model import Enum, Related
-from regscribe.model.name import opened
+from regscribe.model.identifiers import opened
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,12 +21,12 @@ class Scope:
     elements, so a sibling in the same element is found under a path with empty brackets, `channels[].decimals`.
     """
 
-    map: Node
+    map: Value
     model: str
     models: Models
-    entries: dict[str, Entry]
+    entries: dict[str, TreeNode]
     homes: dict[str, Models]
-    viewer: Entry | None = None
+    viewer: TreeNode | None = None
     lenient: bool = False
     folded: bool = False
     enums: dict[str, Enum] = field(default_factory=dict)
@@ -36,18 +36,18 @@ class Scope:
         """The elements around the register that refers, from the inside out."""
         return self.viewer.place.prefixes if self.viewer else ()
 
-    def at(self, entry: Entry) -> "Scope":
+    def at(self, entry: TreeNode) -> "Scope":
         """The same scope, seen from a register."""
         return replace(self, viewer=entry)
 
-    def find(self, name: str) -> Entry | None:
+    def find(self, name: str) -> TreeNode | None:
         """The register of this name on this model, None if there is none."""
         for prefix in self.prefixes:
             if found := self.entries.get(f"{prefix}{name}"):
                 return replace(found, path=f"{opened(prefix)}{name}") if self.folded else found
         return self.entries.get(name)
 
-    def named(self, node: Node, table: str, *, rule: str, what: str) -> Node | None:
+    def named(self, node: Value, table: str, *, rule: str, what: str) -> Value | None:
         """The entry of a table of the map that `node` names; reports `rule` and returns None if there is none."""
         name = node.text()
         found = self.map.child(table)
@@ -56,7 +56,7 @@ class Scope:
             unknown(node, rule, what, name, [key for key, _ in found.items()] if found else [])
         return entry
 
-    def register(self, node: Node, name: str | None = None, *, at_key: bool = False) -> Entry | None:
+    def register(self, node: Value, name: str | None = None, *, at_key: bool = False) -> TreeNode | None:
         """The register that `node` names; RS0301 if no model has it, RS0302 if only other models have."""
         wanted = node.text() if name is None else name
         entry = self.find(wanted)
@@ -64,7 +64,7 @@ class Scope:
             self.missing(node, wanted, at_key=at_key)
         return entry
 
-    def missing(self, node: Node, name: str, *, at_key: bool = False) -> None:
+    def missing(self, node: Value, name: str, *, at_key: bool = False) -> None:
         """Report that this model has no register of this name."""
         homes = next((self.homes[f"{at}{name}"] for at in (*self.prefixes, "") if f"{at}{name}" in self.homes), ())
         if self.lenient and (homes or any(path.endswith(f".{name}") for path in self.homes)):
@@ -74,7 +74,7 @@ class Scope:
         else:
             unknown(node, UNKNOWN_REGISTER, "register", name, self.homes, at_key=at_key)
 
-    def _elsewhere(self, node: Node, name: str, homes: Models, *, at_key: bool) -> None:
+    def _elsewhere(self, node: Value, name: str, homes: Models, *, at_key: bool) -> None:
         viewer = self.viewer
         needed = f"where `{viewer.path}` needs it" if viewer else "where it is needed"
         message = f"`{name}` is not on {self.model}, {needed}, only on {', '.join(homes)}"
@@ -83,6 +83,6 @@ class Scope:
         node.report(OTHER_MODELS, message, remedy=remedy, at_key=at_key, related=related)
 
 
-def path_of(entry: Entry | None, name: str) -> str:
+def path_of(entry: TreeNode | None, name: str) -> str:
     """The path of a register, or the name that was not found as a placeholder."""
     return entry.path if entry else name

@@ -1,10 +1,10 @@
 """Sets of registers: which one a use names, and what of it is put there."""
 
-from regscribe.lower.ends import whole_ends
+from regscribe.lower.interval_text import whole_ends
 from regscribe.lower.names import unknown
-from regscribe.lower.node import Node, elements_of, text_of, texts_of
+from regscribe.lower.node import Value, elements_of, text_of, texts_of
 from regscribe.lower.rules import SET_IN_ITSELF, TOO_MANY_ELEMENTS, UNKNOWN_REGISTER, UNKNOWN_SET
-from regscribe.model.name import snake, unindexed
+from regscribe.model.identifiers import snake, unindexed
 
 MOST = 65536
 """Registers that sets put into one model: there are no more addresses."""
@@ -15,7 +15,7 @@ DEEPEST = 16
 _REMEDY = "look for a set that is used often in a set that is used often"
 
 
-def table_of(node: Node, sets: Node | None, around: tuple[str, ...]) -> Node | None:
+def table_of(node: Value, sets: Value | None, around: tuple[str, ...]) -> Value | None:
     """The set that `node` names; RS0333 where there is none, RS0334 where it is one of those `around` it."""
     name = text_of(node, "set")
     at = node.child("set") or node
@@ -30,7 +30,7 @@ def table_of(node: Node, sets: Node | None, around: tuple[str, ...]) -> Node | N
     return table if _fits(node, sets) else None
 
 
-def _fits(node: Node, sets: Node | None) -> bool:
+def _fits(node: Value, sets: Value | None) -> bool:
     """Whether there are addresses enough for all that a set brings; RS0331 where not, before any of it is looked at."""
     if _size(text_of(node, "set"), sets, node.context.sizes, DEEPEST) <= MOST:
         return True
@@ -39,7 +39,7 @@ def _fits(node: Node, sets: Node | None) -> bool:
     return False
 
 
-def _size(name: str, sets: Node | None, known: dict[str, int], depth: int) -> int:
+def _size(name: str, sets: Value | None, known: dict[str, int], depth: int) -> int:
     """How many registers a set has with all sets and arrays in it, `depth` sets deep at most."""
     if name not in known:
         if not depth:
@@ -50,7 +50,7 @@ def _size(name: str, sets: Node | None, known: dict[str, int], depth: int) -> in
     return known[name]
 
 
-def _sum(nodes: list[Node], sets: Node | None, known: dict[str, int], depth: int) -> int:
+def _sum(nodes: list[Value], sets: Value | None, known: dict[str, int], depth: int) -> int:
     total = 0
     for node in nodes:
         if node.child("set"):
@@ -62,13 +62,13 @@ def _sum(nodes: list[Node], sets: Node | None, known: dict[str, int], depth: int
     return total
 
 
-def _repeats(node: Node) -> int:
+def _repeats(node: Value) -> int:
     repeat = node.child("repeat")
     first, last = whole_ends(repeat) if repeat else (1, 1)
     return last - first + 1
 
 
-def left_of(table: Node, node: Node, model: str) -> list[Node]:
+def left_of(table: Value, node: Value, model: str) -> list[Value]:
     """The elements of a set but those that `except_ids` of `node` names.
 
     RS0301 for an id that the set does not have, RS0331 where sets have grown beyond all addresses.
@@ -86,7 +86,7 @@ def left_of(table: Node, node: Node, model: str) -> list[Node]:
     return []
 
 
-def _id(node: Node) -> str:
+def _id(node: Value) -> str:
     if node.child("set"):
         return ""
     return text_of(node, "id") or snake(unindexed(text_of(node, "name")))

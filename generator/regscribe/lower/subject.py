@@ -5,11 +5,11 @@ from fractions import Fraction
 
 from regscribe.lower.enums import code_anywhere, enum_for, fields_of
 from regscribe.lower.names import unknown
-from regscribe.lower.node import Node, text_of
+from regscribe.lower.node import Value, text_of
 from regscribe.lower.rules import DIVIDED, UNKNOWN_FIELD, UNKNOWN_MEMBER
 from regscribe.lower.scope import Scope
-from regscribe.lower.tree import Entry
-from regscribe.model.name import snake
+from regscribe.lower.tree import TreeNode
+from regscribe.model.identifiers import snake
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,11 +17,11 @@ class Subject:
     """A register as the map names it, and a bit field of it ("" for the whole register)."""
 
     name: str
-    entry: Entry
+    entry: TreeNode
     field: str = ""
 
 
-def subject_of(node: Node, key: str, scope: Scope) -> Subject | None:
+def subject_of(node: Value, key: str, scope: Scope) -> Subject | None:
     """The subject that the key of `node` names; RS0301, RS0302 or RS0303 and None where there is none."""
     entry = scope.find(key)
     if entry is not None:
@@ -37,7 +37,7 @@ def subject_of(node: Node, key: str, scope: Scope) -> Subject | None:
     return Subject(register, owner, field)
 
 
-def code_of_text(node: Node, subject: Subject, scope: Scope) -> Fraction:
+def code_of_text(node: Value, subject: Subject, scope: Scope) -> Fraction:
     """The code of an enum member, or what a special value is, by its id; RS0305 where there is none."""
     text = node.text()
     known: list[str] = []
@@ -61,18 +61,18 @@ def code_of_text(node: Node, subject: Subject, scope: Scope) -> Fraction:
     return Fraction(0)
 
 
-def _undivided(node: Node, entry: Entry, code_node: Node) -> None:
+def _undivided(node: Value, entry: TreeNode, code_node: Value) -> None:
     """Report a special value that is another number with each number of decimals."""
     if "range_decimals" in entry.settings and code_node.key_number():
         message = f"`{node.text()}` of `{entry.id}` is divided as the range is, so it is no one number"
         node.report(DIVIDED, message, remedy="ask for a value, or for the register that holds the decimals as well")
 
 
-def special_ids(entry: Entry) -> list[tuple[str, Node]]:
+def special_ids(entry: TreeNode) -> list[tuple[str, Value]]:
     """The special values of a register: id in lower case, and the place of the value."""
     specials = entry.settings.get("special")
     return [(_id(node).lower(), node) for node in specials.values()] if specials else []
 
 
-def _id(node: Node) -> str:
+def _id(node: Value) -> str:
     return (text_of(node, "id") or snake(text_of(node, "label"))) if node.is_mapping else snake(node.text())

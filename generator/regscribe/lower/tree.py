@@ -2,20 +2,20 @@
 
 from dataclasses import dataclass, replace
 
-from regscribe.lower.ends import whole_ends
-from regscribe.lower.layers import Settings, settings_of, with_variants
+from regscribe.lower.interval_text import whole_ends
 from regscribe.lower.names import identifier
-from regscribe.lower.node import Node, elements_of, text_of, whole_of
+from regscribe.lower.node import Value, elements_of, text_of, whole_of
 from regscribe.lower.presence import Models, present
 from regscribe.lower.rules import ON_NO_MODEL, TOO_MANY_ELEMENTS
 from regscribe.lower.sets import left_of, table_of
+from regscribe.lower.variants import Keys, settings_of, with_variants
 from regscribe.model import Span
 
 ADDRESSES = 65536
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class TreePosition:
     """Where a list of registers stands on one model: inside which group, arrays and elements.
 
     `among` are the models that the surroundings exist on, `layers` the `each` defaults from the outside in, `prefixes`
@@ -29,26 +29,26 @@ class Place:
     among: Models
     group: str
     section: str
-    layers: tuple[Node, ...] = ()
+    layers: tuple[Value, ...] = ()
     prefixes: tuple[str, ...] = ()
     array: str = ""
     index: tuple[int, ...] = ()
     shift: int = 0
     elements: int = 1
-    over: tuple[Node, ...] = ()
-    sets: Node | None = None
+    over: tuple[Value, ...] = ()
+    sets: Value | None = None
     open: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class TreeNode:
     """One register of one model (one element of an array): its names, and the keys that count for it."""
 
-    node: Node
+    node: Value
     id: str
     path: str
-    settings: Settings
-    place: Place
+    settings: Keys
+    place: TreePosition
 
     @property
     def span(self) -> Span:
@@ -62,10 +62,10 @@ class Entry:
 
 
 @dataclass(frozen=True, slots=True)
-class Branch:
+class TreeBranch:
     """An array of one model: what each element holds."""
 
-    node: Node
+    node: Value
     id: str
     first: int
     stride: int
@@ -73,15 +73,15 @@ class Branch:
     elements: tuple[tuple["Item", ...], ...]
 
 
-Item = Entry | Branch
+Item = TreeNode | TreeBranch
 
 
-def span_of(node: Node) -> Span:
+def span_of(node: Value) -> Span:
     """Where the `id`, or else the name, or else the thing itself stands."""
     return (node.child("id") or node.child("name") or node).span
 
 
-def items_in(nodes: list[Node], place: Place) -> tuple[Item, ...]:
+def items_in(nodes: list[Value], place: TreePosition) -> tuple[Item, ...]:
     """The registers and arrays of a list that the model of `place` has, those of sets among them."""
     items: list[Item] = []
     for node in nodes:
@@ -99,7 +99,7 @@ def items_in(nodes: list[Node], place: Place) -> tuple[Item, ...]:
     return tuple(items)
 
 
-def _set(node: Node, place: Place) -> tuple[Item, ...]:
+def _set(node: Value, place: TreePosition) -> tuple[Item, ...]:
     """The registers of the set that `node` puts here."""
     name, each = text_of(node, "set"), node.child("set_each")
     has = present(node, place.among, place.every)
@@ -117,23 +117,23 @@ def _set(node: Node, place: Place) -> tuple[Item, ...]:
     return items_in(registers, inside)
 
 
-def _nowhere(node: Node, place: Place) -> None:
+def _nowhere(node: Value, place: TreePosition) -> None:
     at = node.child("except") or node.child("models") or node
     message = f"`{text_of(node, 'name', text_of(node, 'set'))}` is on no model"
     at.report(ON_NO_MODEL, message, remedy=f"its surroundings are on: {', '.join(place.among)}")
 
 
-def _entry(node: Node, name: str, has: Models, place: Place) -> Entry:
+def _entry(node: Value, name: str, has: Models, place: TreePosition) -> TreeNode:
     layers = [part for each in place.layers for part in with_variants(each, place.model, place.every, place.every)]
     settings = settings_of([*layers, *with_variants(node, place.model, has, place.every), *place.over])
-    return Entry(node=node, id=name, path=_inside(place, name), settings=settings, place=place)
+    return TreeNode(node=node, id=name, path=_inside(place, name), settings=settings, place=place)
 
 
-def _inside(place: Place, name: str) -> str:
+def _inside(place: TreePosition, name: str) -> str:
     return f"{place.prefixes[0]}{name}" if place.prefixes else name
 
 
-def _branch(node: Node, name: str, place: Place) -> Branch:
+def _branch(node: Value, name: str, place: TreePosition) -> TreeBranch:
     repeat = node.child("repeat")
     first, last = whole_ends(repeat) if repeat else (1, 1)
     count = (last - first + 1) * place.elements * len(elements_of(node, "registers"))
@@ -153,16 +153,16 @@ def _branch(node: Node, name: str, place: Place) -> Branch:
         elements=(last - first + 1) * place.elements,
     )
     elements = tuple(_element(node, name, inside, step, first) for step in range(last - first + 1))
-    return Branch(node=node, id=name, first=first, stride=stride, section=inside.section, elements=elements)
+    return TreeBranch(node=node, id=name, first=first, stride=stride, section=inside.section, elements=elements)
 
 
-def _section(node: Node, place: Place) -> str:
+def _section(node: Value, place: TreePosition) -> str:
     """Where an array is described: as the use of its set says, else as it says itself, else as its surroundings do."""
     told = [text_of(each, "source") for each in place.over if each.child("source")]
     return told[-1] if told else text_of(node, "source", place.section)
 
 
-def _element(node: Node, name: str, place: Place, step: int, first: int) -> tuple[Item, ...]:
+def _element(node: Value, name: str, place: TreePosition, step: int, first: int) -> tuple[Item, ...]:
     prefix = f"{_inside(place, name)}[{first + step}]."
     inside = replace(
         place,
@@ -173,11 +173,11 @@ def _element(node: Node, name: str, place: Place, step: int, first: int) -> tupl
     return items_in(elements_of(node, "registers"), inside)
 
 
-def entries_of(items: tuple[Item, ...]) -> list[Entry]:
+def entries_of(items: tuple[Item, ...]) -> list[TreeNode]:
     """The registers of all elements, in order."""
-    entries: list[Entry] = []
+    entries: list[TreeNode] = []
     for item in items:
-        if isinstance(item, Entry):
+        if isinstance(item, TreeNode):
             entries.append(item)
         else:
             for element in item.elements:

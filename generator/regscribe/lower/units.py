@@ -2,7 +2,7 @@
 
 from regscribe.lower.conditions import condition
 from regscribe.lower.names import unknown
-from regscribe.lower.node import Node, items_of
+from regscribe.lower.node import Value, items_of
 from regscribe.lower.rules import UNKNOWN_UNIT
 from regscribe.lower.scope import Scope
 from regscribe.model import Case, Cases, always
@@ -14,12 +14,12 @@ KNOWN = (
 """Unit symbols that a map may use without declaring them."""
 
 
-def own_symbols(root: Node) -> tuple[str, ...]:
+def own_symbols(root: Value) -> tuple[str, ...]:
     """The plain unit symbols that a map declares."""
     return tuple(name for name, node in items_of(root, "units") if not node.is_list)
 
 
-def unit_of(node: Node | None, scope: Scope) -> tuple[Cases[str], str]:
+def unit_of(node: Value | None, scope: Scope) -> tuple[Cases[str], str]:
     """The unit symbol by case, and the id where the map names a unit with cases; RS0311 for an unknown one."""
     if node is None:
         return always(""), ""
@@ -30,17 +30,17 @@ def unit_of(node: Node | None, scope: Scope) -> tuple[Cases[str], str]:
     return always(_symbol(node, scope)), ""
 
 
-def cases_at(node: Node, scope: Scope) -> Cases[str]:
+def cases_at(node: Value, scope: Scope) -> Cases[str]:
     """The cases of the unit that stands at `node`."""
     return tuple(_case(case, scope) for case in node.elements())
 
 
-def _case(node: Node, scope: Scope) -> Case[str]:
+def _case(node: Value, scope: Scope) -> Case[str]:
     symbol = node.child("symbol")
     return Case(condition(node.child("when"), scope), _symbol(symbol, scope, cases=False) if symbol else "")
 
 
-def _symbol(node: Node, scope: Scope, *, cases: bool = True) -> str:
+def _symbol(node: Value, scope: Scope, *, cases: bool = True) -> str:
     own = own_symbols(scope.map)
     if node.text() and node.text() not in {*KNOWN, *own}:
         by_case = [name for name, each in items_of(scope.map, "units") if each.is_list] if cases else []
@@ -48,7 +48,7 @@ def _symbol(node: Node, scope: Scope, *, cases: bool = True) -> str:
     return node.text()
 
 
-def rescaled(node: Node, scope: Scope) -> str:
+def rescaled(node: Value, scope: Scope) -> str:
     """The unit with cases whose registers the device converts; RS0311 where the map has none of that name."""
     by_case = [name for name, each in items_of(scope.map, "units") if each.is_list]
     if node.text() not in by_case:

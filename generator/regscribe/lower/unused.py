@@ -2,7 +2,7 @@
 
 from regscribe.lower.conditions import condition
 from regscribe.lower.enums import enum_at
-from regscribe.lower.node import Node, items_of
+from regscribe.lower.node import Value, items_of
 from regscribe.lower.scales import rule_at, scale_at
 from regscribe.lower.scope import Scope
 from regscribe.lower.units import cases_at
@@ -10,7 +10,7 @@ from regscribe.lower.views import Home, set_at
 from regscribe.model import Space, WireType
 
 
-def look_at_tables(root: Node, scope: Scope) -> None:
+def look_at_tables(root: Value, scope: Scope) -> None:
     """Lower every named thing of the map for one model and forget it; the mistakes stay in the context.
 
     What a library or a base declares may be for other maps: there only what is used counts.
@@ -30,5 +30,5 @@ def look_at_tables(root: Node, scope: Scope) -> None:
             cases_at(node, scope)
 
 
-def _own(root: Node, table: str) -> list[tuple[str, Node]]:
+def _own(root: Value, table: str) -> list[tuple[str, Value]]:
     return [(name, node) for name, node in items_of(root, table) if node.span.file == root.context.document.name]

@@ -3,11 +3,11 @@
 from dataclasses import dataclass
 from fractions import Fraction
 
-from regscribe.lower.ends import whole_ends
-from regscribe.lower.node import Node, elements_of, text_of, truth_of, whole_of
+from regscribe.lower.interval_text import whole_ends
+from regscribe.lower.node import Value, elements_of, text_of, truth_of, whole_of
 from regscribe.lower.rules import IDLE_KEY, IDLE_LENGTH, TYPE_BESIDE_VIEWS, UNKNOWN_VIEWS, WRONG_SORT
 from regscribe.lower.scope import Scope, path_of
-from regscribe.lower.tree import Entry
+from regscribe.lower.tree import TreeNode
 from regscribe.model import Order, OrderFromRegister, Rounding, Space, View, WireType
 
 _OF_EACH_VIEW = ("type", "word_order", "byte_order", "functions")
@@ -23,7 +23,7 @@ class Home:
     length: int
 
 
-def views_of(entry: Entry, scope: Scope) -> tuple[View, ...]:
+def views_of(entry: TreeNode, scope: Scope) -> tuple[View, ...]:
     """The views of a register, the base view first; RS0306 for an unknown view set, RS0336 for an idle length."""
     views = _views_of(entry, scope)
     length = entry.settings.get("length")
@@ -35,7 +35,7 @@ def views_of(entry: Entry, scope: Scope) -> tuple[View, ...]:
     return views
 
 
-def _views_of(entry: Entry, scope: Scope) -> tuple[View, ...]:
+def _views_of(entry: TreeNode, scope: Scope) -> tuple[View, ...]:
     settings = entry.settings
     space = settings["space"].choice(Space, Space.HOLDING) if "space" in settings else Space.HOLDING
     length = settings["length"].whole() if "length" in settings else 1
@@ -51,7 +51,7 @@ def _views_of(entry: Entry, scope: Scope) -> tuple[View, ...]:
     return (set_at(view_set, home, scope) if view_set else ()) or (_single(entry, home, scope),)
 
 
-def _at(entry: Entry) -> int:
+def _at(entry: TreeNode) -> int:
     at = entry.settings.get("at")
     if at is None:
         message = f"`{entry.id}` has no address"
@@ -62,13 +62,13 @@ def _at(entry: Entry) -> int:
     return at.whole() + entry.place.shift
 
 
-def set_at(node: Node, home: Home, scope: Scope) -> tuple[View, ...]:
+def set_at(node: Value, home: Home, scope: Scope) -> tuple[View, ...]:
     """The views of the set that stands at `node`, the base view first."""
     views = [_view(name, each, home, scope) for name, each in node.items()]
     return tuple(sorted(views, key=lambda view: view.name != "base"))
 
 
-def _single(entry: Entry, home: Home, scope: Scope) -> View:
+def _single(entry: TreeNode, home: Home, scope: Scope) -> View:
     settings = entry.settings
     default = _DEFAULT_TYPES.get(home.space, WireType.UINT16)
     wire = settings["type"].choice(WireType, default) if "type" in settings else default
@@ -85,7 +85,7 @@ def _single(entry: Entry, home: Home, scope: Scope) -> View:
     )
 
 
-def _view(name: str, node: Node, home: Home, scope: Scope) -> View:
+def _view(name: str, node: Value, home: Home, scope: Scope) -> View:
     told = node.child("type")
     wire = told.choice(WireType, WireType.UINT16) if told else WireType.UINT16
     _report_idle(name, node, wire)
@@ -110,7 +110,7 @@ def _view(name: str, node: Node, home: Home, scope: Scope) -> View:
     )
 
 
-def _report_idle(name: str, node: Node, wire: WireType) -> None:
+def _report_idle(name: str, node: Value, wire: WireType) -> None:
     """Report what a view says of words or fractions that its type does not have (RS0338)."""
     idle = {
         "word_order": wire is not WireType.STRING and wire.words == 1 and "its value is one word",
@@ -122,7 +122,7 @@ def _report_idle(name: str, node: Node, wire: WireType) -> None:
             told.report(IDLE_KEY, f"view `{name}` has `{key}`, but {why}", remedy="remove it", at_key=True)
 
 
-def _order(node: Node | None, scope: Scope) -> Order | OrderFromRegister:
+def _order(node: Value | None, scope: Scope) -> Order | OrderFromRegister:
     if node is None:
         return Order.BIG
     if not node.is_mapping:
@@ -133,5 +133,5 @@ def _order(node: Node | None, scope: Scope) -> Order | OrderFromRegister:
     return OrderFromRegister(register=path, codes=tuple(pairs))
 
 
-def _byte_order(node: Node | None) -> Order:
+def _byte_order(node: Value | None) -> Order:
     return node.choice(Order, Order.BIG) if node else Order.BIG

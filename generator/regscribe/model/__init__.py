@@ -3,7 +3,6 @@
 Nothing here knows YAML, templates or a device; every number that scales is a `Fraction`.
 """
 
-from regscribe.model.behaviour import Alarm, Effect, OnOff, Output, Pid, Process, Ramp, Trip, TripKind
 from regscribe.model.condition import ALWAYS, Case, Cases, CodeRange, Condition, Lookup, Test, always, registers_of
 from regscribe.model.diagnostic import Diagnostic, Related, Rule, Severity, Span
 from regscribe.model.governs import Governs, Setting
@@ -28,6 +27,7 @@ from regscribe.model.map import (
     Waiver,
 )
 from regscribe.model.number import exact, show
+from regscribe.model.process import Alarm, Effect, OnOff, Output, Pid, Process, Ramp, Trip, TripKind
 from regscribe.model.program import (
     ProgramAction,
     ProgramCounts,

@@ -4,10 +4,10 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from fractions import Fraction
 
-from regscribe.model.behaviour import Effect, Process
 from regscribe.model.condition import Condition
 from regscribe.model.diagnostic import NOWHERE, Span
-from regscribe.model.name import ways_to_say
+from regscribe.model.identifiers import ways_to_say
+from regscribe.model.process import Effect, Process
 from regscribe.model.program import SetpointProgram
 from regscribe.model.protocol import USUAL_PROTOCOL, Protocol
 from regscribe.model.register import Array, Group, Register

@@ -4,9 +4,9 @@
 `language` names another schema of the folder schema/, for the other files that people write.
 """
 
-from regscribe.schema.loading import schema_json
 from regscribe.schema.rules import RULES
-from regscribe.schema.validation import validate
+from regscribe.schema.schemas import schema_json
+from regscribe.schema.validate import validate
 from regscribe.schema.wording import inline
 
 __all__ = ["RULES", "inline", "schema_json", "validate"]

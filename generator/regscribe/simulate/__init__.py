@@ -1,34 +1,34 @@
 """A device that answers as its map says: in process, over TCP, or on a serial line."""
 
-from regscribe.simulate.connection import Arrival, Delivery, Exchange, Patience, Piece
-from regscribe.simulate.device import SimulatedDevice
+from regscribe.simulate.device.describe import Told, tell
+from regscribe.simulate.device.device import SimulatedDevice
+from regscribe.simulate.device.value_arguments import HIGH_FAULT, LOW_FAULT, Fault
 from regscribe.simulate.errors import SimulatorError
-from regscribe.simulate.faults import Faults, LineFault
-from regscribe.simulate.framing import Framing, Request
-from regscribe.simulate.lines import Line
-from regscribe.simulate.maps import find_map
-from regscribe.simulate.running import Running, in_thread, simulate
-from regscribe.simulate.servers import Server
-from regscribe.simulate.service import Service, Transport, serve, start
-from regscribe.simulate.station import Foreign
-from regscribe.simulate.telling import Told, tell
-from regscribe.simulate.thermal import ThermalProcess
-from regscribe.simulate.values import HIGH_FAULT, LOW_FAULT, Fault
+from regscribe.simulate.in_process import Running, in_thread, simulate
+from regscribe.simulate.line.connection import Arrival, Chunk, Delivery, Exchange, Patience
+from regscribe.simulate.line.framing import Framing, Request
+from regscribe.simulate.line.line_faults import LineFault, LineFaults
+from regscribe.simulate.line.serial_ports import Line
+from regscribe.simulate.line.server_context import Foreign
+from regscribe.simulate.line.servers import Server
+from regscribe.simulate.line.service import Service, Transport, serve, start
+from regscribe.simulate.map_search import find_map
+from regscribe.simulate.process.thermal_process import ThermalProcess
 
 __all__ = [
     "HIGH_FAULT",
     "LOW_FAULT",
     "Arrival",
+    "Chunk",
     "Delivery",
     "Exchange",
     "Fault",
-    "Faults",
     "Foreign",
     "Framing",
     "Line",
     "LineFault",
+    "LineFaults",
     "Patience",
-    "Piece",
     "Request",
     "Running",
     "Server",

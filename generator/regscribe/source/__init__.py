@@ -7,19 +7,19 @@
 from pathlib import Path as FilePath
 
 from regscribe.model import Diagnostic
-from regscribe.source.document import Document, Node, Path, Place, Plain
-from regscribe.source.reading import display_name, parse, read
+from regscribe.source.document import Document, Path, Plain, SourceNode, SourcePlace
+from regscribe.source.load import display_name, parse, read
 from regscribe.source.rules import RULES
 from regscribe.source.scalars import NumberFormError, resolve, shorten
 
 __all__ = [
     "RULES",
     "Document",
-    "Node",
     "NumberFormError",
     "Path",
-    "Place",
     "Plain",
+    "SourceNode",
+    "SourcePlace",
     "display_name",
     "load",
     "parse",

@@ -15,7 +15,7 @@ Path = tuple[str | int, ...]
 """Keys and list indices from the top of the file to a value."""
 
 
-class Place(NamedTuple):
+class SourcePlace(NamedTuple):
     """Start and end (exclusive) in the text; lines and columns count from 0.
 
     `file` is empty in the document's own file; in a document of several files it tells the others apart.
@@ -32,18 +32,18 @@ class Place(NamedTuple):
         return Span(self.file or file, self.line + 1, self.column + 1, self.end_line + 1, self.end_column + 1)
 
 
-class Node(NamedTuple):
+class SourceNode(NamedTuple):
     """One value: its place, the places of its keys, what it holds, and its size with all aliases expanded."""
 
     value: Plain
-    place: Place
-    keys: dict[str, Place] | None = None
-    members: "dict[str, Node] | None" = None
-    elements: "list[Node] | None" = None
+    place: SourcePlace
+    keys: dict[str, SourcePlace] | None = None
+    members: "dict[str, SourceNode] | None" = None
+    elements: "list[SourceNode] | None" = None
     size: int = 1
     height: int = 1
 
-    def child(self, step: str | int) -> "Node | None":
+    def child(self, step: str | int) -> "SourceNode | None":
         """Return the value under a key or index, if there is one."""
         if self.members is not None:
             return self.members.get(str(step))
@@ -67,7 +67,7 @@ class Document:
     text: str
     data: Plain
     content_hash: str
-    root: Node
+    root: SourceNode
 
     def span(self, path: Path) -> Span:
         """Where the value at `path` stands; where nothing does, the nearest value above it that exists."""
@@ -80,7 +80,7 @@ class Document:
             return parent.keys[str(path[-1])].span(self.name)
         return self.span(path)
 
-    def _reach(self, path: Path) -> tuple[Node, int]:
+    def _reach(self, path: Path) -> tuple[SourceNode, int]:
         """Walk along `path`: the deepest node there is, and how many steps are missing."""
         node = self.root
         for done, step in enumerate(path):

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 
 from regscribe.model import Diagnostic, Related
-from regscribe.source.document import Place
+from regscribe.source.document import SourcePlace
 from regscribe.source.rules import TOO_MANY_FINDINGS
 
 MAX_FINDINGS = 300
@@ -21,7 +21,13 @@ class Findings:
     diagnostics: list[Diagnostic] = field(default_factory=list)
 
     def add(
-        self, rule: str, message: str, place: Place, *, advice: str, related: tuple[tuple[str, Place], ...] = ()
+        self,
+        rule: str,
+        message: str,
+        place: SourcePlace,
+        *,
+        advice: str,
+        related: tuple[tuple[str, SourcePlace], ...] = (),
     ) -> None:
         """Add one; raises StopReadingError when there are too many to be useful."""
         others = tuple(Related(text, where.span(self.name)) for text, where in related)
@@ -33,7 +39,13 @@ class Findings:
             raise StopReadingError
 
     def stop(
-        self, rule: str, message: str, place: Place, *, advice: str, related: tuple[tuple[str, Place], ...] = ()
+        self,
+        rule: str,
+        message: str,
+        place: SourcePlace,
+        *,
+        advice: str,
+        related: tuple[tuple[str, SourcePlace], ...] = (),
     ) -> StopReadingError:
         """Add one after which nothing can be read; the caller raises what this returns."""
         self.add(rule, message, place, advice=advice, related=related)

@@ -1,11 +1,11 @@
 """Run a generated driver against its vectors, and state properties that hold for every value.
 
-A generated test module loads its vectors with `load`, makes a `Bench` for each model and calls the checks; the
-strategies in `regscribe.testing.properties` need hypothesis. Imports the runtime only, never the compiler.
+A generated test module loads its vectors with `load`, makes a `DriverUnderTest` for each model and calls the checks;
+the strategies in `regscribe.testing.properties` need hypothesis. Imports the runtime only, never the compiler.
 """
 
-from regscribe.testing.bench import Bench
-from regscribe.testing.trial import Trial
+from regscribe.testing.driver_checks import DriverUnderTest
+from regscribe.testing.register_trial import Trial
 from regscribe.testing.vectors import Vectors, load, number
 
-__all__ = ["Bench", "Trial", "Vectors", "load", "number"]
+__all__ = ["DriverUnderTest", "Trial", "Vectors", "load", "number"]

@@ -4,9 +4,9 @@ from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from typing import Any
 
-from regscribe.runtime import Flags, NotDecodable, Saturated, SensorFault, ValueNotDecodable, ValueRefused
-from regscribe.testing.trial import Trial
+from regscribe.testing.register_trial import Trial
 from regscribe.testing.vectors import Json, number
+from regscribe_runtime import Flags, NotDecodable, Saturated, SensorFault, ValueNotDecodable, ValueRefused
 
 MOST_SHOWN = 12
 """Differences listed in a failure; more would hide the pattern."""

@@ -12,12 +12,12 @@ from typing import Any
 from hypothesis import settings
 from hypothesis import strategies as st
 
-from regscribe.runtime import ValueNotDecodable, ValueRefused
-from regscribe.runtime.register import Register
-from regscribe.testing.bench import Bench
-from regscribe.testing.reads import wrong_requests, wrong_values
-from regscribe.testing.trial import Trial
+from regscribe.testing.driver_checks import DriverUnderTest
+from regscribe.testing.register_trial import Trial
+from regscribe.testing.simulated_read import wrong_requests, wrong_values
 from regscribe.testing.vectors import number
+from regscribe_runtime import ValueNotDecodable, ValueRefused
+from regscribe_runtime.registers.register import Register
 
 each_run = settings(max_examples=40, deadline=None, derandomize=True, database=None)
 """How often each property is tried for each model."""
@@ -29,7 +29,7 @@ SIGNIFICANT = 6
 NUMERIC = frozenset({"number", "integer", "raw"})
 
 
-def round_trip(bench: Bench, data: st.DataObject) -> None:
+def round_trip(bench: DriverUnderTest, data: st.DataObject) -> None:
     """Assert decode(encode(v)) == v for values of the domain."""
     trial = data.draw(st.sampled_from(bench.written), label="register")
     value = data.draw(values(trial), label="value")
@@ -37,7 +37,7 @@ def round_trip(bench: Bench, data: st.DataObject) -> None:
     assert _equal(trial.decode(words), value), f"{trial}: {value!r} became {trial.decode(words)!r} through {words}"  # noqa: S101 (a test library)
 
 
-def refusal(bench: Bench, data: st.DataObject) -> None:
+def refusal(bench: DriverUnderTest, data: st.DataObject) -> None:
     """Assert that what lies outside the domain is refused before anything is sent."""
     trial = data.draw(st.sampled_from(bench.written), label="register")
     value = data.draw(others(trial), label="no value")
@@ -49,7 +49,7 @@ def refusal(bench: Bench, data: st.DataObject) -> None:
     raise AssertionError(message)
 
 
-def total_decoding(bench: Bench, data: st.DataObject) -> None:
+def total_decoding(bench: DriverUnderTest, data: st.DataObject) -> None:
     """Assert that any words give a value or a ValueNotDecodable, and that a value that can be written comes back."""
     trial = data.draw(st.sampled_from(bench.trials), label="register")
     words = tuple(data.draw(st.lists(_word(trial), min_size=_size(trial), max_size=_size(trial)), label="words"))
@@ -61,7 +61,7 @@ def total_decoding(bench: Bench, data: st.DataObject) -> None:
     assert _equal(again, value), f"{trial}: {words} is {value!r}, which was sent and came back as {again!r}"  # noqa: S101 (as above)
 
 
-def agreement(bench: Bench, data: st.DataObject) -> None:
+def agreement(bench: DriverUnderTest, data: st.DataObject) -> None:
     """Assert that a value written through one view is the same value in every other view that can carry it."""
     trial = data.draw(st.sampled_from(bench.mirrored), label="register")
     value = data.draw(values(trial), label="value")
@@ -73,13 +73,13 @@ def agreement(bench: Bench, data: st.DataObject) -> None:
         assert _equal(other.decode(words), value), f"{other}: {value!r} became {other.decode(words)!r}"  # noqa: S101 (as above)
 
 
-def covering_reads(bench: Bench, data: st.DataObject) -> None:
+def covering_reads(bench: DriverUnderTest, data: st.DataObject) -> None:
     """Assert that reading some registers asks for each exactly once, for no hole, and never for too much."""
     wrong = wrong_requests(bench.driver, data.draw(_several(bench), label="registers"))
     assert not wrong, "\n".join(wrong)  # noqa: S101 (as above)
 
 
-def batches(bench: Bench, data: st.DataObject) -> None:
+def batches(bench: DriverUnderTest, data: st.DataObject) -> None:
     """Assert that registers read together have the values that they have alone, whatever the words."""
     chosen = data.draw(_several(bench), label="registers")
     seed, code = data.draw(st.integers(0, 65535), label="words"), data.draw(st.integers(0, 3), label="state")
@@ -87,7 +87,7 @@ def batches(bench: Bench, data: st.DataObject) -> None:
     assert not wrong, "\n".join(wrong)  # noqa: S101 (as above)
 
 
-def _several(bench: Bench) -> st.SearchStrategy[list[Register[Any]]]:
+def _several(bench: DriverUnderTest) -> st.SearchStrategy[list[Register[Any]]]:
     """Return a strategy of registers to read together: all, neighbours, or any."""
     readable = bench.readable
     ends = st.tuples(st.integers(0, len(readable) - 1), st.integers(1, len(readable)))
@@ -96,7 +96,7 @@ def _several(bench: Bench) -> st.SearchStrategy[list[Register[Any]]]:
     return st.one_of(st.just(readable), neighbours, scattered)
 
 
-def _situations(bench: Bench, trial: Trial) -> Sequence[Trial]:
+def _situations(bench: DriverUnderTest, trial: Trial) -> Sequence[Trial]:
     """Return the other views of the register where nothing that the trial says is said differently."""
     found = []
     for other in bench.trials:

@@ -2,7 +2,6 @@
 
 from typing import assert_type
 
-from regscribe.runtime import Snapshot
 from regscribe_devices.athena.series_c import (
     AsyncAthena16C,
     Athena1ZC,
@@ -14,6 +13,7 @@ from regscribe_devices.athena.series_c import (
     StatusByte,
 )
 from regscribe_devices.fdc.series_100 import FdcBTC9100, Mode, ModeOperation
+from regscribe_runtime import Snapshot
 
 
 def synchronous(controller: Athena16C, other: Athena1ZC, third: FdcBTC9100) -> None:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from click.testing import CliRunner
 
 from independent.families import MAPS, Family
-from regscribe.cli.export import command
+from regscribe.cli.commands.export import command
 
 TYPES = Path("/usr/share/collectd/types.db")
 LIFE = "300"

@@ -12,8 +12,8 @@ from independent.families import Family, column, steering
 from independent.stage import Stage, service, staged
 from independent.ways import own_link
 from regscribe.model import Kind, Order, Register, View
-from regscribe.runtime.errors import ExceptionAnswer, Saturated, SensorFault, ValueNotDecodable, ValueRefused
 from regscribe.simulate import SimulatedDevice
+from regscribe_runtime.errors import ExceptionAnswer, Saturated, SensorFault, ValueNotDecodable, ValueRefused
 
 FINE = 1e-6
 """A float32 has seven digits; mbpoll shows six, and is compared with one digit less."""

@@ -11,8 +11,8 @@ from independent.mbpoll import MbpollRtu, MbpollTcp
 from independent.minimal import MinimalAscii, MinimalRtu
 from independent.node import NodeAscii, NodeRtu, NodeRtuTcp, NodeTcp
 from independent.stage import Stage, service, staged
-from regscribe.runtime.link import Link, tcp
 from regscribe.simulate import Foreign, SimulatedDevice
+from regscribe_runtime.link.links import Link, tcp
 
 OVER_TCP: dict[type[Client], str] = {MbpollTcp: "tcp", NodeTcp: "tcp", NodeRtuTcp: "rtu-tcp"}
 ON_A_LINE: tuple[type[Client], ...] = (MbpollRtu, MinimalRtu, NodeRtu)

@@ -4,8 +4,8 @@ from functools import cache
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
-from regscribe.emit.markdown.build import index_row, page
 from regscribe.emit.markdown.escape import Md, escape
+from regscribe.emit.markdown.page_builder import index_row, page
 from regscribe.model import RegisterMap
 
 __all__ = ["index_row", "render"]

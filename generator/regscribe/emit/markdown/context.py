@@ -3,10 +3,10 @@
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
+from regscribe.emit.common_values import Shared, Stated, T
 from regscribe.emit.markdown.escape import Md, code, escape, lines, link, md, slug
-from regscribe.emit.markdown.merge import Shared, Stated, T
-from regscribe.emit.markdown.outline import Node, leaves, outline, pattern
-from regscribe.emit.text import Wording, condition_words, one_line, spelled
+from regscribe.emit.outline import Node, leaves, outline, pattern
+from regscribe.emit.words import Wording, condition_words, one_line, spelled
 from regscribe.model import Array, Condition, Model, Register, RegisterMap, Space, Units
 
 SPACES = {
@@ -19,7 +19,7 @@ SPACES = {
 
 
 @dataclass(frozen=True, slots=True)
-class Context:
+class PageContext:
     """A map, its registers merged over the models, and the anchors of everything that can be linked to.
 
     `conditions` are the named ones with a model that has them; `elements` the registers of arrays by model and pattern;
@@ -72,7 +72,7 @@ class Context:
         return md(str(address), " (", notations, ")") if notations else md(str(address))
 
 
-def context(register_map: RegisterMap) -> Context:
+def context(register_map: RegisterMap) -> PageContext:
     """Merge the models and name the anchors."""
     nodes = outline(register_map.models)
     conditions = {item.name: (model, item) for model, item in reversed(list(_conditions(register_map))) if item.name}
@@ -84,7 +84,7 @@ def context(register_map: RegisterMap) -> Context:
     keys += [f"condition {name}" for name in conditions]
     units = _units(register_map)
     keys += [f"unit {name}" for name in units]
-    return Context(register_map, nodes, _anchors(keys), conditions, _elements(register_map), units)
+    return PageContext(register_map, nodes, _anchors(keys), conditions, _elements(register_map), units)
 
 
 def _units(register_map: RegisterMap) -> dict[str, tuple[Model, Units]]:

@@ -2,25 +2,25 @@
 
 from collections.abc import Callable
 
-from regscribe.emit.markdown.context import Context
+from regscribe.emit.common_values import Shared, Stated
+from regscribe.emit.markdown.context import PageContext
 from regscribe.emit.markdown.escape import Md, code, escape, md, prose
-from regscribe.emit.markdown.facts import view_type
-from regscribe.emit.markdown.merge import Shared, Stated
-from regscribe.emit.markdown.outline import Leaf, formula
-from regscribe.emit.markdown.page import Titled, table
-from regscribe.emit.text import bits_words, conversion_words, one_line, range_words, when_words
+from regscribe.emit.markdown.page_values import Titled, table
+from regscribe.emit.markdown.register_facts import view_type
+from regscribe.emit.outline import Leaf, formula
+from regscribe.emit.words import bits_words, conversion_words, one_line, range_words, when_words
 from regscribe.model import Enum, Kind, Member, Model, Register
 
 Rows = tuple[tuple[Md, ...], ...]
 
 
-def views(context: Context, leaf: Leaf) -> tuple[Titled, ...]:
+def views(context: PageContext, leaf: Leaf) -> tuple[Titled, ...]:
     """Return the table of views of a register that has several, once or by model."""
     facts = leaf.register.states(lambda _, register: _view_rows(context, leaf, register))
     return _titled("Views", ("View", "Wire address", "Other notation", "Type"), facts)
 
 
-def _view_rows(context: Context, leaf: Leaf, register: Register) -> Rows:
+def _view_rows(context: PageContext, leaf: Leaf, register: Register) -> Rows:
     if len(register.views) == 1:
         return ()
     return tuple(
@@ -34,7 +34,7 @@ def _view_rows(context: Context, leaf: Leaf, register: Register) -> Rows:
     )
 
 
-def by_condition(context: Context, leaf: Leaf) -> tuple[Titled, ...]:
+def by_condition(context: PageContext, leaf: Leaf) -> tuple[Titled, ...]:
     """Return scale and range by condition: in one table where they depend on the same."""
     shared = leaf.register
     both = shared.states(lambda model, register: _both_rows(context, model, register))
@@ -52,29 +52,29 @@ def _together(register: Register) -> bool:
     return scale == limits and len(scale) > 1
 
 
-def _both_rows(context: Context, model: Model, register: Register) -> Rows:
+def _both_rows(context: PageContext, model: Model, register: Register) -> Rows:
     if not _together(register):
         return ()
     pairs = zip(_scale(context, model, register), _limits(context, model, register), strict=True)
     return tuple((when, words, limits) for (when, words), (_, limits) in pairs)
 
 
-def _scale_rows(context: Context, model: Model, register: Register) -> Rows:
+def _scale_rows(context: PageContext, model: Model, register: Register) -> Rows:
     alone = len(register.scale) == 1 or _together(register)
     return () if alone else _scale(context, model, register)
 
 
-def _range_rows(context: Context, model: Model, register: Register) -> Rows:
+def _range_rows(context: PageContext, model: Model, register: Register) -> Rows:
     plain = len(register.range) == 1 and register.range[0].when.always
     return () if plain or _together(register) else _limits(context, model, register)
 
 
-def _scale(context: Context, model: Model, register: Register) -> Rows:
+def _scale(context: PageContext, model: Model, register: Register) -> Rows:
     wording = context.wording(model)
     return tuple((Md(when_words(case.when, wording)), code(conversion_words(case.then))) for case in register.scale)
 
 
-def _limits(context: Context, model: Model, register: Register) -> Rows:
+def _limits(context: PageContext, model: Model, register: Register) -> Rows:
     wording = context.wording(model)
     return tuple((Md(when_words(case.when, wording)), Md(range_words(case.then, wording))) for case in register.range)
 
@@ -152,7 +152,7 @@ def _titled(title: str, headers: tuple[str, ...], facts: tuple[Stated[Rows], ...
     )
 
 
-def elements(context: Context, leaf: Leaf) -> tuple[Titled, ...]:
+def elements(context: PageContext, leaf: Leaf) -> tuple[Titled, ...]:
     """Return every address of a register in an array, folded."""
     if not leaf.arrays:
         return ()
@@ -163,7 +163,7 @@ def elements(context: Context, leaf: Leaf) -> tuple[Titled, ...]:
     )
 
 
-def _element_rows(context: Context, model: Model, leaf: Leaf) -> Rows:
+def _element_rows(context: PageContext, model: Model, leaf: Leaf) -> Rows:
     return tuple(
         (code(item.path), *(escape(str(view.address)) for view in item.views))
         for item in context.elements[model.name, leaf.register.key]

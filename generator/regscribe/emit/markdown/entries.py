@@ -2,16 +2,16 @@
 
 from collections.abc import Iterable, Sequence
 
-from regscribe.emit.markdown.alt import bit_fields, structure
-from regscribe.emit.markdown.behaviour import effects
-from regscribe.emit.markdown.context import Context, by_model
+from regscribe.emit.common_values import Shared, merge
+from regscribe.emit.markdown.alt_text import bit_fields, structure
+from regscribe.emit.markdown.context import PageContext, by_model
 from regscribe.emit.markdown.details import bits, by_condition, elements, values, views
 from regscribe.emit.markdown.escape import Md, code, escape, join, link, md, prose
-from regscribe.emit.markdown.facts import facts, indices
-from regscribe.emit.markdown.merge import Shared, merge
-from regscribe.emit.markdown.outline import Branch, Leaf, Node, lettered
-from regscribe.emit.markdown.page import Entry, Section, Table, Titled, table
-from regscribe.emit.text import LETTERS, one_line
+from regscribe.emit.markdown.page_values import PageSection, PageTable, RegisterEntry, Titled, table
+from regscribe.emit.markdown.process import effects
+from regscribe.emit.markdown.register_facts import facts, indices
+from regscribe.emit.outline import Branch, Leaf, Node, lettered
+from regscribe.emit.words import LETTERS, one_line
 from regscribe.model import Command, Group, Register, Step
 
 HEADING = "####"
@@ -20,22 +20,24 @@ LONG = 4
 """Values that a table may have and still be repeated at each register that uses them."""
 
 
-def sections(context: Context) -> tuple[Section, ...]:
+def sections(context: PageContext) -> tuple[PageSection, ...]:
     """Return the groups of all models in the manual's order, each with its registers."""
     nodes: dict[str, list[Node]] = {}
     for node in context.nodes:
         nodes.setdefault(node.group, []).append(node)
     groups = merge(context.map.models, lambda model: model.groups, lambda group: group.id)
-    seen: dict[Table, Leaf] = {}
+    seen: dict[PageTable, Leaf] = {}
     found = [_section(context, group, nodes.pop(group.key, []), seen) for group in groups]
     rest = [node for members in nodes.values() for node in members]
     return (*found, _rest(context, rest, seen)) if rest else tuple(found)
 
 
-def _section(context: Context, group: Shared[Group], nodes: Sequence[Node], seen: dict[Table, Leaf]) -> Section:
+def _section(
+    context: PageContext, group: Shared[Group], nodes: Sequence[Node], seen: dict[PageTable, Leaf]
+) -> PageSection:
     order = f"number {group.first.order} in the order of writing" if group.first.order is not None else ""
     parts = (code(group.key), _source(group.first.section), md(order), context.covers(group.models))
-    return Section(
+    return PageSection(
         anchor=context.anchor("group", group.key),
         name=one_line(group.first.name),
         summary=join(DOT, parts),
@@ -44,13 +46,15 @@ def _section(context: Context, group: Shared[Group], nodes: Sequence[Node], seen
     )
 
 
-def _rest(context: Context, nodes: Sequence[Node], seen: dict[Table, Leaf]) -> Section:
+def _rest(context: PageContext, nodes: Sequence[Node], seen: dict[PageTable, Leaf]) -> PageSection:
     entries = _entries(context, nodes, seen, HEADING)
-    return Section(anchor="other-registers", name="Other registers", summary=Md(), paragraphs=(), entries=entries)
+    return PageSection(anchor="other-registers", name="Other registers", summary=Md(), paragraphs=(), entries=entries)
 
 
-def _entries(context: Context, nodes: Iterable[Node], seen: dict[Table, Leaf], marks: str) -> tuple[Entry, ...]:
-    found: list[Entry] = []
+def _entries(
+    context: PageContext, nodes: Iterable[Node], seen: dict[PageTable, Leaf], marks: str
+) -> tuple[RegisterEntry, ...]:
+    found: list[RegisterEntry] = []
     for node in nodes:
         if isinstance(node, Leaf):
             found.append(_register(context, node, seen, marks))
@@ -60,11 +64,11 @@ def _entries(context: Context, nodes: Iterable[Node], seen: dict[Table, Leaf], m
     return tuple(found)
 
 
-def _register(context: Context, leaf: Leaf, seen: dict[Table, Leaf], marks: str) -> Entry:
+def _register(context: PageContext, leaf: Leaf, seen: dict[PageTable, Leaf], marks: str) -> RegisterEntry:
     shared = leaf.register
     first = shared.first
     known, reference = _values(context, leaf, seen)
-    return Entry(
+    return RegisterEntry(
         marks=Md(marks),
         anchor=context.anchor("register", shared.key),
         name=one_line(first.name),
@@ -82,7 +86,7 @@ def _register(context: Context, leaf: Leaf, seen: dict[Table, Leaf], marks: str)
     )
 
 
-def _summary(context: Context, leaf: Leaf) -> Md:
+def _summary(context: PageContext, leaf: Leaf) -> Md:
     shared = leaf.register
     symbols = dict.fromkeys(_symbol(register) for _, register in shared.versions)
     sources = dict.fromkeys(one_line(register.section) for _, register in shared.versions)
@@ -103,12 +107,12 @@ def _symbol(register: Register) -> str:
     return f"{symbol} (printed {printed})" if symbol else f"printed {printed}"
 
 
-def _only(context: Context, models: Sequence[str]) -> Md:
+def _only(context: PageContext, models: Sequence[str]) -> Md:
     names = context.covers(models)
     return md("only ", names) if names else Md()
 
 
-def _values(context: Context, leaf: Leaf, seen: dict[Table, Leaf]) -> tuple[tuple[Titled, ...], Md]:
+def _values(context: PageContext, leaf: Leaf, seen: dict[PageTable, Leaf]) -> tuple[tuple[Titled, ...], Md]:
     """Return the table of values, or where a long one was shown before."""
     found = values(leaf)
     if not found or len(found[0].table.rows) <= LONG:
@@ -128,7 +132,7 @@ def _remarks(shared: Shared[Register]) -> tuple[Md, ...]:
     return tuple(md("Inferred: ", item.what, " (", item.why, ")") for item in dict.fromkeys(conclusions))
 
 
-def _array(context: Context, branch: Branch, marks: str) -> Entry:
+def _array(context: PageContext, branch: Branch, marks: str) -> RegisterEntry:
     array = branch.array.first
     arrays = (*branch.arrays, array)
     parts = (
@@ -139,7 +143,7 @@ def _array(context: Context, branch: Branch, marks: str) -> Entry:
         _source(array.section),
         _only(context, branch.array.models),
     )
-    return Entry(
+    return RegisterEntry(
         marks=Md(marks),
         anchor="",
         name=f"{one_line(array.name)} {array.first} to {array.first + array.count - 1}",
@@ -157,16 +161,16 @@ def _paragraphs(*parts: Md) -> tuple[Md, ...]:
     return tuple(part for part in parts if part)
 
 
-def commands(context: Context) -> tuple[Entry, ...]:
+def commands(context: PageContext) -> tuple[RegisterEntry, ...]:
     """Return the commands of all models with their steps and what they may destroy."""
     found = merge(context.map.models, lambda model: model.commands, lambda command: command.id)
     return tuple(_command(context, shared) for shared in found)
 
 
-def _command(context: Context, shared: Shared[Command]) -> Entry:
+def _command(context: PageContext, shared: Shared[Command]) -> RegisterEntry:
     steps = shared.states(lambda _, command: command.steps)
     parts = (code(f"commands.{shared.key}()"), _source(shared.first.section), _only(context, shared.models))
-    return Entry(
+    return RegisterEntry(
         marks=Md("###"),
         anchor=context.anchor("command", shared.key),
         name=one_line(shared.first.name),
@@ -183,12 +187,12 @@ def _command(context: Context, shared: Shared[Command]) -> Entry:
     )
 
 
-def _steps(context: Context, steps: Sequence[Step]) -> Table:
+def _steps(context: PageContext, steps: Sequence[Step]) -> PageTable:
     headers = ("Step", "Request", "Function", "Wire address", "Register", "Words", "Words (hex)")
     return table(headers, (_step(context, number, step) for number, step in enumerate(steps, start=1)))
 
 
-def _step(context: Context, number: int, step: Step) -> tuple[str, ...]:
+def _step(context: PageContext, number: int, step: Step) -> tuple[str, ...]:
     if not step.words:
         return (str(number), f"wait {step.wait} ms", "", "", "", "", "")
     register = context.register(step.register) if step.register else Md()

@@ -3,18 +3,18 @@
 from collections.abc import Iterable
 from fractions import Fraction
 
-from regscribe.emit.markdown.context import Context
+from regscribe.emit.markdown.context import PageContext
 from regscribe.emit.markdown.escape import Md, code, escape, join, md
-from regscribe.emit.markdown.line import BIT_FUNCTIONS
-from regscribe.emit.markdown.page import Titled, table
-from regscribe.emit.text import labels_of, listed, one_line
+from regscribe.emit.markdown.page_values import Titled, table
+from regscribe.emit.markdown.protocol import BIT_FUNCTIONS
+from regscribe.emit.words import labels_of, listed, one_line
 from regscribe.model import FrameExample, Model, Outcome, RegisterMap, TimingExample, ValueExample, show
 
 WRITE_COIL = 5
 """The function that sets one bit: FF00 is on, 0000 off."""
 
 
-def examples(context: Context) -> tuple[Titled, ...]:
+def examples(context: PageContext) -> tuple[Titled, ...]:
     """Return a table for each kind of example that the map has."""
     found = context.map.examples
     tables = (
@@ -30,7 +30,7 @@ FRAMES = ("Section", "Model", "Message", "From", "Meaning", "While")
 TIMES = ("Section", "Line", "Request", "Silence before it (ms)", "Earliest answer (ms)", "Latest answer (ms)")
 
 
-def _value(context: Context, item: ValueExample) -> tuple[str, ...]:
+def _value(context: PageContext, item: ValueExample) -> tuple[str, ...]:
     return (
         one_line(item.source),
         one_line(item.model),
@@ -58,7 +58,7 @@ def _hex(words: Iterable[int]) -> str:
     return " ".join(f"{word & 0xFFFF:04X}" for word in words)
 
 
-def _state(context: Context, model: str, state: Iterable[tuple[str, Fraction]]) -> Md:
+def _state(context: PageContext, model: str, state: Iterable[tuple[str, Fraction]]) -> Md:
     parts = (md(context.register(path), f" = {_labelled(context.map, model, path, value)}") for path, value in state)
     return join("<br>", tuple(parts))
 
@@ -78,7 +78,7 @@ def _model(register_map: RegisterMap, name: str) -> Model:
     return register_map.model(name) if register_map.has(name) else register_map.models[0]
 
 
-def _frame(context: Context, item: FrameExample) -> tuple[str, ...]:
+def _frame(context: PageContext, item: FrameExample) -> tuple[str, ...]:
     return (
         one_line(item.source),
         one_line(item.model),
@@ -89,7 +89,7 @@ def _frame(context: Context, item: FrameExample) -> tuple[str, ...]:
     )
 
 
-def _meaning(context: Context, item: FrameExample) -> Md:
+def _meaning(context: PageContext, item: FrameExample) -> Md:
     facts = [f"unit {item.unit}", f"function {item.function:02d}"]
     facts += [f"address {item.address}"] if item.address is not None else []
     facts += [f"{item.count} {'bits' if item.function in BIT_FUNCTIONS else 'words'}"] if item.count is not None else []
@@ -106,7 +106,7 @@ def _words(function: int, words: tuple[int, ...]) -> str:
     return f"words {listed([str(word) for word in words], last='and')}"
 
 
-def _write(context: Context, item: FrameExample, path: str, value: Fraction) -> Md:
+def _write(context: PageContext, item: FrameExample, path: str, value: Fraction) -> Md:
     return md(context.register(path), f" = {_labelled(context.map, item.model, path, value)}")
 
 

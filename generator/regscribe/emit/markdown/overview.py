@@ -4,12 +4,12 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import partial
 
-from regscribe.emit.markdown.context import SPACES, Context, by_model
+from regscribe.emit.markdown.context import SPACES, PageContext, by_model
 from regscribe.emit.markdown.escape import Md, code, escape, join, link, md
-from regscribe.emit.markdown.facts import symbols
-from regscribe.emit.markdown.outline import Leaf, aliases, last_address, leaves, lettered
-from regscribe.emit.markdown.page import Table, Titled, table
-from regscribe.emit.text import codes_words, default_words, one_line, range_words, special_words
+from regscribe.emit.markdown.page_values import PageTable, Titled, table
+from regscribe.emit.markdown.register_facts import symbols
+from regscribe.emit.outline import Leaf, aliases, last_address, leaves, lettered
+from regscribe.emit.words import codes_words, default_words, one_line, range_words, special_words
 from regscribe.model import Access, CodeRange, Kind, Model, Register, Space, View
 
 ACCESS = {Access.READ: "R", Access.READ_WRITE: "R/W", Access.WRITE: "W"}
@@ -17,7 +17,7 @@ MANY = 3
 """Codes (after joining neighbours) that the overview still lists."""
 
 
-def overview(context: Context) -> tuple[Titled, ...]:
+def overview(context: PageContext) -> tuple[Titled, ...]:
     """Return a table for each space that has registers."""
     found: dict[Space, list[Leaf]] = {}
     for leaf in leaves(context.nodes):
@@ -25,7 +25,7 @@ def overview(context: Context) -> tuple[Titled, ...]:
     return tuple(Titled(SPACES[space], _table(context, space, found[space])) for space in Space if space in found)
 
 
-def _table(context: Context, space: Space, found: Sequence[Leaf]) -> Table:
+def _table(context: PageContext, space: Space, found: Sequence[Leaf]) -> PageTable:
     ordered = sorted(found, key=lambda leaf: leaf.register.first.base.address)
     notations = [item for item in context.map.notations if item.space is space]
     names = dict.fromkeys(view.name for leaf in found for view in leaf.register.first.views[1:])
@@ -36,7 +36,7 @@ def _table(context: Context, space: Space, found: Sequence[Leaf]) -> Table:
 HEADERS = ("Name", "Id", "Access", "Range", "Default", "Unit", "Models")
 
 
-def _row(context: Context, leaf: Leaf, offsets: Sequence[int], names: Sequence[str]) -> tuple[Md, ...]:
+def _row(context: PageContext, leaf: Leaf, offsets: Sequence[int], names: Sequence[str]) -> tuple[Md, ...]:
     shared = leaf.register
 
     def cell(fact: Callable[[Model, Register], Md]) -> Md:
@@ -75,7 +75,7 @@ def _name(leaf: Leaf) -> Md:
     return md(*owners, one_line(leaf.register.first.name))
 
 
-def _range(context: Context, model: Model, register: Register) -> Md:
+def _range(context: PageContext, model: Model, register: Register) -> Md:
     if register.kind in {Kind.FLAGS, Kind.FIELDS}:
         return md("bits")
     if register.enum is not None:

@@ -3,12 +3,12 @@
 from collections.abc import Callable, Iterable
 from fractions import Fraction
 
-from regscribe.emit.markdown.context import Context, by_model
+from regscribe.emit.common_values import merge
+from regscribe.emit.markdown.context import PageContext, by_model
 from regscribe.emit.markdown.escape import Md, code, escape, join, lines, link, md, prose
-from regscribe.emit.markdown.merge import merge
-from regscribe.emit.markdown.outline import lettered, pattern
-from regscribe.emit.markdown.page import Entry, Titled, table
-from regscribe.emit.text import labels_of, one_line
+from regscribe.emit.markdown.page_values import RegisterEntry, Titled, table
+from regscribe.emit.outline import lettered, pattern
+from regscribe.emit.words import labels_of, one_line
 from regscribe.model import (
     Model,
     ProgramAction,
@@ -34,7 +34,7 @@ RUNNING = {
 }
 
 
-def programs(context: Context) -> tuple[Entry, ...]:
+def programs(context: PageContext) -> tuple[RegisterEntry, ...]:
     """Return the setpoint programs of all models."""
     found = merge(context.map.models, lambda model: model.programs, lambda program: program.id)
     entries = []
@@ -48,7 +48,7 @@ def programs(context: Context) -> tuple[Entry, ...]:
         section = md("section ", one_line(first.section)) if first.section else Md()
         conclusions = dict.fromkeys(item for _, one in shared.versions for item in one.inferred)
         entries.append(
-            Entry(
+            RegisterEntry(
                 marks=Md("###"),
                 anchor=context.anchor("program", shared.key),
                 name=one_line(first.name),
@@ -64,7 +64,7 @@ def programs(context: Context) -> tuple[Entry, ...]:
 class _Words:
     """The parts of one program of one model in words, with links to their registers."""
 
-    def __init__(self, context: Context, model: Model, program: SetpointProgram) -> None:
+    def __init__(self, context: PageContext, model: Model, program: SetpointProgram) -> None:
         self.context, self.model, self.program = context, model, program
 
     def register(self, path: str) -> Md:

@@ -2,16 +2,16 @@
 
 import re
 
-from regscribe.emit.markdown.context import Context
+from regscribe.emit.markdown.context import PageContext
 from regscribe.emit.markdown.escape import Md
-from regscribe.emit.markdown.page import QuickStart
+from regscribe.emit.markdown.page_values import QuickStart
 from regscribe.model import Group, Kind, Model, Register, show
 
 ADDRESS = "192.0.2.10"
 """An address that is reserved for documentation (RFC 5737)."""
 
 
-def quick_start(context: Context) -> QuickStart:
+def quick_start(context: PageContext) -> QuickStart:
     """Return a synchronous and an asynchronous example of the map's first model."""
     model = context.map.models[0]
     maker, _, family = context.map.id.partition("/")
@@ -37,7 +37,7 @@ def quick_start(context: Context) -> QuickStart:
     )
 
 
-def _unit(context: Context) -> int:
+def _unit(context: PageContext) -> int:
     protocol = context.map.protocol
     return protocol.default_unit if protocol.default_unit is not None else protocol.unit_ids[0]
 

@@ -3,19 +3,19 @@
 from dataclasses import replace
 from fractions import Fraction
 
-from regscribe.emit.markdown.context import SPACES, Context
+from regscribe.emit.markdown.context import SPACES, PageContext
 from regscribe.emit.markdown.escape import Md, code, escape, md, prose
-from regscribe.emit.markdown.facts import transmission, view_type
-from regscribe.emit.markdown.outline import leaves
-from regscribe.emit.markdown.page import Table, Titled, table
-from regscribe.emit.text import Wording, condition_words, listed, one_line, when_words
+from regscribe.emit.markdown.page_values import PageTable, Titled, table
+from regscribe.emit.markdown.register_facts import transmission, view_type
+from regscribe.emit.outline import leaves
+from regscribe.emit.words import Wording, condition_words, listed, one_line, when_words
 from regscribe.model import GivenKind, Identity, Kind, Register, View, show
 
 Shape = tuple[tuple[str, View], ...]
 """Address formula in n (the base view's address) and the rest of each view, its address left out."""
 
 
-def plain(context: Context) -> tuple[Md, ...]:
+def plain(context: PageContext) -> tuple[Md, ...]:
     """Return how the registers with one view are transmitted, and what cannot be scaled."""
     counts: dict[str, int] = {}
     raw = 0
@@ -34,7 +34,7 @@ def _counted(counts: dict[str, int]) -> str:
     return listed([f"{count} as {name}" for name, count in counts.items()], last="and")
 
 
-def views(context: Context) -> tuple[Titled, ...]:
+def views(context: PageContext) -> tuple[Titled, ...]:
     """Return each set of views that registers share, with the address of each view from the base address n."""
     found: dict[Shape, int] = {}
     for leaf in leaves(context.nodes):
@@ -63,7 +63,7 @@ def view_formula(view: View, base: View) -> str:
     return slope if not offset else f"{show(offset)} + {slope}" if offset > 0 else f"{slope} - {show(-offset)}"
 
 
-def _table(context: Context, shape: Shape) -> Table:
+def _table(context: PageContext, shape: Shape) -> PageTable:
     headers = ("View", "Wire address", "Addresses", "Type", "Transmitted")
     rows = (
         (
@@ -78,7 +78,7 @@ def _table(context: Context, shape: Shape) -> Table:
     return table(headers, rows)
 
 
-def conditions(context: Context) -> Table:
+def conditions(context: PageContext) -> PageTable:
     """Return the named conditions with their meaning; each name is an anchor."""
     rows = (
         (
@@ -94,7 +94,7 @@ def _named(anchor: str, name: str) -> Md:
     return md(Md(f'<a id="{anchor}"></a>'), name)
 
 
-def units(context: Context) -> Table:
+def units(context: PageContext) -> PageTable:
     """Return the units that depend on a condition; each name is an anchor."""
     rows = (
         (
@@ -108,7 +108,7 @@ def units(context: Context) -> Table:
     return table(("Unit", "When", "Symbol"), rows)
 
 
-def givens(context: Context) -> Table:
+def givens(context: PageContext) -> PageTable:
     """Return what the user of a driver must supply, and why."""
     rows = (
         (
@@ -123,7 +123,7 @@ def givens(context: Context) -> Table:
     return table(("Argument", "Type", "Codes of", "What it is", "Why it is asked"), rows)
 
 
-def identity(context: Context) -> Table:
+def identity(context: PageContext) -> PageTable:
     """Return which models answer how."""
     first = context.map.models[0]
     rows = (
@@ -139,7 +139,7 @@ def _identity_words(item: Identity, wording: Wording) -> str:
     return " and ".join([*asked, *texts])
 
 
-def reserved(context: Context) -> Table:
+def reserved(context: PageContext) -> PageTable:
     """Return the addresses that the manual reserves."""
     rows = (
         (SPACES[space], str(low) if low == high else f"{low} to {high}") for space, low, high in context.map.reserved

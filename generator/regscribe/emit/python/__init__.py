@@ -11,13 +11,13 @@ from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 
 from regscribe.emit.header import header_of
 from regscribe.emit.python.classes import Classes, givens_key
-from regscribe.emit.python.layout import WIDTH, flat, lay, width
+from regscribe.emit.python.formatting import WIDTH, flat, lay, width
 from regscribe.emit.python.literals import docstring, literal
-from regscribe.emit.python.names import RUNTIME
 from regscribe.emit.python.offer import Origin
 from regscribe.emit.python.protocol import PROTOCOL, protocol_call, timeout
+from regscribe.emit.python.reserved_names import RUNTIME
 from regscribe.emit.python.siblings import build, build_library, libraries, module_path
-from regscribe.emit.text import one_line
+from regscribe.emit.words import one_line
 from regscribe.model import GivenKind, Library, RegisterMap
 
 NOT_CODE = re.compile(r'"""[\s\S]*?"""|"(?:[^"\\\n]|\\.)*"|\'(?:[^\'\\\n]|\\.)*\'|#[^\n]*')
@@ -84,8 +84,8 @@ def _module(classes: Classes, about: str, source: str, *, protocol: bool = True)
         *(["from collections.abc import Collection"] if "Collection" in used else []),
         *(["from typing import Self, Unpack"] if "Self" in used else []),
         *([""] if "Collection" in used or "Self" in used else []),
-        *_import(used, classes.pool.hidden),
         *_siblings(origin for origin in imports if origin.name in used | public),
+        *_import(used, classes.pool.hidden),
         "",
         *_all(sorted(public, key=natural)),
         *([] if body.startswith("\n") else [""]),
@@ -97,8 +97,8 @@ def _import(used: set[str], hidden_names: frozenset[str]) -> list[str]:
     names = [name for name in RUNTIME if name in used and name not in hidden_names]
     aliases = [name for name in RUNTIME if f"_{name}" in used and name in hidden_names]
     return [
-        *(["from regscribe.runtime import (", *(f"    {name}," for name in names), ")"] if names else []),
-        *(f"from regscribe.runtime import {name} as _{name}" for name in aliases),
+        *(["from regscribe_runtime import (", *(f"    {name}," for name in names), ")"] if names else []),
+        *(f"from regscribe_runtime import {name} as _{name}" for name in aliases),
     ]
 
 

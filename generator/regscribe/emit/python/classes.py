@@ -6,19 +6,19 @@ from typing import Any, TypeVar
 
 from regscribe.emit.header import HASH_DIGITS
 from regscribe.emit.python import sets
-from regscribe.emit.python.declare import Declarations, command_call, command_text
-from regscribe.emit.python.families import Shared, partition, suffix
+from regscribe.emit.python.class_sharing import Shared, partition, suffix
+from regscribe.emit.python.constants import Pool
+from regscribe.emit.python.enum_classes import NamedClasses
+from regscribe.emit.python.expressions import Specs
+from regscribe.emit.python.formatting import INDENT, call, group, lay, mapping
 from regscribe.emit.python.groups import groups_body, groups_of, same_groups
 from regscribe.emit.python.keys import Keys, arrays, command_key
-from regscribe.emit.python.layout import INDENT, call, group, lay, mapping
 from regscribe.emit.python.literals import camel, docstring, literal
-from regscribe.emit.python.named import NamedClasses
-from regscribe.emit.python.names import free
 from regscribe.emit.python.offer import Declared, Groups, Offer, Origin, Part, chosen
-from regscribe.emit.python.pool import Pool
 from regscribe.emit.python.programs import programs
-from regscribe.emit.python.specs import Specs
-from regscribe.emit.text import one_line
+from regscribe.emit.python.register_lines import Declarations, command_call, command_text
+from regscribe.emit.python.reserved_names import free
+from regscribe.emit.words import one_line
 from regscribe.model import Array, Command, Model, Register, RegisterMap
 
 Members = Mapping[str, Sequence[Register | Array]]
@@ -292,7 +292,7 @@ class Classes:
                 *([f"{INDENT}_unused = {self._unused(model)}"] if model.unused else []),
                 *self._identity(model),
                 f"{INDENT}groups = {groups}",
-                *([f"{INDENT}commands = Section({commands}, Async{commands})"] if commands else []),
+                *([f"{INDENT}commands = SubPart({commands}, Async{commands})"] if commands else []),
                 *([f"{INDENT}setpoint_programs = {self._programs(model)}"] if model.programs else []),
                 *([f"{INDENT}_sections = {self._sections(sections)}"] if sections else []),
             ]

@@ -2,9 +2,9 @@
 
 from collections.abc import Iterable, Mapping
 
-from regscribe.emit.python.layout import call, lay
+from regscribe.emit.python.formatting import call, lay
 from regscribe.emit.python.literals import literal
-from regscribe.emit.text import one_line
+from regscribe.emit.words import one_line
 from regscribe.model import Group, Model, RegisterMap
 
 Content = Mapping[str, tuple[str, tuple[str, ...], int | None]]

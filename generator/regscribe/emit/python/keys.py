@@ -3,12 +3,12 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from regscribe.emit.python.declare import Declarations, about, command_call, command_text
-from regscribe.emit.python.layout import Expression, flat
-from regscribe.emit.python.named import Content, NamedClasses
+from regscribe.emit.python.constants import Pool
+from regscribe.emit.python.enum_classes import Content, NamedClasses
+from regscribe.emit.python.expressions import Specs
+from regscribe.emit.python.formatting import Expression, flat
 from regscribe.emit.python.offer import Declared, marked
-from regscribe.emit.python.pool import Pool
-from regscribe.emit.python.specs import Specs
+from regscribe.emit.python.register_lines import Declarations, about, command_call, command_text
 from regscribe.model import Array, Command, Model, Register
 
 

@@ -4,7 +4,7 @@ import re
 import textwrap
 from fractions import Fraction
 
-from regscribe.emit.python.layout import INDENT, WIDTH, width
+from regscribe.emit.python.formatting import INDENT, WIDTH, width
 from regscribe.model import show
 
 

@@ -3,10 +3,10 @@
 from collections.abc import Sequence
 from fractions import Fraction
 
-from regscribe.emit.python.layout import Call, call, group
+from regscribe.emit.python.expressions import Specs
+from regscribe.emit.python.formatting import Call, call, group
 from regscribe.emit.python.literals import exact, literal
-from regscribe.emit.python.specs import Specs
-from regscribe.emit.text import one_line
+from regscribe.emit.words import one_line
 from regscribe.model import (
     Model,
     ProgramAction,

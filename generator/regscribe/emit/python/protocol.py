@@ -2,9 +2,9 @@
 
 from fractions import Fraction
 
-from regscribe.emit.python.layout import Call, call, group, mapping
+from regscribe.emit.python.formatting import Call, call, group, mapping
 from regscribe.emit.python.literals import literal
-from regscribe.emit.text import one_line
+from regscribe.emit.words import one_line
 from regscribe.model import USUAL_PROTOCOL, Latency, Protocol, Serial
 
 PROTOCOL = "_PROTOCOL"

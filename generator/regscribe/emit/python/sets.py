@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping
 
 from regscribe.emit.python.literals import camel
 from regscribe.emit.python.offer import Declared, Part, Telling
-from regscribe.emit.text import one_line
+from regscribe.emit.words import one_line
 from regscribe.model import Array, Command, Register
 
 Item = Register | Array | Command

@@ -3,14 +3,14 @@
 from dataclasses import replace
 
 from regscribe.emit.python.classes import COMMANDS, Classes, givens_key
+from regscribe.emit.python.constants import Pool
+from regscribe.emit.python.enum_classes import NamedClasses
+from regscribe.emit.python.formatting import flat
 from regscribe.emit.python.keys import command_key
-from regscribe.emit.python.layout import flat
 from regscribe.emit.python.literals import camel
-from regscribe.emit.python.named import NamedClasses
-from regscribe.emit.python.names import hidden
 from regscribe.emit.python.offer import Offer, Origin, Part
-from regscribe.emit.python.pool import Pool
 from regscribe.emit.python.protocol import PROTOCOL, protocol_call
+from regscribe.emit.python.reserved_names import hidden
 from regscribe.model import USUAL_PROTOCOL, Array, Library, Manual, Model, Register, RegisterMap
 
 

@@ -4,10 +4,10 @@ from typing import Any
 
 from regscribe.emit.header import FORMAT, header
 from regscribe.emit.vectors.device import command_facts, protocol_facts
-from regscribe.emit.vectors.layout import dumps
-from regscribe.emit.vectors.module import test_module
-from regscribe.emit.vectors.send import transmissions
-from regscribe.emit.vectors.sets import vector_sets
+from regscribe.emit.vectors.json_layout import dumps
+from regscribe.emit.vectors.sent_values import transmissions
+from regscribe.emit.vectors.test_module import test_module
+from regscribe.emit.vectors.vector_sets import vector_sets
 from regscribe.emit.vectors.worked import worked_examples
 from regscribe.model import Given, RegisterMap
 

@@ -4,13 +4,13 @@ from collections.abc import Iterator
 from fractions import Fraction
 from typing import Any
 
-from regscribe.emit.vectors import offer
-from regscribe.emit.vectors.pick import Proposal, wire_bits
+from regscribe.emit.vectors import offered_values
+from regscribe.emit.vectors.candidates import Proposal, wire_bits
 from regscribe.emit.vectors.scale import LARGEST, Scale, scale_now
-from regscribe.emit.vectors.situation import Situation
+from regscribe.emit.vectors.situations import Situation
 from regscribe.model import BitField, Kind, Order, Register, View, WireType, show
 from regscribe.model.number import MOST_DIGITS
-from regscribe.model.reference import (
+from regscribe.reference import (
     Meaning,
     Reading,
     RefusedError,
@@ -133,9 +133,9 @@ def _offered(
     register: Register, view: View, scale: Scale | None, situation: Situation
 ) -> Iterator[tuple[Fraction | str, str]]:
     if register.kind in {Kind.STRING, Kind.VERSION}:
-        yield from offer.texts(register, view)
+        yield from offered_values.texts(register, view)
         return
-    yield from _once(offer.numbers(register, view, scale, situation.known, full=situation.full))
+    yield from _once(offered_values.numbers(register, view, scale, situation.known, full=situation.full))
 
 
 def _once(proposals: Iterator[Proposal]) -> Iterator[Proposal]:
@@ -149,7 +149,7 @@ def _once(proposals: Iterator[Proposal]) -> Iterator[Proposal]:
 def _rounded(register: Register, view: View, scale: Scale, known: Surroundings) -> Iterator[Json]:
     if not register.fractional:
         return
-    for value, note in _once(offer.rounded(scale)):
+    for value, note in _once(offered_values.rounded(scale)):
         try:
             words = encode(register, view, value, known, rounded=True)
         except RefusedError:

@@ -6,7 +6,7 @@ from fractions import Fraction
 from math import ceil, floor, gcd, lcm
 
 from regscribe.model import Register, View, WireType
-from regscribe.model.reference import Surroundings, choose, decimal_factor, ieee_number, limits, shortest
+from regscribe.reference import Surroundings, choose, decimal_factor, ieee_number, limits, shortest
 
 LARGEST = {
     WireType.FLOAT32: shortest(ieee_number(0x7F7FFFFF, WireType.FLOAT32), WireType.FLOAT32),

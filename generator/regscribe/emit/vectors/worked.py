@@ -3,10 +3,10 @@
 from fractions import Fraction
 from typing import Any
 
-from regscribe.emit.vectors.assume import Assumed
+from regscribe.emit.vectors.assumed_state import Assumed
 from regscribe.emit.vectors.scale import scale_now
 from regscribe.model import FrameExample, Outcome, Register, RegisterMap, ValueExample, View, show
-from regscribe.model.reference import RefusedError, UnknownValueError, decode, encode
+from regscribe.reference import RefusedError, UnknownValueError, decode, encode
 
 Json = dict[str, Any]
 Pairs = tuple[tuple[str, Fraction], ...]

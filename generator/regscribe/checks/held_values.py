@@ -1,0 +1,109 @@
+"""Whether a register can hold what a map says it does: the default, what it is delivered with, what an effect sets."""
+
+from fractions import Fraction
+
+from regscribe.checks.representable import Fit, best_fit, ends_of, forms, is_meant, tells_apart
+from regscribe.model import BitField, Kind, Register, show
+from regscribe.reference import RefusedError, number_of, version_number
+
+TEXTS = frozenset({Kind.STRING, Kind.VERSION})
+PATTERNS = frozenset({Kind.FLAGS, Kind.FIELDS})
+
+
+def shown(value: Fraction | str) -> str:
+    """A value for a message."""
+    return repr(value) if isinstance(value, str) else show(value)
+
+
+def wrong_sort(register: Register, value: Fraction | str) -> str:
+    """Why a value is none of the register's kind, as `which is ...`; empty where it is one."""
+    if isinstance(value, str) != (register.kind in TEXTS):
+        return f"which is {'a text' if isinstance(value, str) else 'no text'}"
+    if register.kind is Kind.BOOLEAN and value not in {0, 1}:
+        return "which is neither 0 nor 1"
+    if not isinstance(value, str):
+        return ""
+    return _no_version(register, value) if register.kind is Kind.VERSION else _no_text(register, value)
+
+
+def _no_version(register: Register, text: str) -> str:
+    try:
+        version_number(register, text)
+    except RefusedError:
+        size = register.version_group or register.version_digits
+        pattern = ".".join(["n" * size] * (register.version_digits // (size or 1)))
+        return f"which is not written as {pattern}" if register.version_digits else ""
+    return ""
+
+
+def _no_text(register: Register, text: str) -> str:
+    room = 2 * register.base.words
+    if not text.isascii():
+        return "which is no ASCII text"
+    if text.endswith(" "):
+        return "whose blanks at the end are never read"
+    return f"which is {len(text)} characters with room for {room}" if len(text) > room else ""
+
+
+def outside_type(register: Register, value: Fraction | str) -> bool:
+    """Whether no view can carry a value under any scale; never so of a text."""
+    number = number_of(register, value)
+    if number is None or is_meant(register, number):
+        return False
+    if register.kind in PATTERNS:
+        return not 0 <= number < 1 << register.bits
+    return best_fit(register, (number,)) is Fit.TOO_LARGE
+
+
+def too_fine(register: Register, value: Fraction | str) -> bool:
+    """Whether every view under every scale would show another number beside the value; never so of a text."""
+    if isinstance(value, str) or is_meant(register, value):
+        return False
+    if not register.fractional and value.denominator != 1:
+        return True
+    fit = best_fit(register, (value,))
+    return fit is Fit.TOO_FINE or (fit is Fit.EXACT and not tells_apart(register, value))
+
+
+def is_fault(register: Register, value: Fraction | str) -> bool:
+    """Whether a value is stored, under every scale, as what the device reports a fault by."""
+    number = number_of(register, value)
+    if number is None or is_meant(register, number):
+        return False
+    if register.kind in PATTERNS:
+        return number in {fault % (1 << register.bits) for fault in register.faults}
+    stored = {form.stored(number) for form in forms(register)}
+    return bool(stored) and stored <= set(register.faults)
+
+
+def no_member(register: Register, value: Fraction | str) -> str:
+    """Which code of a value no enum lists, of the register or of a field in it, for a message; empty where none is."""
+    if isinstance(value, str) or value.denominator != 1:
+        return ""
+    parts = [("", register.enum, int(value))]
+    parts += [(f" of `{one.id}`", one.enum, int(value) >> one.low & (1 << one.width) - 1) for one in register.fields]
+    for where, enum, code in parts:
+        if enum is not None and all(member.code != code for member in enum.members):
+            codes = ", ".join(str(member.code) for member in enum.members)
+            return f"{code}{where}, which its enum does not list ({codes})"
+    return ""
+
+
+def impossible(register: Register, value: Fraction | str) -> str:
+    """Why a register cannot hold just a value, as `which is ...`; empty where it can."""
+    problem = wrong_sort(register, value)
+    if problem:
+        return problem
+    if outside_type(register, value):
+        return f"which is outside {ends_of(register)}"
+    if too_fine(register, value):
+        return "which its words cannot spell exactly"
+    return "which is none of its codes" if no_member(register, value) else ""
+
+
+def impossible_part(field: BitField, value: Fraction | str) -> str:
+    """Why the bits of a field cannot hold just a value, as `which is ...`; empty where they can."""
+    if isinstance(value, str) or value.denominator != 1 or not 0 <= value < 1 << field.width:
+        return f"which {field.width} {'bits' if field.width > 1 else 'bit'} cannot spell"
+    codes = {member.code for member in field.enum.members} if field.enum else {value}
+    return "" if value in codes else "which is none of its codes"

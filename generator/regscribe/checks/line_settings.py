@@ -1,0 +1,109 @@
+"""Registers that set the line they are written over: what their codes mean, and that they are not copied."""
+
+from collections.abc import Iterator
+from fractions import Fraction
+from itertools import product
+
+from regscribe.checks.probe_values import domain
+from regscribe.checks.representable import Fit, best_fit
+from regscribe.checks.rule import Finding, RuleScope, register_rule
+from regscribe.model import Governs, Kind, Register, Rule, Serial, Setting
+
+ADDRESSES = frozenset({Kind.INTEGER, Kind.RAW})
+"""What a unit id can be: a whole number."""
+
+CODES = ADDRESSES | {Kind.NUMBER, Kind.ENUM, Kind.BOOLEAN}
+"""What a code can be: one value, no word of several parts and no text."""
+
+MOST_BAUD = 10_000_000
+"""The fastest speed that the language lets a line have."""
+
+ADDRESSINGS = ("modbus", "jbus")
+PARITIES = ("N", "E", "O")
+DATA_BITS = ("5", "6", "7", "8")
+STOP_BITS = ("1", "2")
+FORMATS = tuple("".join(parts) for parts in product(DATA_BITS, PARITIES, STOP_BITS))
+
+
+def _possible(setting: Setting, serial: Serial | None) -> tuple[str, ...]:
+    """What the line can be set to, as far as the map says it; nothing: whatever is given."""
+    bauds = tuple(str(baud) for baud in serial.baud_rates) if serial else ()
+    formats = serial.formats if serial and serial.formats else FORMATS
+    return {
+        Setting.BAUD: bauds,
+        Setting.PARITY: PARITIES,
+        Setting.DATA_BITS: DATA_BITS,
+        Setting.STOP_BITS: STOP_BITS,
+        Setting.FORMAT: formats,
+        Setting.ADDRESSING: ADDRESSINGS,
+        Setting.ADDRESS: (),
+    }[setting]
+
+
+@register_rule(
+    Rule("RS0474", "Setting that the line cannot have", "The driver follows the device to what the code stands for.")
+)
+def impossible_setting(register: Register, scope: RuleScope) -> Iterator[Finding]:
+    """Compare the codes of `governs` with the serial line, and with the values that the register can have."""
+    governs = register.governs
+    if governs is None:
+        return
+    kinds = ADDRESSES if governs.setting is Setting.ADDRESS else CODES
+    if register.kind not in kinds:
+        message = f"governs the {governs.setting} and is of kind {register.kind}"
+        yield Finding.at(register, message, f"possible are: {', '.join(sorted(kinds))}")
+    elif governs.setting is Setting.ADDRESS and governs.codes:
+        yield Finding.at(register, "governs the address with codes", "remove them: the value itself is the address")
+    else:
+        yield from _codes(register, governs, _possible(governs.setting, scope.register_map.protocol.serial))
+
+
+def _codes(register: Register, governs: Governs, possible: tuple[str, ...]) -> Iterator[Finding]:
+    for code, value in governs.codes:
+        if (possible and value not in possible) or (governs.setting is Setting.BAUD and not _is_speed(value)):
+            shown = ", ".join(possible) or f"1 to {MOST_BAUD}"
+            yield Finding.at(register, f"sets {governs.setting} to {value} by code {code}", f"possible are: {shown}")
+        elif not _has_value(register, Fraction(code)):
+            message = f"governs by code {code}, which is none of its values"
+            yield Finding.at(register, message, "correct the code (a value of use, as scaled), the range or the type")
+
+
+def _is_speed(text: str) -> bool:
+    return text.isdecimal() and 0 < int(text) <= MOST_BAUD
+
+
+def _has_value(register: Register, value: Fraction) -> bool:
+    if register.enum is not None:
+        return value in {member.code for member in register.enum.members}
+    if register.kind is Kind.BOOLEAN:
+        return value in {0, 1}
+    return any(one.holds(value) for one in domain(register)) and best_fit(register, (value,)) is Fit.EXACT
+
+
+@register_rule(
+    Rule(
+        "RS0487",
+        "Setting of the line that would be copied",
+        "A copy of it to another device cuts that device off, or puts two at one address.",
+    )
+)
+def copied_setting(register: Register, _: RuleScope) -> Iterator[Finding]:
+    """A register with `governs` needs `stays: address` or `stays: line`."""
+    if register.governs is None:
+        return
+    wanted = "address" if register.governs.setting is Setting.ADDRESS else "line"
+    if register.stays != wanted:
+        now = f"`stays: {register.stays}`" if register.stays else "no `stays`"
+        message = f"governs the {register.governs.setting} and has {now}"
+        yield Finding.at(register, message, f"give it `stays: {wanted}`")
+
+
+@register_rule(
+    Rule("RS0493", "Applied without a command", "What holds from its application on needs the command that applies it.")
+)
+def applied_without_command(register: Register, _: RuleScope) -> Iterator[Finding]:
+    """`from: apply` needs `apply`."""
+    governs: Governs | None = register.governs
+    if governs is not None and governs.since == "apply" and not register.apply:
+        message = f"governs the {governs.setting} from its application on, but has no `apply`"
+        yield Finding.at(register, message, "name the command under `apply`, or correct `from`")

@@ -1,0 +1,151 @@
+"""Whether a view can carry a number: every scale a register may have, and what of a value reaches the wire."""
+
+from collections.abc import Iterator
+from enum import Enum
+from fractions import Fraction
+from typing import NamedTuple
+
+from regscribe.model import IDENTITY, Conversion, Decimals, Number, Range, Register, Special, View, show
+from regscribe.reference import ieee_bits, ieee_number, shortest
+
+MOST_DECIMALS = 4
+"""Decimals tried where a register holds their number and the map does not limit it (16 bits have five digits)."""
+
+
+class Fit(Enum):
+    """How a number does on the wire, best first."""
+
+    EXACT = 0
+    TOO_FINE = 1
+    TOO_LARGE = 2
+
+
+def factors(decimals: Decimals | None) -> tuple[Fraction, ...]:
+    """Every factor that a decimals register can mean: 1, 10, 100 ..."""
+    if decimals is None:
+        return (Fraction(1),)
+    most = MOST_DECIMALS if decimals.at_most is None else decimals.at_most
+    return tuple(Fraction(10) ** digits for digits in range(most + 1))
+
+
+class Form(NamedTuple):
+    """One conversion with the decimals settled; `plain` is the identity, which most registers have."""
+
+    conversion: Conversion
+    factor: Fraction
+    plain: bool = False
+
+    def stored(self, value: Fraction) -> Fraction:
+        """The stored number of a value of use."""
+        if self.plain:
+            return value
+        return (value * self.factor - self.conversion.add) / self.conversion.multiply
+
+    def too_fine(self, stored: Fraction) -> bool:
+        """Whether a stored number lies between two steps, whatever a register says of them."""
+        step = self.conversion.step
+        return step is not None and bool(stored % (step / factors(self.conversion.places)[-1]))
+
+
+PLAIN = (Form(IDENTITY, Fraction(1), plain=True),)
+
+
+def forms(register: Register) -> tuple[Form, ...]:
+    """All conversions of a register that can be inverted."""
+    if len(register.scale) == 1 and register.scale[0].then == IDENTITY:
+        return PLAIN
+    return tuple(
+        Form(case.then, factor)
+        for case in register.scale
+        if case.then.multiply
+        for factor in factors(case.then.decimals)
+    )
+
+
+def fit(form: Form, view: View, value: Fraction) -> Fit:
+    """How one value of use does in one view under one conversion."""
+    stored = form.stored(value)
+    wire = stored if view.factor == 1 else stored * view.factor
+    lowest, highest = view.type.minimum + view.saturates, view.type.maximum - view.saturates
+    fits = lowest <= wire <= highest if view.type.is_integer else _spelled(view, wire) is not None
+    if not fits:
+        return Fit.TOO_LARGE
+    if form.too_fine(stored) or (view.type.is_integer and wire.denominator != 1):
+        return Fit.TOO_FINE
+    return Fit.EXACT
+
+
+def _spelled(view: View, wire: Fraction) -> tuple[Fraction, Fraction] | None:
+    """The numbers that the words of a float nearest to `wire` stand for: exactly, and in the fewest digits."""
+    bits = ieee_bits(wire, view.type) if view.type.is_float else None  # no number in a text
+    return None if bits is None else ((exactly := ieee_number(bits, view.type)), shortest(exactly, view.type))
+
+
+def tells_apart(register: Register, value: Fraction) -> bool:
+    """Whether words of some view spell `value` and nothing beside it; whole numbers do wherever they fit."""
+    return any(
+        view.type.is_integer
+        or form.stored(value) * view.factor in (_spelled(view, form.stored(value) * view.factor) or ())
+        for form in forms(register)
+        for view in register.views
+    )
+
+
+def best_fit(register: Register, values: tuple[Fraction, ...]) -> Fit:
+    """The best that any of `values` does in any view under any conversion; EXACT where nothing can be inverted."""
+    found = Fit.TOO_LARGE
+    for form in (every := forms(register)):
+        for view in register.views:
+            for value in values:
+                now = fit(form, view, value)
+                if now is Fit.EXACT:
+                    return now
+                found = min(found, now, key=lambda one: one.value)
+    return found if every else Fit.EXACT
+
+
+def end_values(limits: Range, number: Fraction) -> tuple[Fraction, ...]:
+    """Every value that a printed limit can mean: the range's decimals divide it."""
+    return tuple(number / factor for factor in factors(limits.decimals)) if limits.decimals else (number,)
+
+
+def values_of(register: Register, special: Special) -> tuple[Fraction, ...]:
+    """Every value of use that the code of a special value can be: the range's decimals divide it too."""
+    return tuple(special.code / factor for case in register.special_scale for factor in factors(case.then.decimals))
+
+
+def is_meant(register: Register, value: Fraction) -> bool:
+    """Whether a special value stands for a number, which no words need to spell then."""
+    return any(special.means == value for special in register.specials)
+
+
+def numbers(limits: Range) -> Iterator[Fraction]:
+    """The limits that are numbers, as printed."""
+    for interval in limits.intervals:
+        yield from (limit.value for limit in (interval.low, interval.high) if isinstance(limit, Number))
+
+
+def widest(register: Register) -> tuple[Fraction, Fraction] | None:
+    """The lowest and the highest value of use of all integer views and conversions; None if a float has no such end."""
+    every = forms(register)
+    if not every or not all(view.type.is_integer for view in register.views):
+        return None
+    ends = [
+        (form.conversion.multiply * wire / view.factor + form.conversion.add) / form.factor
+        for form in every
+        for view in register.views
+        if view.factor
+        for wire in (view.type.minimum, view.type.maximum)
+    ]
+    return (min(ends), max(ends)) if ends else None
+
+
+def ends_of(register: Register) -> str:
+    """The types of a register for messages: `int16 (-32768 to 32767)`."""
+    types = dict.fromkeys(view.type for view in register.views)
+    return ", ".join(f"{one} ({one.minimum} to {one.maximum})" if one.is_integer else str(one) for one in types)
+
+
+def listed(values: list[Fraction]) -> str:
+    """Numbers for a message."""
+    return ", ".join(show(value) for value in values)

@@ -1,0 +1,117 @@
+"""How a rule is written: a small pure function under a decorator that names the rule and what the function looks at."""
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+
+from regscribe.checks.assumed_values import all_defaults
+from regscribe.model import Model, Register, RegisterMap, Related, Rule, Severity, Span
+from regscribe.reference import Surroundings
+
+MAP = "map"
+"""The subject of findings about the map as a whole."""
+
+
+@dataclass(frozen=True, slots=True)
+class RuleScope:
+    """One model under examination: its map, its registers by path, and the state in which all stand at their defaults.
+
+    `memo` keeps costly answers about this model.
+    """
+
+    register_map: RegisterMap
+    model: Model
+    registers: dict[str, Register]
+    defaults: Surroundings
+    memo: dict[object, object] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, register_map: RegisterMap, model: Model) -> "RuleScope":
+        """The scope of one model of a map."""
+        by_path = {register.path: register for register in model.registers}
+        return cls(register_map, model, by_path, all_defaults(model))
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """Something wrong with `subject`: a register's path, the id of a group or command, or `map`."""
+
+    subject: str
+    span: Span
+    message: str
+    help: str = ""
+    related: tuple[Related, ...] = ()
+
+    @classmethod
+    def at(cls, register: Register, message: str, help: str = "", *related: Related) -> "Finding":  # noqa: A002 (named as in Diagnostic)
+        """A finding about a register: the message starts with its path."""
+        return cls(register.path, register.span, f"`{register.path}` {message}", help, related)
+
+
+RegisterCheck = Callable[[Register, RuleScope], Iterable[Finding]]
+ModelCheck = Callable[[RuleScope], Iterable[Finding]]
+MapCheck = Callable[[tuple[RuleScope, ...]], Iterable[Finding]]
+
+
+@dataclass(frozen=True, slots=True)
+class RuleEntry:
+    """A rule and its function: `run` yields the findings of each model by name, of the map under an empty name."""
+
+    rule: Rule
+    run: Callable[[tuple[RuleScope, ...]], Iterator[tuple[str, Finding]]]
+
+
+_ENTRIES: list[RuleEntry] = []
+
+
+def entries() -> tuple[RuleEntry, ...]:
+    """All rules that were declared, in the order of their ids."""
+    return tuple(sorted(_ENTRIES, key=lambda entry: entry.rule.id))
+
+
+def register_rule(rule: Rule) -> Callable[[RegisterCheck], RegisterCheck]:
+    """Declare a rule whose function looks at one register of one model at a time."""
+
+    def declare(check: RegisterCheck) -> RegisterCheck:
+        def run(scopes: tuple[RuleScope, ...]) -> Iterator[tuple[str, Finding]]:
+            for scope in scopes:
+                for register in scope.model.registers:
+                    for finding in check(register, scope):
+                        yield scope.model.name, finding
+
+        _ENTRIES.append(RuleEntry(rule, run))
+        return check
+
+    return declare
+
+
+def model_rule(rule: Rule) -> Callable[[ModelCheck], ModelCheck]:
+    """Declare a rule whose function looks at one model at a time."""
+
+    def declare(check: ModelCheck) -> ModelCheck:
+        def run(scopes: tuple[RuleScope, ...]) -> Iterator[tuple[str, Finding]]:
+            for scope in scopes:
+                for finding in check(scope):
+                    yield scope.model.name, finding
+
+        _ENTRIES.append(RuleEntry(rule, run))
+        return check
+
+    return declare
+
+
+def map_rule(rule: Rule) -> Callable[[MapCheck], MapCheck]:
+    """Declare a rule whose function looks at the whole map: the scopes of all its models."""
+
+    def declare(check: MapCheck) -> MapCheck:
+        def run(scopes: tuple[RuleScope, ...]) -> Iterator[tuple[str, Finding]]:
+            return (("", finding) for finding in check(scopes))
+
+        _ENTRIES.append(RuleEntry(rule, run))
+        return check
+
+    return declare
+
+
+def warning(rule_id: str, title: str, why: str) -> Rule:
+    """A rule whose findings do not stop the pipeline."""
+    return Rule(rule_id, title, why, Severity.WARNING)

@@ -1,0 +1,326 @@
+"""Types and defaults: every number that a map states must be one that the register can hold."""
+
+from collections.abc import Iterator
+from fractions import Fraction
+from math import ceil, floor
+
+from regscribe.checks.held_values import is_fault, outside_type, shown, wrong_sort
+from regscribe.checks.representable import (
+    Fit,
+    Form,
+    best_fit,
+    end_values,
+    ends_of,
+    forms,
+    listed,
+    numbers,
+    tells_apart,
+    values_of,
+    widest,
+)
+from regscribe.checks.rule import Finding, RuleScope, register_rule, warning
+from regscribe.model import (
+    IDENTITY,
+    Interval,
+    Kind,
+    NotANumber,
+    Number,
+    Order,
+    Range,
+    Register,
+    Rule,
+    Sentinel,
+    Space,
+    View,
+    WireType,
+    show,
+)
+from regscribe.reference import RefusedError, UnknownValueError, choose, limits, number_of, sentinel_number
+
+WORDS_OF_BITS = {Kind.FLAGS, Kind.FIELDS}
+UNSCALED = {Kind.ENUM, Kind.FLAGS, Kind.FIELDS, Kind.STRING, Kind.VERSION, Kind.BOOLEAN}
+HELP_TYPE = "correct the number, the type or the scale"
+
+
+def _is_numeric(register: Register) -> bool:
+    return register.kind in {Kind.NUMBER, Kind.INTEGER, Kind.RAW}
+
+
+@register_rule(
+    Rule("RS0420", "Default outside the type", "A default that the words cannot carry was misread, or the type was.")
+)
+def default_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
+    """Try the default in every view under every scale."""
+    for what, value in register.beginnings:
+        if not wrong_sort(register, value) and outside_type(register, value):
+            yield Finding.at(register, f"has {what} {shown(value)}, outside {ends_of(register)}", HELP_TYPE)
+
+
+@register_rule(
+    Rule("RS0421", "Special value outside the type", "A special value that no word can spell can never be met.")
+)
+def special_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
+    """Try each special value as the ranges count it."""
+    for special in register.specials:
+        values = values_of(register, special)
+        fit = best_fit(register, values)
+        if fit is Fit.EXACT and not any(tells_apart(register, value) for value in values):
+            fit = Fit.TOO_FINE
+        if fit is not Fit.EXACT:
+            shown = f'has special value {show(special.code)} ("{special.label}")'
+            message = {
+                Fit.TOO_LARGE: f"{shown}, outside {ends_of(register)}",
+                Fit.TOO_FINE: f"{shown}, which its words cannot spell exactly",
+            }[fit]
+            yield Finding.at(register, message, HELP_TYPE)
+
+
+@register_rule(
+    Rule("RS0422", "Sentinel outside the type", "A view that cannot spell a fault would show a number in its place.")
+)
+def sentinel_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
+    """Try each sentinel, a stored number, in every view; one that saturates shows its end, which is no value either."""
+    for sentinel in register.sentinels:
+        lacking = [view for view in register.views if not _reports(view, sentinel)]
+        if lacking:
+            where = f"view {lacking[0].name} ({lacking[0].type})" if len(register.views) > 1 else ends_of(register)
+            message = f'has sentinel {sentinel.spelled} ("{sentinel.label}"), outside {where}'
+            yield Finding.at(register, message, "correct the sentinel or the type")
+
+
+def _reports(view: View, sentinel: Sentinel) -> bool:
+    if isinstance(sentinel.stored, NotANumber):
+        return view.type.is_float
+    number = sentinel.stored * view.factor
+    clipped = view.saturates and not view.type.minimum <= number <= view.type.maximum
+    return clipped or sentinel_number(view, sentinel) is not None
+
+
+@register_rule(
+    Rule("RS0601", "Sentinel that is a value too", "One code cannot be both a setting and the report of a fault.")
+)
+def sentinel_is_code(register: Register, _: RuleScope) -> Iterator[Finding]:
+    """Compare sentinels with the default, the codes of an enum, true and false; a text and a bit have none to spare."""
+    if register.sentinels and (register.kind is Kind.STRING or register.base.space.is_bits):
+        message = (
+            f"is of kind {register.kind} in {register.base.space} and has sentinels, which none of its values can be"
+        )
+        yield Finding.at(register, message, "remove the sentinels")
+        return
+    codes: dict[object, str] = {
+        Fraction(member.code): member.label for member in (register.enum.members if register.enum else ())
+    }
+    codes |= {Fraction(0): "false", Fraction(1): "true"} if register.kind is Kind.BOOLEAN else {}
+    for sentinel in register.sentinels:
+        if sentinel.stored in codes:
+            message = f'has {sentinel.spelled} as "{codes[sentinel.stored]}" and as the fault "{sentinel.label}"'
+            yield Finding.at(register, message, "remove one of them")
+    for what, value in register.beginnings if register.sentinels else ():
+        if number_of(register, value) not in codes and is_fault(register, value):
+            message = f"has {what} {shown(value)}, by which it reports a fault"
+            yield Finding.at(register, message, f"correct the {what} or the sentinels")
+
+
+BITS, STATUS = {Space.COIL, Space.DISCRETE}, {Space.STATUS}
+_OF_SPACE = {WireType.BIT: BITS, WireType.UINT8: STATUS}
+"""The types that do not stand in words, and where they stand."""
+
+
+@register_rule(
+    Rule(
+        "RS0602",
+        "Type that the space cannot hold",
+        "A coil or discrete input is one bit, function 07 gives one byte, all other addresses hold words of 16 bits.",
+    )
+)
+def type_and_space(register: Register, _: RuleScope) -> Iterator[Finding]:
+    """Compare the type of each view with its space, and its orders where there is nothing to order."""
+    for view in register.views:
+        spaces = _OF_SPACE.get(view.type, {Space.HOLDING, Space.INPUT})
+        if view.space not in spaces:
+            message = (
+                f"has view {view.name} of type {view.type} in {view.space}, which is in {' or '.join(sorted(spaces))}"
+            )
+            help_ = "a flag in a word is `flags: {0: ...}` or `kind: boolean`, a number of words is in holding or input"
+            yield Finding.at(register, message, f"correct `type` or `space`; {help_}")
+        elif spaces in (BITS, STATUS) and (view.word_order, view.byte_order) != (Order.BIG, Order.BIG):
+            message = f"has an order of words or bytes in {view.space}, where a value has no words"
+            yield Finding.at(register, message, "remove `word_order` and `byte_order`")
+
+
+@register_rule(
+    Rule(
+        "RS0423",
+        "Default outside the range",
+        "Manuals do print such defaults; then the map needs a special value, another range, or a waiver that says why.",
+    )
+)
+def default_outside_range(register: Register, scope: RuleScope) -> Iterator[Finding]:
+    """Judge the default with all other registers at theirs; what cannot be known so is not judged."""
+    judged = [(what, value) for what, value in register.beginnings if isinstance(value, Fraction)]
+    named = {special.value for special in register.specials}
+    if not register.range or not _is_numeric(register):
+        return
+    try:
+        now = choose(register.range, scope.defaults)
+        ends = limits(now, scope.defaults) if now else ()
+    except (UnknownValueError, RefusedError):
+        return
+    for what, value in judged:
+        inside = any((low is None or low <= value) and (high is None or value <= high) for low, high in ends)
+        if ends and not inside and value not in named:
+            text = " or ".join(f"{_end(low)}..{_end(high)}" for low, high in ends)
+            message = f"has {what} {show(value)}, outside {text} with all other registers at their defaults"
+            yield Finding.at(register, message, f"correct one of them, or add the {what} under `special`")
+
+
+def _end(number: Fraction | None) -> str:
+    return "open" if number is None else show(number)
+
+
+@register_rule(
+    Rule("RS0424", "Limit outside the type", "A range that is wider than the words was misread, or the type was.")
+)
+def limit_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
+    """Try each numeric limit; ranges that fit nowhere are RS0425's."""
+    for case in register.range:
+        outside = [n for n in numbers(case.then) if best_fit(register, end_values(case.then, n)) is Fit.TOO_LARGE]
+        if outside and _reachable(register, case.then):
+            message = f"has limits {listed(outside)}, outside {ends_of(register)} as scaled"
+            yield Finding.at(register, message, HELP_TYPE)
+
+
+@register_rule(
+    Rule("RS0425", "Range that cannot be encoded", "No value of the range has words: nothing could ever be written.")
+)
+def range_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
+    """Compare each range as a whole with what type and scale reach."""
+    for case in register.range:
+        if case.then.intervals and not _reachable(register, case.then):
+            found = listed(list(numbers(case.then)))
+            message = f"has a range ({found}) that lies wholly outside {ends_of(register)} as scaled"
+            yield Finding.at(register, message, HELP_TYPE)
+        elif _only_faults(register, case.then):
+            message = "has a range of nothing but numbers by which it reports faults"
+            yield Finding.at(register, message, "correct the range or the sentinels")
+
+
+def _only_faults(register: Register, one: Range) -> bool:
+    """Whether whatever the base view spells within a range is a fault, under every scale."""
+    faults = {number * register.base.factor for number in register.faults}
+    spelled = [_spelled(register, form, one, interval) for form in forms(register) for interval in one.intervals]
+    return all(
+        numbers is not None and 0 < numbers.stop - numbers.start <= len(faults) and faults.issuperset(numbers)
+        for numbers in spelled
+    ) and bool(spelled)
+
+
+def _spelled(register: Register, form: Form, one: Range, interval: Interval) -> range | None:
+    """The whole numbers on the wire within an interval; None where they are not known, or not whole."""
+    if not register.base.type.is_integer:
+        return None
+    if not isinstance(interval.low, Number) or not isinstance(interval.high, Number):
+        return None
+    ends = [end for limit in (interval.low, interval.high) for end in end_values(one, limit.value)]
+    wire = [form.stored(end) * register.base.factor for end in ends]
+    return range(ceil(min(wire)), floor(max(wire)) + 1)
+
+
+def _reachable(register: Register, one: Range) -> bool:
+    """Whether any value of the range lies where type and scale reach; limits that are no numbers are no limits."""
+    reach = widest(register)
+    if reach is None:
+        return True
+    for interval in one.intervals:
+        lows = end_values(one, interval.low.value) if isinstance(interval.low, Number) else (reach[0],)
+        highs = end_values(one, interval.high.value) if isinstance(interval.high, Number) else (reach[1],)
+        if min(lows) <= reach[1] and max(highs) >= reach[0]:
+            return True
+    return False
+
+
+@register_rule(
+    Rule("RS0426", "Kind does not fit the type", "An enum in a float or a number in a text cannot be decoded.")
+)
+def kind_and_type(register: Register, _: RuleScope) -> Iterator[Finding]:
+    """Compare the kind with the types of all views, and an enum or fields with the kind."""
+    for view in register.views:
+        wrong = (
+            (register.kind is Kind.STRING) != (view.type is WireType.STRING)
+            or (register.kind in UNSCALED - {Kind.STRING} and view.type.is_float)
+            or (register.kind in {*WORDS_OF_BITS, Kind.VERSION} and view.type is WireType.BIT)
+        )
+        if wrong:
+            message = f"is of kind {register.kind}, but view {view.name} has type {view.type}"
+            yield Finding.at(register, message, "correct `kind` or `type`")
+            return
+        if view.saturates and (register.kind in {*UNSCALED, Kind.BOOLEAN} or not view.type.is_integer):
+            message = f"is of kind {register.kind} and type {view.type}, of which view {view.name} can clip nothing"
+            yield Finding.at(register, message, "remove `saturates`, or give the register a view set of its own")
+            return
+    if (register.enum is not None) != (register.kind is Kind.ENUM):
+        yield Finding.at(register, f"is of kind {register.kind} {_has(register)}", "correct `kind` or the enum")
+    elif bool(register.fields) != (register.kind in WORDS_OF_BITS):
+        yield Finding.at(
+            register, f"is of kind {register.kind} but its bits say otherwise", "correct `kind` or the bits"
+        )
+    elif register.kind is Kind.VERSION and not register.version_digits:
+        yield Finding.at(register, "is of kind version, but has no digits", "give them under `version`, as nn.nn")
+    elif not register.fractional:
+        yield from _parts_of_wholes(register)
+
+
+def _parts_of_wholes(register: Register) -> Iterator[Finding]:
+    for special in register.specials:
+        for number in (special.code, special.means):
+            if number is not None and number.denominator != 1:
+                message = (
+                    f'is of kind {register.kind}, so whole, but its special value "{special.label}" is {show(number)}'
+                )
+                yield Finding.at(register, message, "correct the special value, or remove `kind`")
+
+
+def _has(register: Register) -> str:
+    return "but has an enum" if register.enum else "but has no enum"
+
+
+@register_rule(
+    Rule(
+        "RS0427",
+        "Scale on a value that is no number",
+        "Codes, bits and texts are not multiplied; one of them is wrong.",
+    )
+)
+def scaled_codes(register: Register, _: RuleScope) -> Iterator[Finding]:
+    """Allow nothing but the identity, and factor 1, for codes, bits, texts and versions."""
+    if register.kind not in UNSCALED:
+        return
+    if any(case.then != IDENTITY for case in register.scale) or any(view.factor != 1 for view in register.views):
+        yield Finding.at(register, f"is of kind {register.kind} but has a scale", "remove the scale, or correct `kind`")
+
+
+@register_rule(
+    Rule(
+        "RS0428",
+        "Default of the wrong sort",
+        "A text for a number, or one that the words or the pattern cannot spell, is never read and cannot be written.",
+    )
+)
+def default_of_wrong_sort(register: Register, _: RuleScope) -> Iterator[Finding]:
+    """Compare the default with the kind; a text with the words it has, a version with its pattern."""
+    for what, value in register.beginnings:
+        problem = wrong_sort(register, value)
+        if problem:
+            message = f"is of kind {register.kind} and has {what} {shown(value)}, {problem}"
+            yield Finding.at(register, message, f"correct the {what}, or the kind and its keys")
+
+
+@register_rule(
+    warning("RS0429", "Version longer than its type", "The type cannot hold the largest version of so many digits.")
+)
+def version_too_long(register: Register, _: RuleScope) -> Iterator[Finding]:
+    """Compare the largest number of the digits with the type."""
+    largest = 10**register.version_digits - 1
+    if register.kind is Kind.VERSION and register.base.type.is_integer and largest > register.base.type.maximum:
+        message = f"packs {register.version_digits} digits (up to {largest}) into {ends_of(register)}"
+        yield Finding.at(register, message, "correct `version` or `type`, or waive this with what the manual says")

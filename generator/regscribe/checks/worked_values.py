@@ -1,0 +1,199 @@
+"""Worked examples of values and of times: the map must give what the manual prints."""
+
+from collections.abc import Iterator
+from fractions import Fraction
+
+from regscribe.checks.assumed_values import in_example
+from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule
+from regscribe.model import (
+    FrameExample,
+    Kind,
+    Outcome,
+    Protocol,
+    Register,
+    Rule,
+    TimingExample,
+    ValueExample,
+    View,
+    show,
+)
+from regscribe.reference import (
+    Meaning,
+    Reading,
+    RefusedError,
+    Surroundings,
+    UnknownValueError,
+    decode,
+    encode,
+    transmit,
+)
+
+HALF_A_CENT = Fraction(1, 200)
+"""Manuals print milliseconds to two decimals."""
+
+MEANINGS = {Outcome.FAULT: Meaning.FAULT, Outcome.SATURATED: Meaning.SATURATED}
+
+
+def hexadecimal(words: tuple[int, ...]) -> str:
+    """Words for a message."""
+    return " ".join(f"{word:04X}" for word in words)
+
+
+def unsigned(words: tuple[int, ...]) -> tuple[int, ...]:
+    """Words as they stand on the wire: a map may write -1 for FFFF."""
+    return tuple(word & 0xFFFF for word in words)
+
+
+def printed(what: str, example: ValueExample | FrameExample | TimingExample) -> str:
+    """What an example is and, where the map says so, where the manual prints it."""
+    return f"{what} of {example.source}" if example.source else what
+
+
+def shown(value: Fraction | str | None) -> str:
+    """A value for a message."""
+    return show(value) if isinstance(value, Fraction) else f'"{value}"' if value is not None else "no value"
+
+
+def described(reading: Reading) -> str:
+    """What words mean, for a message."""
+    if reading.meaning is Meaning.FAULT:
+        return f"fault {reading.fault}"
+    return shown(reading.value) if reading.value is not None else str(reading.meaning).replace("_", " ")
+
+
+@map_rule(
+    Rule(
+        "RS0446",
+        "Worked example of a value is not reproduced",
+        "The manual's own figures prove the transcription: where they disagree, the map or the manual is wrong.",
+    )
+)
+def value_examples(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
+    """Evaluate every value example by the reference codec."""
+    by_name = {scope.model.name: scope for scope in scopes}
+    for example in scopes[0].register_map.examples:
+        if not isinstance(example, ValueExample) or example.model not in by_name:
+            continue
+        problem = _judge(example, by_name[example.model])
+        if problem:
+            message = f"{printed('the example', example)} for `{example.register}`: {problem}"
+            yield Finding(
+                example.register, example.span, message, "correct the map; if the manual errs, tell in `errata`"
+            )
+
+
+def _judge(example: ValueExample, scope: RuleScope) -> str:
+    register = scope.registers.get(example.register)
+    view = next((view for view in register.views if view.name == example.view), None) if register else None
+    if register is None or view is None:
+        return f"model {example.model} has no view {example.view} of it"
+    words = unsigned(example.words)
+    if len(words) != view.words:
+        return f"{len(words)} words, but view {view.name} has {view.words}"
+    known = in_example(scope.register_map, scope.model, example.state)
+    try:
+        return _sent(example, view, known) or _read(example, register, view, known)
+    except UnknownValueError as unknown:
+        return f"it depends on `{unknown}`; say its value under `with`"
+    except RefusedError as refused:
+        return str(refused)
+
+
+def _sent(example: ValueExample, view: View, known: Surroundings) -> str:
+    if example.stored is None:
+        return ""
+    words = transmit(view, example.stored, known)
+    if words == unsigned(example.words):
+        return ""
+    said = hexadecimal(unsigned(example.words))
+    return f"a device that holds {show(example.stored)} sends {hexadecimal(words)}, the manual says {said}"
+
+
+def _read(example: ValueExample, register: Register, view: View, known: Surroundings) -> str:
+    words = unsigned(example.words)
+    reading = decode(register, view, words, known)
+    if example.outcome in MEANINGS:
+        wrong = reading.meaning is not MEANINGS[example.outcome]
+        wrong = wrong or (example.outcome is Outcome.FAULT and example.value not in {None, reading.fault})
+        said = example.value if example.outcome is Outcome.FAULT else example.outcome
+        return f"{hexadecimal(words)} is {described(reading)}, the manual says {said}" if wrong else ""
+    if example.flags is not None:
+        return _flags(example, register, reading)
+    if example.value is None:
+        return ""
+    return compare(register, view, words, example.value, known, lossy=example.lossy)
+
+
+def _flags(example: ValueExample, register: Register, reading: Reading) -> str:
+    word = int(reading.value) if isinstance(reading.value, Fraction) else 0
+    have = {bits.id for bits in register.fields if bits.is_flag and word >> bits.low & 1}
+    wanted = set(example.flags or ())
+    if have == wanted:
+        return ""
+    return f"the flags are {', '.join(sorted(have)) or 'none'}, the manual says {', '.join(sorted(wanted)) or 'none'}"
+
+
+def compare(
+    register: Register,
+    view: View,
+    words: tuple[int, ...],
+    value: Fraction | str,
+    known: Surroundings,
+    *,
+    lossy: bool = False,
+) -> str:
+    """What is wrong with words that should mean `value` (and, unless `lossy`, come from it); empty if nothing is."""
+    if any(case.then.multiply == 0 for case in register.scale):
+        return ""  # RS0430 speaks of it: nothing can be computed back
+    wanted = _number(register, value)
+    reading = decode(register, view, words, known)
+    if reading.meaning not in {Meaning.VALUE, Meaning.UNKNOWN_MEMBER} or reading.value != wanted:
+        return f"{hexadecimal(words)} is {described(reading)}, the manual says {shown(value)}"
+    sent = words if lossy else encode(register, view, wanted, known)
+    if sent != words:
+        return f"{shown(value)} becomes {hexadecimal(sent)}, the manual says {hexadecimal(words)}"
+    return ""
+
+
+def _number(register: Register, value: Fraction | str) -> Fraction | str:
+    """An enum's member as its code; everything else as it is."""
+    if register.kind is Kind.ENUM and register.enum and isinstance(value, str):
+        codes = [member.code for member in register.enum.members if member.id.lower() == value.lower()]
+        return Fraction(codes[0]) if codes else value
+    return value
+
+
+@map_rule(
+    Rule("RS0449", "Worked example of a time is not reproduced", "Gap and latency decide timeouts, so they must agree.")
+)
+def timing_examples(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
+    """Compute gap, earliest and latest start of the answer from the protocol, and compare to two decimals."""
+    register_map = scopes[0].register_map
+    for example in register_map.examples:
+        if isinstance(example, TimingExample):
+            for problem in _times(example, register_map.protocol):
+                message = f"{printed('the timing example', example)}: {problem}"
+                yield Finding(MAP, example.span, message, "correct `serial.gap_characters` or `latency`")
+
+
+def _times(example: TimingExample, protocol: Protocol) -> Iterator[str]:
+    character = Fraction(bits_per_character(example.format) * 1000, example.baud)
+    gap = protocol.serial.gap_characters * character
+    latency = next((one for one in protocol.latencies if one.function == example.function), None)
+    if latency is None:
+        yield f"no latency of function {example.function:02d} is stated"
+        return
+    more = latency.characters * character
+    computed = {
+        "gap": (gap, example.gap),
+        "earliest": (gap + more + latency.minimum + example.words * latency.minimum_per_word, example.earliest),
+        "latest": (gap + more + latency.maximum + example.words * latency.maximum_per_word, example.latest),
+    }
+    for name, (mine, printed) in computed.items():
+        if abs(mine - printed) > HALF_A_CENT:
+            yield f"{name} is {float(mine):.2f} ms, the manual says {show(printed)} ms"
+
+
+def bits_per_character(line_format: str) -> int:
+    """Bits of one character on the line: start, data, parity if any, stop (`8N1`: 10, `8E1`: 11)."""
+    return 1 + int(line_format[0]) + (line_format[1] != "N") + int(line_format[2])

@@ -1,0 +1,188 @@
+"""Groups in their write order, and what surrounds a write: conditions, unlocking, applying, endurance."""
+
+from collections import defaultdict
+from collections.abc import Iterator
+
+from regscribe.checks.commands import touched
+from regscribe.checks.rule import Finding, RuleScope, map_rule, model_rule, register_rule, warning
+from regscribe.model import Command, Group, Register, Related, Rule
+
+
+@model_rule(Rule("RS0475", "Place in the write order used twice", "Two groups cannot both be written second."))
+def order_twice(scope: RuleScope) -> Iterator[Finding]:
+    """Compare the places of all groups that have one."""
+    taken: dict[int, Group] = {}
+    for group in scope.model.groups:
+        if group.order is None:
+            continue
+        first = taken.setdefault(group.order, group)
+        if first is not group:
+            related = (Related(f"group `{first.id}` has it", first.span),)
+            message = f"group `{group.id}` has place {group.order} of the write order, which `{first.id}` has"
+            yield Finding(group.id, group.span, message, "give one of them another `order`", related)
+
+
+@model_rule(
+    warning(
+        "RS0476",
+        "Written before what rescales it",
+        "Writing the unit of measure converts values that were written before: the unit must come first.",
+    )
+)
+def rescaled_after(scope: RuleScope) -> Iterator[Finding]:
+    """Compare the place of a register that rescales a unit with those of the groups that hold values of that unit."""
+    places = {group.id: group.order for group in scope.model.groups}
+    earliest: dict[str, tuple[int, Register]] = {}
+    for other in scope.model.registers:
+        place = places.get(other.group)
+        if other.unit_id and place is not None and place < earliest.get(other.unit_id, (place + 1,))[0]:
+            earliest[other.unit_id] = (place, other)
+    for register in scope.model.registers:
+        mine = places.get(register.group)
+        if mine is None or register.rescales not in earliest:
+            continue
+        place, other = earliest[register.rescales]
+        if place < mine:
+            related = Related(f"`{other.path}` in `{other.group}` ({place}) is rescaled", other.span)
+            message = f"rescales {register.rescales}, but its group `{register.group}` has place {mine} in the order"
+            yield Finding.at(register, message, f"write it before `{other.group}`: give it a lower `order`", related)
+
+
+@map_rule(Rule("RS0477", "Group without members", "A group that no model has a register of is a heading of nothing."))
+def empty_group(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
+    """Find groups that are empty on every model."""
+    groups: defaultdict[str, list[Group]] = defaultdict(list)
+    for scope in scopes:
+        for group in scope.model.groups:
+            groups[group.id].append(group)
+    for name, on_models in groups.items():
+        if not any(group.members for group in on_models):
+            yield Finding(name, on_models[0].span, f"group `{name}` has no members", "give it registers, or remove it")
+
+
+@model_rule(
+    Rule("RS0482", "Unlocking needs itself", "A command that is needed before its own write can never be sent.")
+)
+def unlock_circle(scope: RuleScope) -> Iterator[Finding]:
+    """Find commands that write a register which needs that command before or after it."""
+    for command in scope.model.commands:
+        for register in {one.path: one for one in _written(command.id, scope)}.values():
+            if command.id in (register.unlock, register.apply):
+                yield _circle(command, register)
+
+
+def _circle(command: Command, register: Register) -> Finding:
+    how = "unlock" if register.unlock == command.id else "apply"
+    related = (Related(f"`{register.path}` has {how}: {command.id}", register.span),)
+    message = f"command `{command.id}` writes `{register.path}`, which needs `{command.id}` to {how} it"
+    return Finding(command.id, command.span, message, f"remove `{how}` from the register, or the step", related)
+
+
+@register_rule(
+    Rule(
+        "RS0630",
+        "Unlocked in another element",
+        "A command writes the same registers whichever element of an array it is run for.",
+    )
+)
+def unlocked_elsewhere(register: Register, scope: RuleScope) -> Iterator[Finding]:
+    """Find commands before or after a write in an array that write to another element of it."""
+    for how, name in (("unlock", register.unlock), ("apply", register.apply)):
+        for other in _written(name, scope) if name and register.index else ():
+            if _another_element(register, other):
+                message = f"has {how}: {name}, which writes `{other.path}`, in another element"
+                help_text = f"leave out `{how}` and say in its `description` what must be written: programs do it"
+                related = Related(f"`{name}` writes `{other.path}`, whatever the element", other.span)
+                yield Finding.at(register, message, help_text, related)
+                break
+
+
+def _written(command: str, scope: RuleScope) -> list[Register]:
+    """The registers that the steps of a command write; worked out once for a model."""
+    key = ("written", command)
+    if key not in scope.memo:
+        steps = [step for one in scope.model.commands if one.id == command for step in one.steps if step.words]
+        scope.memo[key] = [stretch.register for step in steps for stretch in touched(step, scope)]
+    found = scope.memo[key]
+    return found if isinstance(found, list) else []
+
+
+def _another_element(register: Register, other: Register) -> bool:
+    """Whether two registers stand in different elements of an array that is around both."""
+    mine, its = (zip(one.array.split("."), one.index, strict=False) for one in (register, other))
+    for (array, index), (name, number) in zip(mine, its, strict=False):
+        if array != name:
+            return False
+        if index != number:
+            return True
+    return False
+
+
+@register_rule(
+    Rule("RS0483", "Facts about writing a read-only register", "A register that cannot be written needs no permission.")
+)
+def write_facts_of_read_only(register: Register, _: RuleScope) -> Iterator[Finding]:
+    """Look for keys that speak of writing."""
+    if register.access.writable:
+        return
+    told = {
+        "writable": register.writable is not None,
+        "unlock": bool(register.unlock),
+        "apply": bool(register.apply),
+        "rescales": bool(register.rescales),
+        "endurance": register.endurance is not None,
+        "stays": bool(register.stays),
+        "governs": register.governs is not None,
+        "settle": bool(register.settle),
+    }
+    keys = [key for key, is_told in told.items() if is_told]
+    if keys:
+        message = f"has access {register.access} but {', '.join(keys)}"
+        yield Finding.at(register, message, "correct `access`, or remove what speaks of writing")
+
+
+@register_rule(
+    Rule("RS0484", "Endurance that is no number of writes", "Endurance counts the writes that a memory survives.")
+)
+def endurance(register: Register, _: RuleScope) -> Iterator[Finding]:
+    """Endurance must be positive, and does not belong to RAM."""
+    if register.endurance is None:
+        return
+    if register.endurance <= 0:
+        yield Finding.at(register, f"has an endurance of {register.endurance} writes", "give the number of writes")
+    elif register.persistence == "ram":
+        message = f"has an endurance of {register.endurance} writes, but its persistence is ram"
+        yield Finding.at(register, message, "correct `persistence`, or remove `endurance`")
+
+
+@register_rule(
+    Rule(
+        "RS0640",
+        "Conversion that never happens",
+        "Values are converted when the unit that they are in changes; if none depends on the register, nothing does.",
+    )
+)
+def idle_conversion(register: Register, scope: RuleScope) -> Iterator[Finding]:
+    """What `rescales` names must be the unit of some register, and follow the register that names it."""
+    if not register.rescales:
+        return
+    units = [one.unit for one in scope.model.registers if one.unit_id == register.rescales]
+    if not any(register.path in case.when.registers for unit in units for case in unit):
+        message = f"rescales {register.rescales}, " + (
+            "whose cases do not ask for it" if units else "in which no register counts"
+        )
+        yield Finding.at(register, message, "remove `rescales`, or let the cases of the unit ask for the register")
+
+
+@register_rule(
+    Rule(
+        "RS0641",
+        "Distance in a unit that nothing converts",
+        "Only where the device converts values does it matter that a distance has no zero point.",
+    )
+)
+def idle_difference(register: Register, scope: RuleScope) -> Iterator[Finding]:
+    """A register with `difference` counts in a unit that another register rescales."""
+    if register.difference and not any(one.rescales == register.unit_id for one in scope.model.registers):
+        message = f"is a difference in {register.unit_id}, which no register rescales"
+        yield Finding.at(register, message, "remove `difference`, or give `rescales` to what makes the device convert")

@@ -1,0 +1,55 @@
+"""`regscribe check`: report what is wrong in maps."""
+
+from collections.abc import Iterable, Sequence
+
+import click
+
+from regscribe.checks import catalogue
+from regscribe.cli.shared import diagnostic_text
+from regscribe.cli.shared.json_report import as_github, as_json
+from regscribe.cli.shared.map_by_id import find_maps
+from regscribe.cli.shared.sarif import as_sarif
+from regscribe.cli.shared.terminal import show, tell
+from regscribe.model import Diagnostic
+from regscribe.pipeline import compile_map, has_errors
+
+
+@click.command(
+    name="check",
+    epilog="Example: regscribe check maps/ --format github\n\n"
+    "Exit code 0: no error (warnings do not count, unless --strict), 1: findings, 2: wrong usage.",
+)
+@click.argument("paths", nargs=-1, metavar="[PATH]...")
+@click.option("--format", "form", type=click.Choice(["text", "json", "github", "sarif"]), default="text")
+@click.option("--strict", is_flag=True, help="Let warnings count as findings, too.")
+def command(*, paths: tuple[str, ...], form: str, strict: bool) -> int:
+    """Report what is wrong in maps.
+
+    PATH is a map file, a folder that is searched for *.yaml, or the id of a map (fdc/series-100). Without PATH: maps/.
+    """
+    maps = find_maps(paths, libraries=True)
+    found = _each_once(diagnostic for path in maps for diagnostic in compile_map(path).diagnostics)
+    _print(found, form=form, maps=len(maps))
+    return int(has_errors(found) or (strict and bool(found)))
+
+
+def _each_once(found: Iterable[Diagnostic]) -> list[Diagnostic]:
+    """What is wrong in a library or a base is found again in each map that builds on it: the first one speaks."""
+    return list({(one.rule, one.span, one.message): one for one in reversed(list(found))}.values())[::-1]
+
+
+def _print(found: Sequence[Diagnostic], *, form: str, maps: int) -> None:
+    match form:
+        case "json":
+            tell(as_json(found))
+        case "github":
+            tell(as_github(found))
+        case "sarif":
+            tell(as_sarif(found, {rule.id: rule for rule in catalogue.all_rules()}))
+        case _:
+            show(
+                [
+                    *diagnostic_text.findings(found),
+                    (f"{diagnostic_text.count(maps, 'map')} checked: {diagnostic_text.tally(found)}\n", ""),
+                ]
+            )

@@ -1,0 +1,142 @@
+"""`regscribe clone`: copy the settings of one device, or of a backup, to others."""
+
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import click
+
+from regscribe.cli.commands.restore import said, tell_rest
+from regscribe.cli.shared.completion_values import complete_target
+from regscribe.cli.shared.error_report import REFUSED, UNKNOWN_STATE, Failure
+from regscribe.cli.shared.error_report import told as target_told
+from regscribe.cli.shared.output import print_json, remark
+from regscribe.cli.shared.settings_common import (
+    confirm_option,
+    include_option,
+    is_file,
+    loaded,
+    show_changes,
+    taken,
+    telling,
+    told,
+)
+from regscribe.cli.shared.sigint import Shield, shielded
+from regscribe.cli.shared.target_options import CONFIG, JSON, PACKAGE, opened, understood
+from regscribe.tools import settings
+from regscribe.tools.live.target import Target
+from regscribe.tools.settings import Backup
+
+
+class Options(NamedTuple):
+    """How a clone writes."""
+
+    include: tuple[str, ...]
+    partial: bool
+    dry_run: bool
+    confirm: bool
+
+
+@click.command(
+    name="clone",
+    epilog="Example: regscribe clone oven oven2 oven3 --dry-run\n\n"
+    "Exit code 0: all done, 1: a device did not take them (each is told), 2: wrong usage or file, 3: the source is "
+    "silent, 4: it broke off in a device (the message says what was written), 130: Ctrl-C between two devices.",
+)
+@click.argument("source", shell_complete=complete_target)
+@click.argument("targets", nargs=-1, required=True, metavar="TARGET...", shell_complete=complete_target)
+@click.option("--dry-run", is_flag=True, help="Show what would be written; write nothing.")
+@click.option("--partial", is_flag=True, help="Write what fits, although a device is of another model or map.")
+@click.option("--stop", is_flag=True, help="Stop at the first device that does not take them.")
+@include_option
+@confirm_option
+@PACKAGE
+@CONFIG
+@JSON
+def command(  # noqa: PLR0913 - the options of the command
+    *,
+    source: str,
+    targets: tuple[str, ...],
+    dry_run: bool,
+    partial: bool,
+    stop: bool,
+    include: tuple[str, ...],
+    confirm: bool,
+    packages: tuple[str, ...],
+    config: str | None,
+    as_json: bool,
+) -> int:
+    """Copy the settings of SOURCE, a device or a backup file, to each TARGET.
+
+    Never the address, line, calibration and the like, unless included. A device that fails does not stop the others;
+    Ctrl-C does.
+    """
+    with target_told():
+        wanted = [understood(text, config=config, packages=packages) for text in targets]
+    backup = _source(source, packages, config)
+    options = Options(include, partial, dry_run, confirm)
+    with shielded() as shield:
+        results = _results(wanted, backup, options, shield, stop=stop, quiet=as_json)
+    if as_json:
+        print_json(source=source, dry_run=dry_run, devices=results)
+    return _code(results, shield)
+
+
+def _source(text: str, packages: tuple[str, ...], config: str | None) -> Backup:
+    if is_file(text):
+        return loaded(Path(text))
+    with target_told():
+        target = understood(text, config=config, packages=packages)
+    with opened(target, identity=True) as device, told():
+        return taken(device, str(target.link))
+
+
+def _results(
+    targets: list[Target], backup: Backup, options: Options, shield: Shield, *, stop: bool, quiet: bool
+) -> list[dict[str, Any]]:
+    """What became of each device; after Ctrl-C, or with `stop` after a failure, the rest is not begun."""
+    results: list[dict[str, Any]] = []
+    for target in targets:
+        if shield.interrupted or (stop and results and "error" in results[-1]):
+            results.append(_error(target, "not begun: it holds what it held", "not-begun", REFUSED, quiet=quiet))
+            stop = True
+            continue
+        try:
+            results.append({"target": str(target), **_onto(target, backup, options, shield, quiet=quiet)})
+        except Failure as error:
+            results.append(_error(target, error.message, error.kind, error.exit_code, quiet=quiet))
+    return results
+
+
+def _error(target: Target, message: str, kind: str, code: int, *, quiet: bool) -> dict[str, Any]:
+    if not quiet:
+        for line in message.splitlines():
+            remark(f"{target}: {line}")
+    return {"target": str(target), "error": {"kind": kind, "message": message, "exit_code": code}}
+
+
+def _code(results: list[dict[str, Any]], shield: Shield) -> int:
+    """The exit code: what is worst for the one who looks after the devices."""
+    codes = {one["error"]["exit_code"] for one in results if "error" in one}
+    if UNKNOWN_STATE in codes:
+        return UNKNOWN_STATE
+    return shield.code or (REFUSED if codes else 0)
+
+
+def _onto(target: Target, backup: Backup, options: Options, shield: Shield, *, quiet: bool) -> dict[str, Any]:
+    with opened(target, identity=True) as device, told(), telling(f"cloning to {target}", backup, shield) as tell:
+        done = device.run(
+            settings.restore(
+                type(device),
+                backup,
+                include=options.include,
+                partial=options.partial,
+                dry_run=options.dry_run,
+                confirm=options.confirm,
+                tell=tell,
+            )
+        )
+        if not quiet:
+            remark(f"{target}:")
+            show_changes(device, done.report.changes)
+            tell_rest(done, dry_run=options.dry_run)
+        return said(device, done)

@@ -1,0 +1,68 @@
+"""`regscribe command`: make a device act, or list what it can be told to do."""
+
+import click
+
+from regscribe.cli.commands.read import heading
+from regscribe.cli.shared.completion_values import complete_command
+from regscribe.cli.shared.error_report import told
+from regscribe.cli.shared.output import print_json, remark, show_table
+from regscribe.cli.shared.sigint import shielded
+from regscribe.cli.shared.target_options import HELP, checked_identity, opened, target_options
+from regscribe.cli.shared.unsent_requests import plain_requests, show_requests
+from regscribe.tools.live import names
+from regscribe.tools.live import target as targets
+from regscribe.tools.live.dry_run import dry
+from regscribe.tools.live.target import Target
+from regscribe_runtime import BareDevice, Command
+from regscribe_runtime.operations import tasks
+
+
+@click.command(
+    name="command",
+    help=f"Send a command of the map; without NAME list them (nothing is sent then).\n\n{HELP}",
+    epilog="Example: regscribe command oven clear_latched_alarms\n\n"
+    "Exit code 0: done, 1: refused (also for want of --confirm), 2: wrong usage, 3: nobody answers, 4: the "
+    "answer was lost, and nobody knows whether it was carried out.",
+)
+@target_options
+@click.argument("name", required=False, shell_complete=complete_command)
+@click.option("--confirm", is_flag=True, help="Send a dangerous command, too.")
+@click.option("--dry-run", is_flag=True, help="Show the requests, send none that writes.")
+@checked_identity
+def command(*, target: Target, as_json: bool, name: str | None, confirm: bool, dry_run: bool, identity: bool) -> int:
+    """Send a command of the map, or list them."""
+    if name is None:
+        with told():
+            _list(targets.identified(target), as_json=as_json)
+        return 0
+
+    def check(driver: type[BareDevice]) -> Command:
+        return names.command_named(driver, name)
+
+    with opened(target, identity=identity, check=check) as device, shielded() as shield:
+        found = check(type(device))
+        unsent = dry(device).written if dry_run else []
+        device.run(tasks.run(found, confirm=confirm))
+    if as_json:
+        requests = {"requests": plain_requests(unsent)} if dry_run else {}
+        print_json(**heading(device, target), command=name, sent=not dry_run, **requests)
+    elif dry_run:
+        show_requests(unsent)
+    else:
+        remark(f"{name}: done")
+    return shield.code
+
+
+def _list(target: Target, *, as_json: bool) -> None:
+    driver: type[BareDevice] = target.known().driver
+    commands = names.commands_of(driver)
+    if as_json:
+        print_json(
+            model=driver.model,
+            map=driver.map_id,
+            commands={key: {"danger": one.danger} for key, one in commands.items()},
+        )
+    else:
+        show_table(("COMMAND", "NEEDS --confirm, FOR"), [(key, one.danger) for key, one in commands.items()])
+    if not commands:
+        remark(f"the manual of {driver.model} has no commands")

@@ -1,0 +1,142 @@
+"""`regscribe compare`: hold a map against a second transcription, or against another map."""
+
+import sys
+from pathlib import Path
+
+import click
+
+from regscribe.cli.shared.comparison_text import as_csv, as_json, as_text
+from regscribe.cli.shared.diagnostic_text import findings, tally
+from regscribe.cli.shared.map_by_id import find_map
+from regscribe.cli.shared.terminal import show, tell, warn
+from regscribe.evidence import Comparison, Table, TableError, compare_maps, compare_table, read
+from regscribe.model import RegisterMap
+from regscribe.pipeline import compile_map
+
+MAPS = {".yaml", ".yml"}
+TABLES = {".csv", ".tsv", ".txt"}
+
+
+@click.command(
+    name="compare",
+    epilog="Example: regscribe compare athena/series-c second.csv --columns address,access,default=factory\n\n"
+    "Exit code 0: nothing differs, 1: something does (or the map has errors), 2: wrong usage, or a table that is none.",
+)
+@click.argument("map_name", metavar="MAP")
+@click.argument("other", metavar="TABLE.csv|MAP")
+@click.option("--columns", metavar="A,B,...", help="Compare only these; A=HEADER where the table calls it otherwise.")
+@click.option("--model", default="", metavar="M", help="Only this model; the one of a table without column `model`.")
+@click.option("--pair", "pairs", multiple=True, metavar="A=B", help="Two maps: these models belong together. Repeat.")
+@click.option("--loose", is_flag=True, help="Ignore case and punctuation of texts; section 4.14 is that of 4.14.2.")
+@click.option("--partial", is_flag=True, help="The table need not have every register.")
+@click.option("--format", "form", type=click.Choice(["text", "json", "csv"]), default="text", show_default=True)
+def command(
+    *,
+    map_name: str,
+    other: str,
+    columns: str | None,
+    model: str,
+    pairs: tuple[str, ...],
+    loose: bool,
+    partial: bool,
+    form: str,
+) -> int:
+    """Hold a map against a second transcription in CSV, or against another map, and list what differs.
+
+    MAP is a map file or the id of a map (fdc/series-100). The table has columns of `regscribe export`, any number of
+    them; docs/evidence.md tells more.
+    """
+    if columns is not None and not columns.strip(" ,"):
+        message = "--columns names no column: leave it out to compare all that the table has"
+        raise click.UsageError(message)
+    wanted = [item.strip() for item in (columns or "").split(",") if item.strip()]
+    table = None if _is_map(other) else _table(other)
+    _refuse_foreign(table, model=model, pairs=pairs, partial=partial)
+    names = [map_name] if table else [map_name, other]
+    maps = [compiled for name in names if (compiled := _compiled(name))]
+    if len(maps) < len(names):
+        return 1
+    try:
+        if table:
+            found = compare_table(maps[0], table, columns=wanted, model=model, loose=loose, partial=partial)
+        else:
+            found = compare_maps(maps[0], maps[1], pairs=_pairs(pairs, maps), columns=wanted, loose=loose)
+    except TableError as error:
+        raise click.UsageError(str(error)) from None
+    _print(found, form)
+    return int(not found.equal)
+
+
+def _print(found: Comparison, form: str) -> None:
+    match form:
+        case "json":
+            tell(as_json(found))
+        case "csv":
+            tell(as_csv(found))
+        case _:
+            show(as_text(found))
+
+
+def _is_map(other: str) -> bool:
+    """Whether the second argument names a map: a YAML file, or what is no file and does not look like one."""
+    path = Path(other)
+    return path.suffix in MAPS or (path.suffix.lower() not in TABLES and not _exists(path))
+
+
+def _exists(path: Path) -> bool:
+    try:
+        return path.exists()
+    except OSError:  # a name that is too long
+        return False
+
+
+def _table(other: str) -> Table:
+    path = Path(other)
+    if path.is_dir():
+        message = f"{other} is a folder: name one table (CSV) or one map"
+        raise click.UsageError(message)
+    try:
+        return read(path.read_bytes(), other)
+    except OSError as error:
+        message = f"cannot read {other}: {error.strerror or error}"
+        raise click.UsageError(message) from None
+    except TableError as error:
+        raise click.UsageError(str(error)) from None
+
+
+def _refuse_foreign(table: Table | None, *, model: str, pairs: tuple[str, ...], partial: bool) -> None:
+    """Refuse options of the other use."""
+    if table and pairs:
+        message = "--pair is for two maps; which models a table is about stands in its column `model`, or is --model"
+        raise click.UsageError(message)
+    if not table and (model or partial):
+        message = f"--{'model' if model else 'partial'} is for a table; of two maps choose the models with --pair A=B"
+        raise click.UsageError(message)
+
+
+def _compiled(name: str) -> RegisterMap | None:
+    compiled = compile_map(find_map(name))
+    show(findings(compiled.diagnostics), stream=sys.stderr)
+    if compiled.map is None:
+        warn(f"nothing was compared: {tally(compiled.diagnostics)} in {compiled.path}\n")
+    return compiled.map
+
+
+def _pairs(pairs: tuple[str, ...], maps: list[RegisterMap]) -> dict[str, str]:
+    found: dict[str, str] = {}
+    for pair in pairs:
+        names = [name.strip() for name in pair.split("=")]
+        if len(names) != len(maps):
+            message = f"--pair {pair}: write one model of each map, for example --pair 16C=CN8200"
+            raise click.UsageError(message)
+        for one, name in zip(maps, names, strict=True):
+            if not one.has(name):
+                message = (
+                    f"--pair {pair}: {one.id} has no model `{name}`: it has {', '.join(m.name for m in one.models)}"
+                )
+                raise click.UsageError(message)
+        if names[0] in found or names[1] in found.values():
+            message = f"--pair {pair}: one of these models has its partner already"
+            raise click.UsageError(message)
+        found[names[0]] = names[1]
+    return found

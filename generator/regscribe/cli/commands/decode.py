@@ -1,0 +1,130 @@
+"""`regscribe decode`: frames in the names of a map, without a device."""
+
+import sys
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
+
+import click
+
+from regscribe.cli.shared.completion_values import complete_model
+from regscribe.cli.shared.diagnostic_text import count
+from regscribe.cli.shared.error_report import REFUSED, told
+from regscribe.cli.shared.output import print_json, remark
+from regscribe.cli.shared.target_options import CONFIG, JSON, PACKAGE
+from regscribe.cli.shared.terminal import tell
+from regscribe.tools.live import catalogue, config, givens, names, value_text
+from regscribe.tools.live.capture import Captured, captured
+from regscribe.tools.live.captured_frames import FRAMINGS
+from regscribe.tools.live.decode import Decoded, DecodedItem, Decoder
+from regscribe.tools.live.errors import TargetError
+from regscribe.tools.live.target import given_texts
+from regscribe.visible import safe
+from regscribe_runtime import BareDevice
+
+ARROWS = {"request": "->", "response": "<-"}
+PAIR = 2
+
+
+@click.command(
+    name="decode",
+    epilog="Example: regscribe decode 16C 01 03 0F A0 00 01 87 3C\n\n"
+    "Exit code 0: all frames are sound, 1: one is not, or there is none, 2: wrong usage.",
+)
+@click.argument("model", shell_complete=complete_model)
+@click.argument("digits", nargs=-1, metavar="[HEX]...")
+@click.option("--log", type=click.File(encoding="utf-8", errors="replace"), help="A captured log; - is standard input.")
+@click.option("--framing", type=click.Choice(FRAMINGS), help="Take all frames for this kind, whatever they look like.")
+@click.option("--addressing", type=click.Choice(["modbus", "jbus"]), default="modbus", help="jbus: counted from 1.")
+@click.option("--with", "state", multiple=True, metavar="NAME=VALUE", help="What a register holds that others need.")
+@click.option("--given", "given", multiple=True, metavar="ID=VALUE", help="A fact that the manual leaves to another.")
+@PACKAGE
+@CONFIG
+@JSON
+def command(  # noqa: PLR0913 - the options of the command
+    *,
+    model: str,
+    digits: tuple[str, ...],
+    log: Iterable[str] | None,
+    framing: str | None,
+    addressing: str,
+    state: tuple[str, ...],
+    given: tuple[str, ...],
+    packages: tuple[str, ...],
+    config: str | None,
+    as_json: bool,
+) -> int:
+    """Say in names what frames mean: RTU, TCP or ASCII, as hexadecimal digits, or in a log of any program.
+
+    MODEL is one that `regscribe devices` lists. Digits: one frame in pairs, or a frame in each argument. In a log, each
+    line is searched for a frame; answers are held against the requests before them. Without HEX and --log, standard
+    input is read.
+    """
+    with told():
+        driver = catalogue.find(model, (*packages, *_packages(config))).driver
+        decoder = _decoder(driver, state, given, first=int(addressing == "jbus"))
+    lines = _lines(digits) if digits else log or sys.stdin
+    found = list(_decoded(decoder, captured(lines, framing or "")))
+    if as_json:
+        print_json(model=driver.model, map=driver.map_id, frames=[_plain(line, one) for line, one in found])
+    else:
+        _show(one for _, one in found)
+    if not found:
+        remark("there is no frame in it: write pairs of hexadecimal digits")
+    return REFUSED if not found or any(one.complaint for _, one in found) else 0
+
+
+def _packages(path: str | None) -> tuple[str, ...]:
+    return config.load(path).packages
+
+
+def _decoder(driver: type[BareDevice], state: Sequence[str], given: Sequence[str], *, first: int) -> Decoder:
+    known = {}
+    for text in state:
+        name, equals, value = text.partition("=")
+        if not equals:
+            message = f"--with {text}: write NAME=VALUE, for example input_type=RTD"
+            raise TargetError(message)
+        known[name] = value_text.parse(names.register_named(driver, name), value)
+    texts = given_texts(given)
+    return Decoder(driver, givens=givens.understood(driver, texts) if texts else {}, state=known, first=first)
+
+
+def _lines(digits: Sequence[str]) -> list[str]:
+    """A frame in pairs is many arguments; frames that are quoted are one each."""
+    return [" ".join(digits)] if all(len(one) <= PAIR for one in digits) else list(digits)
+
+
+def _decoded(decoder: Decoder, lines: Iterable[Captured]) -> Iterator[tuple[int, Decoded]]:
+    for one in lines:
+        for frame in one.frames:
+            yield one.line, decoder.feed(frame, one.direction)
+
+
+def _show(found: Iterable[Decoded]) -> None:
+    for one in found:
+        held = [item for item in one.items if item.words]
+        tell(f"{safe(told_line(one))}\n")
+        if len(held) > 1:
+            tell("".join(f"    {safe(item.spelled)}\n" for item in held))
+
+
+def told_line(one: Decoded) -> str:
+    """A frame in one line: `unit 1 -> read holding 4000: controller_type`; several values stand below it."""
+    held = [item for item in one.items if item.words]
+    names = ", ".join(item.name for item in one.items) if not held else ""
+    what = ": ".join(filter(None, (one.what, names, held[0].spelled if len(held) == 1 else "")))
+    wrong = f"  [{one.complaint}]" if one.complaint else ""
+    return f"unit {one.unit} {ARROWS[one.kind]} {what or count(len(held), 'value')}{wrong}"
+
+
+def _plain(line: int, one: Decoded) -> dict[str, Any]:
+    found: dict[str, Any] = {"line": line, "kind": one.kind, "unit_id": one.unit, "function": one.function}
+    found |= {"what": one.what, "address": one.address, "exception": one.exception or None}
+    return {**found, "registers": [_item(item) for item in one.items], "complaint": one.complaint or None}
+
+
+def _item(item: DecodedItem) -> dict[str, Any]:
+    found: dict[str, Any] = {"name": item.name, "view": item.view}
+    if item.words:
+        found |= {"words": list(item.words), "value": item.value, "unit": item.unit, "problem": item.problem or None}
+    return found

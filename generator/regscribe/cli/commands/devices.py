@@ -1,0 +1,114 @@
+"""`regscribe devices`: the models that drivers exist for, and what one of them has."""
+
+from typing import Any
+
+import click
+
+from regscribe.cli.shared.completion_values import complete_model
+from regscribe.cli.shared.error_report import REFUSED, told
+from regscribe.cli.shared.output import print_json, remark, show_table
+from regscribe.cli.shared.target_options import CONFIG, JSON, PACKAGE
+from regscribe.tools.live import catalogue, config, givens, names
+from regscribe.tools.live.value_text import choices
+from regscribe_runtime import Register
+from regscribe_runtime.driver.identify import Known
+
+ACCESS = {"r": "read", "w": "write", "rw": "read, write"}
+
+
+@click.command(
+    name="devices",
+    epilog="Example: regscribe devices athena\n\nExit code 0: found, 1: nothing found, 2: wrong usage.",
+)
+@click.argument("search", nargs=-1, metavar="[WORD]...", shell_complete=complete_model)
+@click.option("--registers", is_flag=True, help="List the registers, groups and commands of the model.")
+@PACKAGE
+@CONFIG
+@JSON
+def command(
+    *, search: tuple[str, ...], registers: bool, packages: tuple[str, ...], config: str | None, as_json: bool
+) -> int:
+    """List all models that drivers exist for; with words, those that all words fit.
+
+    A word fits a part of the model's name, its map, its maker or its description.
+    """
+    with told():
+        everywhere = (*packages, *_config(config))
+        found = [known for known in catalogue.models(everywhere) if _fits(known, search)]
+        if registers and len(found) != 1:
+            found = [catalogue.find(" ".join(search), everywhere)]
+    if registers:
+        _show_registers(found[0], as_json=as_json)
+    elif as_json:
+        print_json(devices=[_plain(known) for known in found])
+    else:
+        show_table(("MODEL", "MAP", "WHAT IT IS"), [_row(known) for known in found])
+    if not found:
+        remark(f"no model fits `{' '.join(search)}`")
+    return 0 if found else REFUSED
+
+
+def _config(path: str | None) -> tuple[str, ...]:
+    return config.load(path).packages
+
+
+def _fits(known: Known, search: tuple[str, ...]) -> bool:
+    text = f"{catalogue.full_name(known)} {catalogue.title(known)} {known.driver.__name__}".casefold()
+    return all(word.casefold() in text for word in search)
+
+
+def _row(known: Known) -> tuple[str, str, str]:
+    needs = ", ".join(f"--given {one.id}={one.example}" for one in givens.givens_of(known.driver))
+    return known.model, known.map_id, f"{catalogue.title(known)}{f' (needs {needs})' if needs else ''}"
+
+
+def _plain(known: Known) -> dict[str, Any]:
+    return {
+        "model": known.model,
+        "map": known.map_id,
+        "title": catalogue.title(known),
+        "driver": f"{known.driver.__module__}.{known.driver.__name__}",
+        "registers": len(known.driver.registers),
+        "identifiable": bool(known.driver.identity),
+        "givens": [one.id for one in givens.givens_of(known.driver)],
+    }
+
+
+def _show_registers(known: Known, *, as_json: bool) -> None:
+    driver = known.driver
+    groups, commands = names.groups_of(driver), names.commands_of(driver)
+    if as_json:
+        print_json(
+            **_plain(known) | {"registers": [_register(one) for one in driver.registers.values()]},
+            groups={name: {"name": group.name, "members": list(group.members)} for name, group in groups.items()},
+            commands={name: {"danger": one.danger} for name, one in commands.items()},
+        )
+        return
+    rows = [
+        (one.path, ACCESS[one.access], one.kind.name, unit_text(one), one.section) for one in driver.registers.values()
+    ]
+    show_table(("REGISTER", "ACCESS", "KIND", "UNIT", "SECTION"), rows, title=f"{known.model}: registers")
+    show_table(("GROUP", "NAME"), [(name, one.name) for name, one in groups.items()], title="groups")
+    show_table(("COMMAND", "DANGER"), [(name, one.danger) for name, one in commands.items()], title="commands")
+
+
+def unit_text(register: Register[Any]) -> str:
+    """The units that a register may stand in: `°F`, or `°F/°C` where another register decides."""
+    if isinstance(register.unit, str):
+        return register.unit
+    return "/".join(dict.fromkeys(str(unit) for _, unit in register.unit if unit))
+
+
+def _register(register: Register[Any]) -> dict[str, Any]:
+    view = register.write_view() if register.access == "w" else register.read_view()
+    return {
+        "name": register.path,
+        "access": ACCESS[register.access],
+        "kind": register.kind.name,
+        "unit": unit_text(register),
+        "choices": list(choices(register)),
+        "address": view.address(register.at),
+        "space": view.space,
+        "words": view.words,
+        "section": register.section,
+    }

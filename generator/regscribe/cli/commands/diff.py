@@ -1,0 +1,99 @@
+"""`regscribe diff`: what differs between devices, backups and the manual's defaults."""
+
+from pathlib import Path
+
+import click
+
+from regscribe.cli.shared.completion_values import complete_target
+from regscribe.cli.shared.error_report import REFUSED, USAGE, Failure
+from regscribe.cli.shared.error_report import told as target_told
+from regscribe.cli.shared.output import print_json, remark, show_table
+from regscribe.cli.shared.settings_common import is_file, loaded, taken, told
+from regscribe.cli.shared.target_options import CONFIG, JSON, PACKAGE, opened, understood
+from regscribe.tools import settings
+from regscribe.tools.live import catalogue
+from regscribe.tools.settings import Saved, SettingDifference, Side
+
+FACTORY = "factory"
+
+
+@click.command(
+    name="diff",
+    epilog="Example: regscribe diff oven oven.yaml; regscribe diff old.yaml new.yaml; regscribe diff oven factory\n\n"
+    "Exit code 0: nothing differs, 1: something does, 2: wrong usage or file, or a manual without defaults, 3: nobody "
+    "answers.",
+)
+@click.argument("left", shell_complete=complete_target)
+@click.argument("right", shell_complete=complete_target)
+@click.option("--all", "stays", is_flag=True, help="Compare address, line, calibration and the like, too.")
+@PACKAGE
+@CONFIG
+@JSON
+def command(*, left: str, right: str, stays: bool, packages: tuple[str, ...], config: str | None, as_json: bool) -> int:
+    """Show what differs between LEFT and RIGHT.
+
+    Each is a backup file, a device (a link such as tcp:10.0.0.7:502?unit=1&model=16C, or a name of the configuration),
+    or the word `factory` for the defaults that the manual gives.
+    """
+    if left == right == FACTORY:
+        message = "compare the factory's defaults with a device or a file"
+        raise Failure(message, kind="usage", code=USAGE)
+    first = _side(right if left == FACTORY else left, packages, config)
+    second = _factory(first, packages) if FACTORY in (left, right) else _side(right, packages, config)
+    one, other = (second, first) if left == FACTORY else (first, second)
+    factory = FACTORY in (left, right)
+    found = settings.differences(one, other, stays=stays, missing=not factory)
+    blind = _without_default(first, second, stays=stays) if factory else []
+    if as_json:
+        print_json(left=one.name, right=other.name, differences=[_plain(each) for each in found], not_compared=blind)
+    else:
+        _show(one, other, found)
+        if blind:
+            remark(f"not compared, for the manual gives no default: {', '.join(blind)}")
+    return REFUSED if found else 0
+
+
+def _side(text: str, packages: tuple[str, ...], config: str | None) -> Side:
+    if is_file(text):
+        return settings.side(loaded(Path(text)), text)
+    with target_told():
+        target = understood(text, config=config, packages=packages)
+    with opened(target, identity=True) as device, told():
+        return settings.side(taken(device, str(target.link)), str(target))
+
+
+def _factory(side: Side, packages: tuple[str, ...]) -> Side:
+    with target_told():
+        driver = catalogue.find(f"{side.map_id}:{side.model}", packages).driver
+    defaults = settings.factory(driver)
+    if not defaults:
+        message = f"the manual of the {side.model} gives no defaults: compare with a backup of a device as delivered"
+        raise Failure(message, kind="no-defaults", code=USAGE)
+    return Side(f"{side.model} as delivered", side.map_id, side.model, defaults)
+
+
+def _without_default(side: Side, factory: Side, *, stays: bool) -> list[str]:
+    return [path for path, one in side.settings.items() if path not in factory.settings and (stays or not one.stays)]
+
+
+def _show(one: Side, other: Side, found: tuple[SettingDifference, ...]) -> None:
+    if (one.map_id, one.model) != (other.map_id, other.model):
+        remark(f"{one.name} is a {one.model} ({one.map_id}), {other.name} a {other.model} ({other.map_id})")
+    if not found:
+        remark("nothing differs")
+        return
+    show_table(("REGISTER", one.name, other.name), [(each.path, _text(each.left), _text(each.right)) for each in found])
+
+
+def _text(saved: Saved | None) -> str:
+    return "-" if saved is None else saved.spelled
+
+
+def _plain(each: SettingDifference) -> dict[str, object]:
+    return {"register": each.path, "left": _json(each.left), "right": _json(each.right)}
+
+
+def _json(saved: Saved | None) -> dict[str, object] | None:
+    if saved is None:
+        return None
+    return {"value": saved.value, "unit": saved.unit} if saved.value is not None else {"error": saved.error}

@@ -1,0 +1,64 @@
+"""`regscribe dump`: everything that a device holds, group by group."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import click
+
+from regscribe.cli.commands.read import heading, plain
+from regscribe.cli.shared.output import print_json, remark, show_table
+from regscribe.cli.shared.target_options import HELP, opened, target_options
+from regscribe.tools.live import names
+from regscribe.tools.live.errors import TargetError, unknown
+from regscribe.tools.live.reading import RegisterReading, readings
+from regscribe.tools.live.target import Target
+from regscribe_runtime import BareDevice, Register
+
+UNGROUPED = "other"
+"""What stands in no group of the manual."""
+
+
+@click.command(
+    name="dump",
+    help=f"Read everything that a device holds, group by group as the manual has it.\n\n{HELP}",
+    epilog="Example: regscribe dump oven --group alarm --json\n\n"
+    "Exit code 0: read (a sensor's fault is part of it), 2: wrong usage, 3: nobody answers.",
+)
+@target_options
+@click.option("--group", "wanted", multiple=True, metavar="GROUP", help="Only this group. Repeat for several.")
+def command(*, target: Target, as_json: bool, wanted: tuple[str, ...]) -> int:
+    """Read everything that a device holds, group by group as the manual has it."""
+    with opened(target, check=lambda driver: _groups(driver, wanted)) as device:
+        groups = _groups(type(device), wanted)
+        registers = {one.path: one for members in groups.values() for one in members}
+        found = {one.name: one for one in device.run(readings(list(registers.values())))}
+    if as_json:
+        print_json(**heading(device, target), groups=_plain(groups, found))
+    else:
+        _show(device, groups, found)
+    return 0
+
+
+def _groups(driver: type[BareDevice], wanted: tuple[str, ...]) -> dict[str, list[Register[Any]]]:
+    known = {name: group.registers(driver) for name, group in names.groups_of(driver).items()}
+    grouped = {one.path for members in known.values() for one in members}
+    others = [one for one in names.readable(driver) if one.path not in grouped]
+    known |= {UNGROUPED: others} if others else {}
+    for name in wanted:
+        if name not in known:
+            raise TargetError(unknown("group", name, known, where=f"in {driver.model}"))
+    return {name: known[name] for name in dict.fromkeys(wanted or known)}
+
+
+def _plain(groups: Mapping[str, list[Register[Any]]], found: Mapping[str, RegisterReading]) -> dict[str, Any]:
+    return {name: {one.path: plain(found[one.path]) for one in members} for name, members in groups.items()}
+
+
+def _show(device: BareDevice, groups: Mapping[str, list[Register[Any]]], found: Mapping[str, RegisterReading]) -> None:
+    titles = {name: group.name for name, group in names.groups_of(type(device)).items()}
+    for name, members in groups.items():
+        rows = [(one.path, found[one.path].spelled) for one in members]
+        show_table(("REGISTER", "VALUE"), rows, title=f"{titles.get(name, 'Other registers')} ({name})")
+    without = sum(one.error is not None for one in found.values())
+    if without:
+        remark(f"{without} of {len(found)} registers hold no value; each says why")

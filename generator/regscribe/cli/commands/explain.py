@@ -1,0 +1,62 @@
+"""`regscribe explain`: a rule with a bad and a good example."""
+
+from collections.abc import Iterator
+from difflib import SequenceMatcher, get_close_matches
+
+import click
+
+from regscribe.checks import catalogue
+from regscribe.checks.catalogue import Example
+from regscribe.cli.shared.diagnostic_text import STYLES
+from regscribe.cli.shared.terminal import Piece, show
+from regscribe.model import Rule
+
+
+@click.command(name="explain", epilog="Example: regscribe explain RS0109")
+@click.argument("rule_id", metavar="RULE")
+def command(*, rule_id: str) -> None:
+    """Explain a rule: what it asks, why, and a bad and a good example.
+
+    RULE is the id that a finding shows. Lines in which the examples differ are marked with - and +.
+    """
+    rules = {rule.id: rule for rule in catalogue.all_rules()}
+    rule = rules.get(rule_id.upper())
+    if rule is None:
+        message = f"there is no rule `{rule_id}`{_meant(rule_id, rules)}"
+        raise click.UsageError(message)
+    show(_explanation(rule))
+
+
+def _meant(rule_id: str, rules: dict[str, Rule]) -> str:
+    near = get_close_matches(rule_id.upper(), rules, n=1)
+    if near:
+        return f"; did you mean `{near[0]}` ({rules[near[0]].title})?"
+    return f": rules have ids from {min(rules)} to {max(rules)}"
+
+
+def _explanation(rule: Rule) -> Iterator[Piece]:
+    bad, good = catalogue.examples(rule.id)
+    yield f"{rule.severity.value}[{rule.id}]", STYLES[rule.severity]
+    yield f": {rule.title}\n", "bold"
+    yield f"\n{rule.why}\n", ""
+    yield from _example("Bad", bad, other=good, mark="-", style="red")
+    yield from _example("Good", good, other=bad, mark="+", style="green")
+    if bad is None and good is None:
+        yield "\nNo example: the rule is about the file, not about what stands in it.\n", ""
+
+
+def _example(title: str, files: Example | None, *, other: Example | None, mark: str, style: str) -> Iterator[Piece]:
+    """Show the files of one example; lines that the other one has, too, are plain."""
+    others = dict(other or ())
+    for name, text in files or ():
+        yield f"\n{title}{f', maps/{name}' if len(files or ()) > 1 else ''}:\n", "bold"
+        yield from _lines(text, None if other is None else others.get(name, ""), mark=mark, style=style)
+
+
+def _lines(text: str, other: str | None, *, mark: str, style: str) -> Iterator[Piece]:
+    lines = text.splitlines()
+    matcher = SequenceMatcher(None, lines, (other or "").splitlines(), autojunk=False)
+    same = {block.a + offset for block in matcher.get_matching_blocks() for offset in range(block.size)}
+    for number, line in enumerate(lines):
+        own = other is not None and number not in same
+        yield f"{mark if own else ' '} {line}\n", style if own else ""

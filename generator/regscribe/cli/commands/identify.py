@@ -1,0 +1,64 @@
+"""`regscribe identify`: ask a device what it is."""
+
+from typing import Any
+
+import click
+
+from regscribe.cli.shared.error_report import REFUSED, told
+from regscribe.cli.shared.output import print_json, remark, show_table
+from regscribe.cli.shared.target_options import HELP, target_options
+from regscribe.tools.live import catalogue
+from regscribe.tools.live import target as targets
+from regscribe.tools.live.target import Target
+from regscribe_runtime.driver.identify import Evidence, Known
+
+
+@click.command(
+    name="identify",
+    help=f"Ask a device what it is; only reads are sent.\n\n{HELP}",
+    epilog="Example: regscribe identify tcp:10.0.0.7:502?unit=1\n\n"
+    "Exit code 0: one model fits, or several alike, 1: none, 2: wrong usage, 3: nobody answers.",
+)
+@target_options
+def command(*, target: Target, as_json: bool) -> int:
+    """Ask a device what it is."""
+    with told():
+        found = targets.identification(target)
+        targets.answered(found)
+    if as_json:
+        print_json(
+            device=str(target),
+            certain=found.certain,
+            models=[_model(known) for known in found.models],
+            evidence=[_evidence(one) for one in found.evidence],
+        )
+    else:
+        show_table(
+            ("MODEL", "MAP", "WHAT IT IS"), [(one.model, one.map_id, catalogue.title(one)) for one in found.models]
+        )
+        _remarks(len(found.models), [one for one in found.evidence if one.error is None])
+    return 0 if found.models else REFUSED
+
+
+def _remarks(fitting: int, seen: list[Evidence]) -> None:
+    for one in seen:
+        remark(f"{one.register} at address {one.address} is {one.value} ({', '.join(one.map_ids)})")
+    if fitting > 1:
+        remark(f"{fitting} models answer alike: name the right one with model=...")
+    elif not fitting:
+        remark("no driver exists for what answers there")
+
+
+def _model(known: Known) -> dict[str, Any]:
+    return {"model": known.model, "map": known.map_id, "title": catalogue.title(known)}
+
+
+def _evidence(one: Evidence) -> dict[str, Any]:
+    return {
+        "maps": list(one.map_ids),
+        "register": one.register,
+        "address": one.address,
+        "words": list(one.words),
+        "value": None if one.value is None else str(one.value),
+        "error": None if one.error is None else str(one.error),
+    }

@@ -1,0 +1,208 @@
+"""`regscribe plan`: which requests read registers at the least cost, and why."""
+
+import re
+import sys
+from collections.abc import Sequence
+
+import click
+
+from regscribe.cli.shared.diagnostic_text import count, findings, tally
+from regscribe.cli.shared.map_by_id import find_map
+from regscribe.cli.shared.output import print_json, remark, show_table
+from regscribe.cli.shared.planning import Subject
+from regscribe.cli.shared.terminal import show, tell
+from regscribe.model import RegisterMap
+from regscribe.pipeline import compile_map
+from regscribe.tools.live.errors import unknown
+from regscribe_runtime.planning import plan
+from regscribe_runtime.planning.cost import Cost, SerialLine, milliseconds
+from regscribe_runtime.planning.plan import Planned, SplitReason, Terms
+from regscribe_runtime.planning.read_order import ReadOrder
+
+COLUMNS = ("FC", "ADDRESSES", "WANTED", "CARRIED", "BYTES", "MS", "APART BECAUSE", "REGISTERS")
+MOST_NAMED = 3
+"""Registers of a request that the table names."""
+
+
+@click.command(
+    name="plan",
+    epilog="Example: regscribe plan fdc/series-100 --model C21 --group setpoints --baud 19200\n\n"
+    "Exit code 0: done, 1: errors in the map, 2: wrong usage.",
+)
+@click.argument("map_name", metavar="MAP")
+@click.argument("ids", nargs=-1, metavar="[ID]...")
+@click.option("--model", required=True, help="The model that answers.")
+@click.option("--group", "groups", multiple=True, metavar="ID", help="All registers of a group (repeatable).")
+@click.option("--all", "everything", is_flag=True, help="All registers.")
+@click.option("--baud", type=click.IntRange(min=50, max=10_000_000), help="Speed of the line; default: as delivered.")
+@click.option(
+    "--format", "form", metavar="8N1", help="Characters: data bits, parity, stop bits; default: as delivered."
+)
+@click.option("--ascii", "framing", flag_value="ascii", default="rtu", help="ASCII instead of RTU frames.")
+@click.option("--tcp", is_flag=True, help="Over TCP; with --baud through a gateway to such a line.")
+@click.option("--remembered", is_flag=True, help="Without the registers that the meaning of others depends on.")
+@click.option("--json", "as_json", is_flag=True, help="One JSON object.")
+def command(  # noqa: PLR0913 - one parameter an option
+    *,
+    map_name: str,
+    ids: tuple[str, ...],
+    model: str,
+    groups: tuple[str, ...],
+    everything: bool,
+    baud: int | None,
+    form: str | None,
+    framing: str,
+    tcp: bool,
+    remembered: bool,
+    as_json: bool,
+) -> int:
+    """Show the requests that read registers of a model at the least cost on a line, and why they are not one.
+
+    ID is a register, or an array or element of one; MAP is a map file or the id of a map (fdc/series-100). The plan is
+    that of the model's driver on such a line, in the order of sending: what the meaning of others depends on (decimals,
+    input type, word order) is read behind them. Times are the expected ones: the mean of the
+    manual's shortest and longest.
+    """
+    compiled = compile_map(find_map(map_name))
+    show(findings(compiled.diagnostics), stream=sys.stderr)
+    if compiled.map is None:
+        remark(f"nothing is planned: {tally(compiled.diagnostics)}")
+        return 1
+    subject = _subject(compiled.map, model)
+    wanted = _chosen(subject, ids, groups, everything=everything)
+    asked = wanted if remembered else subject.with_needs(wanted)
+    terms = subject.terms(_cost(subject, baud, form, framing, tcp=tcp))
+    layout = subject.layout(wanted, terms, fresh=not remembered)
+    single = [terms.cost.tariff(item.space).of(item.words) for item in (subject.ways(path)[0].item for path in asked)]
+    told = _Told(layout, asked, terms, milliseconds(sum(single)))
+    if as_json:
+        print_json(map=compiled.map.id, model=subject.model.name, also=asked[len(wanted) :], **told.plain())
+    else:
+        told.print(f"{compiled.map.title} {subject.model.name}", asked[len(wanted) :])
+    return 0
+
+
+def _subject(register_map: RegisterMap, model: str) -> Subject:
+    names = {one.name.casefold(): one.name for one in register_map.models}
+    if model.casefold() not in names:
+        raise click.UsageError(unknown("model", model, names.values(), where=f"in {register_map.id}"))
+    return Subject.of(register_map, names[model.casefold()])
+
+
+def _chosen(subject: Subject, ids: Sequence[str], groups: Sequence[str], *, everything: bool) -> list[str]:
+    readable = subject.readable
+    if everything or not (ids or groups):
+        if ids or groups or not everything:
+            message = "say what to read: --all, --group ID, or ids of registers"
+            raise click.UsageError(message)
+        return readable
+    found: dict[str, None] = {}
+    known = {group.id: group.members for group in subject.model.groups}
+    for name in groups:
+        if name not in known:
+            raise click.UsageError(unknown("group", name, known, where=f"of {subject.model.name}"))
+        found.update(dict.fromkeys(path for path in readable if _within(path, known[name])))
+    for name in ids:
+        paths = [path for path in readable if _within(path, [name])]
+        if not paths:
+            _refuse(subject, name)
+        found.update(dict.fromkeys(paths))
+    return list(found)
+
+
+def _within(path: str, members: Sequence[str]) -> bool:
+    return any(path == one or path.startswith((f"{one}[", f"{one}.")) for one in members)
+
+
+def _refuse(subject: Subject, name: str) -> None:
+    if any(_within(path, [name]) for path in subject.registers):
+        message = f"`{name}` of {subject.model.name} can only be written"
+        raise click.UsageError(message)
+    arrays = {path.partition("[")[0] for path in subject.readable}
+    raise click.UsageError(unknown("register", name, [*subject.readable, *arrays], where=f"of {subject.model.name}"))
+
+
+def _cost(subject: Subject, baud: int | None, form: str | None, framing: str, *, tcp: bool) -> Cost:
+    protocol = subject.protocol
+    if form is not None and not re.fullmatch(r"[78][NEO][12]", form):
+        message = f"--format {form}: write data bits (7, 8), parity (N, E, O) and stop bits (1, 2), for example 8E1"
+        raise click.UsageError(message)
+    for what, value, listed in (("baud", baud, protocol.bauds), ("characters", form, protocol.formats)):
+        if value is not None and listed and value not in listed:
+            remark(f"the manual does not list {value} {what}: {', '.join(map(str, listed))}")
+    if not tcp:
+        return Cost.serial(protocol, baud=baud or 0, form=form or "", framing=framing)
+    behind = SerialLine.of(baud or protocol.baud, form or protocol.format, framing) if baud or form else None
+    return Cost.tcp(protocol, line=behind)
+
+
+class _Told:
+    """A plan in words and in JSON."""
+
+    def __init__(self, layout: ReadOrder, paths: Sequence[str], terms: Terms, single_ms: float) -> None:
+        self.terms, self.single_ms, self.paths = terms, single_ms, paths
+        self.found = plan.told(layout.blocks, terms, again=layout.again, exact=layout.exact)
+        self.names: list[list[str]] = [[] for _ in layout.blocks]
+        for path in paths:
+            for number in dict.fromkeys(found[path].block for found in (layout.places, layout.checks) if path in found):
+                self.names[number].append(path)
+
+    def print(self, title: str, also: Sequence[str]) -> None:
+        """The table, the totals, and what one request a register would cost."""
+        rows = [self._row(one, names) for one, names in zip(self.found.requests, self.names, strict=True)]
+        head = [] if sys.stdout.isatty() else [COLUMNS]  # for people in any case: programs ask for --json
+        show_table(COLUMNS, [*head, *rows], title=f"{title}, {self._line()}")
+        found = self.found
+        total = f"{count(len(found.requests), 'request')}, {found.wanted} addresses wanted, {found.carried} carried"
+        single = f"{count(len(self.paths), 'request')}, {self.single_ms:.1f} ms"
+        ratio = self.single_ms / found.ms if found.ms else 1
+        tell(f"{total}, {found.bytes} bytes, {found.ms:.1f} ms\n")
+        tell(f"one request a register: {single}, {ratio:.1f} times as long\n")
+        if also:
+            tell(f"read along, since the meaning of others depends on it: {', '.join(also)}\n")
+        if not found.exact:
+            remark("so many registers can be read at several places that not all choices were tried")
+
+    def _row(self, one: Planned, names: Sequence[str]) -> tuple[str, ...]:
+        more = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
+        block = one.block
+        reason = "" if one.split.reason is SplitReason.FIRST else str(one.split.reason)
+        return (
+            f"{block.function:02d}",
+            f"{block.address}" if block.quantity == 1 else f"{block.address}..{block.end - 1}",
+            str(one.wanted),
+            str(one.carried),
+            str(one.bytes),
+            f"{one.ms:.1f}",
+            f"{reason} ({one.split.detail})" if one.split.detail else reason,
+            ", ".join(names[:MOST_NAMED]) + more,
+        )
+
+    def _line(self) -> str:
+        line, way = self.terms.cost.line, "TCP" if self.terms.cost.round_trip else ""
+        serial = f"{line.baud} baud, {line.bits} bits a character, {line.framing.upper()}" if line else ""
+        return " to ".join(filter(None, (way, serial)))
+
+    def plain(self) -> dict[str, object]:
+        """The same for programs; times in milliseconds."""
+        found, line = self.found, self.terms.cost.line
+        return {
+            "line": {"tcp": bool(self.terms.cost.round_trip), **(line._asdict() if line else {})},
+            "requests": [
+                {
+                    "function": one.block.function,
+                    "address": one.block.address,
+                    "quantity": one.carried,
+                    "wanted": one.wanted,
+                    "bytes": one.bytes,
+                    "ms": round(one.ms, 3),
+                    "apart": {"because": str(one.split.reason), "detail": one.split.detail},
+                    "registers": names,
+                }
+                for one, names in zip(found.requests, self.names, strict=True)
+            ],
+            "total": {"requests": len(found.requests), "wanted": found.wanted, "carried": found.carried}
+            | {"bytes": found.bytes, "ms": round(found.ms, 3)},
+            "one_by_one": {"requests": len(self.paths), "ms": round(self.single_ms, 3)},
+            "exact": found.exact,
+        }

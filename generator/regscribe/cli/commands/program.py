@@ -1,0 +1,284 @@
+"""`regscribe program`: setpoint programs of controllers, shown, read, checked, written and run."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar, cast
+
+import click
+
+from regscribe import files
+from regscribe.cli.commands.read import heading
+from regscribe.cli.shared.error_report import REFUSED, UNKNOWN_STATE, Failure, code_of, kind_of, told
+from regscribe.cli.shared.output import print_json, remark, show_table
+from regscribe.cli.shared.program_text import show_program
+from regscribe.cli.shared.target_options import HELP, JSON, checked_identity, opened, target_options
+from regscribe.cli.shared.terminal import tell
+from regscribe.tools.live import catalogue
+from regscribe.tools.live.errors import TargetError
+from regscribe.tools.live.target import Target
+from regscribe.tools.programs import (
+    Checked,
+    Program,
+    ProgramFile,
+    ProgramRefused,
+    ProgramRuns,
+    ProgramSlot,
+    ProgramState,
+    ProgramUnfinished,
+    act,
+    check,
+    dump,
+    load,
+    place,
+    places,
+    plain,
+    read,
+    status,
+    write,
+)
+from regscribe.tools.programs.picture import picture
+from regscribe.tools.programs.run import Act
+from regscribe.tools.programs.write import WhileRunning
+from regscribe_runtime import BareDevice
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+which = click.option(
+    "--program",
+    "name",
+    default="",
+    metavar="NAME",
+    help="Which program, where a device has several: its name or number.",
+)
+confirmed = click.option("--confirm", is_flag=True, help="Write where the map calls it dangerous, too.")
+beyond = click.option(
+    "--beyond-limits", is_flag=True, help="Allow setpoints beyond the controller's limits where its manual sets none."
+)
+file_argument = click.argument("file", type=click.Path(path_type=Path))
+
+CODES = "Exit code 0: done, 1: refused, 2: wrong usage, 3: nobody answers, 4: what the device holds is unknown."
+
+
+@click.group(
+    name="program",
+    help="""Setpoint programs (ramp and soak) of controllers: read as YAML, drawn, checked, written and run.\n\nThe same
+file looks alike for every controller; its JSON Schema is schema/program.schema.json.""",
+    epilog="Example: regscribe program write oven anneal.yaml && regscribe program start oven",
+)
+def command() -> None:
+    """Hold the commands about programs together."""
+
+
+def live(name: str, about: str, epilog: str = "") -> Callable[[F], F]:
+    """A command with TARGET and `--program`."""
+
+    def declare(function: F) -> F:
+        made: Any = which(target_options(function))
+        ending = f"{epilog}\n\n{CODES}" if epilog else CODES
+        result: Any = command.command(name=name, help=f"{about}\n\n{HELP}", epilog=ending)(made)
+        return cast("F", result)
+
+    return declare
+
+
+@live("show", "Show a program: its settings, its segments and its profile.", "Example: regscribe program show oven")
+@click.option("--svg", type=click.Path(path_type=Path), metavar="FILE", help="Write the profile as a picture, too.")
+def show(*, target: Target, as_json: bool, name: str, svg: Path | None) -> int:
+    """Show a program of a device."""
+    with opened(target) as device:
+        here = place(device, name)
+        found = device.run(read(here))
+    if as_json:
+        print_json(**heading(device, target), program=plain(found))
+    else:
+        show_program(found, first=here.spec.segments.first)
+    if svg:
+        _save(svg, picture(found, first=here.spec.segments.first))
+    return 0
+
+
+@live(
+    "read",
+    "Read a program as a YAML file that `write` takes.",
+    "Example: regscribe program read oven --out anneal.yaml",
+)
+@click.option("--out", type=click.Path(path_type=Path), metavar="FILE", help="The file; without it standard output.")
+def read_command(*, target: Target, as_json: bool, name: str, out: Path | None) -> int:
+    """Read a program of a device."""
+    with opened(target) as device:
+        found = device.run(read(place(device, name)))
+    if as_json:
+        print_json(**heading(device, target), program=plain(found))
+        return 0
+    text = dump(found, remarks=(f"The program of {target}.",))
+    if out:
+        _save(out, text)
+    else:
+        tell(text)
+    return 0
+
+
+@live("validate", "Hold a file against a device as it is configured now; nothing is written.")
+@file_argument
+@beyond
+def validate(*, target: Target, as_json: bool, name: str, file: Path, beyond_limits: bool) -> int:
+    """Check a file against a device."""
+    with told():
+        given = load(file)
+    with opened(target) as device:
+        here = place(device, name)
+        _fits(given, here)
+        checked = device.run(check(here, given.program, beyond_limits=beyond_limits))
+    if as_json:
+        print_json(**heading(device, target), valid=not checked.problems, problems=_plain_problems(given, checked))
+    elif checked.problems:
+        raise _refused(given, ProgramRefused(here, checked.problems))
+    else:
+        remark(f"{here.name} of the {here.model} can hold it: {len(checked.planned)} registers")
+    return REFUSED if checked.problems else 0
+
+
+@live(
+    "write",
+    "Write a file to a device: checked first, only what differs, read back in the end. Refused while a program runs.",
+    "Example: regscribe program write oven anneal.yaml",
+)
+@file_argument
+@click.option(
+    "--while-running",
+    type=click.Choice(["refuse", "reset", "write"]),
+    default="refuse",
+    show_default=True,
+    help="What to do about a program that runs: refuse, end it first, or write all the same.",
+)
+@beyond
+@confirmed
+@checked_identity
+def write_command(
+    *,
+    target: Target,
+    as_json: bool,
+    name: str,
+    file: Path,
+    while_running: WhileRunning,
+    beyond_limits: bool,
+    confirm: bool,
+    identity: bool,
+) -> int:
+    """Write a file to a device."""
+    with told():
+        given = load(file)
+    with opened(target, identity=identity) as device:
+        here = place(device, name)
+        _fits(given, here)
+        task = write(here, given.program, while_running=while_running, beyond_limits=beyond_limits, confirm=confirm)
+        try:
+            done = device.run(task)
+        except ProgramRefused as error:
+            raise _refused(given, error) from None
+        except ProgramRuns as error:
+            message = str(error).replace('pass while_running="reset"', "add --while-running reset")
+            raise Failure(message, kind=kind_of(error), code=code_of(error)) from None
+        except ProgramUnfinished as error:
+            raise Failure(str(error), kind=kind_of(error), code=UNKNOWN_STATE) from None
+    if as_json:
+        print_json(**heading(device, target), written=done.written, registers=done.total)
+    else:
+        remark(f"{here.name}: {done.written} of {done.total} registers written, all read back")
+    return 0
+
+
+@live("status", "Tell whether a program runs, and where it is.")
+def status_command(*, target: Target, as_json: bool, name: str) -> int:
+    """Read what a device does."""
+    with opened(target) as device:
+        now = device.run(status(place(device, name)))
+    _show_state(device, target, now, as_json=as_json)
+    return 0
+
+
+def _act(what: Act, about: str) -> None:
+    @live(what, about)
+    @confirmed
+    @checked_identity
+    def run(*, target: Target, as_json: bool, name: str, confirm: bool, identity: bool) -> int:
+        with opened(target, identity=identity) as device:
+            now = device.run(act(place(device, name), what, confirm=confirm))
+        _show_state(device, target, now, as_json=as_json)
+        return 0
+
+
+_act("start", "Start a program. Refused while one runs, or where the device is not set to run it.")
+_act("hold", "Halt a program that runs, to be resumed.")
+_act("resume", "Let a program that is held go on.")
+_act("reset", "End a program that runs or is held.")
+
+
+@command.command(
+    name="draw",
+    help="Draw the profile of a file, without a device: in the terminal, or as a picture.",
+    epilog="Example: regscribe program draw anneal.yaml --svg anneal.svg",
+)
+@file_argument
+@click.option("--svg", type=click.Path(path_type=Path), metavar="FILE", help="Write the picture here.")
+@JSON
+def draw(*, file: Path, svg: Path | None, as_json: bool) -> int:
+    """Draw a file."""
+    with told():
+        given = load(file).program
+    first = _first(given)
+    if svg:
+        _save(svg, picture(given, first=first))
+    if as_json:
+        print_json(file=str(file), svg=str(svg or ""), program=plain(given))
+    elif not svg:
+        show_program(given, first=first)
+    return 0
+
+
+def _first(given: Program) -> int:
+    """The number of the first segment on the model that a file is for; 1 if it says nothing of it."""
+    try:
+        name = f"{given.map_id}:{given.model}" if given.map_id else given.model
+        return places(catalogue.find(name).driver)[0].spec.segments.first if given.model else 1
+    except (TargetError, IndexError):
+        return 1
+
+
+def _save(path: Path, text: str) -> None:
+    """Write a file whole or not at all."""
+    try:
+        files.save(path, text)
+    except files.FileError as error:
+        raise Failure(str(error), kind="file", code=REFUSED) from None
+
+
+def _fits(given: ProgramFile, here: ProgramSlot) -> None:
+    """Say so if a file was made for another device; it may fit nevertheless, which the check tells."""
+    made, own = (given.program.map_id, given.program.model), (here.map_id, here.model)
+    if any(one and one != other for one, other in zip(made, own, strict=True)):
+        remark(f"the file was made for {' '.join(filter(None, made))}; this is {' '.join(own)}")
+
+
+def _plain_problems(given: ProgramFile, checked: Checked) -> list[dict[str, str]]:
+    return [{"at": given.place(one.where), "where": one.label, "message": one.message} for one in checked.problems]
+
+
+def _refused(given: ProgramFile, error: ProgramRefused) -> Failure:
+    lines = [f"{given.place(one.where)}: {one}" for one in error.problems]
+    count = f"{len(lines)} mistakes" if len(lines) > 1 else "a mistake"
+    return Failure("\n".join([f"{count}, so nothing is written", *lines]), kind=kind_of(error), code=code_of(error))
+
+
+def _show_state(device: BareDevice, target: Target, now: ProgramState, *, as_json: bool) -> None:
+    facts = {
+        "state": now.state,
+        "detail": now.detail,
+        "program": now.program,
+        "segment": now.segment,
+        "setpoint": None if now.setpoint is None else str(now.setpoint),
+    }
+    if as_json:
+        print_json(**heading(device, target), **facts)
+    else:
+        show_table(("", ""), [(key, str(value)) for key, value in facts.items() if value not in {None, ""}])

@@ -1,0 +1,88 @@
+"""`regscribe restore`: bring a device to the settings of a backup."""
+
+from pathlib import Path
+
+import click
+
+from regscribe.cli.commands.read import heading
+from regscribe.cli.shared.output import print_json, remark
+from regscribe.cli.shared.settings_common import (
+    confirm_option,
+    include_option,
+    loaded,
+    plain_change,
+    show_changes,
+    telling,
+    told,
+)
+from regscribe.cli.shared.sigint import shielded
+from regscribe.cli.shared.target_options import HELP, checked_identity, opened, target_options
+from regscribe.tools import settings
+from regscribe.tools.live.target import Target
+from regscribe.tools.settings import Restored
+from regscribe_runtime import BareDevice
+
+
+@click.command(
+    name="restore",
+    help=f"""Bring a device to the settings in FILE, a backup: checked as a whole first, written in the map's order,
+what the device holds already is skipped, everything is read back. When it breaks off, run it again: it goes on where it
+was. Address, line, calibration and the like stay as they are unless included.\n\n{HELP}""",
+    epilog="Example: regscribe restore oven oven.yaml --dry-run\n\n"
+    "Exit code 0: done, 1: the file does not fit, or a value is refused; nothing was written, 2: wrong usage or file, "
+    "3: nobody answers, 4: it broke off; the message says what was written, 130: Ctrl-C came too late to stop it.",
+)
+@target_options
+@click.argument("path", type=click.Path(path_type=Path, dir_okay=False), metavar="FILE")
+@click.option("--dry-run", is_flag=True, help="Show what would be written; write nothing.")
+@click.option("--partial", is_flag=True, help="Write what fits, although the file is of another model or map.")
+@include_option
+@confirm_option
+@checked_identity
+def command(
+    *,
+    target: Target,
+    as_json: bool,
+    path: Path,
+    dry_run: bool,
+    partial: bool,
+    include: tuple[str, ...],
+    confirm: bool,
+    identity: bool,
+) -> int:
+    """Bring a device to the settings of a backup."""
+    backup = loaded(path)
+    with opened(target, identity=identity) as device, told(), shielded() as shield:
+        with telling(f"restoring {target}", backup, shield) as tell:
+            task = settings.restore(
+                type(device), backup, include=include, partial=partial, dry_run=dry_run, confirm=confirm, tell=tell
+            )
+            done = device.run(task)
+        if as_json:
+            print_json(**heading(device, target), file=str(path), dry_run=dry_run, **said(device, done))
+        else:
+            show_changes(device, done.report.changes)
+            tell_rest(done, dry_run=dry_run)
+    return shield.code
+
+
+def said(device: BareDevice, done: Restored) -> dict[str, object]:
+    """A restore in JSON."""
+    return {
+        "changes": [plain_change(device, one) for one in done.report.changes],
+        "stays": dict(done.fit.stays),
+        "does_not_fit": {one.path: one.reason for one in done.fit.misfits},
+        "differs": list(done.fit.strange),
+    }
+
+
+def tell_rest(done: Restored, *, dry_run: bool) -> None:
+    """Remark what a table of changes does not show: what was equal, left out, or does not fit."""
+    for line in done.fit.strange:
+        remark(line)
+    for one in done.fit.misfits:
+        remark(f"left out: {one.path}: {one.reason}")
+    written = len(done.report.changes) - len(done.report.equal)
+    verb = "would be written" if dry_run else "written"
+    stays = f", {len(done.fit.stays)} stay with their device" if done.fit.stays else ""
+    remark(f"{written} settings {verb}, {len(done.report.equal)} held already{stays}")

@@ -1,0 +1,117 @@
+"""`regscribe scan`: which units answer on a line, at which speed, and what they are."""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import click
+
+from regscribe.cli.shared.diagnostic_text import count
+from regscribe.cli.shared.error_report import REFUSED, failure, told
+from regscribe.cli.shared.output import print_json, remark, show_table
+from regscribe.cli.shared.progress import progress
+from regscribe.cli.shared.target_options import CONFIG, JSON, PACKAGE, quiet, understood
+from regscribe.tools.live import catalogue
+from regscribe.tools.live import scan as scanning
+from regscribe.tools.live.link_names import LinkName
+from regscribe.tools.live.scan import FoundDevice, Probe
+from regscribe_runtime import LinkLost
+
+INTERRUPTED = 130
+
+
+@click.command(
+    name="scan",
+    epilog="Example: regscribe scan rtu:/dev/ttyUSB0 --bauds 9600,19200 --formats 8N1,8E1\n\n"
+    "Exit code 0: somebody answers, 1: nobody, 2: wrong usage, 3: the port cannot be opened or vanished, 130: Ctrl-C "
+    "(what was found is printed).",
+)
+@click.argument("link", metavar="LINK")
+@click.option("--units", default="1-247", show_default=True, metavar="LIST", help="Units to ask: 1-20,33.")
+@click.option(
+    "--bauds", default="", metavar="LIST", help="Speeds to try on a line; without it the link's, else 9600,19200."
+)
+@click.option(
+    "--formats", default="", metavar="LIST", help="Character formats to try; without it the link's, else 8N1,8E1."
+)
+@click.option("--address", type=click.IntRange(0, 0xFFFF), default=0, help="The holding register that is asked for.")
+@click.option("--all", "every", is_flag=True, help="Try the other speeds, too, when units answered at one.")
+@click.option("--names/--no-names", default=True, help="Ask those that answer what they are (on).")
+@PACKAGE
+@CONFIG
+@JSON
+def command(  # noqa: PLR0913 - the options of the command
+    *,
+    link: str,
+    units: str,
+    bauds: str,
+    formats: str,
+    address: int,
+    every: bool,
+    names: bool,
+    packages: tuple[str, ...],
+    config: str | None,
+    as_json: bool,
+) -> int:
+    """Ask every unit on a line (or behind a gateway over TCP) whether it is there; only reads are sent.
+
+    LINK is rtu:/dev/ttyUSB0, ascii:/dev/ttyUSB0, tcp:HOST:PORT or a name of the configuration; ?timeout=0.2 says how
+    long each unit is waited for.
+    """
+    quiet()
+    with told():
+        target = understood(link, config=config, packages=packages)
+        catalogue.models(target.packages)  # a package that is none is told before the line is asked for minutes
+        asked = scanning.units(units)
+        links = scanning.settings(target.link, _numbers(bauds), [one for one in formats.split(",") if one])
+        probes = scanning.scan(links, asked, address=address, packages=target.packages, names=names, every=every)
+    return _run(probes, links, asked, as_json=as_json)
+
+
+def _run(probes: Iterator[Probe], links: Sequence[LinkName], asked: Sequence[int], *, as_json: bool) -> int:
+    found: list[FoundDevice] = []
+    noise: dict[str, str] = {}
+    ended = ""
+    code = 0
+    most = math.ceil(scanning.longest(links, asked))
+    remark(f"asking {count(len(asked), 'unit')} with {count(len(links), 'setting')}: at most {most} s")
+    try:
+        with progress(len(links) * len(asked), "scanning") as advance:
+            for probe in probes:
+                found += [probe.found] if probe.found else []
+                noise |= {str(probe.link): probe.noise} if probe.noise else {}
+                advance(f"unit {probe.unit} on {probe.link}, {len(found)} found")
+    except KeyboardInterrupt:
+        ended, code = "stopped before the end", INTERRUPTED
+    except LinkLost as error:
+        lost = failure(error)
+        ended, code = lost.message, lost.exit_code
+    _show(found, noise, ended, as_json=as_json)
+    return code or (0 if found else REFUSED)
+
+
+def _show(found: Sequence[FoundDevice], noise: Mapping[str, str], ended: str, *, as_json: bool) -> None:
+    if as_json:
+        print_json(complete=not ended, ended=ended or None, found=[_plain(one) for one in found], noise=noise)
+    else:
+        rows = [(str(one.unit), str(one.link), one.answer, " or ".join(one.models) or "?") for one in found]
+        show_table(("UNIT", "LINK", "ANSWER", "MODEL"), rows)
+    for link, said in noise.items():
+        remark(f"what comes on {link} is no Modbus (another speed, format or framing?): {said}")
+    if ended:
+        remark(ended)
+    elif not found:
+        remark("nobody answers")
+
+
+def _plain(one: FoundDevice) -> dict[str, Any]:
+    return {"unit_id": one.unit, "link": str(one.link), "answer": one.answer, "models": list(one.models)}
+
+
+def _numbers(text: str) -> list[int]:
+    parts = [one.strip() for one in text.split(",") if one.strip()]
+    wrong = next((one for one in parts if not (one.isascii() and one.isdigit() and len(one) < 9)), "")  # noqa: PLR2004
+    if wrong:
+        message = f"--bauds: `{wrong[:40]}` is no speed; write 9600,19200"
+        raise click.UsageError(message)
+    return [int(one) for one in parts]

@@ -1,0 +1,234 @@
+"""`regscribe simulate`: serve models of maps as Modbus devices on one line."""
+
+import asyncio
+import re
+import signal
+import sys
+from pathlib import Path
+from typing import Any, TypedDict, Unpack
+
+import click
+
+from regscribe.cli.shared.request_log import Requests, lines, table
+from regscribe.cli.shared.simulated_devices import (
+    ADDRESSINGS,
+    Wish,
+    device_of,
+    found_maps,
+    process_of,
+    wish_of,
+    wishes_in,
+)
+from regscribe.cli.shared.terminal import tell
+from regscribe.simulate import (
+    Foreign,
+    Line,
+    Patience,
+    Server,
+    Service,
+    SimulatedDevice,
+    SimulatorError,
+    Transport,
+    serve,
+)
+from regscribe.simulate.line.response_delay import factor_of
+from regscribe.simulate.line.service import line_of
+from regscribe.visible import safe
+
+PTY = "pty"
+"""In place of a serial device: make a pseudo terminal and print its path."""
+
+STOPPED = 143
+"""Exit code of a program that a signal TERM stopped."""
+
+FRAMINGS = {"tcp": Transport.TCP, "rtu": Transport.RTU_OVER_TCP, "ascii": Transport.ASCII_OVER_TCP}
+
+
+class Options(TypedDict):
+    """The options of the command, beside those that name devices."""
+
+    tcp: str | None
+    rtu: str | None
+    framing: str
+    baud: int | None
+    character: str | None
+    paced: bool
+    latency: str
+    speed: float
+    foreign: str | None
+    connections: int
+    idle: float | None
+    save: str | None
+    quiet: bool
+
+
+@click.command(
+    name="simulate",
+    epilog="Example: regscribe simulate athena/series-c --model 16C --tcp 127.0.0.1:5020 --process on\n\n"
+    "Exit code 130: stopped by Ctrl-C, 1: errors in the map, port in use or serial device absent, 2: wrong usage.",
+)
+@click.argument("map_name", metavar="[MAP]", required=False)
+@click.option("--model", metavar="M", help="The manual's name of the model.")
+@click.option("--unit", type=click.IntRange(0, 255), metavar="N", help="Unit id; without it the map's default.")
+@click.option(
+    "--given",
+    "givens",
+    multiple=True,
+    metavar="ID=VALUE",
+    help="A fact that the manual leaves to another: codes (1,4..6) or true or false. Repeat for several.",
+)
+@click.option(
+    "--device",
+    "devices",
+    multiple=True,
+    metavar="MAP:MODEL:UNIT",
+    help="One more device on the line, in place of MAP or beside it. Repeat for several.",
+)
+@click.option("--devices", "file", metavar="FILE", help="Devices from a YAML file (docs/simulate.md).")
+@click.option("--tcp", metavar="HOST:PORT", help="Serve TCP; port 0 takes any free one.")
+@click.option("--rtu", metavar="DEVICE", help=f"Serve RTU on a serial device; `{PTY}` makes a pseudo terminal.")
+@click.option("--framing", type=click.Choice(list(FRAMINGS)), default="tcp", help="Of TCP.", show_default=True)
+@click.option("--baud", type=click.IntRange(50, 4_000_000), metavar="N", help="Speed of the line; default: the map's.")
+@click.option("--format", "character", metavar="8N1", help="Character format of the line; default: the map's.")
+@click.option("--paced", is_flag=True, help=f"With `--rtu {PTY}`: bytes take their time at the speed of the line.")
+@click.option("--latency", default="off", metavar="off|real|F", help="The manual's answer times, or F times them.")
+@click.option("--addressing", type=click.Choice(ADDRESSINGS), default="modbus", help="Count addresses from 0 or 1.")
+@click.option("--seed", type=int, default=0, metavar="N", help="Of everything that is left to chance.")
+@click.option("--process", metavar="on|KEY=VALUE,..", help="Let the process value move: gain=500,time_constant=120,..")
+@click.option(
+    "--speed", type=click.FloatRange(0, 1e6), default=1.0, metavar="F", help="Simulated seconds in a real one."
+)
+@click.option("--state", metavar="FILE", help="Begin with this state (or backup) of the device.")
+@click.option("--save", metavar="FILE", help="Write the state of the device at the end.")
+@click.option("--foreign", type=click.Choice(list(Foreign)), help="What a unit that is not here gets.")
+@click.option("--connections", type=click.IntRange(1, 10_000), default=64, help="Clients at once.", show_default=True)
+@click.option("--idle", type=click.FloatRange(min=0.1), metavar="S", help="Seconds until a silent client is dropped.")
+@click.option("--quiet", is_flag=True, help="Do not show requests.")
+def command(  # noqa: PLR0913 - one for each option that makes devices
+    *,
+    map_name: str | None,
+    model: str | None,
+    unit: int | None,
+    givens: tuple[str, ...],
+    devices: tuple[str, ...],
+    file: str | None,
+    addressing: str,
+    seed: int,
+    process: str | None,
+    state: str | None,
+    **options: Unpack[Options],
+) -> int:
+    """Serve models of maps as Modbus devices, with their limits, refusals and silences, until Ctrl-C.
+
+    MAP is a map file or the id of a map (fdc/series-100). Requests are shown by the names of the map: in a table on a
+    terminal, else one a line.
+    """
+    if (options["tcp"] is None) == (options["rtu"] is None):
+        message = "choose one of --tcp HOST:PORT and --rtu DEVICE"
+        raise click.UsageError(message)
+    common = {"addressing": addressing, "seed": seed, "process": process_of(process), "state": state or ""}
+    wishes = [wish_of(text) for text in devices] + (wishes_in(Path(file)) if file is not None else [])
+    if map_name is not None:
+        wishes.insert(0, Wish(map=map_name, model=model, unit=unit, givens=givens))
+    if not wishes:
+        message = "name a MAP with its --model, or devices by --device MAP:MODEL:UNIT or --devices FILE"
+        raise click.UsageError(message)
+    if len(wishes) > 1 and (state or options["save"]):
+        message = f"--state and --save are for one device, not for {len(wishes)}: give states in a file of --devices"
+        raise click.UsageError(message)
+    _check(options)
+    maps = found_maps(wish.map for wish in wishes)
+    if maps is None:
+        return 1
+    made = [device_of(wish.over(common), maps[wish.map]) for wish in wishes]
+    try:
+        return _run(made, _service(options, made), options)
+    except SimulatorError as error:
+        raise click.ClickException(str(error)) from None
+
+
+def _run(devices: list[SimulatedDevice], service: Service, options: Options) -> int:
+    requests = Requests(devices)
+    drawn = not options["quiet"] and sys.stdout.isatty()
+    if not options["quiet"]:
+        service = requests.of(service)
+        if not drawn:
+            lines(requests)
+    try:
+        return asyncio.run(_serve(devices, service, requests if drawn else None))
+    finally:
+        if options["save"]:
+            devices[0].save(options["save"])
+
+
+async def _serve(devices: list[SimulatedDevice], service: Service, drawn: Requests | None) -> int:
+    """Serve until Ctrl-C (which is raised) or TERM; SimulatorError as `serve`."""
+    loop, ended = asyncio.get_running_loop(), asyncio.Event()
+    task = loop.create_task(serve(devices, service, ready=lambda server: _announce(devices, server)))
+    loop.add_signal_handler(signal.SIGTERM, ended.set)
+    view = loop.create_task(table(drawn)) if drawn is not None else None
+    stop = loop.create_task(ended.wait())
+    try:
+        await asyncio.wait((task, stop), return_when=asyncio.FIRST_COMPLETED)
+        if task.done():
+            task.result()
+    finally:
+        every: list[asyncio.Task[Any]] = [each for each in (task, stop, view) if each is not None]
+        for each in every:
+            each.cancel()
+        await asyncio.gather(*every, return_exceptions=True)
+    return STOPPED
+
+
+def _check(options: Options) -> None:
+    """Refuse what no service can be: UsageError."""
+    try:
+        factor_of(options["latency"])
+        Line(format=options["character"] or Line().format).character  # noqa: B018 - it refuses an impossible format
+    except SimulatorError as error:
+        raise click.UsageError(str(error)) from None
+    if options["paced"] and options["rtu"] != PTY:
+        message = f"--paced goes with --rtu {PTY} only: a serial device has its own speed, TCP has none"
+        raise click.UsageError(message)
+    if options["tcp"] is not None:
+        _endpoint(options["tcp"])
+
+
+def _service(options: Options, devices: list[SimulatedDevice]) -> Service:
+    usual = line_of(devices)
+    line = Line(baud=options["baud"] or usual.baud, format=options["character"] or usual.format)
+    patience = None if options["idle"] is None else Patience(idle=options["idle"])
+    foreign = None if options["foreign"] is None else Foreign(options["foreign"])
+    if options["tcp"] is not None:
+        host, port = _endpoint(options["tcp"])
+        where = {"transport": FRAMINGS[options["framing"]], "host": host, "port": port}
+    elif options["rtu"] == PTY:
+        where = {"transport": Transport.PTY}
+    else:
+        where = {"transport": Transport.SERIAL, "path": options["rtu"] or ""}
+    return Service(
+        **where,  # type: ignore[arg-type]  # three fields of three types
+        line=line,
+        latency=options["latency"],
+        paced=options["paced"],
+        speed=options["speed"],
+        foreign=foreign,
+        connections=options["connections"],
+        patience=patience,
+    )
+
+
+def _endpoint(text: str) -> tuple[str, int]:
+    host, colon, port = text.rpartition(":")
+    if not colon or not re.fullmatch(r"[0-9]{1,5}", port) or int(port) > 0xFFFF:  # noqa: PLR2004 - the last port
+        message = f"--tcp {text}: write HOST:PORT with a port from 0 to 65535, for example 127.0.0.1:5020"
+        raise click.UsageError(message)
+    return host.removeprefix("[").removesuffix("]") or "127.0.0.1", int(port)
+
+
+def _announce(devices: list[SimulatedDevice], server: Server) -> None:
+    where = server.path or f"{server.host}:{server.port}"
+    for device in devices:
+        name = f"{device.register_map.title} {device.model.name}"
+        tell(safe(f"{name} answers as unit {device.unit} on {where}; Ctrl-C stops it") + "\n")
+    sys.stdout.flush()  # a script waits for this line

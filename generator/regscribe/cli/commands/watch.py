@@ -1,0 +1,101 @@
+"""`regscribe watch`: values as they change, with a chart and a log."""
+
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, closing
+from pathlib import Path
+from typing import Any
+
+import click
+
+from regscribe.cli.shared.completion_values import complete_register
+from regscribe.cli.shared.error_report import REFUSED, Failure, failure
+from regscribe.cli.shared.live_view import Screen, lines
+from regscribe.cli.shared.output import print_json_line
+from regscribe.cli.shared.target_options import HELP, opened, target_options
+from regscribe.cli.shared.terminal import tell
+from regscribe.tools.live import log as logs
+from regscribe.tools.live import names
+from regscribe.tools.live.target import Target
+from regscribe.tools.live.watch import GaveUp, Round, watch
+from regscribe_runtime import Register
+
+MOST_EVERY = 86_400.0
+USUAL_GIVE_UP = 5
+
+
+@click.command(
+    name="watch",
+    help=f"""Read registers again and again: a live table with changes marked, on a pipe a line for each change.
+
+The line is never asked faster than it can answer: a round begins when the last is done and a tenth of its time passed.
+\n\n{HELP}""",
+    epilog="Example: regscribe watch oven process_value alarm --every 2 --chart process_value --log oven.csv\n\n"
+    "Exit code 0: --count rounds are done, 1: the log cannot be written any more, 2: wrong usage, 3: nobody answers, "
+    "or not any more, 130: Ctrl-C (the log is whole).",
+)
+@target_options
+@click.argument("wanted", nargs=-1, required=True, metavar="NAME...", shell_complete=complete_register)
+@click.option("--every", type=click.FloatRange(0, MOST_EVERY), default=1.0, show_default=True, metavar="SECONDS")
+@click.option("--count", type=click.IntRange(0), default=0, help="Stop after so many rounds (0: never).")
+@click.option(
+    "--chart", "charts", multiple=True, metavar="NAME", help="Draw the curve of a number. Repeat for several."
+)
+@click.option("--log", "log_path", type=click.Path(path_type=Path), help="Keep all: .csv, .jsonl or .sqlite.")
+@click.option(
+    "--give-up",
+    type=click.IntRange(0),
+    default=USUAL_GIVE_UP,
+    show_default=True,
+    metavar="N",
+    help="End after N rounds in a row without an answer (0: never).",
+)
+def command(
+    *,
+    target: Target,
+    as_json: bool,
+    wanted: tuple[str, ...],
+    every: float,
+    count: int,
+    charts: tuple[str, ...],
+    log_path: Path | None,
+    give_up: int,
+) -> int:
+    """Read registers again and again."""
+    every_name = (*wanted, *charts)
+    with opened(target, check=lambda driver: names.chosen(driver, every_name)) as device, ExitStack() as stack:
+        registers = names.chosen(type(device), every_name)
+        curves = [one.path for one in names.chosen(type(device), charts)]
+        rounds = watch(device, registers, every=every, count=count, give_up=give_up)
+        try:
+            log = stack.enter_context(closing(logs.open_log(log_path, str(target)))) if log_path else None
+            _follow(_logged(rounds, log), registers, curves, str(target), as_json=as_json)
+        except GaveUp as end:
+            raise failure(end.error) from None
+        except logs.LogError as error:
+            raise Failure(str(error), kind="log", code=REFUSED) from None
+    return 0
+
+
+def _logged(rounds: Iterator[Round], log: logs.Log | None) -> Iterator[Round]:
+    for one in rounds:
+        if log is not None:
+            log.write(one)
+        yield one
+
+
+def _follow(
+    rounds: Iterator[Round], registers: Sequence[Register[Any]], curves: Sequence[str], device: str, *, as_json: bool
+) -> None:
+    screen = Screen(device, [one.path for one in registers], curves)
+    if as_json:
+        for one in rounds:
+            print_json_line(**logs.plain(one, device))
+    elif sys.stdout.isatty():
+        screen.follow(rounds)
+    else:
+        for one in rounds:
+            tell("".join(lines(one)))
+            sys.stdout.flush()
+            screen.take(one)
+        tell(screen.drawn(width=80))

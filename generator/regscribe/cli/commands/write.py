@@ -1,0 +1,127 @@
+"""`regscribe write`: one register, by name, in its own unit."""
+
+from typing import Any
+
+import click
+
+from regscribe.cli.commands.read import heading
+from regscribe.cli.shared.completion_values import complete_register, complete_value
+from regscribe.cli.shared.output import print_json, remark, show_table
+from regscribe.cli.shared.sigint import shielded
+from regscribe.cli.shared.target_options import HELP, checked_identity, opened, target_options
+from regscribe.cli.shared.unsent_requests import plain_requests, show_requests
+from regscribe.tools.live import names, value_text
+from regscribe.tools.live.dry_run import DryWrite, dry
+from regscribe.tools.live.errors import TargetError, unknown
+from regscribe.tools.live.reading import held_of
+from regscribe.tools.live.target import Target
+from regscribe_runtime import BareDevice, Register, ValueRefused
+from regscribe_runtime.operations import tasks
+from regscribe_runtime.wire.requests import Request
+
+
+@click.command(
+    name="write",
+    help=f"""Write one register: a number (150.5, or with its unit "150.5 °F", which must be the device's own), a member
+of an enum by name, label or code, flags as names with commas.\n\n{HELP}""",
+    epilog='Example: regscribe write oven setpoint "150.5 °F"\n\n'
+    "Exit code 0: written, or held already, 1: refused (by range, access, condition, the device, or for want of "
+    "--confirm), 2: wrong usage, 3: nobody answers, 4: it broke off and what the device holds is unknown.",
+    context_settings={"ignore_unknown_options": True},
+)
+@target_options
+@click.argument("name", shell_complete=complete_register)
+@click.argument("value", shell_complete=complete_value)
+@click.option("--confirm", is_flag=True, help="Write where the map calls it dangerous, too.")
+@click.option("--rounded", is_flag=True, help="Round a value that is finer than the device can hold.")
+@click.option("--view", metavar="VIEW", help="Transmit it in this view of the map instead of the preferred one.")
+@click.option("--dry-run", is_flag=True, help="Check everything and show the words; write nothing.")
+@click.option(
+    "--verify/--no-verify",
+    default=None,
+    help="Read it back, or not; without either, what the device keeps as its configuration is.",
+)
+@checked_identity
+def command(  # noqa: PLR0913 - the options of the command
+    *,
+    target: Target,
+    as_json: bool,
+    name: str,
+    value: str,
+    confirm: bool,
+    rounded: bool,
+    view: str | None,
+    dry_run: bool,
+    verify: bool | None,
+    identity: bool,
+) -> int:
+    """Write one register."""
+
+    def check(driver: type[BareDevice]) -> Register[Any]:
+        return _writable(driver, name, view)
+
+    with opened(target, identity=identity, check=check) as device, shielded() as shield:
+        register = check(type(device))
+        unit = device.run(tasks.read_unit(register))
+        meant = value_text.parse(register, value, current_unit=unit)
+        if rounded:
+            meant = device.run(held_of(register, meant, view))
+        unsent: list[DryWrite] = []
+        if dry_run:
+            unsent = _unsent(device, register, meant, view=view, rounded=rounded, confirm=confirm)
+        else:
+            device.run(tasks.write(register, meant, view=view, rounded=rounded, confirm=confirm, verify=verify))
+        spared = device.session.wear.spared > 0
+    said = {
+        "register": name,
+        "value": value_text.show(register, meant),
+        "unit": unit,
+        "written": not (dry_run or spared),
+    }
+    if as_json:
+        print_json(**heading(device, target), **said, **({"requests": plain_requests(unsent)} if dry_run else {}))
+    elif dry_run:
+        show_requests(unsent)
+    else:
+        show_table(("REGISTER", "VALUE"), [(name, f"{value_text.as_text(register, meant)} {unit}".rstrip())])
+        _remarks(register, spared=spared)
+    return shield.code
+
+
+def _writable(driver: type[BareDevice], name: str, view: str | None) -> Register[Any]:
+    register = names.register_named(driver, name)
+    if view is not None and view not in register.view_names:
+        raise TargetError(unknown("view", view, register.view_names, where=f"of {register.path}"))
+    if register.access == "r":
+        raise ValueRefused(name, "the register is read-only")
+    try:
+        register.write_view(view)
+    except ValueError as error:  # its functions do not write
+        raise TargetError(str(error)) from None
+    return register
+
+
+def _unsent(
+    device: BareDevice,
+    register: Register[Any],
+    meant: Any,  # noqa: ANN401 - a value of any register
+    *,
+    view: str | None,
+    rounded: bool,
+    confirm: bool,
+) -> list[DryWrite]:
+    """The requests of a write, without sending one; of a register that governs the line, without following it."""
+    if register.governs is not None:
+        plan = tasks.configure({register.path: meant}, dry_run=True, confirm=confirm, rounded=rounded)
+        requests = (Request(one.function, one.address, len(one.words), one.words) for one in device.run(plan).requests)
+        return [DryWrite(device.session.unit, request) for request in requests]
+    unsent = dry(device).written
+    device.run(tasks.write(register, meant, view=view, rounded=rounded, confirm=confirm))
+    return unsent
+
+
+def _remarks(register: Register[Any], *, spared: bool) -> None:
+    if spared:
+        remark("the device holds it already: its EEPROM was spared")
+    elif register.governs is not None:
+        remark("the device talks otherwise from now on: its name must say so")

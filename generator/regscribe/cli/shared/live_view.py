@@ -1,0 +1,100 @@
+"""What is watched, on a terminal: a table that stays in place, changes marked, curves below; on a pipe, lines."""
+
+from collections import deque
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from regscribe.cli.shared.chart import chart
+from regscribe.tools.live.log import moment
+from regscribe.tools.live.reading import RegisterReading, reason
+from regscribe.tools.live.watch import Round
+from regscribe.visible import safe
+
+if TYPE_CHECKING:
+    from datetime import datetime
+
+    from rich.console import RenderableType
+
+MOST_POINTS = 5000
+"""Points of a curve that are kept."""
+
+MARK = "*"
+
+
+class Screen:
+    """Keeps the last values, when each changed, and the points of the curves."""
+
+    def __init__(self, device: str, names: Sequence[str], curves: Sequence[str]) -> None:
+        self.device, self.names = device, names
+        self.latest: dict[str, RegisterReading] = {}
+        self.changed: dict[str, datetime] = {}
+        self.points: dict[str, deque[tuple[float, float]]] = {name: deque(maxlen=MOST_POINTS) for name in curves}
+        self.start: datetime | None = None
+        self.round: Round | None = None
+
+    def take(self, one: Round) -> None:
+        """Keep what a round brought."""
+        self.round, self.start = one, self.start or one.time
+        self.latest.update((each.name, each) for each in one.readings)
+        self.changed.update(dict.fromkeys(one.changed, one.time))
+        for each in one.readings:
+            if each.name in self.points and isinstance(each.value, (int, float)) and not isinstance(each.value, bool):
+                self.points[each.name].append(((one.time - self.start).total_seconds(), float(each.value)))
+
+    def drawn(self, width: int) -> str:
+        """All curves as text."""
+        found = []
+        for name, points in self.points.items():
+            unit = self.latest[name].unit if name in self.latest else ""
+            curve = chart(name, [x for x, _ in points], [y for _, y in points], unit=unit, width=width)
+            found.append(curve or f"{name}: no numbers to draw\n")
+        return "".join(found)
+
+    def follow(self, rounds: Iterator[Round]) -> None:
+        """Show rounds in place on the terminal until they end."""
+        from rich.console import Console  # noqa: PLC0415 - 60 ms that only a terminal needs
+        from rich.live import Live  # noqa: PLC0415 - as above
+
+        console = Console(highlight=False)
+        with Live(console=console, auto_refresh=False) as live:
+            for one in rounds:
+                self.take(one)
+                live.update(self._picture(console.width), refresh=True)
+
+    def _picture(self, width: int) -> "RenderableType":
+        from rich.console import Group  # noqa: PLC0415 - as above
+        from rich.table import Table  # noqa: PLC0415 - as above
+        from rich.text import Text  # noqa: PLC0415 - as above
+
+        table = Table(box=None, pad_edge=False)
+        for name in ("REGISTER", "VALUE", "", "CHANGED"):
+            table.add_column(name, header_style="bold")
+        for name in self.names:
+            fresh = bool(self.round and name in self.round.changed)
+            style = "bold yellow" if fresh else ""
+            value = safe(self.latest[name].spelled) if name in self.latest else "?"
+            table.add_row(Text(name, "cyan"), Text(value, style), MARK if fresh else "", self._since(name))
+        return Group(table, Text(self._status(), "dim"), Text(self.drawn(width)))
+
+    def _since(self, name: str) -> str:
+        if name not in self.changed or self.round is None:
+            return ""
+        return f"{(self.round.time - self.changed[name]).total_seconds():.0f} s ago"
+
+    def _status(self) -> str:
+        one = self.round
+        if one is None:
+            return ""
+        late = ", slower than asked for: the line needs that long" if one.late else ""
+        error = f"; {one.error}" if one.error else ""
+        return safe(f"{self.device}: round {one.number} at {moment(one)} took {one.seconds * 1000:.0f} ms{late}{error}")
+
+
+def lines(one: Round) -> Iterator[str]:
+    """A round as lines: all of the first, of others what changed (marked), and what went wrong."""
+    if one.error is not None:
+        yield f"{moment(one)}  {safe(str(one.error))}\n"
+    for each in one.readings:
+        if one.number == 1 or each.name in one.changed:
+            value = each.spelled if each.error is None else f"({reason(each.error, each.name)})"
+            yield f"{moment(one)} {MARK if each.name in one.changed else ' '} {each.name} {safe(value)}\n"

@@ -1,0 +1,83 @@
+"""A setpoint program in the terminal: its settings, its segments as a table, and its curve."""
+
+import shutil
+import sys
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Any
+
+from regscribe.cli.shared.output import show_table
+from regscribe.cli.shared.terminal import tell
+from regscribe.tools.programs.axis import steps_of, time_scale
+from regscribe.tools.programs.profile import Profile, profile
+from regscribe.tools.programs.program import RAW, Program
+from regscribe.tools.programs.program_file import plain
+
+BLANK = " \u2800"
+"""A blank, and the one of braille."""
+
+PIPED = 80
+"""Columns where there is no terminal."""
+
+ROWS, COLUMNS, MARGIN, MOST = 16, 10, 16, 6
+"""Rows of the curve at most, columns between two marks, columns of the scale beside it, marks of a unit of time."""
+
+SECONDS = {"s": 1, "min": 60, "h": 3600, "d": 86400, "": 1}
+
+
+def show_program(program: Program, *, first: int = 1) -> None:
+    """Print a program: settings, segments, curve."""
+    facts = {key: value for key, value in plain(program).items() if not isinstance(value, list | dict)}
+    show_table(("SETTING", "VALUE"), [(key, str(value)) for key, value in facts.items()])
+    names = list(dict.fromkeys(name for one in program.segments for name in one.outputs))
+    soaks = any(one.soak is not None for one in program.segments)
+    columns = ("SEGMENT", "TO", "RAMP", *(("SOAK",) if soaks else ()), *(name.upper() for name in names))
+    tell("\n")
+    show_table(columns, [columns] * (not sys.stdout.isatty()) + list(_rows(program, names, first=first, soaks=soaks)))
+    curve(profile(program, first=first))
+
+
+def _rows(program: Program, names: list[str], *, first: int, soaks: bool) -> Iterator[tuple[str, ...]]:
+    for number, one in enumerate(program.segments, start=first):
+        soak = ("" if one.soak is None else str(one.soak),) if soaks else ()
+        yield (str(number), str(one.to), str(one.ramp), *soak, *(one.outputs.get(name, "") for name in names))
+    if program.final:
+        soak = ("",) if soaks else ()
+        yield ("final", str(program.final.to), "", *soak, *(program.final.outputs.get(name, "") for name in names))
+
+
+def curve(found: Profile) -> None:
+    """Draw the setpoint over time; round numbers stand at every row and every tenth column."""
+    if not found.total:
+        return
+    raw = found.time == RAW
+    unit = time_scale(found.total, most=MOST, raw=raw).unit
+    columns = shutil.get_terminal_size().columns if sys.stdout.isatty() else PIPED
+    wide = max((columns - MARGIN) // COLUMNS, 2)
+    across = steps_of(found.total / SECONDS[unit], most=wide)
+    low, high = min(found.levels), max(found.levels)
+    up = steps_of(max(high - low, Fraction(1)), most=ROWS - 2)
+    bottom = low // up * up
+    figure = _figure(-(-found.total // (across * SECONDS[unit])), -((bottom - high) // up) + 1)
+    figure.set_x_limits(0, float(across * figure.width / COLUMNS))
+    figure.set_y_limits(float(bottom), float(bottom + up * figure.height))
+    figure.x_label = f"raw ({found.counts_in})" if raw and found.counts_in else unit or RAW
+    figure.y_label = found.level
+    points = [(leg.end / SECONDS[unit], leg.to) for leg in found.legs]
+    figure.plot([float(time) for time, _ in points], [float(level) for _, level in points])
+    tell("\n" + "".join(f"{line.rstrip(BLANK)}\n" for line in figure.show().splitlines()))
+
+
+def _figure(columns: int, rows: int) -> Any:  # noqa: ANN401 - plotille ships no types
+    import plotille  # type: ignore[import-untyped]  # noqa: PLC0415 - as above; only a curve needs it
+
+    figure: Any = plotille.Figure()
+    figure.width, figure.height = max(columns, 1) * COLUMNS, max(rows, 2)
+    figure.color_mode, figure.with_colors = "names", False
+    figure.register_label_formatter(float, _label)
+    return figure
+
+
+def _label(value: float, chars: int, delta: float, left: bool = False) -> str:  # noqa: ARG001, FBT001, FBT002 - as plotille calls it
+    text = f"{value:.6g}"
+    return text.ljust(chars) if left else text.rjust(chars)

@@ -1,0 +1,93 @@
+"""Requests as they come: one a line, or the last ones in a table on a terminal."""
+
+import asyncio
+import sys
+import time
+from collections import Counter, deque
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+from regscribe.cli.shared import terminal
+from regscribe.simulate import Exchange, Service, SimulatedDevice, Told, tell
+from regscribe.visible import safe
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+ROWS = 18
+"""Requests that the table shows: the last ones."""
+
+REFRESH = 0.25
+"""Seconds between two looks of the table."""
+
+LONGEST = 200
+"""Characters of a line at most."""
+
+
+@dataclass(slots=True)
+class Requests:
+    """What was asked lately, and how often; `each` is told of every request as it comes."""
+
+    devices: Sequence[SimulatedDevice]
+    last: deque[tuple[float, Exchange]] = field(default_factory=lambda: deque(maxlen=ROWS))
+    counts: Counter[str] = field(default_factory=Counter)
+    each: Callable[[Exchange], None] | None = None
+
+    def of(self, service: Service) -> Service:
+        """The service, watched."""
+        return replace(service, watcher=self.note)
+
+    def note(self, exchange: Exchange) -> None:
+        """Keep one request."""
+        self.counts["requests"] += 1
+        self.counts["unanswered" if exchange.answer is None else "answered"] += 1
+        self.last.append((time.time(), exchange))
+        if self.each is not None:
+            self.each(exchange)
+
+
+def lines(requests: Requests) -> None:
+    """Write each request on a line as it comes."""
+
+    def write(exchange: Exchange) -> None:
+        told = tell(requests.devices, exchange)
+        mark = "" if told.good else f": {told.outcome}"
+        try:
+            line = f"{_clock(time.time())} unit {told.unit} {told.verb} {told.what}{mark}"
+            terminal.tell(safe(line)[:LONGEST] + "\n")
+            sys.stdout.flush()
+        except BrokenPipeError:  # the reader went away; the clients stay
+            requests.each = None
+
+    requests.each = write
+
+
+async def table(requests: Requests) -> None:
+    """Show the last requests in a table that is drawn anew now and then, until cancelled."""
+    from rich.console import Console  # noqa: PLC0415 - only a terminal needs it
+    from rich.live import Live  # noqa: PLC0415 - as above
+
+    with Live(_drawn(requests), console=Console(), auto_refresh=False, transient=True) as live:
+        while True:
+            await asyncio.sleep(REFRESH)
+            live.update(_drawn(requests), refresh=True)
+
+
+def _drawn(requests: Requests) -> "Table":
+    from rich.table import Table  # noqa: PLC0415 - only a terminal needs it
+    from rich.text import Text  # noqa: PLC0415 - as above
+
+    counts = requests.counts
+    title = f"{counts['requests']} requests, {counts['unanswered']} unanswered"
+    drawn = Table("Time", "Unit", "Request", "Registers", "Answer", title=title, expand=True)
+    for when, exchange in tuple(requests.last):
+        told: Told = tell(requests.devices, exchange)
+        style = "" if told.good else "red"
+        cells = (_clock(when), str(told.unit), told.verb, told.what[:LONGEST], told.outcome)
+        drawn.add_row(*(Text(cell, style=style) for cell in cells))
+    return drawn
+
+
+def _clock(seconds: float) -> str:
+    return f"{time.strftime('%H:%M:%S', time.localtime(seconds))}.{int(seconds % 1 * 1000):03d}"

@@ -1,0 +1,212 @@
+"""Devices to simulate, from the command line or a file: which map and model, what it is given, how it begins."""
+
+import re
+import sys
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, fields, replace
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+import click
+
+from regscribe import source
+from regscribe.cli.shared.diagnostic_text import findings, tally
+from regscribe.cli.shared.map_by_id import find_map
+from regscribe.cli.shared.terminal import show, warn
+from regscribe.model import GivenKind, RegisterMap
+from regscribe.pipeline import compile_map
+from regscribe.simulate import SimulatedDevice, SimulatorError, ThermalProcess
+
+MOST_CODES = 0x10000
+"""A register has no more codes than this, so a longer range is a slip."""
+
+ADDRESSINGS = ("modbus", "jbus")
+KEYS = ("map", "model", "unit", "given", "state", "process", "seed", "addressing")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Wish:
+    """One device as it was asked for; what is None or empty is as the command line has it for all."""
+
+    map: str
+    model: str | None = None
+    unit: int | None = None
+    givens: tuple[str, ...] = ()
+    state: str = ""
+    process: ThermalProcess | None = None
+    seed: int | None = None
+    addressing: str = ""
+
+    def over(self, common: Mapping[str, Any]) -> "Wish":
+        """The wish with what counts for all devices where it says nothing itself."""
+        return replace(self, **{key: value for key, value in common.items() if getattr(self, key) in (None, "")})
+
+
+def wish_of(text: str) -> Wish:
+    """The device of `MAP:MODEL:UNIT`, or `MAP:MODEL`."""
+    found = re.fullmatch(r"(.+?):([^:]+)(?::([0-9]{1,3}))?", text, re.DOTALL)
+    if not found:
+        message = f"--device {text}: write MAP:MODEL:UNIT, for example athena/series-c:16C:3"
+        raise click.UsageError(message)
+    return Wish(map=found[1], model=found[2], unit=int(found[3]) if found[3] else None)
+
+
+def wishes_in(path: Path) -> list[Wish]:
+    """The devices of a YAML file, as `devices: [{map: athena/series-c, model: 16C, unit: 3}]`; UsageError if none."""
+    document, found = source.load(path)
+    if document is None:
+        show(findings(found), stream=sys.stderr)
+        message = f"--devices {path}: it cannot be read as YAML"
+        raise click.UsageError(message)
+    listed = document.data.get("devices") if isinstance(document.data, dict) else None
+    if not isinstance(listed, list) or not listed:
+        message = f"--devices {path}: write `devices:` with a list of mappings that have `map`, `model` and `unit`"
+        raise click.UsageError(message)
+    return [_wish(each, f"--devices {path}: device {number}") for number, each in enumerate(listed, start=1)]
+
+
+def _wish(entry: object, where: str) -> Wish:
+    if not isinstance(entry, dict) or not {"map", "model"} <= entry.keys():
+        message = f"{where} is no mapping with `map` and `model`"
+        raise click.UsageError(message)
+    for key in entry:
+        if key not in KEYS:
+            message = f"{where} has the key `{key}`: known are {', '.join(KEYS)}{_near(str(key), KEYS)}"
+            raise click.UsageError(message)
+    givens, unit, seed = entry.get("given") or {}, entry.get("unit"), entry.get("seed")
+    if not isinstance(givens, dict) or not all(isinstance(each, int | None) for each in (unit, seed)):
+        message = f"{where}: `given` is a mapping, `unit` and `seed` are whole numbers"
+        raise click.UsageError(message)
+    return Wish(
+        map=str(entry["map"]),
+        model=str(entry["model"]),
+        unit=unit,
+        givens=tuple(f"{name}={_spelled(value)}" for name, value in givens.items()),
+        state=str(entry.get("state") or ""),
+        process=_process(entry.get("process"), where),
+        seed=seed,
+        addressing=str(entry.get("addressing") or ""),
+    )
+
+
+def _spelled(value: object) -> str:
+    """A given as the command line writes it."""
+    if isinstance(value, list):
+        return ",".join(map(str, value))
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def _process(value: object, where: str) -> ThermalProcess | None:
+    if isinstance(value, dict):
+        return process_of(",".join(f"{key}={each}" for key, each in value.items()) or "on", where=f"{where}: process")
+    return process_of("on", where=where) if value is True else None
+
+
+def process_of(text: str | None, *, where: str = "--process") -> ThermalProcess | None:
+    """The process of `on` or `time_constant=60,dead_time=5`; None for no text."""
+    if text is None:
+        return None
+    known = [field.name for field in fields(ThermalProcess)]
+    given: dict[str, float] = {}
+    for part in text.split(",") if text != "on" else ():
+        name, equals, value = part.partition("=")
+        if not equals or name.strip() not in known:
+            message = f"{where} {text}: `{part}` is not NAME=NUMBER with one of {', '.join(known)}{_near(name, known)}"
+            raise click.UsageError(message)
+        try:
+            given[name.strip()] = float(value)
+        except ValueError:
+            message = f"{where} {text}: `{value}` is no number"
+            raise click.UsageError(message) from None
+    try:
+        return ThermalProcess(**given)
+    except SimulatorError as error:
+        raise click.UsageError(str(error)) from None
+
+
+def found_maps(names: Iterable[str]) -> dict[str, RegisterMap] | None:
+    """The maps by the names that were given; None after their mistakes were shown."""
+    maps: dict[str, RegisterMap] = {}
+    for name in dict.fromkeys(names):
+        compiled = compile_map(find_map(name))
+        show(findings(compiled.diagnostics), stream=sys.stderr)
+        if compiled.map is None:
+            warn(f"nothing is served: {tally(compiled.diagnostics)}\n")
+            return None
+        maps[name] = compiled.map
+    return maps
+
+
+def device_of(wish: Wish, register_map: RegisterMap) -> SimulatedDevice:
+    """The device that was asked for; UsageError or ClickException where it cannot be."""
+    model = _model(wish.model, register_map)
+    values = dict(_given(one, register_map) for one in wish.givens)
+    if wish.addressing and wish.addressing not in ADDRESSINGS:
+        message = f"addressing {wish.addressing} is none of {', '.join(ADDRESSINGS)}"
+        raise click.UsageError(message)
+    try:
+        device = SimulatedDevice(
+            register_map,
+            model,
+            unit=wish.unit,
+            givens=values,
+            seed=wish.seed or 0,
+            addressing=wish.addressing or ADDRESSINGS[0],
+            process=wish.process or False,
+        )
+    except SimulatorError as error:
+        missing = [given.id for given in register_map.givens if given.id not in values]
+        hint = f"\nOn the command line: --given {missing[0]}=VALUE" if missing else ""
+        message = f"{error}{hint}"
+        raise click.UsageError(message) from None
+    try:
+        if wish.state:
+            device.load(wish.state)
+    except SimulatorError as error:
+        raise click.ClickException(str(error)) from None
+    return device
+
+
+def _model(model: str | None, register_map: RegisterMap) -> str:
+    names = [one.name for one in register_map.models]
+    if model is None:
+        message = f"--model is missing: {register_map.id} has {', '.join(names)}"
+        raise click.UsageError(message)
+    if model not in names:
+        folded = {name.casefold(): name for name in names}
+        near = get_close_matches(model.casefold(), folded, n=1)
+        hint = f"; did you mean `{folded[near[0]]}`?" if near else ""
+        message = f"{register_map.id} has no model `{model}`: it has {', '.join(names)}{hint}"
+        raise click.UsageError(message)
+    return model
+
+
+def _near(name: str, known: Iterable[str]) -> str:
+    near = get_close_matches(name, list(known), n=1)
+    return f"; did you mean `{near[0]}`?" if near else ""
+
+
+def _given(text: str, register_map: RegisterMap) -> tuple[str, bool | frozenset[int]]:
+    name, equals, value = text.partition("=")
+    kinds = {given.id: given.kind for given in register_map.givens}
+    if not equals or name not in kinds:
+        message = f"--given {text}: write ID=VALUE; {register_map.id} has the givens {', '.join(kinds) or '(none)'}"
+        raise click.UsageError(message)
+    if kinds[name] is GivenKind.CODES:
+        return name, _codes(name, value)
+    if value not in {"true", "false"}:
+        message = f"--given {text}: `{name}` is true or false"
+        raise click.UsageError(message)
+    return name, value == "true"
+
+
+def _codes(name: str, value: str) -> frozenset[int]:
+    codes: set[int] = set()
+    for part in value.split(","):
+        found = re.fullmatch(r"\s*(-?[0-9]{1,6})(?:\.\.(-?[0-9]{1,6}))?\s*", part)
+        if not found or int(found[2] or found[1]) - int(found[1]) not in range(MOST_CODES):
+            message = f"--given {name}={value}: `{part}` is neither a code nor a range of codes; for example 1,4..6"
+            raise click.UsageError(message)
+        codes.update(range(int(found[1]), int(found[2] or found[1]) + 1))
+    return frozenset(codes)

@@ -1,0 +1,136 @@
+"""What every live command takes: TARGET and the options that describe it; and the open device that they lead to."""
+
+import logging
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from functools import wraps
+from typing import Any, TypeVar
+
+import click
+
+from regscribe.cli.shared.completion_values import complete_model, complete_target
+from regscribe.cli.shared.error_report import REFUSED, Failure, told
+from regscribe.cli.shared.frame_trace import Tracing
+from regscribe.tools.live import config as configuration
+from regscribe.tools.live import target as targets
+from regscribe.tools.live.errors import TargetError
+from regscribe.tools.live.target import Target
+from regscribe_runtime import BareDevice
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+PACKAGE = click.option(
+    "--package",
+    "packages",
+    multiple=True,
+    metavar="NAME",
+    help="A package of drivers of your own, or its folder. Repeat for several.",
+)
+CONFIG = click.option(
+    "--config",
+    metavar="FILE",
+    help="Devices by name; without it $REGSCRIBE_CONFIG, ./regscribe.yaml or ~/.config/regscribe/devices.yaml.",
+)
+JSON = click.option("--json", "as_json", is_flag=True, help="Print one JSON object for programs.")
+
+_OPTIONS = (
+    click.option("--unit", type=click.IntRange(0, 255), metavar="N", help="Unit id, in place of the target's."),
+    click.option("--model", metavar="M", shell_complete=complete_model, help="Model, in place of the target's."),
+    click.option(
+        "--given",
+        "givens",
+        multiple=True,
+        metavar="ID=VALUE",
+        help="A fact that the manual leaves to another: codes (1,4..6) or true or false. Repeat for several.",
+    ),
+    PACKAGE,
+    CONFIG,
+    click.option("--trace", is_flag=True, help="Tell of every frame on standard error, in hexadecimal and in names."),
+    JSON,
+)
+
+checked_identity = click.option(
+    "--check-identity/--no-check-identity",
+    "identity",
+    default=True,
+    help="Refuse a device that shows to be of another model, before anything is written (on unless switched off).",
+)
+"""The option of commands that write: `identity: bool` for `opened`."""
+
+HELP = """TARGET is a link (tcp:10.0.0.7:502?unit=1&model=16C, rtu:/dev/ttyUSB0?baud=9600&parity=E) or a name of the
+configuration. Without a model the device is asked what it is."""
+"""How a command's help explains TARGET."""
+
+
+def target_options(function: F) -> F:
+    """Give a command TARGET, --unit, --model, --given, --package, --config and --json.
+
+    The function is called with `target: Target` and `as_json: bool` in their place.
+    """
+
+    @wraps(function)
+    def with_target(
+        *args: Any,  # noqa: ANN401 - whatever the command takes besides
+        target_text: str,
+        unit: int | None,
+        model: str | None,
+        givens: tuple[str, ...],
+        packages: tuple[str, ...],
+        config: str | None,
+        trace: bool,
+        **more: Any,  # noqa: ANN401 - as above
+    ) -> Any:  # noqa: ANN401 - the command's own result
+        with told():
+            target = understood(target_text, config=config, packages=packages)
+            target = targets.override(target, unit=unit, model=model or "", given=targets.given_texts(givens))
+            target = replace(target, trace=Tracing(target)) if trace else target
+        return function(*args, target=target, **more)
+
+    command: Any = click.argument("target_text", metavar="TARGET", shell_complete=complete_target)(with_target)
+    for option in reversed(_OPTIONS):
+        command = option(command)
+    result: F = command
+    return result
+
+
+def understood(text: str, *, config: str | None = None, packages: tuple[str, ...] = ()) -> Target:
+    """The target that a text names under a configuration and with more packages; TargetError."""
+    return targets.with_packages(targets.parse(text, configuration.load(config)), packages)
+
+
+@contextmanager
+def opened(
+    target: Target, *, identity: bool = False, check: Callable[[type[BareDevice]], object] | None = None
+) -> Iterator[BareDevice]:
+    """The open driver of a target while the block runs; errors in it, too, become one message and an exit code.
+
+    The device is asked for its model if the target has none. `check` is called with the driver's class before the link
+    is opened: it raises TargetError for names that the model does not have. With `identity`, a device that shows
+    another model than the target's is refused before anything else is sent.
+    """
+    quiet()
+    with told():
+        found = targets.identified(target)
+        driver = found.known().driver
+        if check is not None:
+            check(driver)
+        if isinstance(target.trace, Tracing):
+            target.trace.tell(driver)
+        with targets.connect(found) as device:
+            if identity:
+                same_device(device, found)
+            yield device
+
+
+def quiet() -> None:
+    """Keep what libraries log off the terminal: every error of the line is told here, once."""
+    logging.getLogger().addHandler(logging.NullHandler())
+
+
+def same_device(device: BareDevice, target: Target) -> None:
+    """Ask the device whether it is of its driver's model; Failure if it shows to be another one."""
+    try:
+        targets.check_identity(device, target)
+    except TargetError as error:
+        raise Failure(str(error), kind="wrong-device", code=REFUSED) from None

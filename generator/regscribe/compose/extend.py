@@ -1,0 +1,102 @@
+"""A map on the basis of another: the base with its models renamed, less what is dropped, changed, and added to."""
+
+from regscribe.compose.dangling_refs import without_orphans
+from regscribe.compose.findings import ComposeFindings, meant
+from regscribe.compose.merge import LISTS, append, merge_notations, merge_protocol, merge_tables, replace
+from regscribe.compose.overrides import Changes
+from regscribe.compose.rename_models import Renaming, renamed
+from regscribe.compose.renumber_sections import Renumbering
+from regscribe.compose.rules import CHANGED_IN_PASSING, NO_MODEL, RENUMBERS_NOTHING
+from regscribe.compose.tree import cut, edit, elements, id_of, key_place, listing, members, put, registers, text
+from regscribe.model import Override
+from regscribe.source import SourceNode, SourcePlace
+
+_REPLACED = ("format", "map", "manual", "description", "process", "identify", "write_order")
+_CLASH = "what differs from the base stands under `override`; else give it another name"
+
+
+def extended(base: SourceNode, own: SourceNode, findings: ComposeFindings) -> tuple[SourceNode, tuple[Override, ...]]:
+    """The base as the extension has it, and what was overridden and dropped."""
+    before = {path for path, _ in registers(base)}
+    changes = Changes(_with_models(base, own, findings), _place_of(base), findings)
+    drop = own.child("drop")
+    if drop is not None:
+        changes.drop(drop)
+    changes.root = without_orphans(changes.root, before)
+    changes.root = _renumbered(changes.root, own.child("renumber"), findings, _place_of(base))
+    for each in elements(own.child("override")):
+        changes.override(each)
+    return _added(changes.root, own, findings), tuple(changes.records)
+
+
+def _place_of(base: SourceNode) -> SourcePlace:
+    about = base.child("map") or base
+    return (about.child("id") or about).place
+
+
+def _with_models(base: SourceNode, own: SourceNode, findings: ComposeFindings) -> SourceNode:
+    """The base with the models of the extension, which inherit what the base says of theirs."""
+    have, table = members(base.child("models")), own.child("models") or own
+    names: dict[str, list[str]] = {name: [] for name in have}
+    models = table
+    for name, node in members(table).items():
+        origin = node.child("from") or node
+        if text(origin) not in have:
+            message = f"the base has no model `{text(origin)}`, which `{name}` is to be"
+            other = ("the models of the base", key_place(base, "models"))
+            findings.add(NO_MODEL, message, origin.place, meant(text(origin), have), other)
+            continue
+        names[text(origin)].append(name)
+        models = put(models, name, _inherited(have[text(origin)], node), key_place(table, name))
+    renaming = Renaming({name: tuple(new) for name, new in names.items()}, tuple(members(table)))
+    return put(renamed(base, renaming), "models", models, key_place(own, "models"))
+
+
+def _inherited(base: SourceNode, own: SourceNode) -> SourceNode:
+    """A model with what the base says of it; its class is its own."""
+    merged = cut(own, "from")
+    for key, value in members(base).items():
+        if key != "class" and own.child(key) is None:
+            merged = put(merged, key, value, key_place(base, key))
+    return merged
+
+
+def _renumbered(root: SourceNode, table: SourceNode | None, findings: ComposeFindings, base: SourcePlace) -> SourceNode:
+    chapters = {old: text(new) for old, new in members(table).items()}
+    if table is None or not chapters:
+        return root
+    renumbering = Renumbering(chapters)
+    models = root.child("models")
+    new = renumbering.of(root)
+    for old in chapters:
+        if old not in renumbering.used:
+            message = f"nothing of the base stands in chapter {old}"
+            findings.add(RENUMBERS_NOTHING, message, key_place(table, old), "remove it", ("the base", base))
+    return new if models is None else put(new, "models", models, key_place(root, "models"))
+
+
+def _added(root: SourceNode, own: SourceNode, findings: ComposeFindings) -> SourceNode:
+    root = merge_tables(root, own, findings, owner="the base", advice=_CLASH)
+    root = append(merge_notations(root, own, findings, owner="the base"), own, LISTS)
+    root = replace(root, own, _REPLACED)
+    protocol = merge_protocol(root.child("protocol"), own.child("protocol"))
+    if protocol is not None:
+        root = put(root, "protocol", protocol, key_place(own, "protocol"))
+    for group in elements(own.child("groups")):
+        root = _with_group(root, group, findings)
+    return root
+
+
+def _with_group(root: SourceNode, group: SourceNode, findings: ComposeFindings) -> SourceNode:
+    """The map with a new group, or with new registers in a group that it has."""
+    groups = elements(root.child("groups"))
+    same = [number for number, each in enumerate(groups) if id_of(each) == id_of(group)]
+    if not same:
+        place = (root.child("groups") or root).place
+        return put(root, "groups", listing([*groups, group], place), key_place(root, "groups"))
+    old = groups[same[0]]
+    for key in members(group).keys() - {"id", "registers"}:
+        message = f"`{key}` is given for `{id_of(group)}`, which is a group of the base"
+        advice = "add registers only, and change the group by `override: - {group: ...}`"
+        findings.add(CHANGED_IN_PASSING, message, key_place(group, key), advice, ("the group of the base", old.place))
+    return edit(root, ("groups", same[0]), lambda below: append(below, group, ("registers",)))

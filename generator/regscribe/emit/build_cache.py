@@ -1,0 +1,152 @@
+"""What the last run wrote, so that an unchanged map need not be compiled again.
+
+A map counts as unchanged only if its own bytes, those of the files that it builds on, the whole generator and every
+file written from it are what they were; only maps without any finding are remembered, so that no warning goes unseen.
+The record lies in the user's cache directory, not in the output: the output stays reproducible, and losing the record
+costs one full build.
+"""
+
+import hashlib
+import json
+import os
+import sys
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
+from dataclasses import asdict, dataclass, field
+from importlib.util import find_spec
+from pathlib import Path
+
+import regscribe
+import regscribe_runtime
+from regscribe.emit.docs_index import Card, card_of
+
+NOTHING = ""
+"""In place of a hash: there must be no file. One that appears there would be taken instead of another."""
+
+LIBRARIES = ("jinja2", "yaml", "jsonschema")
+"""Another version of these may read or render something differently."""
+
+
+@dataclass(frozen=True, slots=True)
+class Counts:
+    """How much a map holds; registers and enums count once, however many models have them."""
+
+    models: int = 0
+    registers: int = 0
+    enums: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class BuildRecord:
+    """One map of the last run: its id, the SHA-256 of each file it was made of and of each written from it, its counts.
+
+    Among the former are places where a file was looked for in vain (`NOTHING`). `card` is its part of the index, which
+    is written anew when any map changes.
+    """
+
+    id: str
+    sources: dict[str, str]
+    files: dict[str, str]
+    counts: Counts
+    card: Card
+
+
+@dataclass(frozen=True, slots=True)
+class Cache:
+    """The record of one output directory; entries stand under the path of the map's file."""
+
+    out: Path
+    fingerprint: str
+    entries: dict[str, BuildRecord] = field(default_factory=dict)
+
+    def unchanged(self, path: Path) -> BuildRecord | None:
+        """Return the entry of the map at `path` if compiling it again would change nothing."""
+        entry = self.entries.get(key(path))
+        with suppress(OSError, ValueError):
+            if entry is not None and _same(entry.sources) and self._written(entry):
+                return entry
+        return None
+
+    def _written(self, entry: BuildRecord) -> bool:
+        return all(digest((self.out / path).read_bytes()) == known for path, known in entry.files.items())
+
+    def save(self) -> None:
+        """Keep the record for the next run; a cache that cannot be written is no error."""
+        place = _place(self.out)
+        with suppress(OSError):
+            place.parent.mkdir(parents=True, exist_ok=True)
+            temporary = place.with_name(f"{place.name}.{os.getpid()}.tmp")
+            record = json.dumps(asdict(self) | {"out": str(self.out)})
+            temporary.write_text(f"{digest(record.encode())}\n{record}", encoding="utf-8")
+            temporary.replace(place)
+
+
+def load(out: Path) -> Cache:
+    """Return the record of the last run into `out`; an empty one if there is none as this generator wrote it."""
+    empty = Cache(out, fingerprint())
+    try:
+        checksum, _, record = _place(out).read_text(encoding="utf-8").partition("\n")
+        plain = json.loads(record) if checksum == digest(record.encode()) else {}
+        entries = {path: _entry(entry) for path, entry in plain["entries"].items()}
+        return Cache(out, empty.fingerprint, entries) if plain["fingerprint"] == empty.fingerprint else empty
+    except (OSError, ValueError, TypeError, KeyError, AttributeError):  # absent, cut off or of another shape
+        return empty
+
+
+def _entry(plain: Mapping[str, object]) -> BuildRecord:
+    fields: dict[str, object] = dict(plain)
+    counts = fields.pop("counts")
+    files, sources = fields["files"], fields["sources"]
+    if not isinstance(counts, dict) or not isinstance(files, dict) or not isinstance(sources, dict) or not sources:
+        raise TypeError
+    return BuildRecord(str(fields["id"]), sources, files, Counts(**counts), card_of(fields["card"]))
+
+
+def _same(sources: Mapping[str, str]) -> bool:
+    """Whether a map and all that it builds on are what they were."""
+    return all(
+        digest(Path(source).read_bytes()) == known if known else not os.path.lexists(source)
+        for source, known in sources.items()
+    )
+
+
+def key(path: Path) -> str:
+    """Return what a file stands under: as it is named, since a link may lead elsewhere next time."""
+    return os.path.abspath(path)  # noqa: PTH100 - resolve() would follow links
+
+
+def digest(content: bytes) -> str:
+    """Return the SHA-256 in hex."""
+    return hashlib.sha256(content).hexdigest()
+
+
+def fingerprint() -> str:
+    """Return a hash of all that decides what a map becomes: the package, the schema, Python and the libraries."""
+    total = hashlib.sha256(sys.version.encode())
+    for name, content in _ingredients():
+        total.update(f"{name}\0{len(content)}\0".encode())
+        total.update(content)
+    return total.hexdigest()
+
+
+def _ingredients() -> Iterator[tuple[str, bytes]]:
+    package, runtime = (Path(str(top.__file__)).parent for top in (regscribe, regscribe_runtime))
+    schema = package.parents[1] / "schema"  # of a checkout; the wheel's is in the package
+    for folder in (package, runtime, schema):
+        for path in sorted(_files(folder, keep=lambda name: not name.endswith((".pyc", ".yaml")))):
+            yield path.relative_to(folder).as_posix(), path.read_bytes()
+    for library in LIBRARIES:
+        spec = find_spec(library)  # does not import it
+        if spec is not None and spec.origin is not None:
+            stat = Path(spec.origin).stat()
+            yield library, f"{stat.st_size} {stat.st_mtime_ns}".encode()
+
+
+def _files(folder: Path, *, keep: Callable[[str], bool]) -> Iterable[Path]:
+    for root, _, names in os.walk(folder):
+        yield from (Path(root, name) for name in names if keep(name))
+
+
+def _place(out: Path) -> Path:
+    home = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")  # noqa: PTH111 - Path.expanduser raises without a home
+    return Path(home, "regscribe", f"{digest(os.path.realpath(out).encode(errors='surrogateescape'))[:32]}.json")

@@ -1,0 +1,77 @@
+"""What the pictures of a map show in words, for those who do not see them."""
+
+from collections.abc import Sequence
+
+from regscribe.emit import picture_paths
+from regscribe.emit.markdown.context import SPACES, PageContext
+from regscribe.emit.markdown.escape import Md, md
+from regscribe.emit.outline import Branch, Leaf, formula, leaves, lettered
+from regscribe.emit.words import bits_words, listed, one_line
+from regscribe.model import RegisterMap, Space
+
+MANY = 12
+"""Things that are listed before the rest is counted."""
+
+
+def addresses(register_map: RegisterMap) -> str:
+    """Return which spaces the address map shows, from the lowest address to the highest."""
+    found: dict[Space, list[int]] = {}
+    for register in (register for model in register_map.models for register in model.registers):
+        for view in register.views:
+            found.setdefault(view.space, []).extend((view.address, view.last))
+        found[register.base.space].extend(register.aliases)
+    spans = [_span(space, found[space]) for space in Space if space in found]
+    return (
+        f"Address map of {one_line(register_map.title)}: {listed(spans, last='and')}, in the colours of their groups."
+    )
+
+
+def _span(space: Space, taken: Sequence[int]) -> str:
+    low, high = min(taken), max(taken)
+    return f"{SPACES[space].lower()} {low}" if low == high else f"{SPACES[space].lower()} {low} to {high}"
+
+
+def bits(leaf: Leaf) -> str:
+    """Return what each bit means."""
+    parts = dict.fromkeys(
+        f"{bits_words(part)} {one_line(part.label)}"
+        for _, register in leaf.register.versions
+        for part in sorted(register.fields, key=lambda part: part.low)
+    )
+    return f"Bits of {one_line(leaf.register.first.name)}: {'; '.join(_few(list(parts)))}."
+
+
+def array(branch: Branch) -> str:
+    """Return where each member of an array stands."""
+    parts = [
+        f"{lettered(leaf.register.first.path)} at {formula(leaf.register.first.base, leaf.arrays)}"
+        for leaf in leaves((branch,))
+    ]
+    return f"Structure of {one_line(branch.array.first.name)}: {'; '.join(_few(parts))}."
+
+
+def _few(parts: Sequence[str]) -> Sequence[str]:
+    return parts if len(parts) <= MANY else [*parts[:MANY], f"and {len(parts) - MANY} more"]
+
+
+def picture(context: PageContext, name: str, words: str) -> Md:
+    """Return a picture of the map with the words that stand for it."""
+    return md(Md("!["), words, Md(f"]({picture_paths.link(context.map.id, name)})"))
+
+
+def address_map(context: PageContext) -> Md:
+    """Return the picture of the address spaces; nothing if no model has a register."""
+    drawn = any(model.registers for model in context.map.models)
+    return picture(context, picture_paths.addresses(), addresses(context.map)) if drawn else Md()
+
+
+def bit_fields(context: PageContext, leaf: Leaf) -> tuple[Md, ...]:
+    """Return the picture of a register's bits; nothing if it has no fields."""
+    drawn = any(register.fields for _, register in leaf.register.versions)
+    return (picture(context, picture_paths.bits(leaf.register.key), bits(leaf)),) if drawn else ()
+
+
+def structure(context: PageContext, branch: Branch) -> tuple[Md, ...]:
+    """Return the picture of an array; nothing for one inside another, which the outer one's picture shows."""
+    drawn = not branch.arrays
+    return (picture(context, picture_paths.array(branch.array.first.id), array(branch)),) if drawn else ()

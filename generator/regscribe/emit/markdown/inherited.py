@@ -1,0 +1,66 @@
+"""What a map took from elsewhere and changed, and what its manual lists without using it."""
+
+from collections.abc import Sequence
+
+from regscribe.emit.markdown.context import SPACES, PageContext
+from regscribe.emit.markdown.escape import Md, code, escape, join, lines, link, md, prose
+from regscribe.emit.markdown.page_values import PageTable, table
+from regscribe.emit.words import one_line
+from regscribe.model import Override, Space
+
+Stretch = tuple[Space, int, int]
+PLURALS = frozenset({"errata", "examples", "notes", "waivers"})
+INTERNAL = frozenset({"waivers"})
+"""What is between the map and the compiler, and no fact of the device."""
+
+WORDS = "description"
+"""A key whose text stands at the thing itself."""
+
+ALL = "all"
+
+
+def base(context: PageContext) -> Md:
+    """Return the map that this one extends, with a link to its reference; empty if it stands alone."""
+    other = context.map.extends
+    up = "../" * context.map.id.count("/")
+    return md(Md("["), one_line(other), Md(f"]({up}{other}.md)")) if other else Md()
+
+
+def overrides(context: PageContext) -> PageTable:
+    """Return what differs from the map that this one extends, with the reason of each."""
+    shown = (item for item in context.map.overrides if item.what not in INTERNAL)
+    rows = ((_subject(context, item), _change(item), prose(item.reason)) for item in shown)
+    return table(("What", "How it differs", "Why"), rows)
+
+
+def _subject(context: PageContext, item: Override) -> Md:
+    if item.what in PLURALS:
+        return md(item.what, "" if item.id == ALL else f" of {one_line(item.id)}")
+    anchor = context.anchor(item.what, item.id)
+    return join(" ", (escape(item.what), link(code(item.id), anchor) if anchor else code(item.id)))
+
+
+def _change(item: Override) -> Md:
+    if item.changed:
+        return lines(*(_words(one_line(change)) for change in item.changed))
+    return md("not taken over" if item.what in PLURALS else "is not there")
+
+
+def _words(change: str) -> Md:
+    key, _, values = change.partition(": ")
+    return escape(f"other {key}" if key.rpartition(".")[2] == WORDS else f"{key}: {values}")
+
+
+def unused(context: PageContext) -> PageTable:
+    """Return the addresses that the manual lists as unused, with the models where not all agree."""
+    found: dict[Stretch, list[str]] = {}
+    for model in context.map.models:
+        for stretch in model.unused:
+            found.setdefault(stretch, []).append(model.name)
+    rows = ((SPACES[stretch[0]], _addresses(stretch), context.covers(models)) for stretch, models in found.items())
+    return table(("Space", "Wire addresses", "Models"), rows)
+
+
+def _addresses(stretch: Sequence[Space | int]) -> str:
+    _, low, high = stretch
+    return str(low) if low == high else f"{low} to {high}"

@@ -1,0 +1,118 @@
+"""What the templates see: frozen values with nothing left to decide; a `str` is escaped on output, a `Md` is not."""
+
+import html
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from regscribe.emit.markdown.escape import CONTROL, Md
+from regscribe.emit.words import one_line
+
+
+@dataclass(frozen=True, slots=True)
+class PageTable:
+    """Headers and rows of equal length; no rows: nothing to show."""
+
+    headers: tuple[str, ...] = ()
+    rows: tuple[tuple[str, ...], ...] = ()
+
+    @property
+    def rules(self) -> tuple[Md, ...]:
+        """Return the cells of the line below the headers."""
+        return (Md("---"),) * len(self.headers)
+
+
+def table(headers: Sequence[str], rows: Iterable[Sequence[str]]) -> PageTable:
+    """Make a table without the columns that are empty in every row."""
+    kept_rows = [tuple(row) for row in rows]
+    kept = [index for index in range(len(headers)) if any(row[index] for row in kept_rows)]
+    return PageTable(
+        tuple(headers[index] for index in kept),
+        tuple(tuple(row[index] for index in kept) for row in kept_rows),
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Titled:
+    """A table under a line of its own; `folded` hides it until it is opened."""
+
+    title: str
+    table: PageTable
+    folded: bool = False
+
+    @property
+    def summary(self) -> Md:
+        """Return the title for use inside an HTML element, where Markdown's escapes do not count."""
+        return Md(html.escape(CONTROL.sub("", one_line(self.title))))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RegisterEntry:
+    """One register, array or command with its details; `marks` opens its heading (`####`)."""
+
+    marks: Md
+    anchor: str
+    name: str
+    summary: Md
+    paragraphs: tuple[Md, ...] = ()
+    pictures: tuple[Md, ...] = ()
+    danger: tuple[Md, ...] = ()
+    facts: PageTable = PageTable()
+    tables: tuple[Titled, ...] = ()
+    remarks: tuple[Md, ...] = ()
+    steps: tuple[Md, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PageSection:
+    """A group of registers, in the manual's order."""
+
+    anchor: str
+    name: str
+    summary: Md
+    paragraphs: tuple[Md, ...]
+    entries: tuple[RegisterEntry, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class QuickStart:
+    """The lines of the examples in Python."""
+
+    sync_lines: tuple[Md, ...]
+    async_lines: tuple[Md, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Page:
+    """A reference of one map."""
+
+    header: Md
+    title: str
+    paragraphs: tuple[Md, ...]
+    manual: Md
+    models: PageTable
+    identity: PageTable
+    contents: tuple[Md, ...]
+    quick_start: QuickStart
+    line: PageTable
+    latency: PageTable
+    givens: PageTable
+    transmission: tuple[Md, ...]
+    views: tuple[Titled, ...]
+    conditions: PageTable
+    units: PageTable
+    address_map: Md
+    overview: tuple[Titled, ...]
+    reserved: PageTable
+    unused: PageTable
+    groups: tuple[PageSection, ...]
+    commands: tuple[RegisterEntry, ...]
+    programs: tuple[RegisterEntry, ...]
+    process: PageTable
+    assumptions: tuple[Md, ...]
+    faults: PageTable
+    exceptions: PageTable
+    examples: tuple[Titled, ...]
+    base: Md
+    overrides: PageTable
+    errata: PageTable
+    notes: tuple[Md, ...]

@@ -1,0 +1,142 @@
+"""What a device does by itself: followers, shadows, effects of commands, and the process that it controls."""
+
+from collections.abc import Iterator
+
+from regscribe.emit.markdown.context import PageContext
+from regscribe.emit.markdown.escape import Md, code, escape, join, lines, md
+from regscribe.emit.markdown.page_values import PageTable, table
+from regscribe.emit.words import one_line
+from regscribe.model import Alarm, Condition, Effect, Model, Output, Process, Register, TripKind, show
+
+TRIPS = {
+    TripKind.HIGH: "above",
+    TripKind.LOW: "below",
+    TripKind.DEVIATION_HIGH: "above the setpoint by more than",
+    TripKind.DEVIATION_LOW: "below the setpoint by more than",
+    TripKind.INSIDE: "nearer to the setpoint than",
+    TripKind.OUTSIDE: "farther from the setpoint than",
+}
+
+Row = tuple[str, str]
+
+
+def shadows(context: PageContext, _model: Model, register: Register) -> Md:
+    """Return where the value comes from when power comes."""
+    return md("takes the value of ", context.register(register.shadows)) if register.shadows else Md()
+
+
+def follows(context: PageContext, model: Model, register: Register) -> Md:
+    """Return what a register, or its bits, take from others by themselves."""
+    cases = (md(context.register(case.then), _when(context, case.when, model)) for case in register.follows)
+    bits = (
+        md(code(field.id), " is set when ", context.condition(field.follows, model))
+        for field in register.fields
+        if field.follows is not None
+    )
+    return lines(join("; ", tuple(cases)), *bits)
+
+
+def difference(_context: PageContext, _model: Model, register: Register) -> Md:
+    """Return whether the value counts a distance."""
+    return md("a difference: its unit is converted without the zero point") if register.difference else Md()
+
+
+def effects(context: PageContext, model: Model, found: tuple[Effect, ...]) -> Md:
+    """Return what a command changes, in a sentence; nothing if the map does not say."""
+    parts = [
+        md(part, _when(context, effect.when, model)) for effect in found for part in _effect(context, model, effect)
+    ]
+    return md("It changes: ", join("; ", tuple(parts)), ".") if parts else Md()
+
+
+def _effect(context: PageContext, model: Model, effect: Effect) -> Iterator[Md]:
+    for path, value in effect.sets:
+        text = value if isinstance(value, str) else show(value)
+        yield md(_subject(context, model, path), " to ", code(text))
+    if effect.defaults:
+        yield md(f"{len(effect.defaults)} registers to their defaults")
+    if effect.unlatch:
+        yield md("latched alarms are released")
+
+
+def process(context: PageContext) -> PageTable:
+    """Return the roles of registers in controlling the process value, by model where they differ."""
+    rows: dict[Row, list[str]] = {}
+    for model in context.map.models:
+        for row in _roles(context, model, model.process) if model.process else ():
+            rows.setdefault(row, []).append(model.name)
+    shown = [(role, md(text), context.covers(models)) for (role, text), models in rows.items()]
+    headers = ("Role", "Register", "Models")
+    return table(headers, shown) if any(row[2] for row in shown) else table(headers[:2], [row[:2] for row in shown])
+
+
+def assumptions(context: PageContext) -> tuple[Md, ...]:
+    """Return what a simulator assumes of the process, and why, each once."""
+    found = dict.fromkeys(pair for model in context.map.models if model.process for pair in model.process.assumed)
+    return tuple(md(escape(one_line(what)), " (", escape(one_line(why)), ")") for what, why in found)
+
+
+def _roles(context: PageContext, model: Model, found: Process) -> Iterator[Row]:
+    yield "process value", _subject(context, model, found.value)
+    yield "setpoint", _subject(context, model, found.setpoint)
+    if found.ramp:
+        parts = (("up ", found.ramp.rises), ("down ", found.ramp.falls), ("shown by ", found.ramp.shows))
+        words = tuple(md(word, _subject(context, model, path)) for word, path in parts if path)
+        yield "ramp of the setpoint", md(join(", ", words), f", per {found.ramp.seconds} s")
+    for role, condition in (("manual mode", found.manual), ("outputs off", found.off)):
+        if condition is not None:
+            yield role, md("when ", context.condition(condition, model))
+    for role, path in (
+        ("highest value", found.highest),
+        ("lowest value", found.lowest),
+        ("broken sensor", found.fault),
+    ):
+        if path:
+            yield role, _subject(context, model, path)
+    for number, output in enumerate(found.outputs, start=1):
+        yield f"output {number}", _output(context, model, output)
+    for alarm in found.alarms:
+        yield "alarm", _alarm(context, model, alarm)
+
+
+def _output(context: PageContext, model: Model, output: Output) -> Md:
+    pid, on_off = output.pid, output.on_off
+    named = (
+        ("band ", pid.band if pid else ""),
+        ("integral ", pid.integral if pid else ""),
+        ("derivative ", pid.derivative if pid else ""),
+        ("bias ", pid.bias if pid else ""),
+        ("hysteresis ", on_off.hysteresis if on_off else ""),
+        ("by hand ", output.manual),
+        ("with a broken sensor ", output.failsafe),
+        ("at least ", output.low),
+        ("at most ", output.high),
+        ("told by ", output.active),
+    )
+    parts = tuple(md(word, _subject(context, model, path)) for word, path in named if path)
+    cools = md("cools", _when(context, output.cools, model)) if output.cools is not None else Md()
+    return lines(_subject(context, model, output.percent), *parts, cools)
+
+
+def _alarm(context: PageContext, model: Model, alarm: Alarm) -> Md:
+    bits = join(", ", tuple(_subject(context, model, path) for path in alarm.active))
+    trips = (
+        md(TRIPS[trip.kind], " ", _subject(context, model, trip.limit), _when(context, trip.when, model))
+        for trip in alarm.trips
+    )
+    named = (("hysteresis ", alarm.hysteresis), ("delay ", alarm.delay), ("not in the first seconds ", alarm.inhibit))
+    parts = (md(word, _subject(context, model, path)) for word, path in named if path)
+    latched = md("latched", _when(context, alarm.latched, model)) if alarm.latched is not None else Md()
+    return lines(bits, *trips, *parts, latched)
+
+
+def _when(context: PageContext, condition: Condition, model: Model) -> Md:
+    return Md() if condition.always else md(" when ", context.condition(condition, model))
+
+
+def _subject(context: PageContext, model: Model, path: str) -> Md:
+    """Return a register, or a bit of one, with a link."""
+    if any(register.path == path for register in model.registers):
+        return context.register(path)
+    owner, _, bit = path.rpartition(".")
+    return md(context.register(owner), " ", code(bit))

@@ -1,0 +1,172 @@
+"""How to talk to the device: functions, limits, serial line, latency, and its answers to bad requests."""
+
+from collections.abc import Iterable
+
+from regscribe.emit.markdown.context import PageContext
+from regscribe.emit.markdown.escape import Md, escape, join, md, prose
+from regscribe.emit.markdown.page_values import PageTable, table
+from regscribe.emit.words import listed, one_line
+from regscribe.model import SILENCE, Latency, Later, Protocol, RegisterMap, View, show
+
+FUNCTIONS = {
+    1: "read coils",
+    2: "read discrete inputs",
+    3: "read holding registers",
+    4: "read input registers",
+    5: "write one coil",
+    6: "write one register",
+    7: "read the exception status",
+    8: "diagnostics",
+    15: "write several coils",
+    16: "write several registers",
+    17: "report the server id",
+    22: "mask a register",
+    23: "write and read registers",
+    43: "read the device identification",
+}
+BIT_FUNCTIONS = frozenset({1, 2, 5, 15})
+USUAL = " (as Modbus has it; not stated here)"
+"""Behind what a page says of the line though the map gives no such key: it is a fact of Modbus, not of the manual."""
+
+LATER_READ = {
+    Later.EXCEPTION: "",
+    Later.GARBAGE: "answered; the words after the last good one mean nothing",
+    Later.ZEROS: "answered; zeros after the last good word",
+    Later.STOP: "answered up to the last good word",
+}
+LATER_WRITE = {
+    Later.EXCEPTION: "refused as a whole, as above",
+    Later.STOP: "writing stops at the first bad word; the answer counts the words that were written",
+}
+
+
+def line(context: PageContext) -> PageTable:
+    """Return functions, limits and the serial line as a table of two columns."""
+    protocol = context.map.protocol
+    rows = [*_requests(protocol), *_serial(protocol), ("Section", escape(one_line(protocol.section)))]
+    return table(("Property", "Value"), [row for row in rows if row[1]])
+
+
+def _requests(protocol: Protocol) -> Iterable[tuple[str, Md]]:
+    first, last = protocol.unit_ids
+    default = f", {protocol.default_unit} unless set" if protocol.default_unit is not None else ""
+    broadcast = "; ".join(_function(code) for code in protocol.broadcast)
+    yield "Functions", md("; ".join(_function(code) for code in protocol.functions))
+    yield (
+        "Functions that do the same",
+        md("; ".join(listed([f"{code:02d}" for code in same], last="and") for same in protocol.alike)),
+    )
+    yield "Broadcast (unit 0)", md(broadcast or ("not supported" if "broadcast" in protocol.stated else "not stated"))
+    yield "Unit ids", md(f"{first} to {last}{_usual(protocol, 'unit_ids')}{default}")
+    yield "Most words in a request", md(_most(protocol, "words"))
+    if BIT_FUNCTIONS & set(protocol.functions):
+        yield "Most bits in a request", md(_most(protocol, "bits"))
+    yield "Reading over unused addresses", md("allowed" if protocol.read_holes else "not relied upon")
+    yield "Writing what is there already", md("spares the lasting memory" if protocol.spares_memory else "")
+
+
+def _most(protocol: Protocol, what: str) -> str:
+    """Return how much one request may carry, and what the device is known to answer beyond that."""
+    found = []
+    for verb in ("read", "write"):
+        limit = f"{verb}_{what}"
+        most, accepted = getattr(protocol, limit), protocol.accepted(limit)
+        beyond = f" (a device also answers {accepted})" if accepted != most else ""
+        found.append(f"{most} to {verb}{_usual(protocol, limit)}{beyond}")
+    return ", ".join(found)
+
+
+def _usual(protocol: Protocol, key: str) -> str:
+    return "" if key in protocol.stated else USUAL
+
+
+def _function(code: int) -> str:
+    name = FUNCTIONS.get(code)
+    return f"{code:02d} {name}" if name else f"{code:02d}"
+
+
+def _serial(protocol: Protocol) -> Iterable[tuple[str, Md]]:
+    serial = protocol.serial
+    default = [f"{serial.default_baud} baud"] if serial.default_baud else []
+    default += [serial.default_format] if serial.default_format else []
+    yield "Transmission", md(listed([one_line(mode).upper() for mode in serial.modes]))
+    yield "Baud rates", md(", ".join(map(str, serial.baud_rates)))
+    yield "Character formats", md(", ".join(map(one_line, serial.formats)))
+    yield "Default", md(", ".join(default))
+    yield (
+        "Silence between messages",
+        md(f"{show(serial.gap_characters)} characters{_usual(protocol, 'gap_characters')}"),
+    )
+    yield "Remark", prose(serial.description)
+
+
+def latency(context: PageContext) -> PageTable:
+    """Return the time from the end of a request to the start of the answer by function."""
+    headers = ("Function", "Fixed", "For each word", "Characters at the speed of the line", "Remark")
+    return table(headers, (_latency(item) for item in context.map.protocol.latencies))
+
+
+def _latency(item: Latency) -> tuple[str, ...]:
+    fixed = f"{show(item.minimum)} to {show(item.maximum)} ms" if item.maximum else ""
+    words = f"{show(item.minimum_per_word)} to {show(item.maximum_per_word)} ms" if item.maximum_per_word else ""
+    characters = show(item.characters) if item.characters else ""
+    return (_function(item.function), fixed, words, characters, prose(item.note))
+
+
+def faults(context: PageContext) -> PageTable:
+    """Return the device's answer to each kind of bad request that it can get."""
+    protocol = context.map.protocol
+    views = list(_views(context.map))
+    rows = [
+        ("function code that the device does not have", "function"),
+        ("address of no register", "address"),
+        ("value outside its range", "value"),
+        ("write to a read-only register", "read_only"),
+    ]
+    if any(register.writable for model in context.map.models for register in model.registers):
+        rows.append(("write under a condition that forbids it", "condition"))
+    if any(model.unused for model in context.map.models):
+        key = "unused_write" if "unused_write" in protocol.stated else "address"  # which counts for both then
+        rows.append(("write to an address listed as unused", key))
+    rows.append(("more words than a request may have", "quantity"))
+    if any(view.align > 1 for view in views):
+        rows.append(("first address between two values of several words", "misaligned_address"))
+        rows.append(("number of words that ends inside a value", "misaligned_count"))
+    if any(view.functions for view in views):
+        rows.append(("function that the view does not allow", "view_function"))
+    answers = [
+        (words, join("", (_answer(context, getattr(protocol.faults, key)), md(_usual(protocol, key)))))
+        for words, key in rows
+    ]
+    return table(("Bad request", "Answer"), [*answers, *_later(context)])
+
+
+def _later(context: PageContext) -> Iterable[tuple[str, Md]]:
+    protocol = context.map.protocol
+    found = protocol.faults
+    refused = md("refused as a whole: ", _answer(context, found.address))
+    read = LATER_READ[found.later_read]
+    yield (
+        "read that starts well and runs onto an address of no register",
+        join("", (md(read) if read else refused, md(_usual(protocol, "later_read")))),
+    )
+    write = LATER_WRITE.get(found.later_write, LATER_WRITE[Later.EXCEPTION])
+    yield "write of several words with a bad one after good ones", md(write, _usual(protocol, "later_write"))
+
+
+def _views(register_map: RegisterMap) -> Iterable[View]:
+    return (view for model in register_map.models for register in model.registers for view in register.views)
+
+
+def _answer(context: PageContext, code: int) -> Md:
+    if code == SILENCE:
+        return Md("**no answer**")
+    names = {item.code: one_line(item.name) for item in context.map.protocol.exceptions}
+    return join(" ", (md(f"exception {code:02d}"), md(f"({names[code]})" if code in names else "")))
+
+
+def exceptions(context: PageContext) -> PageTable:
+    """Return what the device means by its exception codes."""
+    found = context.map.protocol.exceptions
+    rows = ((f"{item.code:02d}", one_line(item.name), prose(item.meaning)) for item in found)
+    return table(("Code", "Name", "Meaning"), rows)

@@ -1,0 +1,112 @@
+"""The registers of all models as one tree in the manual's order, arrays folded."""
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from regscribe.emit.common_values import Shared, merge
+from regscribe.emit.words import LETTERS
+from regscribe.model import Array, Model, Register, View
+
+INDEX = re.compile(r"\[\d+\]")
+
+
+@dataclass(frozen=True, slots=True)
+class Leaf:
+    """One register of the family; `arrays` are those it stands in, outermost first (its first element is shown)."""
+
+    register: Shared[Register]
+    arrays: tuple[Array, ...] = ()
+
+    @property
+    def group(self) -> str:
+        """Return the id of the group it belongs to."""
+        return self.register.first.group
+
+
+@dataclass(frozen=True, slots=True)
+class Branch:
+    """An array with what it repeats."""
+
+    array: Shared[Array]
+    arrays: tuple[Array, ...]
+    children: tuple["Leaf | Branch", ...]
+
+    @property
+    def group(self) -> str:
+        """Return the group of its first register."""
+        return next((leaf.group for leaf in leaves(self.children)), "")
+
+
+Node = Leaf | Branch
+
+
+def pattern(path: str) -> str:
+    """Return a path with its indices left out: `segments[].ramp_time` for every element."""
+    return INDEX.sub("[]", path)
+
+
+def lettered(path: str) -> str:
+    """Return a path with letters for its indices: `segments[i].ramp_time`."""
+    letters = iter(LETTERS)
+    return INDEX.sub(lambda _: f"[{next(letters, 'n')}]", path)
+
+
+def outline(models: Sequence[Model]) -> tuple[Node, ...]:
+    """Merge the members of all models."""
+    return _nodes(models, {model.name: model.members for model in models}, ())
+
+
+def leaves(nodes: Iterable[Node]) -> Iterator[Leaf]:
+    """Yield the registers of a tree in order."""
+    for node in nodes:
+        if isinstance(node, Leaf):
+            yield node
+        else:
+            yield from leaves(node.children)
+
+
+def _nodes(
+    models: Sequence[Model], members: dict[str, tuple[Register | Array, ...]], arrays: tuple[Array, ...]
+) -> tuple[Node, ...]:
+    found = merge(models, lambda model: members[model.name], _key)
+    return tuple(_node(shared, arrays) for shared in found)
+
+
+def _key(member: Register | Array) -> str:
+    return pattern(member.path) if isinstance(member, Register) else f"array {member.id}"
+
+
+def _node(shared: Shared[Register | Array], arrays: tuple[Array, ...]) -> Node:
+    registers = tuple((model, item) for model, item in shared.versions if isinstance(item, Register))
+    if registers:
+        return Leaf(Shared(shared.key, registers), arrays)
+    versions = tuple((model, item) for model, item in shared.versions if isinstance(item, Array))
+    members = {model.name: array.members for model, array in versions}
+    inner = (*arrays, versions[0][1])
+    return Branch(Shared(shared.key, versions), arrays, _nodes([model for model, _ in versions], members, inner))
+
+
+def aliases(register: Register) -> tuple[View, ...]:
+    """Return the base view as it stands at each further address."""
+    return tuple(replace(register.base, address=alias) for alias in register.aliases)
+
+
+def formula(view: View, arrays: Sequence[Array]) -> str:
+    """Return the address of any element: `8004 + 2*(i - 1)`; the plain address outside arrays."""
+    terms = (
+        _term(view.stride * array.stride, letter, array.first) for array, letter in zip(arrays, LETTERS, strict=False)
+    )
+    return " + ".join([str(view.address), *terms])
+
+
+def _term(stride: int, letter: str, first: int) -> str:
+    if first == 0:
+        return letter if stride == 1 else f"{stride}*{letter}"
+    steps = f"({letter} - {first})" if first > 0 else f"({letter} + {-first})"
+    return steps if stride == 1 else f"{stride}*{steps}"
+
+
+def last_address(view: View, arrays: Sequence[Array]) -> int:
+    """Return the address of the last element; the address itself outside arrays."""
+    return view.address + sum(view.stride * array.stride * (array.count - 1) for array in arrays)

@@ -1,0 +1,186 @@
+"""Classes for values with names: enums, flags, words of bit fields and special values; equal ones are shared."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from regscribe.emit.python.class_sharing import suffix
+from regscribe.emit.python.formatting import INDENT, WIDTH, Call, call, group, lay, width
+from regscribe.emit.python.literals import camel, docstring, literal, plain
+from regscribe.emit.python.offer import Origin
+from regscribe.emit.python.reserved_names import free, taken
+from regscribe.emit.words import member_words, one_line
+from regscribe.model import BitField, Enum, Kind, Register, RegisterMap
+
+Content = tuple[object, ...]
+
+
+@dataclass(slots=True)
+class NamedClasses:
+    """Class names by content.
+
+    Of a name that models define differently, the definition that most models share keeps the plain name; the others
+    get their models' names behind it. What another module offers under the same key is imported from there.
+    """
+
+    register_map: RegisterMap
+    offered: Mapping[str, Origin] = field(default_factory=dict)
+    wanted: dict[str, dict[Content, list[str]]] = field(default_factory=dict)
+    bodies: dict[Content, list[str]] = field(default_factory=dict)
+    keys: dict[Content, str] = field(default_factory=dict)
+    imports: dict[Content, Origin] = field(default_factory=dict)
+    taken: frozenset[str] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.taken = taken(self.register_map)
+
+    def declare(self, enum: Enum, owner: str) -> None:
+        """Note an enum that stands for itself."""
+        self._know(enum_content(enum), enum_key(enum))
+        about = f"{enum.id.replace('_', ' ').capitalize()}."
+        self._want(enum.id, enum_content(enum), owner, _enum_body(enum, about))
+
+    def collect(self, register: Register, model: str) -> None:
+        """Note the classes that a register of a model needs."""
+        for enum in (register.enum, *(part.enum for part in register.fields)):
+            if enum:
+                content = enum_content(enum)
+                self._know(content, enum_key(enum))
+                self._want(enum.id, content, model, _enum_body(enum, _about(register)))
+        if register.kind in {Kind.FLAGS, Kind.FIELDS}:
+            self._know(word_content(register), self._word_key(register))
+        if register.kind is Kind.FLAGS:
+            self._want(register.id, word_content(register), model, _flags_body(register))
+        if specials(register):
+            self._know(special_content(register), str(special_content(register)))
+            self._want(f"{register.id}_special", special_content(register), model, _special_body(register))
+
+    def collect_words(self, register: Register, model: str) -> None:
+        """Note the class of a word of bit fields; its enums must have been collected for all models before."""
+        if register.kind is Kind.FIELDS:
+            self._want(register.id, word_content(register), model, self._word_body(register))
+
+    def _know(self, content: Content, key: str) -> None:
+        if content in self.keys:
+            return
+        self.keys[content] = key
+        origin = self.offered.get(key)
+        if origin and origin.name not in self.taken | self.imported:
+            self.imports[content] = origin
+
+    def _want(self, name: str, content: Content, model: str, body: list[str]) -> None:
+        models = self.wanted.setdefault(camel(name), {}).setdefault(content, [])
+        if model not in models:
+            models.append(model)
+        self.bodies.setdefault(content, body)
+
+    @property
+    def imported(self) -> frozenset[str]:
+        """The names of the classes that come from elsewhere."""
+        return frozenset(origin.name for origin in self.imports.values())
+
+    def name(self, wanted: str, content: Content) -> str:
+        """The class name for `wanted` with this content."""
+        if content in self.imports:
+            return self.imports[content].name
+        variants = {one: models for one, models in self.wanted[camel(wanted)].items() if one not in self.imports}
+        plain = free(camel(wanted), self.taken, "Value")
+        usual = max(variants, key=lambda one: len(variants[one]))
+        if content == usual and plain not in self.imported:
+            return plain
+        own = suffix(variants[content])
+        alike = [one for one in variants if one != usual and suffix(variants[one]) == own]
+        name = f"{plain}{own}{alike.index(content) + 1 if content in alike[1:] else ''}"
+        return free(name, self.imported, "Own")
+
+    def lines(self) -> list[str]:
+        """The definitions of all own classes, enums before the words that use them."""
+        found: list[str] = []
+        for name, variants in self.wanted.items():
+            for content in (one for one in variants if one not in self.imports):
+                opening, *body = self.bodies[content]
+                found += ["", "", f"class {self.name(name, content)}({opening}):", *body]
+        return found
+
+    def _word_key(self, register: Register) -> str:
+        parts = [
+            (part.id, part.label, part.low, part.high, one_line(part.description), part.enum and enum_key(part.enum))
+            for part in register.fields
+        ]
+        return f"{register.kind} {register.id} {parts}"
+
+    def _word_body(self, register: Register) -> list[str]:
+        lines = ["Word", *docstring(_about(register), 1), ""]
+        for part in register.fields:
+            lines += lay(self._part(part), head=f"{part.id} = ", depth=1)
+        return lines
+
+    def _part(self, part: BitField) -> Call:
+        if part.is_flag:
+            return call("Bit", str(part.low), literal(part.label))
+        kind = self.name(part.enum.id, enum_content(part.enum)) if part.enum else "int"
+        return call("Field", str(part.low), str(part.high), kind, literal(part.label))
+
+
+def enum_content(enum: Enum) -> Content:
+    """What makes two enums the same class."""
+    return ("enum", enum.id, tuple((member.code, member.id, member.label, member.cells) for member in enum.members))
+
+
+def enum_key(enum: Enum) -> str:
+    """What makes two enums the same class in whichever module: their contents and what is said of each member."""
+    return f"enum {enum_content(enum)} {[member_words(member, enum) for member in enum.members]}"
+
+
+def word_content(register: Register) -> Content:
+    """What makes two words the same class."""
+    parts = [
+        (part.id, part.label, part.low, part.high, part.enum and enum_content(part.enum)) for part in register.fields
+    ]
+    return ("word", register.id, tuple(parts))
+
+
+def specials(register: Register) -> list[tuple[Fraction, str, str]]:
+    """Special values that stand for no number: (code, id, label)."""
+    return [(one.code, one.id, one.label) for one in register.specials if one.means is None]
+
+
+def special_content(register: Register) -> Content:
+    """What makes two sets of special values the same class."""
+    return ("special", register.id, tuple(specials(register)))
+
+
+def _members(members: Sequence[tuple[str, str, str, str]]) -> list[str]:
+    lines: list[str] = []
+    for code, name, label, description in members:
+        items = [code, literal(label), *([literal(description)] if description else [])]
+        written = f"{INDENT}{name.upper()} = {', '.join(items)}"
+        lines += [written] if width(written) <= WIDTH else lay(group(items), head=f"{name.upper()} = ", depth=1)
+    return lines
+
+
+def _about(register: Register) -> str:
+    section = one_line(register.section)
+    return f"{one_line(register.name)} ({section})." if section else f"{one_line(register.name)}."
+
+
+def _enum_body(enum: Enum, about: str) -> list[str]:
+    """The base class of an enum, its docstring (`about` unless it has a description of its own) and members."""
+    about = one_line(enum.description) or about
+    members = [(str(member.code), member.id, member.label, member_words(member, enum)) for member in enum.members]
+    return ["Choice", *docstring(about, 1), "", *_members(members)]
+
+
+def _special_body(register: Register) -> list[str]:
+    about = f"Special values of {_about(register)}"
+    members = [(plain(code), name, label, "") for code, name, label in specials(register)]
+    whole = all(code.denominator == 1 for code, _, _ in specials(register))
+    return ["Choice" if whole else "SpecialNumber", *docstring(about, 1), "", *_members(members)]
+
+
+def _flags_body(register: Register) -> list[str]:
+    lines = ["Flags", *docstring(_about(register), 1), ""]
+    for part in register.fields:
+        lines.append(f"{INDENT}{part.id.upper()} = 1 << {part.low}")
+        lines += docstring(". ".join(filter(None, [one_line(part.label), one_line(part.description)])), 1)
+    return lines

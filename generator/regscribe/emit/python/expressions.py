@@ -1,0 +1,192 @@
+"""Model values as expressions over `regscribe_runtime.values.specs`: conditions, scales, ranges, views, units."""
+
+from dataclasses import dataclass
+
+from regscribe.emit.python.constants import Pool
+from regscribe.emit.python.formatting import Call, Expression, call, group, mapping
+from regscribe.emit.python.literals import exact, literal
+from regscribe.emit.words import cases_words, conversion_words, range_words
+from regscribe.model import (
+    IDENTITY,
+    Case,
+    Cases,
+    Condition,
+    Conversion,
+    Decimals,
+    Limit,
+    Model,
+    Number,
+    Open,
+    Order,
+    OrderFromRegister,
+    Range,
+    Reference,
+    Register,
+    Rounding,
+    Space,
+    Test,
+    View,
+    WireType,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Specs:
+    """Builds expressions for the registers of one model; what is shared goes to `pool`."""
+
+    model: Model
+    pool: Pool
+
+    def when(self, condition: Condition) -> Expression:
+        """A tuple of tests; a named condition becomes a constant of its name."""
+        tests = group([self._test(test) for test in condition.tests])
+        return self.pool.share(condition.name, tests) if condition.name and condition.tests else tests
+
+    def _test(self, test: Test) -> Call:
+        codes = group([group([exact(code.low), exact(code.high)]) for code in test.codes]) if test.codes else None
+        return call(
+            "Is",
+            literal(test.register),
+            *([codes] if codes else []),
+            bits=self._bits(test) if test.field else None,
+            given=literal(test.given) if test.given else None,
+            negated="True" if test.negated else None,
+        )
+
+    def _bits(self, test: Test) -> str:
+        found = next(field for field in self.model.register(test.register).fields if field.id == test.field)
+        return f"({found.low}, {found.high})"
+
+    def scale(self, register: Register) -> Expression | None:
+        """The cases of a scale; None for the identity."""
+        return self._scale(register.scale, "scale", "value of the stored x")
+
+    def special_scale(self, register: Register) -> Expression | None:
+        """The cases of the decimals of special values; None for the identity."""
+        return self._scale(register.special_scale, "special_scale", "value of the special code x")
+
+    def _scale(self, cases: Cases[Conversion], name: str, about: str) -> Expression | None:
+        if cases == (Case(Condition(), IDENTITY),):
+            return None
+        words = cases_words(tuple(Case(case.when, conversion_words(case.then)) for case in cases))
+        built = group([group([self.when(case.when), self._conversion(case.then)]) for case in cases])
+        return self.pool.share(name, built, f"{about}: {words}")
+
+    @staticmethod
+    def _conversion(conversion: Conversion) -> Expression:
+        found = conversion.decimals or conversion.places
+        return call(
+            "Conversion",
+            multiply=exact(conversion.multiply) if conversion.multiply != 1 else None,
+            add=exact(conversion.add) if conversion.add else None,
+            decimals=literal(conversion.decimals.register) if conversion.decimals else None,
+            at_most=str(found.at_most) if found and found.at_most is not None else None,
+            step=exact(conversion.step) if conversion.step is not None else None,
+            places=literal(conversion.places.register) if conversion.places else None,
+        )
+
+    def range(self, register: Register) -> Expression | None:
+        """The cases of a range; None where the manual gives none."""
+        cases = register.range
+        if all(isinstance(end, Open) for case in cases for one in case.then.intervals for end in (one.low, one.high)):
+            return None  # nothing could be checked
+        if len(cases) == 1 and cases[0].when.always and self._simple(cases[0].then):
+            (interval,) = cases[0].then.intervals
+            return self.pool.maybe(
+                "range", call(self.pool.helper("within"), _limit(interval.low), _limit(interval.high))
+            )
+        words = cases_words(tuple(Case(case.when, range_words(case.then)) for case in cases))
+        built = group([group([self.when(case.when), self._limits(case.then)]) for case in cases])
+        return self.pool.share("range", built, words)
+
+    @staticmethod
+    def _simple(limits: Range) -> bool:
+        return len(limits.intervals) == 1 and limits.decimals is None
+
+    @staticmethod
+    def _limits(limits: Range) -> Call:
+        intervals = [call("Interval", _limit(interval.low), _limit(interval.high)) for interval in limits.intervals]
+        found: Decimals | None = limits.decimals
+        return call(
+            "Limits",
+            group(intervals),
+            decimals=literal(found.register) if found else None,
+            at_most=str(found.at_most) if found and found.at_most is not None else None,
+        )
+
+    def unit(self, cases: Cases[str]) -> Expression | None:
+        """A unit, or its cases; None without one."""
+        if len(cases) == 1 and cases[0].when.always:
+            return literal(cases[0].then) if cases[0].then else None
+        built = group([group([self.when(case.when), literal(case.then)]) for case in cases])
+        return self.pool.share("unit", built, cases_words(cases))
+
+    def governs(self, register: Register) -> Expression | None:
+        """What a register sets of the line; None if it sets nothing of it."""
+        found = register.governs
+        if found is None:
+            return None
+        codes = mapping([(str(code), literal(value)) for code, value in found.codes]) if found.codes else None
+        since = literal(found.since) if found.since else None
+        return self.pool.maybe("governs", call("Governs", literal(found.setting), codes=codes, since=since))
+
+    def views(self, register: Register) -> str:
+        """The name of the constant that holds a register's view set."""
+        base = register.base
+        templates = group([_view(view, base) for view in register.views])
+        if len(register.views) > 1:
+            return self.pool.share("views", templates)
+        if base == _plain(base):
+            return self.pool.share(base.type, call(self.pool.helper("word"), _type_name(base)))
+        kind = base.type if base.space is Space.HOLDING else f"{base.space}_{base.type}"
+        return self.pool.share(kind, templates)
+
+
+def _limit(limit: Limit) -> Expression:
+    match limit:
+        case Number(value):
+            return exact(value)
+        case Reference(register):
+            return call("Ref", literal(register))
+        case Open():
+            return "None"
+
+
+def _plain(view: View) -> View:
+    return View("base", Space.HOLDING, view.address, view.type, words=view.type.words, region=view.region)
+
+
+def _type_name(view: View) -> str:
+    """The runtime's name of a type; a text is words."""
+    return "UINT16" if view.type is WireType.STRING else view.type.upper()
+
+
+def _view(view: View, base: View) -> Call:
+    # wire address = offset + stride x at, with the base view's own address as `at`
+    offset = view.address - view.stride * base.address
+    return call(
+        "View",
+        literal(view.name),
+        _type_name(view),
+        offset=str(offset) if offset else None,
+        stride=str(view.stride) if view.stride != 1 else None,
+        words=str(view.words) if view.words != 1 else None,
+        factor=exact(view.factor) if view.factor != 1 else None,
+        rounding=literal(view.rounding) if view.rounding is not Rounding.NONE else None,
+        saturates="True" if view.saturates else None,
+        order=_order(view.word_order),
+        byte_order=literal(view.byte_order) if view.byte_order is not Order.BIG else None,
+        functions=f"({', '.join(map(str, view.functions))}{',' * (len(view.functions) == 1)})"
+        if view.functions
+        else None,
+        space=literal(view.space) if view.space is not Space.HOLDING else None,
+        preferred="True" if view.preferred else None,
+        align=str(view.align) if view.align != 1 else None,
+    )
+
+
+def _order(order: Order | OrderFromRegister) -> Expression | None:
+    if isinstance(order, OrderFromRegister):
+        codes = mapping([(str(code), literal(found)) for code, found in order.codes])
+        return call("OrderFrom", literal(order.register), codes)
+    return literal(order) if order is not Order.BIG else None

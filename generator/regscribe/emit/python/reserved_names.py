@@ -1,0 +1,53 @@
+"""What a generated module imports, and what the classes and registers of a map may therefore not be called in it."""
+
+import keyword
+from collections.abc import Iterable
+
+from regscribe.model import Array, Register, RegisterMap
+
+RUNTIME = tuple(
+    """
+    BIT FLOAT32 FLOAT64 INT16 INT32 INT64 UINT8 UINT16 UINT32 UINT64 Array AsyncBareDevice AsyncDevice AsyncLink
+    AsyncPart BareDevice Bit Choice Command Conversion Device Field Flags Governs Group Identity Interval Is Latency
+    Limits Link OrderFrom Part ProgramAction ProgramFinal ProgramSegments ProgramStates Protocol ReadOnly ReadWrite Ref
+    RegisterSet SerialSettings SetpointProgram SpecialNumber SubPart TcpSettings View Word WriteOnly async_serial_link
+    async_tcp boolean choice flags integer integer_or integer_with number number_or number_with raw raw_float
+    serial_link tcp text version within word word_of
+    """.split()  # noqa: SIM905 (a column of quoted words is harder to keep in order)
+)
+"""What a generated module may import from `regscribe_runtime`, in import order."""
+
+HELPERS = frozenset(name for name in RUNTIME if name.islower())
+"""Functions that declarations call: in a class body a register of such a name would stand in their place."""
+
+OTHERS = frozenset({"Collection", "Self", "Unpack"})
+
+
+def taken(register_map: RegisterMap) -> frozenset[str]:
+    """Return the class names that are not free: those of imports and of models."""
+    models = {model.class_name for model in register_map.models}
+    return reserved() | models | {f"Async{name}" for name in models}
+
+
+def reserved() -> frozenset[str]:
+    """Return the class names that no generated module may use."""
+    return frozenset({*RUNTIME, *OTHERS})
+
+
+def free(name: str, used: Iterable[str], ending: str) -> str:
+    """Return a class name, with `ending` added while it is a keyword or used already."""
+    while keyword.iskeyword(name) or name in used:
+        name += ending
+    return name
+
+
+def hidden(register_map: RegisterMap) -> frozenset[str]:
+    """Return the helpers that a register or an array has the name of: the module calls them `_number` and so on."""
+
+    def ids(members: tuple[Register | Array, ...]) -> Iterable[str]:
+        for member in members:
+            yield member.id
+            if isinstance(member, Array):
+                yield from ids(member.members)
+
+    return HELPERS & {name for model in register_map.models for name in ids(model.members)}

@@ -1,0 +1,151 @@
+"""Which words and which values of a register are worth a vector: ends, edges, orders, members, bits, faults.
+
+Everything here only proposes; what a proposal means is asked of the reference.
+"""
+
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import NamedTuple
+
+from regscribe.emit.vectors.scale import Scale
+from regscribe.model import Kind, NotANumber, Register, View, WireType
+from regscribe.reference import Surroundings, ieee_bits, special_value
+
+Words = tuple[int, ...]
+
+
+class Proposal(NamedTuple):
+    """A wire number, a pattern of bits or a value, and what is special about it."""
+
+    value: Fraction
+    note: str
+
+
+FLOATS = {
+    "0": "zero",
+    "1": "one",
+    "-1": "minus one",
+    "0.1": "no binary fraction",
+    "250.4": "0x437A6666 as a float32",
+    "-1234.5": "negative",
+    "16777216": "from here on a float32 skips whole numbers",
+    "0.123456724": "only nine digits tell this float32 from its neighbours",
+    "100.250015": "only nine digits tell this float32 from its neighbours",
+}
+"""Numbers as decimal text and what is special about them, for IEEE views."""
+
+PATTERNS = {
+    WireType.FLOAT32: {
+        0x00800000: "smallest normal number",
+        0x7F7FFFFF: "largest number",
+        0xFF7FFFFF: "lowest number",
+        0x7F800000: "infinity",
+        0xFF800000: "minus infinity",
+        0x7FC00000: "not a number",
+        0xFF800001: "not a number either",
+    },
+    WireType.FLOAT64: {
+        0x0010000000000000: "smallest normal number",
+        0x7FEFFFFFFFFFFFFF: "largest number",
+        0xFFEFFFFFFFFFFFFF: "lowest number",
+        0x7FF0000000000000: "infinity",
+        0xFFF0000000000000: "minus infinity",
+        0x7FF8000000000000: "not a number",
+        0xFFF0000000000001: "not a number either",
+    },
+}
+"""Bits of IEEE numbers that no decimal text spells briefly."""
+
+ORDERED = 0x0123456789ABCDEF
+"""Its bytes all differ, so that a wrong order of words or bytes shows."""
+
+
+def wire_bits(
+    register: Register, view: View, scale: Scale | None, known: Surroundings, *, full: bool
+) -> dict[int, str]:
+    """Return bits of the wire number to decode (two's complement, most significant first) with their notes."""
+    found: dict[int, str] = {}
+    mask = (1 << view.type.bits) - 1
+    for bits, note in _patterns(view, full=full):
+        found.setdefault(bits & mask, note)
+    numbers = [*_stored_numbers(register, full=full), *(_scaled_numbers(register, scale, known) if scale else ())]
+    numbers += [*scale.stored_limits()] if scale and full else []
+    for stored, note in numbers:
+        pattern = _bits(view, stored * view.factor)
+        if pattern is not None:
+            found.setdefault(pattern, note)
+    return found
+
+
+def _bits(view: View, number: Fraction) -> int | None:
+    if view.type.is_float:
+        return ieee_bits(number, view.type)
+    if number.denominator != 1 or not view.type.minimum <= number < 1 << view.type.bits:
+        return None
+    return int(number) & ((1 << view.type.bits) - 1)
+
+
+def _patterns(view: View, *, full: bool) -> Iterator[tuple[int, str]]:
+    bits = view.type.bits
+    if view.type.is_float:
+        texts: dict[str, str] = FLOATS if full else {"250.4": FLOATS["250.4"]}
+        yield from ((ieee_bits(Fraction(text), view.type) or 0, note) for text, note in texts.items())
+        yield from PATTERNS[view.type].items() if full else ()
+        return
+    yield ORDERED >> max(0, 56 - bits) & ((1 << bits) - 1), "every byte differs"
+    if full:
+        yield from _ends(view)
+
+
+def _ends(view: View) -> Iterator[tuple[int, str]]:
+    lowest, highest = view.type.minimum, view.type.maximum
+    yield from ((lowest, "lowest of the type"), (highest, "highest of the type"))
+    yield from ((lowest + 1, "next to the lowest"), (highest - 1, "next to the highest"))
+    yield from ((0, "zero"), (1, "one"), (1 << (view.type.bits - 1), "only the sign bit"), (-1, "all bits"))
+
+
+def _stored_numbers(register: Register, *, full: bool) -> Iterator[Proposal]:
+    for sentinel in register.sentinels:
+        if isinstance(sentinel.stored, NotANumber):  # among the patterns of a float already
+            continue
+        yield Proposal(sentinel.stored, f"fault: {sentinel.id}")
+        yield from (Proposal(sentinel.stored + step, f"beside fault {sentinel.id}") for step in (-1, 1) if full)
+    yield from codes(register)
+    if register.kind in {Kind.FLAGS, Kind.FIELDS}:
+        yield from (Proposal(Fraction(1 << bit), f"bit {bit} alone") for bit in range(min(register.bits, 64)))
+        yield from field_codes(register)
+
+
+def _scaled_numbers(register: Register, scale: Scale, known: Surroundings) -> Iterator[Proposal]:
+    for special in register.specials:
+        value = special_value(register, special, known)
+        if value is not None:
+            stored, step = scale.stored(value), scale.wire_step or 1
+            yield Proposal(stored, f"special: {special.id}")
+            yield from (Proposal(stored + side * step, f"beside special: {special.id}") for side in (-1, 1))
+
+
+def codes(register: Register) -> Iterator[Proposal]:
+    """Yield each code of an enum, codes that the manual calls invalid, and two that it does not list."""
+    enum = register.enum
+    if enum is None:
+        return
+    yield from (Proposal(Fraction(member.code), f"member {member.id}") for member in enum.members)
+    yield from (Proposal(Fraction(code), "the manual calls it invalid") for code, _ in enum.invalid)
+    listed = {member.code for member in enum.members} | {code for code, _ in enum.invalid}
+    gap = next(code for code in range(len(listed) + 1) if code not in listed)
+    for code in sorted({gap, max(listed, default=0) + 1}):
+        yield Proposal(Fraction(code), "not in the manual's list")
+
+
+def field_codes(register: Register) -> Iterator[Proposal]:
+    """Yield each member of each field, an unknown code of it, and the field filled with ones."""
+    for bits in register.fields:
+        full = (1 << bits.width) - 1
+        if bits.is_flag:
+            continue
+        listed = [member.code for member in bits.enum.members] if bits.enum else []
+        yield from (Proposal(Fraction(code << bits.low), f"{bits.id} = {code}") for code in listed)
+        unknown = next((code for code in range(full + 1) if code not in listed), full)
+        yield Proposal(Fraction(unknown << bits.low), f"{bits.id} = {unknown}")
+        yield Proposal(Fraction(full << bits.low), f"{bits.id} = {full}")

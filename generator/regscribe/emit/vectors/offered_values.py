@@ -1,0 +1,149 @@
+"""Which values of a register are worth writing: limits and both sides of them, edges of rounding, members, bits."""
+
+from collections.abc import Iterator
+from fractions import Fraction
+
+from regscribe.emit.vectors.candidates import Proposal, codes, field_codes
+from regscribe.emit.vectors.scale import Scale
+from regscribe.model import Kind, Register, View
+from regscribe.reference import Surroundings, special_value
+
+HALF, TENTH = Fraction(1, 2), Fraction(1, 10)
+TOO_FINE_FOR_FLOAT32 = Fraction("16777217")
+TOO_FINE = Fraction("0.000000001")
+BEYOND_FLOAT32 = Fraction(10**39)
+TEXTS = {"A": "one character", "": "empty", "\u00e9": "no ASCII"}
+
+
+def numbers(
+    register: Register, view: View, scale: Scale | None, known: Surroundings, *, full: bool
+) -> Iterator[Proposal]:
+    """Yield numbers to write; whether the device's map takes them is for the reference to say."""
+    if register.kind in {Kind.ENUM, Kind.FLAGS, Kind.FIELDS, Kind.BOOLEAN}:
+        yield from _coded(register)
+        yield from _faults(register)
+        return
+    if isinstance(register.default, Fraction):
+        yield Proposal(register.default, "default")
+    if scale is None:
+        yield Proposal(Fraction(1), "no scale holds")
+        return
+    if full:
+        yield from _special(register, scale, known)
+        yield from _around_limits(scale)
+        if not scale.limits or None in (end for interval in scale.limits for end in interval):
+            yield from _type_ends(view, scale)
+    yield from _inside(scale)
+
+
+def _coded(register: Register) -> Iterator[Proposal]:
+    yield from ((Proposal(Fraction(0), "zero"), Proposal(Fraction(1), "one"), Proposal(Fraction(-1), "below zero")))
+    yield from codes(register)
+    if register.kind is Kind.BOOLEAN:
+        yield Proposal(Fraction(2), "neither true nor false")
+    if register.kind in {Kind.FLAGS, Kind.FIELDS}:
+        yield from (Proposal(Fraction(1 << bit), f"bit {bit} alone") for bit in range(min(register.bits, 64)))
+        yield from field_codes(register)
+    yield Proposal(Fraction(1 << register.bits), "one bit more than the type has")
+
+
+def _faults(register: Register) -> Iterator[Proposal]:
+    """Yield the codes that report faults: without a sign where the register is a pattern of bits."""
+    pattern = register.kind in {Kind.FLAGS, Kind.FIELDS}
+    for stored in register.faults:
+        yield Proposal(stored % (1 << register.bits) if pattern else stored, "how the device reports a fault")
+
+
+def _special(register: Register, scale: Scale, known: Surroundings) -> Iterator[Proposal]:
+    yield Proposal(Fraction(0), "zero")
+    for special in register.specials:
+        if special.means is None:
+            value = special_value(register, special, known)
+            yield from _beside(value, scale.step, f"special: {special.id}")
+        else:
+            yield from _beside(special.means, scale.step, f"special: {special.id} stands for this number")
+    yield from (Proposal(scale.value(stored), "how the device reports a fault") for stored in register.faults)
+
+
+def _beside(value: Fraction | None, step: Fraction, note: str) -> Iterator[Proposal]:
+    """Yield a value and, because only it is special, the values on both sides of it."""
+    if value is not None:
+        yield Proposal(value, note)
+        yield from (Proposal(value + side * step, f"beside {note}") for side in (-1, 1))
+
+
+def _around_limits(scale: Scale) -> Iterator[Proposal]:
+    for interval in scale.limits:
+        for end, name, outward in zip(interval, ("lowest", "highest"), (-1, 1), strict=True):
+            if end is None:
+                continue
+            yield Proposal(end, f"{name} of the range")
+            yield Proposal(end + outward * scale.step, f"one step beyond the {name}")
+            yield Proposal(end - outward * scale.step, f"one step inside the {name}")
+
+
+def _type_ends(view: View, scale: Scale) -> Iterator[Proposal]:
+    for stored, name, outward in ((scale.lowest, "lowest", -1), (scale.highest, "highest", 1)):
+        yield Proposal(scale.value(stored), f"{name} that the view carries")
+        yield Proposal(scale.value(stored + outward * (scale.wire_step or 1)), f"beyond what the view carries ({name})")
+    if view.type.is_float:
+        yield Proposal(scale.value(TOO_FINE_FOR_FLOAT32), "finer than a float32")
+        yield Proposal(scale.value(BEYOND_FLOAT32), "larger than a float32")
+
+
+def _inside(scale: Scale) -> Iterator[Proposal]:
+    for low, high in scale.domain():
+        middle = _on_step(scale, low + (high - low) * 3 / 7)
+        yield Proposal(middle, "inside")
+        yield Proposal(middle + scale.step * HALF, "half a step off")
+        yield Proposal(middle + scale.step * TENTH, "a tenth of a step off")
+        if not scale.wire_step:
+            yield Proposal(middle + TOO_FINE, "finer than a float32")
+
+
+def _on_step(scale: Scale, value: Fraction) -> Fraction:
+    step = scale.step
+    return scale.offset + step * int((value - scale.offset) / step)
+
+
+def rounded(scale: Scale) -> Iterator[Proposal]:
+    """Yield values between two steps, above and below zero where the range has both, for writes that may round."""
+    for low, high in scale.domain():
+        for middle in sorted({_on_step(scale, low + (high - low) * part) for part in (Fraction(1, 5), Fraction(4, 5))}):
+            yield Proposal(middle + scale.step * HALF, "half a step: the rule decides")
+            yield Proposal(middle + scale.step * Fraction(49, 100), "less than half a step")
+            yield Proposal(middle + scale.step * Fraction(51, 100), "more than half a step")
+
+
+def stored_numbers(view: View) -> Iterator[Proposal]:
+    """Yield numbers that a device may hold, to see what it makes of them on the wire."""
+    for whole in (0, 1, 2, 120, 121, -1, -2, -120):
+        for part, note in (
+            (HALF, "half a step"),
+            (Fraction(49, 100), "below a half"),
+            (Fraction(51, 100), "above a half"),
+        ):
+            if whole >= 0 or view.type.minimum < 0:
+                yield Proposal((whole + part) / view.factor, note)
+    if view.saturates:
+        ends = ((view.type.maximum, 1), (view.type.minimum, -1))
+        yield from (Proposal(end / view.factor, "exactly the end") for end, _ in ends)
+        yield from (Proposal((end + 1000 * outward) / view.factor, "beyond the end: clipped") for end, outward in ends)
+
+
+def texts(register: Register, view: View) -> Iterator[tuple[str, str]]:
+    """Yield texts to write to a string or a version, with notes."""
+    if register.kind is Kind.VERSION:
+        digits, group = register.version_digits, register.version_group or register.version_digits
+        for text, note in (
+            ("1" * digits, "all ones"),
+            ("0" * digits, "all zeros"),
+            ("9" * digits, "all nines"),
+            ("1" * (digits + 1), "a digit too many"),
+        ):
+            yield ".".join(text[start : start + group] for start in range(0, len(text), group)), note
+        return
+    yield from TEXTS.items()
+    full = "".join(chr(ord("A") + place % 26) for place in range(2 * view.words))
+    yield full, "as long as it may be"
+    yield full + "Z", "one character too many"

@@ -1,0 +1,135 @@
+"""Vector sets: what registers of several models have in common is worked out and written once."""
+
+import json
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+from regscribe.emit.vectors.content import case_of, surroundings
+from regscribe.emit.vectors.situations import Finder, Situation, writable_situations
+from regscribe.model import Enum, Model, OrderFromRegister, Register, RegisterMap, Rounding, Span, View, always, show
+
+Json = dict[str, Any]
+Plan = tuple[tuple[tuple[Situation, ...], ...], tuple[tuple[Situation, bool], ...]]
+NOWHERE = Span("")
+
+
+def vector_sets(register_map: RegisterMap) -> list[Json]:
+    """Return the vector sets of a map; each names the registers, models and addresses that it is true of."""
+    worked_out: dict[tuple[Register, Plan], str] = {}
+    places: dict[str, list[tuple[Register, str]]] = {}
+    contents: dict[str, Json] = {}
+    finder = Finder(register_map)
+    for model, register in _registers(register_map):
+        tried = tuple(finder.situations(model, register, view) for view in register.views)
+        key = (_bare(register), (tried, writable_situations(register_map, model, register)))
+        if key not in worked_out:
+            content = _content(*key)
+            worked_out[key] = json.dumps(content)
+            contents[worked_out[key]] = content
+        places.setdefault(worked_out[key], []).append((register, model.name))
+    return [{"registers": _placed(places[key]), **content} for key, content in contents.items()]
+
+
+def _registers(register_map: RegisterMap) -> Iterator[tuple[Model, Register]]:
+    return ((model, register) for model in register_map.models for register in model.registers)
+
+
+def _bare(register: Register) -> Register:
+    """Return the register without what makes no difference to its words and values."""
+    blank = replace(register, id="", path="", name="", symbol="", description="", section="", group="", aliases=())
+    blank = replace(blank, persistence="", rescales="", unlock="", apply="", danger="", inferred=())
+    blank = replace(blank, stays="", governs=None, settle=0)
+    return replace(
+        blank,
+        unit_id="",
+        array="",
+        index=(),
+        unit=always(""),
+        endurance=None,
+        views=tuple(replace(view, address=0, region=None) for view in register.views),
+        enum=register.enum and _bare_enum(register.enum),
+        fields=tuple(replace(bits, enum=bits.enum and _bare_enum(bits.enum)) for bits in register.fields),
+        span=NOWHERE,
+    )
+
+
+def _bare_enum(enum: Enum) -> Enum:
+    return replace(enum, id="", description="", span=NOWHERE)
+
+
+def _placed(places: list[tuple[Register, str]]) -> list[Json]:
+    folded: dict[str, tuple[Json, list[str]]] = {}
+    for register, model in places:
+        place = _place(register)
+        folded.setdefault(json.dumps(place), (place, []))[1].append(model)
+    return [{"path": place["path"], "models": models, **place} for place, models in folded.values()]
+
+
+def _place(register: Register) -> Json:
+    found: Json = {"path": register.path, "addresses": {view.name: view.address for view in register.views}}
+    if register.aliases:
+        found["aliases"] = list(register.aliases)
+    if register.default is not None:
+        found["default"] = register.default if isinstance(register.default, str) else show(register.default)
+    return found
+
+
+def _content(register: Register, plan: Plan) -> Json:
+    tried, writable = plan
+    found: Json = {"kind": register.kind.value, "access": register.access.value}
+    found["views"] = [view_facts(view) for view in register.views]
+    found |= _names(register)
+    if writable:
+        found["writable"] = [{**surroundings(situation), "allowed": allowed} for situation, allowed in writable]
+    found["cases"] = [
+        case_of(register, view, situation)
+        for view, several in zip(register.views, tried, strict=True)
+        for situation in several
+    ]
+    return found
+
+
+def view_facts(view: View) -> Json:
+    """Return what a view is, without its address."""
+    found: Json = {"name": view.name, "space": view.space.value, "type": view.type.value, "words": view.words}
+    found["factor"] = show(view.factor)
+    if view.rounding is not Rounding.NONE:
+        found["rounding"] = view.rounding.value
+    if view.saturates:
+        found["saturates"] = True
+    if isinstance(view.word_order, OrderFromRegister):
+        orders = {str(code): order.value for code, order in view.word_order.codes}
+        found["word_order"] = {"register": view.word_order.register, "codes": orders}
+    elif view.words > 1:
+        found["word_order"] = view.word_order.value
+    if view.functions:
+        found["functions"] = list(view.functions)
+    return found
+
+
+def _names(register: Register) -> Json:
+    found: Json = {}
+    if register.enum is not None:
+        found["members"] = _members(register.enum)
+    if register.specials:
+        found["specials"] = [_special(register, place) for place in range(len(register.specials))]
+    if register.sentinels:
+        found["faults"] = [{"stored": one.spelled, "id": one.id, "label": one.label} for one in register.sentinels]
+    if register.fields:
+        found["fields"] = [
+            {"id": bits.id, "label": bits.label, "low": bits.low, "high": bits.high}
+            | ({"members": _members(bits.enum)} if bits.enum else {})
+            for bits in register.fields
+        ]
+    return found
+
+
+def _special(register: Register, place: int) -> Json:
+    special = register.specials[place]
+    means = {} if special.means is None else {"means": show(special.means)}
+    return {"code": show(special.code), "id": special.id, "label": special.label, **means}
+
+
+def _members(enum: Enum) -> list[Json]:
+    return [{"code": member.code, "id": member.id, "label": member.label} for member in enum.members]

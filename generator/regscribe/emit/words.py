@@ -1,0 +1,285 @@
+"""Facts of a map in words, for people: conditions, ranges, scales, units, labels; shared by the text emitters.
+
+The words are plain text. An emitter that needs more (escaping, links) passes its own `Wording`.
+"""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TypeVar
+
+from regscribe.model import (
+    Access,
+    BitField,
+    Case,
+    Cases,
+    CodeRange,
+    Condition,
+    Conversion,
+    Decimals,
+    Enum,
+    Interval,
+    Limit,
+    Member,
+    Model,
+    Number,
+    Open,
+    Order,
+    OrderFromRegister,
+    Range,
+    Reference,
+    Register,
+    Rounding,
+    Sentinel,
+    Special,
+    Test,
+    show,
+)
+from regscribe.model.identifiers import OPEN
+
+ACCESS = {Access.READ: "read only", Access.READ_WRITE: "read and write", Access.WRITE: "write only"}
+ORDER = {Order.BIG: "most significant word first", Order.LITTLE: "least significant word first"}
+ROUNDING = {
+    Rounding.HALF_UP: "rounded to nearest, halves upward",
+    Rounding.HALF_AWAY: "rounded to nearest, halves away from zero",
+    Rounding.HALF_EVEN: "rounded to nearest, halves to even",
+    Rounding.DOWN: "fraction dropped",
+    Rounding.NONE: "",
+}
+OTHERWISE = "otherwise"
+LETTERS = "ijklmn"
+"""Stand for the indices of arrays, from the outermost on."""
+
+T = TypeVar("T")
+
+
+def _same(text: str) -> str:
+    return text
+
+
+def _condition_name(condition: Condition) -> str:
+    return condition.name or condition_words(condition)
+
+
+def spelled(path: str) -> str:
+    """A register's path in words: letters for the indices that are those of the register that speaks of it."""
+    first, *rest = path.split(OPEN)
+    return first + "".join(f"[{letter}]{part}" for letter, part in zip(LETTERS, rest, strict=False))
+
+
+@dataclass(frozen=True, slots=True)
+class Wording:
+    """How the parts of a phrase that come from the map are written: free text, register paths, conditions."""
+
+    text: Callable[[str], str] = _same
+    register: Callable[[str], str] = spelled
+    condition: Callable[[Condition], str] = _condition_name
+
+
+PLAIN = Wording()
+
+
+def one_line(text: str) -> str:
+    """Return the text with every run of white space (line ends too) as one blank, none at the ends."""
+    return " ".join(text.split())
+
+
+def listed(parts: Sequence[str], last: str = "or") -> str:
+    """Join as a list in a sentence: `a`, `a or b`, `a, b or c`."""
+    return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} {last} {parts[-1]}" if parts else ""
+
+
+def fold(codes: Iterable[CodeRange]) -> tuple[CodeRange, ...]:
+    """Sort the ranges and join those that follow each other without a gap of a whole number."""
+    folded: list[CodeRange] = []
+    for code in sorted(codes, key=lambda item: (item.low, item.high)):
+        if folded and code.low <= folded[-1].high + 1:
+            folded[-1] = CodeRange(folded[-1].low, max(folded[-1].high, code.high))
+        else:
+            folded.append(code)
+    return tuple(folded)
+
+
+def codes_words(codes: Iterable[CodeRange], labels: Mapping[int, str] | None = None, last: str = "or") -> str:
+    """Codes as `0 to 12, 14 or off (20)`: a single code wears its label, if it has one."""
+    return listed([_code_words(code, labels or {}) for code in fold(codes)], last)
+
+
+def _code_words(code: CodeRange, labels: Mapping[int, str]) -> str:
+    if code.low != code.high:
+        return f"{show(code.low)} to {show(code.high)}"
+    label = labels.get(int(code.low)) if code.low.denominator == 1 else None
+    return f"{one_line(label)} ({show(code.low)})" if label else show(code.low)
+
+
+def member_words(member: Member, enum: Enum) -> str:
+    """What a member is beside its label: each cell under the head of its column, then its description."""
+    cells = (f"{column}: {cell}" for column, cell in zip(enum.columns, member.cells, strict=False))
+    return "; ".join(one_line(part) for part in (*cells, member.description) if part)
+
+
+def labels_of(enum: Enum | None) -> dict[int, str]:
+    """Code to label of an enum's members; empty without an enum."""
+    return {member.code: member.label for member in enum.members} if enum else {}
+
+
+def _labels(test: Test, model: Model | None) -> dict[int, str]:
+    try:
+        register = model.register(test.register) if model else None
+    except KeyError:
+        return {}
+    if register is None:
+        return {}
+    enum = next((item.enum for item in register.fields if item.id == test.field), None) if test.field else register.enum
+    return labels_of(enum)
+
+
+def words_of_test(test: Test, model: Model | None = None, wording: Wording | None = None) -> str:
+    """One test: `input_type is 0 to 12`, `inpt is one of linear_inputs`; labels come from the model's enums."""
+    wording = wording or PLAIN
+    given = wording.text(test.given)
+    if not test.register:
+        return f"not {given}" if test.negated else given
+    subject = wording.register(test.register) + (wording.text(f".{test.field}") if test.field else "")
+    if test.given:
+        return f"{subject} is {'none' if test.negated else 'one'} of {given}"
+    codes = wording.text(codes_words(test.codes, _labels(test, model)))
+    return f"{subject} is {'not ' if test.negated else ''}{codes}"
+
+
+def condition_words(condition: Condition, model: Model | None = None, wording: Wording | None = None) -> str:
+    """All tests of a condition joined by `and`; `always` without tests."""
+    return " and ".join(words_of_test(test, model, wording) for test in condition.tests) or "always"
+
+
+def cases_words(cases: Cases[str], wording: Wording = PLAIN) -> str:
+    """Cases as `condition: text; condition: text; otherwise: text`; the text alone where nothing is asked."""
+    if len(cases) == 1 and cases[0].when.always:
+        return cases[0].then
+    return "; ".join(f"{when_words(case.when, wording)}: {case.then}" for case in cases if case.then)
+
+
+def when_words(condition: Condition, wording: Wording = PLAIN) -> str:
+    """Name the condition of a case among several: its name or its words, `otherwise` where nothing is asked."""
+    return OTHERWISE if condition.always else wording.condition(condition)
+
+
+def divisor_words(decimals: Decimals | None, wording: Wording = PLAIN) -> str:
+    """`/10^dp`, `/10^min(dp, 3)`, or nothing."""
+    if decimals is None:
+        return ""
+    register = wording.register(decimals.register)
+    return f"/10^{register}" if decimals.at_most is None else f"/10^min({register}, {decimals.at_most})"
+
+
+def limit_words(limit: Limit, wording: Wording = PLAIN, decimals: Decimals | None = None) -> str:
+    """Word a limit: its number, the register that holds it, or `open (why)`."""
+    match limit:
+        case Number(value):
+            return show(value) + (divisor_words(decimals, wording) if value else "")
+        case Reference(register):
+            return wording.register(register)
+        case Open(text):
+            return f"open ({wording.text(one_line(text))})"
+
+
+def interval_words(interval: Interval, wording: Wording = PLAIN, decimals: Decimals | None = None) -> str:
+    """`low to high`, one limit where both are equal."""
+    low, high = (limit_words(limit, wording, decimals) for limit in (interval.low, interval.high))
+    return low if low == high else f"{low} to {high}"
+
+
+def range_words(limits: Range, wording: Wording = PLAIN) -> str:
+    """Word a range: its intervals joined by `or`."""
+    return listed([interval_words(interval, wording, limits.decimals) for interval in limits.intervals])
+
+
+def plain_interval(cases: Cases[Range]) -> tuple[Fraction, Fraction] | None:
+    """Return the two numbers of a range that is one interval between numbers under no condition, else None."""
+    if len(cases) != 1 or not cases[0].when.always:
+        return None
+    limits = cases[0].then
+    match limits.intervals:
+        case (Interval(Number(low), Number(high)),) if limits.decimals is None:
+            return low, high
+    return None
+
+
+def conversion_words(conversion: Conversion) -> str:
+    """Write the value from the stored number x as a formula: `x`, `x/10`, `0.1*x - 1999.9`, `x/10^dp`."""
+    divisor = divisor_words(conversion.decimals)
+    linear = _product(conversion.multiply) + _sum(conversion.add)
+    formula = f"({linear}){divisor}" if divisor and conversion.add else linear + divisor
+    return formula + step_words(conversion)
+
+
+def step_words(conversion: Conversion, wording: Wording = PLAIN) -> str:
+    """`, x in steps of 1/10^dp`, or nothing."""
+    if conversion.step is None:
+        return ""
+    return f", x in steps of {show(conversion.step)}{divisor_words(conversion.places, wording)}"
+
+
+def _product(multiply: Fraction) -> str:
+    if multiply == 1:
+        return "x"
+    if multiply.numerator == 1 and set(str(multiply.denominator)[1:]) <= {"0"} and str(multiply.denominator)[0] == "1":
+        return f"x/{multiply.denominator}"
+    return f"{show(multiply)}*x"
+
+
+def _sum(add: Fraction) -> str:
+    return f" {'-' if add < 0 else '+'} {show(abs(add))}" if add else ""
+
+
+def map_cases(cases: Cases[T], words: Callable[[T], str]) -> Cases[str]:
+    """Return the same cases with what they hold in words."""
+    return tuple(Case(case.when, words(case.then)) for case in cases)
+
+
+def special_words(special: Special, wording: Wording = PLAIN) -> str:
+    """`0 = off`, with the number it stands for: `0 = shortest (reads as 0.2)`."""
+    means = f" (reads as {show(special.means)})" if special.means is not None else ""
+    return f"{show(special.code)} = {wording.text(one_line(special.label))}{means}"
+
+
+def sentinel_words(sentinel: Sentinel, wording: Wording = PLAIN) -> str:
+    """`-32768 = sensor low`: a stored number that is no value."""
+    return f"{sentinel.spelled} = {wording.text(one_line(sentinel.label))}"
+
+
+def default_words(register: Register, wording: Wording = PLAIN) -> str:
+    """Word the default: text, a number, or a code with its label (`3 = off`); empty where the manual gives none."""
+    return _beginning_words(register, register.default, wording)
+
+
+def delivered_words(register: Register, wording: Wording = PLAIN) -> str:
+    """Word what the device is delivered with, as `default_words` the default."""
+    return _beginning_words(register, register.delivered, wording)
+
+
+def _beginning_words(register: Register, value: Fraction | str | None, wording: Wording) -> str:
+    if value is None:
+        return ""
+    if isinstance(value, str):
+        return wording.text(one_line(value))
+    label = _default_label(register, value)
+    return f"{show(value)} = {wording.text(one_line(label))}" if label else show(value)
+
+
+def _default_label(register: Register, default: Fraction) -> str:
+    specials = {special.value: special.label for special in register.specials}
+    return labels_of(register.enum).get(int(default), "") if register.enum else specials.get(default, "")
+
+
+def order_words(order: Order | OrderFromRegister, wording: Wording = PLAIN) -> str:
+    """Word the word order, or the register that sets it with the meaning of its codes."""
+    if isinstance(order, Order):
+        return ORDER[order]
+    codes = ", ".join(f"{code} = {ORDER[meaning]}" for code, meaning in order.codes)
+    return f"set by {wording.register(order.register)}: {codes}"
+
+
+def bits_words(field: BitField) -> str:
+    """Write the bits of a field: `3` or `8..11`."""
+    return str(field.low) if field.low == field.high else f"{field.low}..{field.high}"

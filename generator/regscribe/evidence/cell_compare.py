@@ -1,0 +1,147 @@
+"""Whether two cells of a column say the same, however they are written; docs/evidence.md is the contract."""
+
+import json
+import re
+from collections.abc import Callable, Mapping
+from fractions import Fraction
+
+from regscribe.emit.words import one_line
+
+NUMBERS = frozenset({"address", "words", "default", "minimum", "maximum"})
+LISTS = frozenset({"aliases"})
+OBJECTS = frozenset({"values", "bits", "views"})
+WORDS = frozenset({"space", "kind", "type"})
+"""Columns of a fixed vocabulary: their case never matters."""
+
+NUMBER = re.compile(r"([+-]?[0-9]{1,40}(?:\.[0-9]{1,40})?)(?:/([0-9]{1,40}))?")
+DECIMAL_COMMA = re.compile(r"[+-]?[0-9]+,[0-9]+")
+PAIR = re.compile(r"\s*([\w. -]+?)\s*[=:]\s*(.+?)\s*", re.DOTALL)
+"""One entry of an object that is not JSON: `3 = off` or `3: off`; entries are separated by semicolons."""
+
+VIEW = re.compile(r"(\w+):([0-9]{1,9})")
+"""One view that is not JSON, name and address: `x10:1000`; views are separated by blanks."""
+
+ACCESS = {
+    **dict.fromkeys(("r", "ro", "read", "readonly"), "r"),
+    **dict.fromkeys(("w", "wo", "write", "writeonly"), "w"),
+    **dict.fromkeys(("rw", "readwrite", "readandwrite"), "rw"),
+}
+
+Same = Callable[[str, str], bool]
+
+
+def number(text: str) -> Fraction | None:
+    """Return the exact number that a cell spells (`25`, `25.0`, `1/3`, typographic minus too); None for other text."""
+    found = NUMBER.fullmatch(text.strip().replace("\N{MINUS SIGN}", "-"))
+    if not found or (found[2] and not int(found[2])):
+        return None
+    return Fraction(found[1]) / int(found[2] or 1)
+
+
+def problem(column: str, text: str) -> str:
+    """Say why a cell cannot be read at all; empty if it can."""
+    if column in NUMBERS and DECIMAL_COMMA.fullmatch(text.strip()):
+        return f"`{text.strip()}` has a comma: write a decimal point, and no separator of thousands"
+    if column in OBJECTS and text.strip() and _object(text) is None:
+        return f"`{one_line(text)[:60]}` is neither a JSON object nor a list: `0 = off; 1 = on` or `base:0 x10:1000`"
+    return ""
+
+
+def differing(column: str, ours: str, theirs: str, *, loose: bool) -> tuple[str, str] | None:
+    """Return what differs between two cells of a column, ours first; None if they say the same.
+
+    Of objects only the entries that differ are returned. `loose` ignores case and punctuation of texts, and takes a
+    section for the same as the one that it is part of (4.14 and 4.14.2).
+    """
+    same = _loosely if loose else _exactly
+    if column in OBJECTS:
+        return _objects(ours, theirs, same)
+    return None if _same(column, ours, theirs, same) else (one_line(ours), one_line(theirs))
+
+
+def _same(column: str, ours: str, theirs: str, same: Same) -> bool:
+    numbers = number(ours), number(theirs)
+    if column in NUMBERS and None not in numbers:
+        return numbers[0] == numbers[1]
+    if column in LISTS:
+        return sorted(re.split(r"[\s,;]+", ours.strip())) == sorted(re.split(r"[\s,;]+", theirs.strip()))
+    if column in WORDS:
+        return ours.strip().casefold() == theirs.strip().casefold()
+    if column == "access":
+        return _access(ours) == _access(theirs)
+    if column == "section" and same is _loosely:
+        return _within(ours, theirs) or _within(theirs, ours)
+    return same(ours, theirs)
+
+
+def _exactly(ours: str, theirs: str) -> bool:
+    return one_line(ours) == one_line(theirs)
+
+
+def _loosely(ours: str, theirs: str) -> bool:
+    return _bare(ours) == _bare(theirs)
+
+
+def _bare(text: str) -> str:
+    """Return letters and digits alone; the text itself where it has none (a unit like %)."""
+    return re.sub(r"[\W_]+", "", text.casefold()) or one_line(text)
+
+
+def _access(text: str) -> str:
+    return ACCESS.get(re.sub(r"[\s/_-]+", "", text.casefold()), text)
+
+
+def _within(part: str, whole: str) -> bool:
+    """Whether `whole` is the section `part` or one below it; nothing lies in an unnamed section."""
+    parts, wholes = (re.findall(r"\w+", text.casefold()) for text in (part, whole))
+    return parts == wholes[: len(parts)] and bool(parts) == bool(wholes)
+
+
+def _object(text: str) -> dict[str, object] | None:
+    """Read a cell that holds an object; None if it does not."""
+    if text.lstrip().startswith("{"):
+        try:
+            found = json.loads(text)
+        except (ValueError, RecursionError):
+            return None
+        return found if isinstance(found, dict) else None
+    views = [VIEW.fullmatch(word) for word in text.split()]
+    pairs = [PAIR.fullmatch(entry) for entry in re.split(r"[;\n]", text) if entry.strip()]
+    for found_all, value in ((views, int), (pairs, str)):
+        if found_all and all(found_all):
+            return {found[1]: value(found[2]) for found in found_all if found}
+    return None if text.strip() else {}
+
+
+def _objects(ours: str, theirs: str, same: Same) -> tuple[str, str] | None:
+    left, right = (_by_code(_object(text) or {}) for text in (ours, theirs))
+    wrong = [key for key in {**left, **right} if not _entry(left.get(key), right.get(key), same)]
+    return (_shown(left, wrong), _shown(right, wrong)) if wrong else None
+
+
+def _by_code(found: Mapping[str, object]) -> dict[str, object]:
+    """Return the entries with their codes written one way: 3 for `03` and 3.0, `8..11` for 8-11."""
+    return {_code(key): value for key, value in found.items()}
+
+
+def _code(key: str) -> str:
+    bits = re.fullmatch(r"\s*(\d+)\s*(?:\.\.+|-|to)\s*(\d+)\s*", key)
+    code = number(key)
+    return f"{bits[1]}..{bits[2]}" if bits else key.strip() if code is None else str(code)
+
+
+def _entry(ours: object, theirs: object, same: Same) -> bool:
+    """Whether two entries agree; of a view only what both sides say is compared, its address at least."""
+    if isinstance(ours, dict) and isinstance(theirs, int) and not isinstance(theirs, bool):
+        return ours.get("address") == theirs
+    if isinstance(ours, dict) and isinstance(theirs, dict):
+        return bool(theirs) and all(ours.get(key) == value for key, value in theirs.items())
+    if isinstance(ours, str) and isinstance(theirs, int | float) and not isinstance(theirs, bool):
+        theirs = str(theirs)
+    if isinstance(ours, str) and isinstance(theirs, str):
+        return same(ours, theirs)
+    return ours == theirs
+
+
+def _shown(found: Mapping[str, object], keys: list[str]) -> str:
+    return json.dumps({key: found[key] for key in keys if key in found}, ensure_ascii=False)

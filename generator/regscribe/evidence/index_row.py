@@ -1,0 +1,57 @@
+"""A map's part of the index of the reference docs: Markdown cells of its coverage."""
+
+from collections.abc import Iterator
+
+from regscribe.emit.docs_index import Card
+from regscribe.emit.markdown import index_row
+from regscribe.emit.markdown.escape import Md, code, escape, join, md, prose
+from regscribe.evidence.coverage import coverage
+from regscribe.evidence.coverage_values import Addresses, MapCoverage, ModelCoverage, Remark
+from regscribe.model import RegisterMap
+
+
+def card(register_map: RegisterMap) -> Card:
+    """Return what the index says of a map."""
+    found = coverage(register_map)
+    family = md(Md("["), found.title, Md(f"]({found.id}.md)"))
+    return Card(
+        id=register_map.id,
+        family=tuple(map(str, index_row(register_map))),
+        sums=(family, *map(str, (found.errata, found.waivers, found.overrides, found.givens, found.examples))),
+        facts=tuple((family, *_facts(model)) for model in found.models),
+        addresses=tuple((family, *row) for row in _addresses(found)),
+        remarks=tuple((family, *_remark(remark)) for remark in found.remarks),
+    )
+
+
+def _facts(model: ModelCoverage) -> tuple[str, ...]:
+    """Return the cells of one model: how many registers have each fact."""
+    counts = (
+        model.registers,
+        model.ranged,
+        model.coded,
+        model.defaults,
+        model.units,
+        model.sections,
+        model.examples,
+        model.inferred,
+        model.open_limits,
+        model.raw,
+    )
+    return (escape(model.name), *map(str, counts))
+
+
+def _addresses(found: MapCoverage) -> Iterator[tuple[str, ...]]:
+    """Yield a row for each space; models with the same numbers share it."""
+    models: dict[Addresses, list[str]] = {}
+    for model in found.models:
+        for addresses in model.addresses:
+            models.setdefault(addresses, []).append(model.name)
+    for item, names in models.items():
+        counts = (item.documented, item.mapped, item.aliases, item.commands, item.unused, item.reserved)
+        yield (escape(", ".join(names)), item.space, *map(str, counts))
+
+
+def _remark(remark: Remark) -> tuple[str, ...]:
+    places = join(", ", [code(at) for at in remark.at])
+    return (remark.kind, places, escape(", ".join(remark.models)), prose(remark.text))

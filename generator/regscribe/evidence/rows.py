@@ -1,0 +1,155 @@
+"""The rows of both sides in one form: what a map says of one value of one model, and what a table says."""
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+
+from regscribe.emit.spreadsheet import COLUMNS, rows
+from regscribe.emit.words import one_line
+from regscribe.evidence.cell_compare import problem
+from regscribe.evidence.columns import Columns, fold
+from regscribe.evidence.differences import Location
+from regscribe.evidence.table import Table, TableError, TableRow
+from regscribe.model import Notation, RegisterMap, Space
+
+COMMAND = "command"
+MOST_PROBLEMS = 10
+"""So many faults of a table are told at once."""
+
+STRETCH = re.compile(r"\s*([0-9]{1,9})(?:\.0+)?\s*(?:(?:\.\.|-|\u2013)\s*([0-9]{1,9})\s*)?")
+MOST_ADDRESSES = 1_000_000
+"""Beyond every notation: Modicon's six digits end before."""
+
+SILENT = frozenset({"", "-", "\u2013", "unused", "notused", "reserved"})
+"""Names, letters alone, of a row that says that there is no register."""
+
+Spot = tuple[str, int]
+"""Address space (empty: any) and wire address."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ComparedRow:
+    """One row of one model: where it may stand (several spots: the table does not tell them apart) and its cells."""
+
+    model: str
+    id: str
+    spots: tuple[Spot, ...]
+    cells: dict[str, str] = field(hash=False)
+    aliases: tuple[Spot, ...] = ()
+    line: int = 0
+
+    @property
+    def is_command(self) -> bool:
+        """Whether it is a command and no register."""
+        return self.cells.get("kind", "").strip() == COMMAND
+
+    @property
+    def is_silent(self) -> bool:
+        """Whether a row of a table says that there is no register (a hyphen for a name)."""
+        name = re.sub(r"[\s_]+", "", self.cells.get("name", "named").casefold())
+        return name in SILENT and not self.id
+
+    @property
+    def place(self) -> Location:
+        """The entry as a comparison reports it."""
+        space, address = self.spots[0] if self.spots else (self.cells.get("space", ""), "")
+        name = one_line(self.cells.get("name", ""))
+        return Location(model=self.model, space=space, address=str(address), id=self.id, name=name, line=self.line)
+
+
+def of_map(register_map: RegisterMap) -> list[ComparedRow]:
+    """Return a row for each register and command of each model, with its address in every notation, too."""
+    every = ({name: getattr(row, name) for name in COLUMNS} for row in rows([register_map]))
+    return [_of_export(cells, register_map.notations) for cells in every]
+
+
+def _of_export(cells: dict[str, str], notations: Sequence[Notation]) -> ComparedRow:
+    space = cells["space"]
+    spots = ((space, int(cells["address"])),) if cells["address"] else ()
+    others = {
+        fold(notation.name): str(spots[0][1] + notation.offset)
+        for notation in notations
+        if spots and notation.space.value == space
+    }
+    aliases = tuple((space, int(alias)) for alias in cells["aliases"].split())
+    return ComparedRow(model=cells["model"], id=cells["id"], spots=spots, cells={**others, **cells}, aliases=aliases)
+
+
+def of_table(table: Table, columns: Columns, register_map: RegisterMap, model: str) -> Iterator[ComparedRow]:
+    """Yield an entry for each model of each row; without a column `model` every row is about `model`.
+
+    Rows of another map are left out. Raises TableError, naming every row concerned, for cells that cannot be read and
+    rows that do not tell which register they are about.
+    """
+    faults: list[str] = []
+    for row in table.rows:
+        cells = {name: row.cells[index] for name, index in columns.at}
+        if cells.get("map", register_map.id).strip() != register_map.id:
+            continue
+        found = [f"column {name}: {fault}" for name, text in cells.items() if (fault := problem(name, text))]
+        stands = _stands(cells, register_map.notations, found)
+        models = _models(cells, register_map, model, found)
+        if not stands and not cells.get("id", "").strip() and not found:
+            found.append("there is neither an address nor an id, so nothing tells which register this is")
+        faults += [f"{table.name}:{row.line}: {fault}" for fault in found]
+        if not found:
+            for name in models:
+                yield from (_entry(row, {**cells, **written}, spots, name) for written, spots in stands or [({}, ())])
+    if faults:
+        more = f"\nand {len(faults) - MOST_PROBLEMS} more" if len(faults) > MOST_PROBLEMS else ""
+        raise TableError("\n".join(faults[:MOST_PROBLEMS]) + more)
+
+
+def _entry(row: TableRow, cells: dict[str, str], spots: tuple[Spot, ...], model: str) -> ComparedRow:
+    return ComparedRow(model=model, id=cells.get("id", "").strip(), spots=spots, cells=cells, line=row.line)
+
+
+Stand = tuple[dict[str, str], tuple[Spot, ...]]
+"""One address of a row, as it is written (by column), and the places that it may mean."""
+
+
+def _stands(cells: dict[str, str], notations: Sequence[Notation], faults: list[str]) -> list[Stand]:
+    """Return where a row may stand, for each of its addresses: wire addresses, or those of a notation of the map."""
+    space = cells.get("space", "").strip().casefold()
+    if space and space not in set(Space):
+        faults.append(f"column space: `{space[:60]}` is none of {', '.join(Space)}")
+    if cells.get("address", "").strip():
+        found = _addresses("address", cells["address"], faults)
+        return [({"address": str(address)}, ((space, address),)) for address in found]
+    for notation in notations:
+        name = fold(notation.name)
+        if cells.get(name, "").strip():
+            offsets = [(one.space.value, one.offset) for one in notations if fold(one.name) == name]
+            if space and space not in dict(offsets):
+                faults.append(f"column {name}: the map has no notation {notation.name} for the space {space}")
+                return []
+            return [
+                ({name: str(written)}, tuple((own, written - offset) for own, offset in offsets if space in {"", own}))
+                for written in _addresses(name, cells[name], faults)
+            ]
+    return []
+
+
+def _addresses(column: str, text: str, faults: list[str]) -> Iterable[int]:
+    """Return the address, or every address of a stretch `16..28`."""
+    ends = STRETCH.fullmatch(text)
+    first, last = (int(ends[1]), int(ends[2] or ends[1])) if ends else (0, -1)
+    if first <= last < MOST_ADDRESSES:
+        return range(first, last + 1)
+    faults.append(f"column {column}: `{one_line(text)[:60]}` is neither a decimal address nor a stretch like 16..28")
+    return ()
+
+
+def _models(cells: dict[str, str], register_map: RegisterMap, model: str, faults: list[str]) -> list[str]:
+    """Return the models that a row is about: one name, or several separated by commas, semicolons or blanks."""
+    if "model" not in cells:
+        return [model]
+    text = one_line(cells["model"])
+    names = {one_line(one.name): one.name for one in register_map.models}
+    for separators in (r"$^", r"\s*[,;]\s*", r"[,;\s]+"):
+        parts = [part for part in re.split(separators, text) if part]
+        if parts and all(part in names for part in parts):
+            break
+    if not parts:
+        faults.append("the cell of the column model is empty: name the models that have this register")
+    return list(dict.fromkeys(part for part in parts if not model or part == model))

@@ -1,0 +1,120 @@
+"""Keys that could have no effect where they stand: said, so that nobody believes in them."""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+from regscribe.lower.node import Value
+from regscribe.lower.rules import IDLE_DEFAULT, IDLE_KEY
+from regscribe.lower.scales import NOT_STATED
+from regscribe.lower.tree import TreeNode
+from regscribe.model import Kind, Register
+
+_CODES = frozenset({Kind.ENUM, Kind.FLAGS, Kind.FIELDS, Kind.STRING, Kind.VERSION, Kind.BOOLEAN})
+_WORN = frozenset({"eeprom", "both"})
+
+
+class Idle(NamedTuple):
+    """Keys, when they have no effect, why not (after "but "), and what to do."""
+
+    keys: frozenset[str]
+    when: Callable[[Register, TreeNode], bool]
+    why: str
+    remedy: str
+
+
+TABLE: tuple[Idle, ...] = (
+    Idle(
+        frozenset({"special", "difference", "range", "range_decimals"}),
+        lambda register, _: register.kind in _CODES,
+        "its values are no numbers",
+        "remove it, or correct what makes codes, bits or a text of the register",
+    ),
+    Idle(
+        frozenset({"unit"}),
+        lambda register, _: register.kind in _CODES - {Kind.ENUM},
+        "its values are no numbers",
+        "remove it, or correct what makes bits, a text or a version of the register",
+    ),
+    Idle(
+        frozenset({"version"}),
+        lambda register, _: register.kind is not Kind.VERSION,
+        "it is of another kind",
+        "remove it, or write `kind: version`",
+    ),
+    Idle(
+        frozenset({"decimals"}),
+        lambda register, entry: entry.settings["decimals"].value == NOT_STATED and register.kind is not Kind.RAW,
+        "`not_stated` makes raw numbers, and it is of another kind",
+        "remove one of `decimals` and what gives the kind",
+    ),
+    Idle(
+        frozenset({"range_decimals"}),
+        lambda register, _: not register.range and not any(special.code for special in register.specials),
+        "there are neither limits nor special values to divide",
+        "remove it, or give the `range`",
+    ),
+    Idle(
+        frozenset({"sentinels"}),
+        lambda register, _: not register.access.readable,
+        "it is never read, and a fault is something that is read",
+        "remove them, or correct `access`",
+    ),
+    Idle(
+        frozenset({"danger"}),
+        lambda register, _: not register.access.writable,
+        "it is never written",
+        "remove it, or correct `access`",
+    ),
+    Idle(
+        frozenset({"endurance"}),
+        lambda register, _: register.access.writable and register.persistence not in {*_WORN, "ram"},
+        "`persistence` does not say that writing wears it out",
+        "add `persistence: eeprom` (or `both`), or remove it",
+    ),
+    Idle(
+        frozenset({"difference"}),
+        lambda register, _: not register.unit_id,
+        "its unit never changes, so nothing is converted",
+        "remove it, or give the `unit` cases",
+    ),
+    Idle(
+        frozenset({"word_order"}),
+        lambda register, entry: register.base.words == 1 and "views" not in entry.settings,
+        "its value is one word",
+        "remove it; `byte_order` orders the bytes of a word",
+    ),
+)
+"""Each key that could be ignored, and where."""
+
+
+def report_idle(entry: TreeNode, register: Register) -> None:
+    """Report the keys of the register itself that have no effect (RS0338), and note those that it takes from others."""
+    found = {
+        key: idle for idle in reversed(TABLE) for key in idle.keys & entry.settings.keys() if idle.when(register, entry)
+    }
+    for key, node in entry.settings.items():
+        if key not in found:
+            node.context.taken.add(node.path)
+        elif _is_own(entry, node):
+            message = f"`{entry.id}` has `{key}`, but {found[key].why}"
+            node.report(IDLE_KEY, message, remedy=found[key].remedy, at_key=True)
+    entry.node.context.taken.update(entry.settings.replaced)
+    for layer in (*entry.place.layers, *entry.place.over):
+        entry.node.context.offered.setdefault(layer.path, layer)
+
+
+def _is_own(entry: TreeNode, node: Value) -> bool:
+    return node.path[: len(entry.node.path)] == entry.node.path
+
+
+def report_untaken(root: Value) -> None:
+    """Report each default of a group, an array or a use of a set that has no effect on any register (RS0339)."""
+    context = root.context
+    for layer in context.offered.values():
+        variants = layer.child("variants")
+        for part in (layer, *(variants.elements() if variants else [])):
+            for key, node in part.items():
+                idle = key not in {"variants", "models"} and node.value is not None and node.path not in context.taken
+                if idle and node.span.file == context.document.name:
+                    message = f"`{key}` has no effect on any register here"
+                    node.report(IDLE_DEFAULT, message, remedy="remove it", at_key=True)

@@ -1,0 +1,126 @@
+"""A whole map: its models one by one, and what stands around them."""
+
+from dataclasses import replace
+
+from regscribe.lower.commands import CommandScope, commands_of
+from regscribe.lower.conditions import condition
+from regscribe.lower.examples import Product, examples_of
+from regscribe.lower.groups import Bundle, bundles_of, groups_of
+from regscribe.lower.idle_keys import report_untaken
+from regscribe.lower.map_header import (
+    errata_of,
+    givens_of,
+    manual_of,
+    notations_of,
+    reserved_of,
+    unused_of,
+    waivers_of,
+)
+from regscribe.lower.members import members_of
+from regscribe.lower.names import letters_and_digits, module_id
+from regscribe.lower.node import Value, elements_of, items_of, text_of, texts_of
+from regscribe.lower.presence import Models, named_models
+from regscribe.lower.process import process_of
+from regscribe.lower.programs import programs_of
+from regscribe.lower.protocol import protocol_of
+from regscribe.lower.scope import Scope, path_of
+from regscribe.lower.subject import subject_of
+from regscribe.lower.units import own_symbols
+from regscribe.lower.unused import look_at_tables
+from regscribe.model import Identity, Model, Protocol, RegisterMap
+
+
+def map_of(root: Value) -> RegisterMap:
+    """Lower a whole map; its mistakes are in the context of `root`."""
+    protocol = protocol_of(root.child("protocol"))
+    scopes, bundles = _scopes(root)
+    products = [_product(root, scope, bundles[scope.model], protocol) for scope in scopes]
+    report_untaken(root)
+    for scope in scopes:
+        look_at_tables(root, replace(scope, lenient=True))
+    about = root.child("map") or root
+    return RegisterMap(
+        id=module_id(about),
+        title=text_of(about, "title"),
+        maker=text_of(about, "maker"),
+        class_prefix=text_of(about, "class_prefix"),
+        source=root.context.document.name,
+        content_hash=root.context.document.content_hash,
+        manual=manual_of(root.child("manual")),
+        models=tuple(model for model, _ in products),
+        protocol=protocol,
+        description=text_of(root, "description"),
+        notations=notations_of(root),
+        givens=givens_of(root, scopes[0].homes if scopes else {}),
+        reserved=reserved_of(root),
+        identity=_identities(root, scopes),
+        errata=errata_of(root),
+        examples=examples_of(root, [product for _, product in products]),
+        waivers=waivers_of(root),
+        notes=texts_of(root, "notes"),
+        unit_symbols=own_symbols(root),
+        span=(about.child("id") or about).span,
+    )
+
+
+def _scopes(root: Value) -> tuple[list[Scope], dict[str, list[Bundle]]]:
+    """The names of each model, all of them before any register gets a meaning: registers refer to each other."""
+    models = tuple(name for name, _ in items_of(root, "models"))
+    bundles = {model: bundles_of(root, model, models) for model in models}
+    homes: dict[str, Models] = {}
+    entries = {}
+    for model in models:
+        entries[model] = {entry.path: entry for bundle in bundles[model] for entry in bundle.entries}
+        for path in entries[model]:
+            homes[path] = (*homes.get(path, ()), model)
+    return [Scope(root, model, models, entries[model], homes) for model in models], bundles
+
+
+def _product(root: Value, scope: Scope, bundles: list[Bundle], protocol: Protocol) -> tuple[Model, Product]:
+    items = tuple(item for bundle in bundles for item in bundle.items)
+    members, registers = members_of(items, scope)
+    by_path = {register.path: register for register in registers}
+    device = CommandScope(scope, by_path, protocol)
+    commands = commands_of(root, device)
+    node = next(node for name, node in items_of(root, "models") if name == scope.model)
+    model = Model(
+        name=scope.model,
+        class_name=_class_name(root, node, scope.model),
+        description=text_of(node, "description"),
+        members=members,
+        registers=registers,
+        groups=groups_of(bundles, root),
+        commands=commands,
+        programs=programs_of(root, device),
+        process=process_of(root.child("process"), scope),
+        unused=unused_of(root, scope.model, scope.models),
+        span=node.key_span,
+    )
+    return model, Product(scope, by_path, tuple(command.id for command in commands))
+
+
+def _class_name(root: Value, node: Value, model: str) -> str:
+    prefix = text_of(root.child("map") or root, "class_prefix")
+    return text_of(node, "class") or f"{prefix}{letters_and_digits(model)}"
+
+
+def _identities(root: Value, scopes: list[Scope]) -> tuple[Identity, ...]:
+    return tuple(identity for node in elements_of(root, "identify") for identity in _identity(node, scopes))
+
+
+def _identity(node: Value, scopes: list[Scope]) -> list[Identity]:
+    every = tuple(scope.model for scope in scopes)
+    models = named_models(elements_of(node, "models"), every)
+    mine = [scope for scope in scopes if scope.model in models]
+    conditions = [condition(node.child("when"), scope) for scope in mine]
+    texts = [_identity_texts(node.child("text"), scope) for scope in mine]
+    return [Identity(conditions[0], models, texts[0])] if conditions else []
+
+
+def _identity_texts(node: Value | None, scope: Scope) -> tuple[tuple[str, str], ...]:
+    found = []
+    for key, text in node.items() if node else ():
+        subject = subject_of(text, key, scope)
+        if subject is not None:
+            found.append((path_of(subject.entry, subject.name), text.text()))
+    return tuple(found)

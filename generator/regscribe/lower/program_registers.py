@@ -1,0 +1,93 @@
+"""Where the names of a program's registers are looked up, and what they mean there."""
+
+import re
+from dataclasses import dataclass
+from fractions import Fraction
+
+from regscribe.lower.names import unknown
+from regscribe.lower.node import Value, items_of
+from regscribe.lower.rules import UNKNOWN_REGISTER
+from regscribe.lower.scope import Scope
+from regscribe.lower.subject import Subject, code_of_text
+from regscribe.model import numbered
+
+_ELEMENT = re.compile(r"\[(\d+)\]")
+
+
+def numbers_of(node: Value, name: str, scope: Scope) -> list[int]:
+    """The indices of an array's elements; RS0301 and none if there is no such array."""
+    found = [path[len(name) :] for path in scope.entries if path.startswith(f"{name}[")]
+    numbers = sorted({int(match[1]) for rest in found if (match := _ELEMENT.match(rest))})
+    if not numbers:
+        known = dict.fromkeys(_ELEMENT.split(path)[0] for path in scope.homes if "[" in path)
+        unknown(node, UNKNOWN_REGISTER, "array", node.text(), known)
+    return numbers
+
+
+@dataclass(frozen=True, slots=True)
+class ProgramPlace:
+    """Where the names of a program's registers are looked up: in each element `prefix`, then everywhere.
+
+    `inside` is the path of a segment, `first` the number of the first one; it comes before the element.
+    """
+
+    scope: Scope
+    numbers: tuple[int, ...]
+    prefix: str
+    inside: str = ""
+    first: int = 0
+
+    def path(self, node: Value | None, key: str) -> str:
+        """The path of the register that a key names; empty if the key is absent, or after RS0301 or RS0302."""
+        name = node.child(key) if node else None
+        return self.found(name, name.text()) if name else ""
+
+    def found(self, node: Value, name: str, *, at_key: bool = False) -> str:
+        """The path of the register of this name; RS0301 or RS0302 at `node` and an empty one if there is none."""
+        candidates = [f"{prefix}{name}" for prefix in dict.fromkeys((self.inside, self.prefix, ""))]
+        for path in candidates:
+            if all(one in self.scope.entries for one in self._concrete(path)):
+                return path
+        elsewhere = [one for path in candidates for one in self._concrete(path) if one in self.scope.homes]
+        if elsewhere:
+            lacking = next((one for one in elsewhere if one not in self.scope.entries), elsewhere[0])
+            self.scope.missing(node, lacking, at_key=at_key)
+        else:
+            unknown(node, UNKNOWN_REGISTER, "register", name, self._known(), at_key=at_key)
+        return ""
+
+    def absent(self, name: str) -> bool:
+        """Whether other models have the register in the segment, and this one does not."""
+        path = numbered(f"{self.inside}{name}", self.numbers[0], self.first)
+        return path in self.scope.homes and path not in self.scope.entries
+
+    def _concrete(self, path: str) -> list[str]:
+        return [numbered(path, number, self.first) for number in self.numbers]
+
+    def _known(self) -> list[str]:
+        own = [numbered(prefix, self.numbers[0], self.first) for prefix in (self.inside, self.prefix) if prefix]
+        return [path.removeprefix(part) for part in own for path in self.scope.homes if path.startswith(part)] + [
+            path for path in self.scope.homes if "[" not in path
+        ]
+
+    def code(self, node: Value, path: str) -> int:
+        """The code of a member or special value of the register at `path`."""
+        return int(self._value(node, path))
+
+    def _value(self, node: Value, path: str) -> Fraction:
+        entry = self.scope.entries.get(numbered(path, self.numbers[0], self.first))
+        return code_of_text(node, Subject(path, entry), self.scope) if entry else Fraction(0)
+
+    def values(self, node: Value | None) -> tuple[tuple[str, Fraction], ...]:
+        """Paths and codes of a mapping from registers to their values."""
+        found = []
+        for key, value in node.items() if node else ():
+            path = self.found(value, key, at_key=True)
+            if path:
+                found.append((path, value.number() if value.is_number else self._value(value, path)))
+        return tuple(found)
+
+    def outputs(self, node: Value | None) -> tuple[tuple[str, str], ...]:
+        """Names and paths of outputs, without those that only other models have."""
+        named = [(name, one) for name, one in items_of(node, "outputs") if not self.absent(one.text())]
+        return tuple((name, self.found(one, one.text())) for name, one in named)

@@ -1,0 +1,95 @@
+"""Ranges: plain, unions, by case, with limits that are registers or open, and with decimals from a register."""
+
+from regscribe.lower.conditions import both, condition, excludes
+from regscribe.lower.interval_text import ends
+from regscribe.lower.node import Value, text_of
+from regscribe.lower.rules import REVERSED
+from regscribe.lower.scales import Scaling, decimals_rule
+from regscribe.lower.scope import Scope, path_of
+from regscribe.lower.tree import TreeNode
+from regscribe.model import Case, Cases, Conversion, Interval, Limit, Number, Open, Range, Reference, always, show
+
+_NOT_GIVEN = Open("not given")
+
+
+def range_of(entry: TreeNode, scaling: tuple[Scaling, ...], scope: Scope) -> Cases[Range]:
+    """The range of a register by case; where the map gives none, the ends of its scale."""
+    node = entry.settings.get("range")
+    if node is None:
+        return _of_scale(scaling)
+    cases = _cases(node, scope)
+    rule = entry.settings.get("range_decimals")
+    return _split(cases, rule, scope) if rule else cases
+
+
+def _of_scale(scaling: tuple[Scaling, ...]) -> Cases[Range]:
+    if not any(part.ends for part in scaling):
+        return ()
+    return tuple(Case(part.when, Range((_between(part),))) for part in scaling)
+
+
+def _between(part: Scaling) -> Interval:
+    if part.ends is None:
+        return Interval(_NOT_GIVEN, _NOT_GIVEN)
+    return Interval(Number(min(part.ends)), Number(max(part.ends)))
+
+
+def _cases(node: Value, scope: Scope) -> Cases[Range]:
+    if any(element.child("is") for element in node.elements()):
+        return tuple(_case(element, scope) for element in node.elements())
+    return always(_range(node, scope))
+
+
+def _case(node: Value, scope: Scope) -> Case[Range]:
+    told = node.child("is")
+    return Case(condition(node.child("when"), scope), _range(told or node, scope))
+
+
+def _range(node: Value, scope: Scope) -> Range:
+    return Range(tuple(_interval(element, scope) for element in node.elements()))
+
+
+def _interval(node: Value, scope: Scope) -> Interval:
+    if not node.is_mapping:
+        low, high = ends(node)
+        return Interval(Number(low), Number(high))
+    interval = Interval(_limit(node.child("from"), scope), _limit(node.child("to"), scope))
+    if isinstance(interval.low, Number) and isinstance(interval.high, Number):
+        _in_order(node, interval.low, interval.high)
+    return interval
+
+
+def _in_order(node: Value, low: Number, high: Number) -> None:
+    if low.value > high.value:
+        message = f"the range is reversed: from {show(low.value)} is more than to {show(high.value)}"
+        node.report(REVERSED, message, remedy=f"write from: {show(high.value)}, to: {show(low.value)}")
+
+
+def _limit(node: Value | None, scope: Scope) -> Limit:
+    if node is None:
+        return _NOT_GIVEN
+    if node.is_mapping:
+        return Open(text_of(node, "open"))
+    if node.is_number:
+        return Number(node.number())
+    return Reference(path_of(scope.register(node), node.text()))
+
+
+def _split(cases: Cases[Range], rule: Value, scope: Scope) -> Cases[Range]:
+    rules = decimals_rule(rule, scope)
+    return tuple(part for case in cases for part in _parts(case, rules))
+
+
+def _parts(case: Case[Range], rules: Cases[Conversion]) -> Cases[Range]:
+    """The case under each condition of the rule, with its decimals, and then as it is where none of them need hold."""
+    numbers = any(isinstance(limit, Number) for each in case.then.intervals for limit in (each.low, each.high))
+    dividing = max((number for number, rule in enumerate(rules, start=1) if rule.then.decimals), default=0)
+    found: list[Case[Range]] = []
+    for rule in rules[: dividing if numbers else 0]:
+        if excludes(case.when, rule.when):
+            continue
+        scaled = Range(case.then.intervals, rule.then.decimals)
+        if set(rule.when.tests) <= set(case.when.tests):
+            return (*found, Case(case.when, scaled))
+        found.append(Case(both(rule.when, case.when), scaled))
+    return (*found, case)

@@ -1,0 +1,230 @@
+"""Address spaces cut into sections (a view's region each) and rows of cells; stretches without registers are folded."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import groupby, pairwise
+
+from regscribe.model import Space
+from regscribe.pictures.address_use import AddressUse, Stretch
+
+MOST_SECTIONS = 24
+"""With more regions than this a space is drawn as one section."""
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """How many cells stand in a row, how many addresses a cell has, and how many rows and cells are at most drawn."""
+
+    columns: int
+    scale: int
+    rows: int
+    cells: int
+
+    @property
+    def step(self) -> int:
+        """Return the addresses of a row."""
+        return self.columns * self.scale
+
+
+GRIDS = (
+    Grid(columns=20, scale=1, rows=60, cells=1200),
+    Grid(columns=50, scale=1, rows=80, cells=1500),
+    Grid(columns=50, scale=10, rows=80, cells=1500),
+    Grid(columns=50, scale=100, rows=80, cells=1500),
+    Grid(columns=50, scale=1000, rows=1 << 16, cells=1 << 16),
+)
+"""From fine to coarse; the last one always fits."""
+
+
+@dataclass(frozen=True, slots=True)
+class AddressSection:
+    """A stretch of one space under a heading: places of one view, and stretches that are `unused` or `reserved`."""
+
+    space: Space
+    view: str
+    region: tuple[int, int] | None
+    places: tuple[AddressUse, ...]
+    holes: tuple[tuple[str, int, int], ...] = ()
+
+    @property
+    def first(self) -> int:
+        """Return the lowest address."""
+        starts = [*(place.first for place in self.places), *(low for _, low, _ in self.holes)]
+        return self.region[0] if self.region else min(starts)
+
+    @property
+    def last(self) -> int:
+        """Return the highest address; a region may end beyond its last register."""
+        ends = [*(place.last for place in self.places), *(high for _, _, high in self.holes)]
+        return max([*ends, self.region[1]] if self.region else ends)
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """Neighbouring columns with the same content: places, or a hole of a `kind` (empty: an address of nothing)."""
+
+    column: int
+    span: int
+    first: int
+    last: int
+    places: tuple[AddressUse, ...] = ()
+    kind: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class AddressRow:
+    """Addresses from `first` on, one step of the grid."""
+
+    first: int
+    cells: tuple[Cell, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Fold:
+    """Rows without a register, drawn as one line: stretches (kind, first and last address) in order, without gaps."""
+
+    stretches: tuple[tuple[str, int, int], ...]
+
+
+@dataclass(slots=True)
+class _Index:
+    """What lies in which cell of the whole space, cells counted from address 0."""
+
+    places: dict[int, list[AddressUse]] = field(default_factory=dict)
+    kinds: dict[int, str] = field(default_factory=dict)
+
+
+def sections(
+    found: Sequence[AddressUse], unused: Iterable[Stretch], reserved: Iterable[Stretch]
+) -> tuple[AddressSection, ...]:
+    """Return the sections of all spaces, by space and address."""
+    holes = [("unused", *stretch) for stretch in unused] + [("reserved", *stretch) for stretch in reserved]
+    made: list[AddressSection] = []
+    for space in Space:
+        here = [place for place in found if place.space is space]
+        there = [(kind, low, high) for kind, of, low, high in holes if of is space]
+        made += sorted(_of_space(space, here, there), key=lambda section: (section.first, section.last))
+    return tuple(made)
+
+
+def _of_space(space: Space, found: list[AddressUse], holes: list[tuple[str, int, int]]) -> Iterator[AddressSection]:
+    regions = {place.region: None for place in found if place.region is not None}
+    if len(regions) > MOST_SECTIONS:
+        regions = {}
+    for region in regions:
+        inside = tuple(place for place in found if place.region == region)
+        clipped = (_clip(hole, *region) for hole in holes)
+        yield AddressSection(space, _views(inside), region, inside, tuple(hole for hole in clipped if hole))
+    rest = tuple(place for place in found if place.region not in regions)
+    outside = tuple(piece for hole in holes for piece in _outside(hole, list(regions)))
+    if rest or outside:
+        yield from _apart(AddressSection(space, _views(rest), None, rest, outside))
+
+
+def _apart(section: AddressSection) -> tuple[AddressSection, ...]:
+    """Return a section for each view without a region, if their addresses do not mix; holes go with the first."""
+    views = dict.fromkeys(place.view for place in section.places)
+    parts = [
+        AddressSection(
+            section.space,
+            view,
+            None,
+            tuple(place for place in section.places if place.view == view),
+            () if number else section.holes,
+        )
+        for number, view in enumerate(views)
+    ]
+    ordered = sorted(parts, key=lambda part: part.first)
+    apart = all(one.last < two.first for one, two in pairwise(ordered))
+    return tuple(parts) if parts and apart and len(parts) <= MOST_SECTIONS else (section,)
+
+
+def _views(found: Iterable[AddressUse]) -> str:
+    return ", ".join(dict.fromkeys(place.view for place in found))
+
+
+def _clip(hole: tuple[str, int, int], low: int, high: int) -> tuple[str, int, int] | None:
+    kind, first, last = hole
+    return (kind, max(first, low), min(last, high)) if first <= high and low <= last else None
+
+
+def _outside(hole: tuple[str, int, int], regions: Sequence[tuple[int, int]]) -> Iterator[tuple[str, int, int]]:
+    """Yield what of a hole lies in no region."""
+    kind, first, last = hole
+    for low, high in sorted(regions):
+        if first <= high and low <= last:
+            if first < low:
+                yield kind, first, low - 1
+            first = high + 1
+    if first <= last:
+        yield kind, first, last
+
+
+def choose(made: Sequence[AddressSection]) -> Grid:
+    """Return the finest grid whose rows and cells are not too many."""
+    return next((grid for grid in GRIDS if _fits(made, grid)), GRIDS[-1])
+
+
+def _fits(made: Sequence[AddressSection], grid: Grid) -> bool:
+    rows = sum(len(_numbers(section, grid.step)) for section in made)
+    cells = sum(len(_numbers(section, grid.scale)) for section in made)
+    return rows <= grid.rows and cells <= grid.cells
+
+
+def _numbers(section: AddressSection, step: int) -> set[int]:
+    """Return which rows (or cells) of `step` addresses hold a register."""
+    return {number for place in section.places for number in range(place.first // step, place.last // step + 1)}
+
+
+def layout(section: AddressSection, grid: Grid) -> tuple[AddressRow | Fold, ...]:
+    """Return the rows of a section; rows without registers that follow each other are one fold."""
+    index = _index(section, grid)
+    full = _numbers(section, grid.step)
+    rows: list[AddressRow | Fold] = []
+    for has, run in groupby(range(section.first // grid.step, section.last // grid.step + 1), key=full.__contains__):
+        numbers = list(run)
+        rows += (_row(section, grid, index, number) for number in numbers) if has else (_fold(section, grid, numbers),)
+    return tuple(rows)
+
+
+def _index(section: AddressSection, grid: Grid) -> _Index:
+    index = _Index()
+    for kind, low, high in section.holes:
+        index.kinds.update(dict.fromkeys(range(low // grid.scale, high // grid.scale + 1), kind))
+    for place in section.places:
+        for cell in range(place.first // grid.scale, place.last // grid.scale + 1):
+            index.places.setdefault(cell, []).append(place)
+    return index
+
+
+def _fold(section: AddressSection, grid: Grid, numbers: Sequence[int]) -> Fold:
+    first = max(numbers[0] * grid.step, section.first)
+    last = min((numbers[-1] + 1) * grid.step - 1, section.last)
+    clipped = (_clip(hole, first, last) for hole in section.holes)
+    stretches: list[tuple[str, int, int]] = []
+    for kind, low, high in sorted((hole for hole in clipped if hole), key=lambda hole: hole[1:]):
+        if first < low:
+            stretches.append(("", first, low - 1))
+        if first <= high:
+            stretches.append((kind, max(first, low), high))
+        first = max(first, high + 1)
+    return Fold((*stretches, ("", first, last)) if first <= last else tuple(stretches))
+
+
+def _row(section: AddressSection, grid: Grid, index: _Index, number: int) -> AddressRow:
+    start = number * grid.columns
+    inside = range(
+        max(start, section.first // grid.scale), min(start + grid.columns - 1, section.last // grid.scale) + 1
+    )
+    cells: list[Cell] = []
+    for (_, held, kind), run in groupby(inside, key=lambda cell: _content(index, grid, cell)):
+        numbers = list(run)
+        first, last = numbers[0] * grid.scale, (numbers[-1] + 1) * grid.scale - 1
+        cells.append(Cell(numbers[0] - start, len(numbers), first, last, held, "" if held else kind))
+    return AddressRow(start * grid.scale, tuple(cells))
+
+
+def _content(index: _Index, grid: Grid, cell: int) -> tuple[int, tuple[AddressUse, ...], str]:
+    """Return what neighbours must share to be one cell: a register of several words is one, many of them are not."""
+    held = tuple(index.places.get(cell, ()))
+    return (cell if held and grid.scale > 1 else -1, held, index.kinds.get(cell, ""))

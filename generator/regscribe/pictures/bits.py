@@ -1,0 +1,178 @@
+"""The bits of a word as a picture: boxes from the most significant on, a line from each field to its meaning."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from regscribe.emit.common_values import Shared
+from regscribe.emit.markdown import alt_text
+from regscribe.emit.outline import Leaf, formula, lettered
+from regscribe.emit.words import bits_words, listed, one_line
+from regscribe.model import BitField, Register, RegisterMap, Space
+from regscribe.pictures.cell_style import set_words
+from regscribe.pictures.drawing import MARGIN, PLAIN, SMALL, WIDTH, Box, Canvas, Drawing, DrawnLine, Text
+from regscribe.pictures.structure import lettered_name
+from regscribe.pictures.style import tint
+from regscribe.pictures.text_width import clean, width, wrap
+
+NAMES = {
+    Space.HOLDING: "Holding register",
+    Space.INPUT: "Input register",
+    Space.COIL: "Coil",
+    Space.DISCRETE: "Discrete input",
+    Space.STATUS: "Exception status (function 07)",
+}
+
+WORD = 16
+"""Bits of a strip."""
+
+BIT = 32
+HEIGHT = 30
+"""Size of the box of one bit."""
+
+RIGHT = MARGIN + WORD * BIT
+"""Where bit 0 ends."""
+
+LABELS = RIGHT + 26
+ROOM = WIDTH - MARGIN - LABELS
+"""Where the meanings stand, and how wide they may be."""
+
+MOST_CODE_LINES = 12
+LINE = 16
+
+
+@dataclass(frozen=True, slots=True)
+class Slot:
+    """One field; `models` have it, where not all that have the register do."""
+
+    field: BitField
+    models: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Strip:
+    """The fields of a word on the models that `title` names (empty: all)."""
+
+    title: str
+    width: int
+    slots: tuple[Slot, ...]
+
+
+def bits(register_map: RegisterMap, leaf: Leaf) -> Drawing:
+    """Draw the fields of a register of bits."""
+    register = leaf.register.first
+    canvas = Canvas()
+    path = lettered(register.path)
+    canvas.head(
+        f"{lettered_name(register.name)} ({path})",
+        (f"{_where(leaf)}. Bit 0 is the least significant; hatched bits have no name in the manual.",),
+    )
+    for strip in strips(leaf.register):
+        _strip(canvas, strip)
+    return canvas.finish(f"Bits of {one_line(register.name)}, {one_line(register_map.title)}", alt_text.bits(leaf))
+
+
+def _where(leaf: Leaf) -> str:
+    facts = leaf.register.states(lambda _, register: (register.base.space, formula(register.base, leaf.arrays)))
+    spots = dict.fromkeys(fact.value for fact in facts)
+    return listed([f"{NAMES[space]}{'' if space is Space.STATUS else f' {address}'}" for space, address in spots])
+
+
+def strips(shared: Shared[Register]) -> tuple[Strip, ...]:
+    """Return one strip of the fields of all models, unless they cut the word differently: then one for each cut."""
+    cuts = shared.states(lambda _, register: (register.bits, register.fields))
+    spans = {(part.low, part.high) for cut in cuts for part in cut.value[1]}
+    apart = all(a == b or a[1] < b[0] or b[1] < a[0] for a in spans for b in spans)
+    if apart and len({cut.value[0] for cut in cuts}) == 1:
+        return (Strip("", cuts[0].value[0], _slots(shared)),)
+    return tuple(
+        Strip(f"On {listed(cut.models, last='and')}", cut.value[0], tuple(Slot(part) for part in cut.value[1]))
+        for cut in cuts
+    )
+
+
+def _slots(shared: Shared[Register]) -> tuple[Slot, ...]:
+    models: dict[BitField, list[str]] = {}
+    for model, register in shared.versions:
+        for part in register.fields:
+            models.setdefault(part, []).append(model.name)
+    every = len(shared.versions)
+    return tuple(
+        Slot(part, set_words(names, shared.models) if len(names) < every else "") for part, names in models.items()
+    )
+
+
+def _strip(canvas: Canvas, strip: Strip) -> None:
+    if strip.title:
+        canvas.y += 12
+        canvas.text(strip.title, MARGIN, canvas.y, WIDTH - 2 * MARGIN, Text(0, 0, "", PLAIN, bold=True))
+        canvas.y += 10
+    highest = max([strip.width - 1, *(slot.field.high for slot in strip.slots)])
+    for low in range(highest // WORD * WORD, -1, -WORD):
+        _word(canvas, strip, low, min(low + WORD - 1, highest))
+
+
+def _word(canvas: Canvas, strip: Strip, low: int, high: int) -> None:
+    """Draw bits `low` to `high`, numbers above, boxes, then the meanings, the lowest bit's first."""
+    canvas.y += 12
+    for bit in range(low, high + 1):
+        canvas.add(Text(_x(bit, low) + BIT / 2, canvas.y, str(bit), SMALL, "middle", "dim"))
+    canvas.y += 5
+    inside = [slot for slot in strip.slots if slot.field.low <= high and low <= slot.field.high]
+    spans = sorted({(max(slot.field.low, low), min(slot.field.high, high)) for slot in inside})
+    _boxes(canvas, spans, low, high)
+    bottom = canvas.y + HEIGHT
+    canvas.y = bottom + 6
+    for span in spans:
+        there = [slot for slot in inside if (max(slot.field.low, low), min(slot.field.high, high)) == span]
+        _meanings(canvas, there, (_x(span[1], low) + _x(span[0], low) + BIT) / 2, bottom)
+    canvas.y += 10
+
+
+def _x(bit: int, low: int) -> float:
+    return RIGHT - BIT * (bit - low + 1)
+
+
+def _boxes(canvas: Canvas, spans: Sequence[tuple[int, int]], low: int, high: int) -> None:
+    for number, (first, last) in enumerate(spans):
+        box = Box(_x(last, low) + 1, canvas.y, BIT * (last - first + 1) - 2, HEIGHT, tint(number), radius=2)
+        canvas.add(box)
+    for first, last in _gaps(spans, low, high):
+        wide = BIT * (last - first + 1)
+        canvas.add(Box(_x(last, low) + 1, canvas.y, wide - 2, HEIGHT, "unused", "no name in the manual", radius=2))
+
+
+def _gaps(spans: Sequence[tuple[int, int]], low: int, high: int) -> Iterator[tuple[int, int]]:
+    """Yield the runs of bits that no span holds."""
+    for first, last in spans:
+        if low < first:
+            yield low, first - 1
+        low = max(low, last + 1)
+    if low <= high:
+        yield low, high
+
+
+def _meanings(canvas: Canvas, slots: Sequence[Slot], middle: float, bottom: float) -> None:
+    """Draw what a field means, on as many lines as it takes, and the line that leads to each."""
+    for slot in slots:
+        canvas.y += LINE
+        y = canvas.y - 4
+        canvas.add(DrawnLine(((middle, bottom), (middle, y), (LABELS - 6, y))))
+        number = f"{bits_words(slot.field)} "
+        canvas.add(Text(LABELS, canvas.y, number.strip(), PLAIN, bold=True))
+        indent = width(number, PLAIN, bold=True) + 4
+        for index, line in enumerate(wrap(clean(slot.field.label), ROOM - indent, PLAIN, lines=3)):
+            canvas.y += LINE if index else 0
+            canvas.text(line, LABELS + indent, canvas.y, ROOM - indent)
+        for line in _remarks(slot):
+            canvas.y += LINE - 2
+            canvas.text(line, LABELS + indent, canvas.y, ROOM - indent, Text(0, 0, "", SMALL + 2, style="dim"))
+
+
+def _remarks(slot: Slot) -> Iterator[str]:
+    if slot.models:
+        yield from wrap(clean(slot.models), ROOM - 50, SMALL + 2, lines=3)
+    members = slot.field.enum.members if slot.field.enum else ()
+    most = MOST_CODE_LINES if len(members) <= MOST_CODE_LINES else MOST_CODE_LINES - 1
+    yield from (f"{member.code} = {one_line(member.label)}" for member in members[:most])
+    if len(members) > most:
+        yield f"and {len(members) - most} more codes"

@@ -1,0 +1,112 @@
+"""What a picture consists of, before it becomes SVG: boxes, lines and texts at known places, in pixels."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from regscribe.pictures.text_width import ASCENT, DESCENT, clean, shorten, width, wrap
+
+WIDTH = 900
+"""Width of every picture."""
+
+MARGIN = 16
+SMALL = 9
+PLAIN = 12
+LARGE = 16
+"""Font sizes."""
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """A rectangle with classes of `style` and a tooltip."""
+
+    x: float
+    y: float
+    width: float
+    height: float
+    style: str
+    tip: str = ""
+    radius: float = 0
+
+    def overlaps(self, other: "Box") -> bool:
+        """Tell whether both cover a point; edges that touch do not count."""
+        across = self.x < other.x + other.width and other.x < self.x + self.width
+        return across and self.y < other.y + other.height and other.y < self.y + self.height
+
+
+@dataclass(frozen=True, slots=True)
+class DrawnLine:
+    """A line through points, drawn with classes of `style`."""
+
+    points: tuple[tuple[float, float], ...]
+    style: str = "line"
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """One line of text: `x` is where it starts, or its middle or end by `anchor`; `y` is its base line."""
+
+    x: float
+    y: float
+    text: str
+    size: float = PLAIN
+    anchor: str = "start"
+    style: str = "ink"
+    bold: bool = False
+    tip: str = ""
+
+    @property
+    def box(self) -> Box:
+        """Return the room that the text takes at most."""
+        wide = width(self.text, self.size, bold=self.bold)
+        left = {"start": self.x, "middle": self.x - wide / 2, "end": self.x - wide}[self.anchor]
+        return Box(left, self.y - ASCENT * self.size, wide, (ASCENT + DESCENT) * self.size, "")
+
+
+Item = Box | DrawnLine | Text
+
+
+@dataclass(frozen=True, slots=True)
+class Drawing:
+    """A finished picture: `title` says what it shows, `description` the same for who cannot see it."""
+
+    title: str
+    description: str
+    height: float
+    items: tuple[Item, ...]
+    width: float = WIDTH
+
+
+@dataclass(slots=True)
+class Canvas:
+    """A picture in the making; `y` is where the next part may begin."""
+
+    items: list[Item] = field(default_factory=list)
+    y: float = MARGIN
+
+    def add(self, *items: Item) -> None:
+        """Draw."""
+        self.items += items
+
+    def text(self, text: str, x: float, y: float, room: float, like: Text = Text(0, 0, "")) -> None:
+        """Draw text that is untrusted, in the looks of `like`; if it is cut to `room`, the tooltip has all of it."""
+        whole = clean(text)
+        shown = shorten(whole, room, like.size, bold=like.bold)
+        tip = like.tip or (whole if shown != whole else "")
+        if shown:
+            self.add(Text(x, y, shown, like.size, like.anchor, like.style, like.bold, tip))
+
+    def head(self, title: str, remarks: Sequence[str]) -> None:
+        """Draw the title and lines of explanation at the top."""
+        room = WIDTH - 2 * MARGIN
+        self.y += LARGE
+        self.text(title, MARGIN, self.y, room, Text(0, 0, "", LARGE, bold=True))
+        for line in (line for remark in remarks for line in wrap(clean(remark), room, PLAIN, lines=3)):
+            self.y += 18
+            self.text(line, MARGIN, self.y, room, Text(0, 0, "", PLAIN, style="dim"))
+        self.y += MARGIN
+
+    def finish(self, title: str, description: str) -> Drawing:
+        """Return the picture on its paper."""
+        height = self.y + MARGIN
+        paper = Box(0.5, 0.5, WIDTH - 1, height - 1, "paper", radius=8)
+        return Drawing(clean(title), clean(description), height, (paper, *self.items))

@@ -1,0 +1,59 @@
+"""The reference codec: slow, obvious, with fractions only; what every other codec is measured against.
+
+Words -> wire number -> stored value -> value of use, and back. Nothing is cached or guessed; the runtime's codec is
+written apart from it, so that neither inherits the other's mistakes.
+"""
+
+from regscribe.reference.codec import (
+    decode,
+    encode,
+    number_of,
+    sentinel_number,
+    special_value,
+    version_number,
+    version_text,
+)
+from regscribe.reference.ieee import NotFiniteError, ieee_bits, ieee_number, not_a_number, shortest
+from regscribe.reference.outcome import Meaning, Reading, RefusalReason, RefusedError, UnknownValueError
+from regscribe.reference.surroundings import (
+    MOST_DECIMALS,
+    NOTHING_KNOWN,
+    Surroundings,
+    choose,
+    decimal_factor,
+    holds,
+    limits,
+)
+from regscribe.reference.words import carried, round_by, transmit, wire_number, word_order
+
+__all__ = [
+    "MOST_DECIMALS",
+    "NOTHING_KNOWN",
+    "Meaning",
+    "NotFiniteError",
+    "Reading",
+    "RefusalReason",
+    "RefusedError",
+    "Surroundings",
+    "UnknownValueError",
+    "carried",
+    "choose",
+    "decimal_factor",
+    "decode",
+    "encode",
+    "holds",
+    "ieee_bits",
+    "ieee_number",
+    "limits",
+    "not_a_number",
+    "number_of",
+    "round_by",
+    "sentinel_number",
+    "shortest",
+    "special_value",
+    "transmit",
+    "version_number",
+    "version_text",
+    "wire_number",
+    "word_order",
+]

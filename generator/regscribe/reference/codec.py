@@ -1,0 +1,204 @@
+"""Decode and encode one register, step by step as the map's language defines it."""
+
+from fractions import Fraction
+from math import floor
+
+from regscribe.model.number import show
+from regscribe.model.register import Kind, Register
+from regscribe.model.value import NAN, Conversion, NotANumber, Sentinel, Special
+from regscribe.model.wire import View, WireType
+from regscribe.reference.ieee import ieee_bits
+from regscribe.reference.outcome import NOT_DECODABLE, SATURATED, Meaning, Reading, RefusalReason, RefusedError
+from regscribe.reference.surroundings import NOTHING_KNOWN, Surroundings, choose, decimal_factor, in_range
+from regscribe.reference.words import HALF, carried, spelled, text_of, wire_number, word_order, words_of_text
+
+PATTERNS = frozenset({Kind.FLAGS, Kind.FIELDS})
+"""Kinds whose value is a pattern of bits: no number, so it has neither sign nor scale."""
+
+
+def decode(register: Register, view: View, words: tuple[int, ...], known: Surroundings = NOTHING_KNOWN) -> Reading:
+    """Say what `words`, read from `view`, mean; raises UnknownValueError for a value that decides and is not known."""
+    order = word_order(view, known)
+    if order is None:
+        return NOT_DECODABLE
+    if view.type is WireType.STRING:
+        text = text_of(view, words, order)
+        return NOT_DECODABLE if text is None else Reading(Meaning.VALUE, text)
+    return _of_number(register, view, wire_number(view, words, order), known)
+
+
+def _of_number(register: Register, view: View, number: Fraction | NotANumber | None, known: Surroundings) -> Reading:
+    if view.saturates and view.type.is_integer and number in {view.type.minimum, view.type.maximum}:
+        return SATURATED
+    for sentinel in register.sentinels:
+        if number is not None and number == sentinel_number(view, sentinel):
+            return Reading(Meaning.FAULT, fault=sentinel.id)
+    if not isinstance(number, Fraction):
+        return NOT_DECODABLE
+    if register.kind in PATTERNS:
+        return Reading(Meaning.VALUE, number % (1 << view.type.bits))
+    return _meaning(register, view, number, known)
+
+
+def sentinel_number(view: View, sentinel: Sentinel) -> Fraction | NotANumber | None:
+    """Return the wire number by which a view reports a fault; None if it cannot."""
+    return NAN if isinstance(sentinel.stored, NotANumber) else carried(view, sentinel.stored * view.factor)
+
+
+def special_value(register: Register, special: Special, known: Surroundings) -> Fraction | None:
+    """Return the value of use that the code of a special value is as things stand; None if nobody can tell."""
+    conversion = choose(register.special_scale, known)
+    factor = None if conversion is None else decimal_factor(conversion.decimals, known)
+    return None if factor is None else special.code / factor
+
+
+def _meaning(register: Register, view: View, number: Fraction, known: Surroundings) -> Reading:
+    conversion = choose(register.scale, known)
+    factor = None if conversion is None else decimal_factor(conversion.decimals, known)
+    if conversion is None or factor is None:
+        return NOT_DECODABLE
+    for special in register.specials:
+        named = special_value(register, special, known)
+        if named is None:
+            return NOT_DECODABLE
+        if carried(view, (named * factor - conversion.add) / conversion.multiply * view.factor) == number:
+            return Reading(Meaning.VALUE, named if special.means is None else special.means)
+    return _of_kind(register, (conversion.multiply * number / view.factor + conversion.add) / factor)
+
+
+def _of_kind(register: Register, value: Fraction) -> Reading:
+    if register.kind is Kind.VERSION:
+        text = version_text(register, value)
+        return NOT_DECODABLE if text is None else Reading(Meaning.VALUE, text)
+    if register.kind is Kind.BOOLEAN:
+        return Reading(Meaning.VALUE, Fraction(value != 0))
+    if register.fractional:
+        beyond = ieee_bits(value, WireType.FLOAT64) is None  # no float of any program can hold it
+        return NOT_DECODABLE if beyond else Reading(Meaning.VALUE, value)
+    if value.denominator != 1:
+        return NOT_DECODABLE
+    if register.enum is not None and all(member.code != value for member in register.enum.members):
+        return Reading(Meaning.UNKNOWN_MEMBER, value)
+    return Reading(Meaning.VALUE, value)
+
+
+def version_text(register: Register, number: Fraction) -> str | None:
+    """Return a version as text (13100 with six digits in groups of two: 01.31.00); None for what does not fit."""
+    if number.denominator != 1 or not 0 <= number < 10**register.version_digits:
+        return None
+    digits = str(number.numerator).zfill(register.version_digits)
+    size = register.version_group or register.version_digits
+    return ".".join(digits[start : start + size] for start in range(0, len(digits), size))
+
+
+def version_number(register: Register, text: str) -> Fraction:
+    """Return the number that packs a version text; RefusedError for any other text."""
+    digits = text.replace(".", "")
+    if digits.isascii() and digits.isdigit() and version_text(register, Fraction(digits)) == text:
+        return Fraction(digits)
+    raise RefusedError(RefusalReason.TYPE, f"{text!r} is no version of {register.version_digits} digits")
+
+
+def number_of(register: Register, value: Fraction | str | None) -> Fraction | None:
+    """Return the number of a value, that which a version packs included; None for a text that packs none."""
+    if not isinstance(value, str):
+        return value
+    try:
+        return version_number(register, value) if register.kind is Kind.VERSION else None
+    except RefusedError:
+        return None
+
+
+def encode(
+    register: Register,
+    view: View,
+    value: Fraction | str,
+    known: Surroundings = NOTHING_KNOWN,
+    *,
+    rounded: bool = False,
+) -> tuple[int, ...]:
+    """Return the words that transmit `value` in `view`; raises RefusedError, or UnknownValueError as `decode` does.
+
+    With `rounded`, a value between two wire numbers is rounded as the device rounds, else refused.
+    """
+    order = word_order(view, known)
+    if order is None:
+        raise RefusedError(RefusalReason.CONDITION, "the order of the words is not known")
+    if view.type is WireType.STRING:
+        return words_of_text(view, str(value), order)
+    number = version_number(register, value) if isinstance(value, str) else value
+    number = _checked(register, number, known)
+    pattern = register.kind in PATTERNS
+    stored = _pattern(view, number) if pattern else _stored(register, number, known, rounded=rounded)
+    words = spelled(view, stored * view.factor, order, rounded=rounded)
+    sent = wire_number(view, words, order)
+    if any(sent == sentinel_number(view, sentinel) for sentinel in register.sentinels):
+        raise RefusedError(RefusalReason.SENTINEL, f"{show(stored)} is how the device reports a fault")
+    return words
+
+
+def _pattern(view: View, number: Fraction) -> Fraction:
+    """Return the number that a pattern of bits is to the type of the view."""
+    size = 1 << view.type.bits
+    if not 0 <= number < size:
+        raise RefusedError(RefusalReason.TYPE, f"{show(number)} has more than {view.type.bits} bits")
+    return number - size if number > view.type.maximum else number
+
+
+def _checked(register: Register, value: Fraction, known: Surroundings) -> Fraction:
+    codes: set[Fraction] = set()
+    for special in register.specials:
+        named = special_value(register, special, known)
+        if named is None:
+            raise RefusedError(RefusalReason.CONDITION, "the decimals of special values are not known")
+        if value == (named if special.means is None else special.means):
+            return named
+        codes.add(named)
+    if value in codes:
+        raise RefusedError(RefusalReason.RANGE, f"{show(value)} is a code that stands for another number")
+    if register.kind is Kind.BOOLEAN and value not in {0, 1}:
+        raise RefusedError(RefusalReason.TYPE, f"{show(value)} is neither 0 nor 1")
+    if register.enum is not None and all(member.code != value for member in register.enum.members):
+        raise RefusedError(RefusalReason.MEMBER, f"{show(value)} is no member of {register.enum.id}")
+    if register.kind is Kind.FLAGS:
+        _check_bits(register, value)
+    if not register.fractional and value.denominator != 1:
+        raise RefusedError(RefusalReason.TYPE, f"{show(value)} is no whole number")
+    if not in_range(register, value, known):
+        raise RefusedError(RefusalReason.RANGE, f"{show(value)} lies outside the range")
+    return value
+
+
+def _check_bits(register: Register, value: Fraction) -> None:
+    named = sum(((1 << bits.width) - 1) << bits.low for bits in register.fields)
+    if value.denominator != 1 or value < 0 or int(value) & ~named:
+        raise RefusedError(RefusalReason.BITS, f"{show(value)} sets bits that mean nothing")
+
+
+def _stored(register: Register, value: Fraction, known: Surroundings, *, rounded: bool) -> Fraction:
+    conversion = choose(register.scale, known)
+    factor = None if conversion is None else decimal_factor(conversion.decimals, known)
+    if conversion is None or factor is None:
+        raise RefusedError(RefusalReason.CONDITION, "no scale holds as things stand")
+    stored = (value * factor - conversion.add) / conversion.multiply
+    return _on_step(conversion, stored, known, rounded=rounded)
+
+
+def increment(conversion: Conversion, known: Surroundings) -> Fraction | None:
+    """Return how far two stored numbers lie apart; None where nothing says so.
+
+    Raises RefusedError if a register that says it holds no number of decimals.
+    """
+    factor = decimal_factor(conversion.places, known)
+    if factor is None:
+        raise RefusedError(RefusalReason.CONDITION, "nobody can tell how many decimals the device keeps")
+    return None if conversion.step is None else conversion.step / factor
+
+
+def _on_step(conversion: Conversion, stored: Fraction, known: Surroundings, *, rounded: bool) -> Fraction:
+    step = increment(conversion, known)
+    if step is None or (stored / step).denominator == 1:
+        return stored
+    if not rounded:
+        raise RefusedError(RefusalReason.RESOLUTION, f"{show(stored)} is no multiple of {show(step)}")
+    return step * floor(stored / step + HALF)

@@ -1,0 +1,52 @@
+"""What decoding gives and why encoding refuses."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+from fractions import Fraction
+
+
+class UnknownValueError(LookupError):
+    """A value that decides was not said: the register (or `register.field`, or given) is the only argument."""
+
+
+class RefusalReason(StrEnum):
+    """Why a value cannot be encoded."""
+
+    RANGE = "range"
+    RESOLUTION = "resolution"
+    MEMBER = "member"
+    BITS = "bits"
+    SENTINEL = "sentinel"
+    TYPE = "type"
+    CONDITION = "condition"
+
+
+class RefusedError(ValueError):
+    """A value that has no words: `reason` is the class of cause, the message has the numbers."""
+
+    def __init__(self, reason: RefusalReason, detail: str) -> None:
+        self.reason = reason
+        super().__init__(detail)
+
+
+class Meaning(StrEnum):
+    """What words turned out to be."""
+
+    VALUE = "value"
+    UNKNOWN_MEMBER = "unknown_member"
+    SATURATED = "saturated"
+    FAULT = "fault"
+    NOT_DECODABLE = "not_decodable"
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """What words mean: `value` (a number or a text), or `fault` (the sentinel's id), or neither."""
+
+    meaning: Meaning
+    value: Fraction | str | None = None
+    fault: str = ""
+
+
+NOT_DECODABLE = Reading(Meaning.NOT_DECODABLE)
+SATURATED = Reading(Meaning.SATURATED)

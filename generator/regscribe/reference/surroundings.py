@@ -1,0 +1,102 @@
+"""What else must be known to read or write a value: conditions, limits and decimals under the values of others."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from regscribe.model.condition import Cases, Condition, T, Test
+from regscribe.model.register import Register
+from regscribe.model.value import Decimals, Limit, Open, Range, Reference
+from regscribe.reference.outcome import RefusalReason, RefusedError, UnknownValueError
+
+MOST_DECIMALS = 9
+"""A decimals register above this is no decimal position of any device, and ten to the power of it may be endless."""
+
+
+@dataclass(frozen=True, slots=True)
+class Surroundings:
+    """What else must be known: values of use by path (or `register.field`), codes and facts of the givens by id."""
+
+    values: Mapping[str, Fraction] = field(default_factory=dict)
+    codes: Mapping[str, frozenset[Fraction]] = field(default_factory=dict)
+    facts: Mapping[str, bool] = field(default_factory=dict)
+
+    def look_up(self, subject: str) -> Fraction:
+        """Return the present value of `subject`; raises UnknownValueError if nobody said it."""
+        if subject not in self.values:
+            raise UnknownValueError(subject)
+        return self.values[subject]
+
+
+NOTHING_KNOWN = Surroundings()
+
+
+def _is_true(test: Test, known: Surroundings) -> bool:
+    """Tell whether one test is true under what is known."""
+    if not test.register:
+        if test.given not in known.facts:
+            raise UnknownValueError(test.given)
+        return known.facts[test.given] != test.negated
+    value = known.look_up(test.subject)
+    if test.given:
+        if test.given not in known.codes:
+            raise UnknownValueError(test.given)
+        return (value in known.codes[test.given]) != test.negated
+    return any(codes.holds(value) for codes in test.codes) != test.negated
+
+
+def holds(condition: Condition, known: Surroundings) -> bool:
+    """Tell whether all tests of a condition are true."""
+    return all(_is_true(test, known) for test in condition.tests)
+
+
+def choose(cases: Cases[T], known: Surroundings) -> T | None:
+    """Return what the first case that holds says; None if none holds."""
+    for case in cases:
+        if holds(case.when, known):
+            return case.then
+    return None
+
+
+def decimal_factor(decimals: Decimals | None, known: Surroundings) -> Fraction | None:
+    """Return 10 to the power of the decimals register; None if that is no number of decimals (0 to 9)."""
+    if decimals is None:
+        return Fraction(1)
+    count = known.look_up(decimals.register)
+    if count.denominator != 1 or not 0 <= count <= MOST_DECIMALS:
+        return None
+    most = int(count) if decimals.at_most is None else min(int(count), decimals.at_most)
+    return Fraction(10**most)
+
+
+def limit_number(limit: Limit, factor: Fraction, known: Surroundings) -> Fraction | None:
+    """Return the number of a limit; None for an open one, which nothing is checked against."""
+    if isinstance(limit, Open):
+        return None
+    return known.look_up(limit.register) if isinstance(limit, Reference) else limit.value / factor
+
+
+def limits(limits_now: Range, known: Surroundings) -> tuple[tuple[Fraction | None, Fraction | None], ...]:
+    """Lowest and highest value of each interval as things stand; None where nothing limits."""
+    factor = decimal_factor(limits_now.decimals, known)
+    if factor is None:
+        raise RefusedError(RefusalReason.CONDITION, f"{limits_now.decimals} holds no number of decimals")
+    return tuple(
+        (limit_number(interval.low, factor, known), limit_number(interval.high, factor, known))
+        for interval in limits_now.intervals
+    )
+
+
+def in_range(register: Register, value: Fraction, known: Surroundings) -> bool:
+    """Tell whether `value` lies in one of the intervals that count now; a register without range takes all.
+
+    Raises RefusedError if the range has cases and none holds: nothing then says what the device would take.
+    """
+    if not register.range:
+        return True
+    limits_now = choose(register.range, known)
+    if limits_now is None:
+        raise RefusedError(RefusalReason.CONDITION, "no range holds as things stand")
+    return any(
+        (low is None or low <= value) and (high is None or value <= high) for low, high in limits(limits_now, known)
+    )

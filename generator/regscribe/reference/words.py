@@ -1,0 +1,139 @@
+"""Words and wire numbers: type, word order, rounding and text."""
+
+from fractions import Fraction
+from math import floor, trunc
+
+from regscribe.model.number import show
+from regscribe.model.value import NAN, NotANumber
+from regscribe.model.wire import Order, Rounding, View
+from regscribe.reference.ieee import NotFiniteError, ieee_bits, ieee_number, is_infinity, not_a_number, shortest
+from regscribe.reference.outcome import RefusalReason, RefusedError
+from regscribe.reference.surroundings import NOTHING_KNOWN, Surroundings
+
+HALF = Fraction(1, 2)
+
+
+def round_by(rounding: Rounding, number: Fraction) -> int:
+    """Return the whole number that a device of this rounding makes of `number`; half up where the map does not say."""
+    if rounding is Rounding.DOWN:
+        return trunc(number)
+    if rounding is Rounding.HALF_EVEN:
+        below = floor(number)
+        if number - below == HALF:
+            return below if below % 2 == 0 else below + 1
+        return floor(number + HALF)
+    if rounding is Rounding.HALF_AWAY and number < 0:
+        return -floor(-number + HALF)
+    return floor(number + HALF)
+
+
+def word_order(view: View, known: Surroundings) -> Order | None:
+    """Return the order of the words as things stand; None if the register's code sets no order."""
+    if isinstance(view.word_order, Order):
+        return view.word_order
+    code = known.look_up(view.word_order.register)
+    return next((order for listed, order in view.word_order.codes if listed == code), None)
+
+
+def _bytes_in_order(view: View, words: tuple[int, ...], order: Order) -> list[int]:
+    """Return the bytes of words on the wire, the most significant (or the first letter) first."""
+    in_order = words if order is Order.BIG else tuple(reversed(words))
+    pairs = [divmod(word, 256) for word in in_order]
+    return [byte for high, low in pairs for byte in ((high, low) if view.byte_order is Order.BIG else (low, high))]
+
+
+def _words_in_order(view: View, raw: list[int], order: Order) -> tuple[int, ...]:
+    """Return the words on the wire of bytes that stand the most significant (or the first letter) first."""
+    pairs = [(raw[place], raw[place + 1]) for place in range(0, len(raw), 2)]
+    words = tuple(
+        256 * first + second if view.byte_order is Order.BIG else 256 * second + first for first, second in pairs
+    )
+    return words if order is Order.BIG else tuple(reversed(words))
+
+
+def _bits_of(view: View, words: tuple[int, ...], order: Order) -> int:
+    bits = 0
+    for byte in _bytes_in_order(view, words, order):
+        bits = bits * 256 + byte
+    return bits % (1 << view.type.bits)
+
+
+def _words_of(view: View, bits: int, order: Order) -> tuple[int, ...]:
+    raw = [(bits >> (8 * place)) % 256 for place in reversed(range(2 * view.type.words))]
+    return _words_in_order(view, raw, order)
+
+
+def wire_number(view: View, words: tuple[int, ...], order: Order) -> Fraction | NotANumber | None:
+    """Return the number that the words spell: of IEEE patterns NAN for those of no number, None for an infinity."""
+    bits = _bits_of(view, words, order)
+    if view.type.is_float:
+        try:
+            return shortest(ieee_number(bits, view.type), view.type)
+        except NotFiniteError:
+            return None if is_infinity(bits, view.type) else NAN
+    return Fraction(bits if bits <= view.type.maximum else bits - (1 << view.type.bits))
+
+
+def carried(view: View, number: Fraction) -> Fraction | None:
+    """Return the number that reading `number` from the wire of a view gives; None if the view cannot carry it."""
+    if view.type.is_float:
+        bits = ieee_bits(number, view.type)
+        return None if bits is None else shortest(ieee_number(bits, view.type), view.type)
+    fits = number.denominator == 1 and view.type.minimum <= number <= view.type.maximum
+    return number if fits else None
+
+
+def text_of(view: View, words: tuple[int, ...], order: Order) -> str | None:
+    """Return the ASCII text in `words` up to the first NUL, without blanks at its end; None if it is no ASCII."""
+    letters = bytes(_bytes_in_order(view, words, order))
+    raw = letters[: letters.index(0)] if 0 in letters else letters
+    return raw.decode("ascii").rstrip(" ") if raw.isascii() else None
+
+
+def words_of_text(view: View, text: str, order: Order) -> tuple[int, ...]:
+    """Return the words of an ASCII text, filled up with blanks; RefusedError if it does not fit."""
+    if not text.isascii() or "\0" in text or len(text) > 2 * view.words:
+        raise RefusedError(RefusalReason.TYPE, f"{text!r} does not fit {2 * view.words} ASCII characters")
+    return _words_in_order(view, list(text.encode("ascii").ljust(2 * view.words)), order)
+
+
+def spelled(view: View, number: Fraction, order: Order, *, rounded: bool) -> tuple[int, ...]:
+    """Return the words of a wire number; RefusedError if the view cannot carry it."""
+    if view.type.is_float:
+        bits = ieee_bits(number, view.type)
+        if bits is None:
+            raise RefusedError(RefusalReason.TYPE, f"{show(number)} is beyond {view.type}")
+        carried = ieee_number(bits, view.type)
+        if not rounded and number not in (carried, shortest(carried, view.type)):
+            raise RefusedError(RefusalReason.RESOLUTION, f"{show(number)} is finer than {view.type}")
+        return _words_of(view, bits, order)
+    if number.denominator != 1 and not rounded:
+        raise RefusedError(RefusalReason.RESOLUTION, f"{show(number)} is no whole number on the wire")
+    whole = round_by(view.rounding, number)
+    lowest, highest = view.type.minimum + view.saturates, view.type.maximum - view.saturates
+    if not lowest <= whole <= highest:
+        raise RefusedError(RefusalReason.TYPE, f"{whole} lies outside {lowest} to {highest} of {view.type}")
+    return _words_of(view, whole % (1 << view.type.bits), order)
+
+
+def transmit(view: View, stored: Fraction | NotANumber, known: Surroundings = NOTHING_KNOWN) -> tuple[int, ...]:
+    """Return the words that a device which holds `stored` sends: rounded by the view, clipped if the view saturates.
+
+    Raises RefusedError for a number that the view cannot carry.
+    """
+    order = word_order(view, known)
+    if order is None:
+        raise RefusedError(RefusalReason.CONDITION, "the order of the words is not known")
+    if isinstance(stored, NotANumber):
+        return _words_of(view, not_a_number(view.type), order)
+    number = stored * view.factor
+    if view.type.is_integer:
+        whole = round_by(view.rounding, number)
+        clipped = min(max(whole, view.type.minimum), view.type.maximum)
+        if clipped != whole and not view.saturates:
+            raise RefusedError(RefusalReason.TYPE, f"{whole} lies outside {view.type}")
+        return _words_of(view, clipped % (1 << view.type.bits), order)
+    bits = ieee_bits(number, view.type)
+    if bits is None:
+        raise RefusedError(RefusalReason.TYPE, f"{show(number)} is beyond {view.type}")
+    return _words_of(view, bits, order)

@@ -1,0 +1,1 @@
+"""The state of a simulated device and what its registers do."""

@@ -1,0 +1,127 @@
+"""What a request and its answer say, in the names of the device's map."""
+
+import struct
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from regscribe.model import Kind, Space
+from regscribe.simulate.device import codec, plain_values
+from regscribe.simulate.device.address_index import AddressSpan
+from regscribe.simulate.device.answers import EXCEPTION_BIT, unpack_bits
+from regscribe.simulate.device.device import BIT_WORDS, READS, SimulatedDevice
+from regscribe.simulate.line.connection import Exchange
+from regscribe.simulate.line.server_context import BROADCAST
+
+NAMES = {1: "read", 2: "read", 3: "read", 4: "read", 5: "write", 6: "write", 7: "read status", 8: "loopback"} | {
+    15: "write",
+    16: "write",
+    22: "mask",
+    23: "write and read",
+}
+MOST_SHOWN = 6
+"""Registers that are told by name; of more, their number."""
+
+BITS = {5, 15}
+WIDEST = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Told:
+    """A request in words: what was asked of which registers, and what came of it."""
+
+    unit: int
+    verb: str
+    what: str
+    outcome: str
+    good: bool
+
+
+def tell(devices: Sequence[SimulatedDevice], exchange: Exchange) -> Told:
+    """Return a request and its answer in the names of the device that it concerns."""
+    request = exchange.request
+    device = next((each for each in devices if each.unit == request.unit), None)
+    if request.unit == BROADCAST:
+        device = devices[0] if devices else None
+    verb = NAMES.get(request.pdu[0], f"function {request.pdu[0]}") if request.pdu else "nothing"
+    what = _asked(device, exchange) if device is not None else "a unit that is not here"
+    good, outcome = _outcome(device, exchange)
+    return Told(request.unit, verb, what, outcome, good)
+
+
+def _outcome(device: SimulatedDevice | None, exchange: Exchange) -> tuple[bool, str]:
+    answer = exchange.answer
+    if answer is None:
+        return exchange.request.unit == BROADCAST, "broadcast" if exchange.request.unit == BROADCAST else "no answer"
+    if answer[0] & EXCEPTION_BIT and len(answer) > 1:
+        known = device.register_map.protocol.exceptions if device is not None else ()
+        name = next((each.name for each in known if each.code == answer[1]), "")
+        return False, f"exception {answer[1]}{f': {name}' if name else ''}"
+    return True, "ok"
+
+
+def _asked(device: SimulatedDevice, exchange: Exchange) -> str:
+    """The registers of a request with their values: those that were written, or those that the answer shows."""
+    pdu, function = exchange.request.pdu, exchange.request.pdu[0]
+    if function not in NAMES or len(pdu) < struct.calcsize(">BHH"):
+        return pdu.hex(" ")
+    address, number = struct.unpack(">HH", pdu[1:5])
+    if function in READS:
+        space = READS[function]
+        return _named(device, space, address, number, _read(space, number, exchange.answer))
+    if function in BITS:
+        words = (
+            (BIT_WORDS.get(number, number),)
+            if function == min(BITS)
+            else unpack_bits(pdu[6:], min(number, len(pdu) * 8))
+        )
+        return _named(device, Space.COIL, address, len(words), words)
+    data = pdu[3:5] if function == 6 else pdu[6:]  # noqa: PLR2004 - the function that writes one word
+    if function in {6, 16} and len(data) % 2 == 0:
+        words = struct.unpack(f">{len(data) // 2}H", data)
+        return _named(device, Space.HOLDING, address, len(words), words)
+    return pdu[1:].hex(" ")
+
+
+def _read(space: Space, number: int, answer: bytes | None) -> tuple[int, ...]:
+    if answer is None or answer[0] & EXCEPTION_BIT:
+        return ()
+    data = answer[2:]
+    return unpack_bits(data, number) if space.is_bits else struct.unpack(f">{len(data) // 2}H", data)
+
+
+def _named(device: SimulatedDevice, space: Space, address: int, number: int, words: tuple[int, ...]) -> str:
+    """The registers at the addresses of a request, with their values where there are words."""
+    shown = list(_values(device, space, address, number, words))
+    if not shown:
+        last = address + number - 1
+        return f"{space} {address}..{last}" if number > 1 else f"{space} {address}"
+    more = len(shown) - MOST_SHOWN
+    return ", ".join(shown[:MOST_SHOWN]) + (f" and {more} more" if more > 0 else "")
+
+
+def _values(device: SimulatedDevice, space: Space, address: int, number: int, words: tuple[int, ...]) -> Iterator[str]:
+    layout = device.state.blueprint.layout
+    spaces = [space, *(READS[code] for codes in device.register_map.protocol.alike for code in codes if code in READS)]
+    at = address
+    while at < address + number:
+        place = next((found for each in spaces if (found := layout.place(each, at))), None)
+        if place is None:
+            at += 1
+            continue
+        part = words[at - address : place.start + place.words - address]
+        whole = at == place.start and len(part) == place.words
+        yield _spelled(device, place, part if whole else ())
+        at = place.start + place.words
+
+
+def _spelled(device: SimulatedDevice, place: AddressSpan, words: tuple[int, ...]) -> str:
+    register, view, state = place.register, place.view, device.state
+    name = register.path if view is register.base else f"{register.path} ({view.name})"
+    if not words:
+        return name
+    stored = codec.decode(view, words, state.order(view))
+    if stored is None:
+        return f"{name} = NaN"
+    if register.kind is Kind.STRING or isinstance(stored, str):
+        return f"{name} = {str(stored).rstrip(chr(0) + ' ')!r}"
+    return f"{name} = {plain_values.spell(state, register, stored)}"

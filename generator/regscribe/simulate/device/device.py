@@ -1,0 +1,279 @@
+"""A device that answers as its map says: requests in, answers (or silence) out, without any line in between."""
+
+import math
+import struct
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from threading import RLock
+from typing import Any
+
+from regscribe.model import Model, Protocol, RegisterMap, Space
+from regscribe.simulate.device import state_files
+from regscribe.simulate.device.answers import EXCEPTION_BIT, Refusal, exception_answer, pack_bits, unpack_bits
+from regscribe.simulate.device.commands import Commands
+from regscribe.simulate.device.read_requests import Reader
+from regscribe.simulate.device.side_effects import Conduct
+from regscribe.simulate.device.state import DeviceState, Value
+from regscribe.simulate.device.value_arguments import Plain
+from regscribe.simulate.device.write_requests import Writer
+from regscribe.simulate.errors import SimulatorError
+from regscribe.simulate.givens import GivenValue
+from regscribe.simulate.line.addressing import AddressError, shifted
+from regscribe.simulate.line.line_settings import Tuning
+from regscribe.simulate.process.controller import controller_of
+from regscribe.simulate.process.thermal_process import ThermalProcess
+
+READS = {1: Space.COIL, 2: Space.DISCRETE, 3: Space.HOLDING, 4: Space.INPUT}
+BIT_WORDS = {0xFF00: 1, 0x0000: 0}
+
+
+class SimulatedDevice:
+    """One device of one model: typed state, the map's limits and faults, and commands that were run.
+
+    `handle` is pure but for the state: no I/O, no clock. All methods may be called from any thread. Registers whose
+    write needs an `unlock` refuse it (as an unmet condition) until that command was run since power came. A write
+    that needs an `apply` shows at once and counts after that command. `seed` decides the garbage that some devices
+    send for addresses that they do not have, the noise of `process` and the latencies. `addressing` is modbus, or
+    jbus for a device that counts its addresses from 1; a register that governs these or the unit id changes them. With
+    a `process`, the map's process value moves as time passes (`advance`); without one it stays where it is put, and
+    outputs and alarms follow it.
+    """
+
+    def __init__(
+        self,
+        register_map: RegisterMap,
+        model: str,
+        *,
+        unit: int | None = None,
+        givens: Mapping[str, GivenValue] | None = None,
+        seed: int = 0,
+        addressing: str = "modbus",
+        process: ThermalProcess | bool = False,
+    ) -> None:
+        self.register_map = register_map
+        self.model = _model(register_map, model)
+        self.seed = seed
+        self.state = DeviceState.of(register_map, self.model, givens or {})
+        self._tuning = Tuning(self.state, unit=_unit(register_map.protocol, unit), addressing=addressing)
+        self._protocol = register_map.protocol
+        self._commands = Commands(self.model.commands)
+        self._layout = layout = self.state.blueprint.layout
+        self._reader = Reader(self._protocol, layout, self.state, seed, self.unit)
+        self._conduct = Conduct(self.state, self._commands, controller_of(self.state, process=process, seed=seed))
+        self._writer = Writer(self._protocol, layout, self.state, self._commands, self._conduct)
+        self.moves = bool(process)
+        self._lock = RLock()
+        self._functions: dict[int, Callable[[bytes], bytes]] = {
+            **dict.fromkeys(READS, self._read),
+            5: self._write_bit,
+            6: self._write_word,
+            7: self._status,
+            8: self._loopback,
+            15: self._write_bits,
+            16: self._write_words,
+            22: self._mask_word,
+            23: self._write_and_read,
+        }
+
+    @property
+    def unit(self) -> int:
+        """The unit id to which it answers now."""
+        return self._tuning.unit
+
+    @property
+    def commands_run(self) -> tuple[str, ...]:
+        """The ids of the commands that were run, in order."""
+        return tuple(self._commands.run)
+
+    def peek(self, path: str) -> Value:
+        """Return the present value of a register or of `register.field`, in the unit of use (see `State.peek`)."""
+        with self._lock:
+            return self.state.peek(path)
+
+    def poke(self, path: str, value: Plain) -> None:
+        """Set a register or `register.field` to a value of use, read-only ones too (see `State.poke`)."""
+        with self._lock:
+            self.state.poke(path, value)
+
+    def peek_words(self, path: str, view: str = "") -> tuple[int, ...]:
+        """Return the words that a view of a register (default: the base view) transmits now."""
+        with self._lock:
+            return self.state.peek_words(path, view)
+
+    @property
+    def wear(self) -> Mapping[str, int]:
+        """How many writes the lasting memory of each register took (those of which the map says that it is lasting)."""
+        return dict(self._conduct.wear)
+
+    @property
+    def pending(self) -> tuple[str, ...]:
+        """The registers that show a value which is not in effect until an `apply` command comes."""
+        return tuple(self.state.pending)
+
+    def snapshot(self) -> dict[str, Any]:
+        """Return all that the device holds as plain values, ready for YAML or JSON; `restore` takes it back."""
+        with self._lock:
+            return state_files.snapshot(self.state, self.unit, self._conduct.wear)
+
+    def restore(self, document: Mapping[str, Any]) -> None:
+        """Set the device to a snapshot, or to a backup of a real one; it answers as the same unit as before.
+
+        Raises SimulatorError if it is of another model.
+        """
+        with self._lock:
+            self._conduct.wear.update(state_files.restore(self.state, document))
+            self._tuning.keep()
+
+    def save(self, path: str | Path) -> None:
+        """Write what the device holds to a YAML file. SimulatorError if that fails."""
+        state_files.save(Path(path), self.snapshot())
+
+    def load(self, path: str | Path) -> None:
+        """Set the device to a file of `save`, or to a backup. SimulatorError if it is none, or of another model."""
+        document = state_files.load(Path(path))
+        with self._lock:
+            self._conduct.wear.update(state_files.restore(self.state, document, name=str(path)))
+            self._tuning.keep()
+
+    def power_cycle(self) -> None:
+        """Take power away and give it back: RAM is restored from lasting memory, where the map says what from."""
+        with self._lock:
+            self._conduct.power_cycle()
+            self._tuning.follow(restarted=True)
+
+    def advance(self, seconds: float) -> None:
+        """Let simulated time pass: the process goes on, outputs and alarms follow. SimulatorError if it would go back.
+
+        Time passes in steps of half a second; what is left of a step is kept for the next call.
+        """
+        if not 0 <= seconds < math.inf:
+            message = f"time cannot advance by {seconds!r} seconds: give a number of 0 or more"
+            raise SimulatorError(message)
+        with self._lock:
+            if self._conduct.controller is not None:
+                self._conduct.controller.advance(seconds)
+
+    def handle(self, pdu: bytes, *, broadcast: bool = False) -> bytes | None:
+        """Act on a request (function code and data) and return the answer; None where the device keeps silent.
+
+        A broadcast is acted on if the protocol says that its function may be broadcast, and never answered.
+        """
+        if not pdu or pdu[0] & EXCEPTION_BIT or (broadcast and pdu[0] not in self._protocol.broadcast):
+            return None
+        with self._lock:
+            first = self._tuning.first
+            try:
+                answer = shifted(self._act(shifted(pdu, -first)), first, echoes=True)
+            except AddressError:
+                answer = exception_answer(pdu[0], self._protocol.faults.address)
+            except Refusal as refusal:
+                answer = exception_answer(pdu[0], refusal.code)
+            lost = pdu[0] not in READS and self._tuning.follow()
+        return None if broadcast or lost else answer
+
+    def _act(self, pdu: bytes) -> bytes | None:
+        act = self._functions.get(pdu[0]) if pdu[0] in self._protocol.functions else None
+        if act is None:
+            raise Refusal(self._protocol.faults.function)
+        return act(pdu)
+
+    def _fields(self, form: str, pdu: bytes) -> tuple[int, ...]:
+        """Unpack the numbers of a request; one that is too short or too long has the wrong quantity."""
+        if len(pdu) != 1 + struct.calcsize(form):
+            raise Refusal(self._protocol.faults.quantity)
+        return struct.unpack(form, pdu[1:])
+
+    def _block(self, pdu: bytes, start: int) -> tuple[int, int, bytes]:
+        """Unpack address, count and data of a write of several, whose byte count must fit its length."""
+        head, data = pdu[start : start + 5], pdu[start + 5 :]
+        if len(head) != struct.calcsize(">HHB") or head[4] != len(data):
+            raise Refusal(self._protocol.faults.quantity)
+        address, count = struct.unpack(">HH", head[:4])
+        return address, count, data
+
+    def _words(self, count: int, data: bytes) -> tuple[int, ...]:
+        if len(data) != 2 * count:
+            raise Refusal(self._protocol.faults.quantity)
+        return struct.unpack(f">{count}H", data)
+
+    def _read(self, pdu: bytes) -> bytes:
+        address, count = self._fields(">HH", pdu)
+        function = self._reading(pdu[0], address)
+        space = READS[function]
+        return _read_answer(pdu[0], space, self._reader.read(space, function, address, count))
+
+    def _reading(self, function: int, address: int) -> int:
+        """The function that reads what stands at `address`: this one, or one that does the same in another space."""
+        others = (code for codes in self._protocol.alike if function in codes for code in codes if code in READS)
+        return next((code for code in (function, *others) if self._layout.documents(READS[code], address)), function)
+
+    def _write_bit(self, pdu: bytes) -> bytes:
+        address, word = self._fields(">HH", pdu)
+        if word not in BIT_WORDS:
+            raise Refusal(self._protocol.faults.value)
+        self._writer.write(Space.COIL, pdu[0], address, (BIT_WORDS[word],))
+        return pdu
+
+    def _write_word(self, pdu: bytes) -> bytes:
+        address, word = self._fields(">HH", pdu)
+        self._writer.write(Space.HOLDING, pdu[0], address, (word,))
+        return pdu
+
+    def _write_bits(self, pdu: bytes) -> bytes:
+        address, count, data = self._block(pdu, 1)
+        if len(data) != (count + 7) // 8:
+            raise Refusal(self._protocol.faults.quantity)
+        done = self._writer.write(Space.COIL, pdu[0], address, unpack_bits(data, count))
+        return struct.pack(">BHH", pdu[0], address, done)
+
+    def _write_words(self, pdu: bytes) -> bytes:
+        address, count, data = self._block(pdu, 1)
+        done = self._writer.write(Space.HOLDING, pdu[0], address, self._words(count, data))
+        return struct.pack(">BHH", pdu[0], address, done)
+
+    def _mask_word(self, pdu: bytes) -> bytes:
+        address, keep, put = self._fields(">HHH", pdu)
+        (word,) = self._reader.read(Space.HOLDING, pdu[0], address, 1)
+        self._writer.write(Space.HOLDING, pdu[0], address, ((word & keep) | (put & ~keep & 0xFFFF),))
+        return pdu
+
+    def _write_and_read(self, pdu: bytes) -> bytes:
+        read_address, read_count = self._fields(">HH", pdu[:5])
+        address, count, data = self._block(pdu, 5)
+        self._writer.write(Space.HOLDING, pdu[0], address, self._words(count, data))
+        return _read_answer(pdu[0], Space.HOLDING, self._reader.read(Space.HOLDING, pdu[0], read_address, read_count))
+
+    def _status(self, pdu: bytes) -> bytes:
+        self._fields(">", pdu)
+        (status,) = self.state.words(Space.STATUS, 0, 1)
+        if status is None:
+            raise Refusal(self._protocol.faults.function)
+        return bytes((pdu[0], status))
+
+    def _loopback(self, pdu: bytes) -> bytes:
+        if pdu[1:3] != b"\0\0":
+            raise Refusal(self._protocol.faults.function)
+        return pdu
+
+
+def _read_answer(function: int, space: Space, words: Sequence[int]) -> bytes:
+    data = pack_bits(words) if space.is_bits else struct.pack(f">{len(words)}H", *words)
+    return bytes((function, len(data))) + data
+
+
+def _model(register_map: RegisterMap, name: str) -> Model:
+    if not register_map.has(name):
+        known = ", ".join(model.name for model in register_map.models)
+        message = f"map {register_map.id} has no model {name!r}: it has {known}"
+        raise SimulatorError(message)
+    return register_map.model(name)
+
+
+def _unit(protocol: Protocol, unit: int | None) -> int:
+    low, high = protocol.unit_ids
+    if unit is None:
+        return protocol.default_unit or max(1, low)
+    if not max(1, low) <= unit <= high:
+        message = f"unit {unit} is outside {max(1, low)}..{high}, the unit ids of this device (0 is the broadcast)"
+        raise SimulatorError(message)
+    return unit

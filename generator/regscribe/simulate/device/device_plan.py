@@ -1,0 +1,119 @@
+"""What all devices of one model share: where values stand, what they begin with, and what depends on what."""
+
+from collections import OrderedDict
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from threading import Lock
+
+from regscribe.model import Model, NotANumber, OrderFromRegister, Register, RegisterMap, Space
+from regscribe.simulate.device.address_index import AddressIndex, AddressSpan, places_of
+from regscribe.simulate.device.followed_values import sources_of
+from regscribe.simulate.givens import Givens, GivenValue
+
+Stored = Fraction | str | NotANumber
+"""What the device holds for a register: a number (an enum's code, a word's bits), a text, or a float that is none."""
+
+Image = dict[Space, dict[int, int]]
+"""What a read shows at each address."""
+
+_KEPT = 64
+
+
+@dataclass(frozen=True, slots=True)
+class Blueprint:
+    """The immutable part of a device: of 1,000 devices of one model there is one.
+
+    `stored` and `image` are the state of a new device, of which each device keeps only what is different; they are
+    filled once, by `State`. `places` are where a register is transmitted, `ordered_by` the registers whose word order
+    a register sets, `followers` those that (or whose bits) change with it, `shadows` all that take
+    their value from another one when power comes, each behind the one that it shadows.
+    """
+
+    register_map: RegisterMap
+    model: Model
+    givens: Givens
+    layout: AddressIndex
+    places: Mapping[str, tuple[AddressSpan, ...]]
+    ordered_by: Mapping[str, tuple[Register, ...]]
+    followers: Mapping[str, tuple[Register, ...]]
+    shadows: tuple[Register, ...]
+    stored: dict[str, Stored] = field(default_factory=dict)
+    image: Image = field(default_factory=lambda: {space: {} for space in Space})
+
+
+def draw(register_map: RegisterMap, model: Model, givens: Mapping[str, GivenValue]) -> Blueprint:
+    """Return a new blueprint, its state still empty. SimulatorError as `Givens` does."""
+    return Blueprint(
+        register_map,
+        model,
+        Givens(register_map, model, givens),
+        AddressIndex(model, register_map.reserved),
+        {register.path: places_of(register) for register in model.registers},
+        _by_source(model.registers, _orderers),
+        _by_source(model.registers, sources_of),
+        _shadows(model),
+    )
+
+
+def _by_source(
+    registers: Iterable[Register], sources: Callable[[Register], Iterable[str]]
+) -> dict[str, tuple[Register, ...]]:
+    found: dict[str, list[Register]] = {}
+    for register in registers:
+        for path in sources(register):
+            found.setdefault(path, []).append(register)
+    return {path: tuple(dependents) for path, dependents in found.items()}
+
+
+def _shadows(model: Model) -> tuple[Register, ...]:
+    """All shadows of a model, those of a register that is no shadow itself first."""
+    origins = {register.path: register.shadows for register in model.registers if register.shadows}
+    return tuple(sorted((model.register(path) for path in origins), key=lambda one: _depth(one.path, origins)))
+
+
+def _depth(path: str, origins: Mapping[str, str]) -> int:
+    passed: list[str] = []
+    while path in origins and path not in passed:  # the latter: a circle, which has to end somewhere
+        passed.append(path)
+        path = origins[path]
+    return len(passed)
+
+
+def _orderers(register: Register) -> set[str]:
+    orders = (view.word_order for view in register.views)
+    return {order.register for order in orders if isinstance(order, OrderFromRegister)}
+
+
+_Key = tuple[int, str, frozenset[tuple[str, bool | frozenset[int]]]]
+
+
+class PlanCache:
+    """The last blueprints by map (the object, not its contents), model and givens."""
+
+    def __init__(self) -> None:
+        self._kept: OrderedDict[_Key, Blueprint] = OrderedDict()
+        self._lock = Lock()
+
+    def find(self, register_map: RegisterMap, model: Model, givens: Mapping[str, GivenValue]) -> Blueprint | None:
+        """Return the blueprint of an earlier device; None if there is none or the givens are of no known sort."""
+        key = _key(register_map, model, givens)
+        return None if key is None else self._kept.get(key)
+
+    def put(self, blueprint: Blueprint, givens: Mapping[str, GivenValue]) -> None:
+        """Keep a blueprint; it keeps its map alive, so that no other map can take the place of that object."""
+        key = _key(blueprint.register_map, blueprint.model, givens)
+        if key is None:
+            return
+        with self._lock:
+            self._kept[key] = blueprint
+            while len(self._kept) > _KEPT:
+                self._kept.popitem(last=False)
+
+
+def _key(register_map: RegisterMap, model: Model, givens: Mapping[str, GivenValue]) -> _Key | None:
+    try:
+        plain = ((name, value if isinstance(value, bool) else frozenset(value)) for name, value in givens.items())
+        return id(register_map), model.name, frozenset(plain)
+    except TypeError:
+        return None

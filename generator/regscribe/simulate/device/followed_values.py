@@ -1,0 +1,39 @@
+"""What a register takes from others by itself."""
+
+from fractions import Fraction
+
+from regscribe.model import Condition, Kind, Register
+from regscribe.simulate.device.accepted_values import Present
+from regscribe.simulate.device.value_arguments import with_field
+
+
+def sources_of(register: Register) -> set[str]:
+    """Return the registers whose change may change this one."""
+    return {case.then for case in register.follows} | {
+        path for when in _conditions(register) for path in when.registers
+    }
+
+
+def source_of(register: Register, state: Present) -> str:
+    """Return the register that this one follows now; empty if it follows none."""
+    return state.choose(register.follows) or "" if register.follows else ""
+
+
+def followed_bits(register: Register, word: Fraction, state: Present) -> Fraction:
+    """Return `word` with the bits that follow a condition as the conditions have them now."""
+    for field in register.fields:
+        if field.follows is not None:
+            word = with_field(word, field, Fraction(int(state.holds(field.follows))))
+    return word
+
+
+def has_followed_bits(register: Register) -> bool:
+    """Whether a bit of the register follows anything."""
+    return register.kind is not Kind.STRING and any(field.follows is not None for field in register.fields)
+
+
+def _conditions(register: Register) -> list[Condition]:
+    return [
+        *(case.when for case in register.follows),
+        *(field.follows for field in register.fields if field.follows is not None),
+    ]

@@ -1,0 +1,56 @@
+"""What a register holds when the device is new."""
+
+from fractions import Fraction
+
+from regscribe.model import Kind, Model, Register, RegisterMap, Test
+from regscribe.reference import number_of
+from regscribe.simulate.device.accepted_values import Present, accepts, limit_value
+from regscribe.simulate.device.value_arguments import with_field
+
+
+def initial_value(register_map: RegisterMap, model: Model, register: Register, state: Present) -> Fraction | str:
+    """Return the value of use that `register` begins with.
+
+    In this order: what tells the model (so that an identification finds it), what the map says it is delivered with,
+    the map's default, 0 if the register accepts it, its first enum member, its first low limit that is known, 0.
+    """
+    if register.kind is Kind.STRING:
+        return _initial_text(register_map, model, register)
+    tests = _identifying_tests(register_map, model, register)
+    if tests:
+        return _identifying(register, tests)
+    for value in (register.delivered, register.default):
+        if value is not None:
+            special = next((each for each in register.specials if each.means is None and each.code == value), None)
+            return state.special(register, special) if special else value
+    if accepts(register, Fraction(0), state):
+        return Fraction(0)
+    if register.enum is not None and register.enum.members:
+        return Fraction(register.enum.members[0].code)
+    limits = state.choose(register.range)
+    lows = (limit_value(each.low, limits, state) for each in limits.intervals) if limits else ()
+    return next((low for low in lows if low is not None), Fraction(0))
+
+
+def _initial_text(register_map: RegisterMap, model: Model, register: Register) -> str:
+    mine = [each for each in register_map.identity if model.name in each.models]
+    shown = [text for each in mine for path, text in each.texts if path == register.path]
+    return next((text for text in (*shown, register.delivered, register.default) if isinstance(text, str)), "")
+
+
+def _identifying_tests(register_map: RegisterMap, model: Model, register: Register) -> tuple[Test, ...]:
+    identity = next((each for each in register_map.identity if model.name in each.models), None)
+    tests = identity.when.tests if identity else ()
+    return tuple(test for test in tests if test.register == register.path and test.codes and not test.negated)
+
+
+def _identifying(register: Register, tests: tuple[Test, ...]) -> Fraction:
+    value = number_of(register, register.default) or Fraction(0)
+    for test in tests:
+        code = test.codes[0].low
+        field = next((each for each in register.fields if each.id == test.field), None)
+        if field is not None:
+            value = with_field(value, field, code)
+        elif register.default is None or not any(each.holds(value) for each in test.codes):
+            value = code
+    return value

@@ -1,0 +1,150 @@
+"""What a register holds as plain text and numbers, as backups have them, and back."""
+
+from decimal import Decimal, InvalidOperation, localcontext
+from difflib import get_close_matches
+from fractions import Fraction
+
+from regscribe.model import BitField, Enum, Kind, NotANumber, Register
+from regscribe.simulate.device.state import DeviceState
+from regscribe.simulate.device.value_arguments import field_value, with_field
+from regscribe.simulate.errors import SimulatorError
+
+Plain = str | int | float | bool | list[str]
+"""A number, a name, a text, or the names of set flags (`part=value` of bit fields)."""
+
+LARGEST = 400
+"""Power of ten beyond all numbers that any type carries."""
+
+DIGITS = 17
+"""Significant digits of a number: more than any view carries."""
+
+
+def show(state: DeviceState, register: Register) -> Plain:
+    """Return what a register shows now."""
+    stored = state.stored(register.path)
+    if isinstance(stored, str):
+        return stored.partition("\0")[0].rstrip(" ")
+    return shown(state, register, stored)
+
+
+def shown(state: DeviceState, register: Register, stored: Fraction | NotANumber) -> Plain:
+    """Return what a stored number of a register means now."""
+    fault = state.fault(register, stored)
+    if fault or not isinstance(stored, Fraction):
+        return fault or "nan"
+    if register.kind in {Kind.FLAGS, Kind.FIELDS}:
+        return _names(register, stored)
+    value = state.meant(register, stored)
+    if isinstance(value, str):
+        return value
+    if register.kind is Kind.BOOLEAN:
+        return bool(value)
+    return _named(state, register, value)
+
+
+def spell(state: DeviceState, register: Register, stored: Fraction | NotANumber) -> str:
+    """Return the same for people: `150.5 °F`, `RUN`, `alarm_1, alarm_2`."""
+    plain = shown(state, register, stored)
+    if isinstance(plain, list):
+        return ", ".join(plain) or "none"
+    text = (
+        f"{plain:.10g}" if isinstance(plain, float) else str(plain).lower() if isinstance(plain, bool) else str(plain)
+    )
+    unit = state.choose(register.unit) if isinstance(plain, int | float) else ""
+    return f"{text} {unit}" if unit else text
+
+
+def set_to(state: DeviceState, register: Register, plain: object) -> None:
+    """Set a register to what `plain` means; SimulatorError if it means no value of it."""
+    if isinstance(plain, list) and register.kind in {Kind.FLAGS, Kind.FIELDS}:
+        state.poke(register.path, _word(register, plain))
+    elif isinstance(plain, bool) and register.kind is Kind.BOOLEAN:
+        state.poke(register.path, int(plain))
+    elif isinstance(plain, str | int | float | Decimal) and not isinstance(plain, bool):
+        try:
+            state.poke(register.path, _bounded(register, plain))
+        except (ValueError, OverflowError):
+            message = f"{str(plain)[:60]!r} is no value of `{register.path}`"
+            raise SimulatorError(message) from None
+    else:
+        message = f"{plain!r} is no value of `{register.path}`, which is of kind {register.kind}"
+        raise SimulatorError(message)
+
+
+def _bounded(register: Register, plain: str | float | Decimal) -> str | int | float | Decimal:
+    """Refuse a number that would take long to compute with: ValueError."""
+    try:
+        exponent = Decimal(str(plain)).adjusted() if register.kind is not Kind.STRING else 0
+    except InvalidOperation:
+        return plain
+    if abs(exponent) > LARGEST:
+        raise ValueError
+    return plain
+
+
+def number(value: Fraction) -> int | float:
+    """Return a number as YAML has it: whole, or with as many digits as tell it from its neighbours."""
+    if value.denominator == 1:
+        return value.numerator
+    with localcontext() as context:
+        context.prec = DIGITS
+        return float(Decimal(value.numerator) / Decimal(value.denominator))
+
+
+def _named(state: DeviceState, register: Register, value: Fraction) -> str | int | float:
+    members = {Fraction(each.code): each.id for each in register.enum.members} if register.enum else {}
+    names = members | {state.special(register, each): each.id for each in register.specials if each.means is None}
+    return names.get(value) or number(value)
+
+
+def _names(register: Register, stored: Fraction) -> list[str]:
+    """The names of set flags and `part=value` of wider fields; a word that has more in it as a number."""
+    shown: list[str] = []
+    rest = stored
+    for field in register.fields:
+        value = field_value(stored, field)
+        rest = with_field(rest, field, Fraction(0))
+        if not field.is_flag:
+            shown.append(f"{field.id}={_member(field.enum, value)}")
+        elif value:
+            shown.append(field.id)
+    return [*shown, str(int(rest))] if rest else shown
+
+
+def _member(enum: Enum | None, value: Fraction) -> str:
+    members = {Fraction(each.code): each.id for each in enum.members} if enum else {}
+    return members.get(value) or str(int(value))
+
+
+def _word(register: Register, parts: list[object]) -> Fraction:
+    word = Fraction(0)
+    fields = {field.id.lower(): field for field in register.fields}
+    for part in parts:
+        name, equals, value = str(part).partition("=")
+        field = fields.get(name.strip().lower())
+        if field is not None:
+            word = with_field(word, field, _part(register, field, value) if equals else Fraction(1))
+        elif str(part).isdecimal() and len(str(part)) <= len(str(1 << 64)):
+            word += int(str(part))
+        else:
+            message = f"`{register.path}` has no flag `{part}`{meant(str(part), fields)}"
+            raise SimulatorError(message)
+    return word
+
+
+def _part(register: Register, field: BitField, value: str) -> Fraction:
+    members = {each.id.lower(): Fraction(each.code) for each in field.enum.members} if field.enum else {}
+    if value.strip().lower() in members:
+        return members[value.strip().lower()]
+    try:
+        return Fraction(int(value))
+    except ValueError:
+        message = f"`{register.path}.{field.id}` has no value `{value}`{meant(value, members)}"
+        raise SimulatorError(message) from None
+
+
+def meant(name: str, known: object) -> str:
+    """Return a hint at the name that was probably meant; empty if none is near."""
+    names = [str(each) for each in known] if isinstance(known, dict | list | tuple) else []
+    near = get_close_matches(name.lower(), names, n=1)
+    return f"; did you mean `{near[0]}`?" if near else ""

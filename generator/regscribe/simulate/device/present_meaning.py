@@ -1,0 +1,147 @@
+"""What stored numbers mean in the present state: scales, decimals, word orders, conditions."""
+
+from abc import ABC, abstractmethod
+from fractions import Fraction
+
+from regscribe.model import (
+    IDENTITY,
+    BitField,
+    Cases,
+    Condition,
+    Conversion,
+    Decimals,
+    Kind,
+    Model,
+    Order,
+    Register,
+    Rounding,
+    Special,
+    View,
+)
+from regscribe.reference import MOST_DECIMALS
+from regscribe.simulate.device import codec
+from regscribe.simulate.device.device_plan import Blueprint, Stored
+from regscribe.simulate.device.value_arguments import field_value
+from regscribe.simulate.errors import SimulatorError
+from regscribe.simulate.givens import Givens, T
+
+
+class PresentMeaning(ABC):
+    """The questions about a state that need the values of other registers; what is in effect is for a subclass."""
+
+    __slots__ = ("_model", "blueprint", "givens")
+
+    def __init__(self, blueprint: Blueprint) -> None:
+        self.blueprint = blueprint
+        self.givens: Givens = blueprint.givens
+        self._model: Model = blueprint.model
+
+    @abstractmethod
+    def in_effect(self, path: str) -> Stored:
+        """Return the stored value of a register that counts now."""
+
+    def register(self, path: str) -> Register:
+        """Return a register of the model by its path; KeyError if there is none."""
+        return self._model.register(path)
+
+    def find(self, path: str) -> tuple[Register, BitField | None]:
+        """Return the register of a path, and the bit field if it names one; SimulatorError if there is neither."""
+        try:
+            return self._model.register(path), None
+        except KeyError:
+            owner, _, name = path.rpartition(".")
+        try:
+            register = self._model.register(owner)
+        except KeyError:
+            register = None
+        field = next((each for each in register.fields if each.id == name), None) if register else None
+        if register is None or field is None:
+            message = f"model {self._model.name} has no register or field {path!r}"
+            raise SimulatorError(message)
+        return register, field
+
+    def lookup(self, subject: str) -> Fraction:
+        """Return the present number of a register, or of `register.field`, as conditions and limits count it.
+
+        That is the value in effect, which need not be the one that the register shows.
+        """
+        register, field = self.find(subject)
+        stored = self.in_effect(register.path)
+        if not isinstance(stored, Fraction):
+            return Fraction(0)
+        return self.number(register, stored) if field is None else field_value(stored, field)
+
+    def number(self, register: Register, stored: Fraction) -> Fraction:
+        """Return the value of use of a stored number: 1 for what is true, for a special value what it stands for."""
+        value = self.to_value(register, stored)
+        if register.kind is Kind.BOOLEAN:
+            return Fraction(value != 0)
+        meant = (each.means for each in register.specials if self.special(register, each) == value)
+        return next((number for number in meant if number is not None), value)
+
+    def special(self, register: Register, special: Special) -> Fraction:
+        """Return the value of use of a special value's code: where decimals divide the range, they divide it too."""
+        scale = self.choose(register.special_scale) or IDENTITY
+        return special.code / self.power(scale.decimals)
+
+    def to_value(self, register: Register, stored: Fraction) -> Fraction:
+        """Turn a stored number into the value of use."""
+        scale = self.conversion(register)
+        return (scale.multiply * stored + scale.add) / self.power(scale.decimals)
+
+    def from_value(self, register: Register, value: Fraction) -> Fraction:
+        """Turn a value of use into a stored number (exact: as finely as asked, whatever the device can hold)."""
+        scale = self.conversion(register)
+        return (value * self.power(scale.decimals) - scale.add) / scale.multiply
+
+    def conversion(self, register: Register) -> Conversion:
+        """Return the scale that holds now; none holding counts as identity."""
+        return self.choose(register.scale) or IDENTITY
+
+    def power(self, decimals: Decimals | None) -> int:
+        """10 to the number of decimals that a register holds now; of what is none the nearest that is one."""
+        if decimals is None:
+            return 1
+        digits = min(max(0, int(self.lookup(decimals.register))), MOST_DECIMALS)
+        return int(10 ** (digits if decimals.at_most is None else min(digits, decimals.at_most)))
+
+    def holds(self, condition: Condition) -> bool:
+        """Whether `condition` holds now."""
+        return self.givens.holds(condition, self.lookup)
+
+    def choose(self, cases: Cases[T]) -> T | None:
+        """Return what the first case that holds now says; None if none holds."""
+        return self.givens.choose(cases, self.lookup)
+
+    def order(self, view: View) -> Order:
+        """Return the word order of `view` now; where a register sets it to a code without meaning, the map's first."""
+        if isinstance(view.word_order, Order):
+            return view.word_order
+        code = self.lookup(view.word_order.register)
+        orders = dict(view.word_order.codes)
+        return next((order for known, order in orders.items() if known == code), next(iter(orders.values()), Order.BIG))
+
+    def quantise(self, register: Register, stored: Fraction) -> Fraction:
+        """Round `stored` to what the device can hold: to the scale's step, else to what its views can tell apart."""
+        conversion = self.conversion(register)
+        step = None if conversion.places else conversion.step
+        if step is None:
+            if any(view.type.is_float for view in register.views):
+                return stored
+            step = 1 / max(view.factor for view in register.views)
+        return _on_step(register, stored, step)
+
+    def kept(self, register: Register, stored: Fraction) -> Fraction:
+        """Round what comes in, written or measured, to what the device keeps of it as it is configured now.
+
+        What it holds already stays when a register that says how many decimals it keeps changes.
+        """
+        conversion = self.conversion(register)
+        if conversion.places is None or conversion.step is None:
+            return self.quantise(register, stored)
+        return _on_step(register, stored, conversion.step / self.power(conversion.places))
+
+
+def _on_step(register: Register, stored: Fraction, step: Fraction) -> Fraction:
+    rounding = next((view.rounding for view in register.views if view.rounding is not Rounding.NONE), Rounding.NONE)
+    return codec.round_to_whole(stored / step, rounding) * step

@@ -1,0 +1,281 @@
+"""The state of one simulated device: one stored value per register, shown coherently through all its views."""
+
+from collections.abc import Mapping
+from fractions import Fraction
+
+from regscribe.model import NAN, Kind, Model, NotANumber, Register, RegisterMap, Space, exact
+from regscribe.reference import version_text
+from regscribe.simulate.device import codec
+from regscribe.simulate.device.device_plan import Blueprint, Image, PlanCache, Stored, draw
+from regscribe.simulate.device.followed_values import followed_bits, has_followed_bits, source_of
+from regscribe.simulate.device.initial_values import initial_value
+from regscribe.simulate.device.present_meaning import PresentMeaning
+from regscribe.simulate.device.value_arguments import Fault, Plain, field_value, number_of, sentinel_of, with_field
+from regscribe.simulate.errors import SimulatorError
+from regscribe.simulate.givens import GivenValue
+
+Value = Fraction | str
+"""A value of use: what a person would say the register is."""
+
+_SHELF = PlanCache()
+
+
+class DeviceState(PresentMeaning):
+    """Stored values of one device, and the image of words that they show.
+
+    The image is kept up to date at every change, so a read is a look-up. A write through any view sets the stored
+    value, from which every other view and alias follows. What is as on a new device is kept once for all of its model.
+    `touched` are the registers that changed since someone cleared it.
+    """
+
+    __slots__ = ("_driven", "_image", "_initial", "_pending", "_settling", "_stored", "touched")
+
+    def __init__(self, blueprint: Blueprint) -> None:
+        super().__init__(blueprint)
+        self._stored: dict[str, Stored] = {}
+        self._initial: set[str] = set()
+        self._image: Image = {}
+        self._pending: dict[str, Stored] = {}
+        self._driven: frozenset[str] = frozenset()
+        self._settling: frozenset[str] = frozenset()
+        self.touched: set[str] = set()
+
+    @classmethod
+    def of(cls, register_map: RegisterMap, model: Model, givens: Mapping[str, GivenValue]) -> "DeviceState":
+        """The state of a new device. SimulatorError where the model needs givens that are not there."""
+        givens = {name: value if isinstance(value, bool | str) else tuple(value) for name, value in givens.items()}
+        blueprint = _SHELF.find(register_map, model, givens)
+        if blueprint is None:
+            blueprint = draw(register_map, model, givens)
+            cls(blueprint)._begin()  # noqa: SLF001 - its own
+            _SHELF.put(blueprint, givens)
+        return cls(blueprint)
+
+    def _begin(self) -> None:
+        """Fill the blueprint with what a new device holds and shows."""
+        for register in self._model.registers:
+            self.stored(register.path)
+        for register in self._model.registers:
+            self._follow(register)
+        self.wake()
+        self.blueprint.stored.update(self._stored)
+        for register in self._model.registers:
+            self._show(register, self.blueprint.image)
+
+    # -- the wire side ------------------------------------------------------------------------------------------
+
+    def words(self, space: Space, address: int, count: int) -> list[int | None]:
+        """Return what a read shows at each address; None where no readable register stands."""
+        base = self.blueprint.image[space].get
+        own = self._image.get(space)
+        if own is None:
+            return [base(each) for each in range(address, address + count)]
+        return [own.get(each, base(each)) for each in range(address, address + count)]
+
+    def stored(self, path: str) -> Stored:
+        """Return what the device holds for the register `path`."""
+        for kept in (self._stored, self.blueprint.stored):
+            if path in kept:
+                return kept[path]
+        self._stored[path] = first = self._first(self._model.register(path))
+        return first
+
+    def store(self, path: str, stored: Stored) -> None:
+        """Set what the device holds for the register `path`, and with it all words that depend on it."""
+        register = self._model.register(path)
+        self._stored[path] = self.quantise(register, stored) if isinstance(stored, Fraction) else stored
+        self._show(register, self._image)
+        if path not in self._pending:
+            self._touch(path)
+
+    def hold_back(self, path: str, former: Stored) -> None:
+        """Let `former` stay in effect for a register although it shows another value, until `take_effect`."""
+        self._pending.setdefault(path, former)
+        self._touch(path)
+
+    def take_effect(self, path: str) -> None:
+        """Let the value that a register shows come into effect."""
+        if self._pending.pop(path, None) is not None:
+            self._touch(path)
+
+    def wake(self) -> None:
+        """Power comes: each shadow takes the value of its origin, which may be a shadow itself."""
+        for register in self.blueprint.shadows:
+            self.put(register.path, self._shadowed(register))
+
+    @property
+    def pending(self) -> Mapping[str, Stored]:
+        """The registers whose value is not in effect yet, with what is in effect instead."""
+        return dict(self._pending)
+
+    def copy(self) -> "DeviceState":
+        """Return a state of its own that holds the same."""
+        other = DeviceState(self.blueprint)
+        other.adopt(self)
+        return other
+
+    def adopt(self, other: "DeviceState") -> None:
+        """Hold and show what another state of the model holds and shows."""
+        stored, image, pending, driven = other._held()  # noqa: SLF001 - of its own kind
+        self.touched.update(self._stored, stored)
+        self._stored, self._pending, self._driven = dict(stored), dict(pending), driven
+        self._image = {space: dict(words) for space, words in image.items()}
+
+    def _held(self) -> tuple[dict[str, Stored], Image, dict[str, Stored], frozenset[str]]:
+        return self._stored, self._image, self._pending, self._driven
+
+    def drive(self, path: str, *, alone: bool) -> None:
+        """Let a register follow nothing while something else moves it `alone`."""
+        self._driven = self._driven | {path} if alone else self._driven - {path}
+
+    def put(self, subject: str, value: Plain) -> None:
+        """Set a register or `register.field` to a value of use, as `poke` does, if it is not there already."""
+        register, field = self.find(subject)
+        stored = self.stored(register.path)
+        if field is None or not isinstance(stored, Fraction):
+            new = self._to_stored(register, value)
+            new = self.kept(register, new) if isinstance(new, Fraction) else new
+        else:
+            new = with_field(stored, field, number_of(register, field, value))
+        if new != stored:
+            self.store(register.path, new)
+
+    def _touch(self, path: str) -> None:
+        """Let all that depends on the value in effect of a register be as it has to be now."""
+        self.touched.add(path)
+        for dependent in self.blueprint.ordered_by.get(path, ()):
+            self._show(dependent, self._image)
+        for follower in self.blueprint.followers.get(path, ()):
+            self._follow(follower)
+
+    def _follow(self, register: Register) -> None:
+        path = register.path
+        if path in self._driven or path in self._settling:  # the latter: a circle, which has to end somewhere
+            return
+        before = self._settling
+        self._settling = before | {path}
+        try:
+            stored = self._followed(register)
+            if stored != self.stored(path):
+                self.store(path, stored)
+        finally:
+            self._settling = before
+
+    def _followed(self, register: Register) -> Stored:
+        stored = self.stored(register.path)
+        source = source_of(register, self)
+        if source:
+            origin = self._model.register(source)
+            found = self.in_effect(source)
+            alike = origin.scale == register.scale or not isinstance(found, Fraction)
+            stored = found if alike else self.quantise(register, self.from_value(register, self.lookup(source)))
+        if has_followed_bits(register) and isinstance(stored, Fraction):
+            stored = followed_bits(register, stored, self)
+        return stored
+
+    def in_effect(self, path: str) -> Stored:
+        """Return what counts of a register now: what it shows, or what it showed before."""
+        return self._pending[path] if path in self._pending else self.stored(path)
+
+    # -- values of use ------------------------------------------------------------------------------------------
+
+    def peek(self, path: str) -> Value:
+        """Return the present value of a register, or of `register.field`: exact number, text, or the id of a sentinel.
+
+        A number is in the unit of use: scale and decimals are applied as the present state has them. SimulatorError
+        if there is no such register.
+        """
+        register, field = self.find(path)
+        stored = self.stored(register.path)
+        if isinstance(stored, str):
+            return stored.partition("\0")[0].rstrip(" ")
+        if field is None or not isinstance(stored, Fraction):
+            return self.meant(register, stored)
+        return field_value(stored, field)
+
+    def fault(self, register: Register, stored: Stored) -> str:
+        """Return the id of the sentinel that a stored number is; empty where it is none."""
+        return next((each.id for each in register.sentinels if each.stored == stored), "")
+
+    def meant(self, register: Register, stored: Fraction | NotANumber) -> Value:
+        """Return the value of use of a stored number, or the id of the sentinel that it is (`nan` without one)."""
+        fault = self.fault(register, stored)
+        if fault or not isinstance(stored, Fraction):
+            return fault or NAN.value
+        if register.kind is Kind.VERSION:
+            value = self.to_value(register, stored)
+            return version_text(register, value) or value
+        return self.number(register, stored)
+
+    def poke(self, path: str, value: Plain) -> None:
+        """Set a register, or `register.field`, to a value of use, whatever its access and range (as a process would).
+
+        A text is a text, a number in decimals, or the id of a sentinel, a special value or an enum member; LOW_FAULT
+        and HIGH_FAULT are the register's own sentinels.
+        """
+        register, field = self.find(path)
+        self._pending.pop(register.path, None)
+        stored = self.stored(register.path)
+        if field is None or not isinstance(stored, Fraction):
+            self.store(register.path, self._to_stored(register, value))
+        else:
+            self.store(register.path, with_field(stored, field, number_of(register, field, value)))
+
+    def peek_words(self, path: str, view: str = "") -> tuple[int, ...]:
+        """Return the words that a view (default: the base view) transmits now; of a write-only register too."""
+        register, _ = self.find(path)
+        shown = next((each for each in register.views if view in ("", each.name)), None)
+        if shown is None:
+            names = ", ".join(each.name for each in register.views)
+            message = f"register {register.path!r} has no view {view!r}: it has {names}"
+            raise SimulatorError(message)
+        return codec.encode(shown, self.stored(register.path), self.order(shown))
+
+    # -- inside -------------------------------------------------------------------------------------------------
+
+    def _first(self, register: Register) -> Stored:
+        if register.path in self._initial:  # a circle of dependencies: one of them must begin
+            return Fraction(0)
+        self._initial.add(register.path)
+        if register.shadows:
+            value = self._shadowed(register)
+        else:
+            value = initial_value(self.blueprint.register_map, self._model, register, self)
+        stored = self._to_stored(register, value)
+        return self.quantise(register, stored) if isinstance(stored, Fraction) else stored
+
+    def _shadowed(self, register: Register) -> Plain:
+        origin = self._model.register(register.shadows)
+        stored = self.stored(origin.path)
+        return self.to_value(origin, stored) if isinstance(stored, Fraction) else stored
+
+    def _to_stored(self, register: Register, value: Plain) -> Stored:
+        if register.kind is Kind.STRING:
+            return str(value)
+        if isinstance(value, NotANumber):
+            return self._no_number(register, value)
+        if isinstance(value, Fault):
+            return sentinel_of(register, value)
+        if isinstance(value, str):
+            fault = next((each.stored for each in register.sentinels if each.id.lower() == value.lower()), None)
+            if fault is not None:
+                return fault
+            if register.kind is Kind.VERSION:
+                return exact(value.replace(".", ""))
+        specials = {each.id: self.special(register, each) for each in register.specials}
+        return self.from_value(register, number_of(register, None, value, specials))
+
+    def _no_number(self, register: Register, value: NotANumber) -> NotANumber:
+        whole = [view.name for view in register.views if not view.type.is_float]
+        if whole:
+            message = f"register {register.path!r} cannot hold {value.value}: view {whole[0]} has whole numbers only"
+            raise SimulatorError(message)
+        return value
+
+    def _show(self, register: Register, image: Image) -> None:
+        if not register.access.readable:
+            return
+        stored = self.stored(register.path)
+        for place in self.blueprint.places[register.path]:
+            words = codec.encode(place.view, stored, self.order(place.view))
+            image.setdefault(place.view.space, {}).update(zip(place.covers(), words, strict=True))

@@ -1,0 +1,139 @@
+"""The state of a device as a file: written as plain YAML, read from that or from a backup of a real device.
+
+format: 1
+state: {map: athena/series-c, model: 16C, unit: 1}
+values: {setpoint_ram: 150.5, operating_mode: MANUAL}
+"""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from regscribe import files
+from regscribe.simulate.device.device_plan import Stored
+from regscribe.simulate.device.followed_values import sources_of
+from regscribe.simulate.device.plain_values import Plain, meant, set_to, show
+from regscribe.simulate.device.state import DeviceState
+from regscribe.simulate.errors import SimulatorError
+
+FORMAT = 1
+MOST_BYTES = 8_000_000
+"""A state of the largest device has 200 kB; a file beyond this is none."""
+
+PASSES = 2
+"""Values are set so often: in the first pass those that decide what the others mean may come late."""
+
+
+def snapshot(state: DeviceState, unit: int, wear: Mapping[str, int]) -> dict[str, Any]:
+    """Return all that a device holds, ready for YAML or JSON."""
+    blueprint = state.blueprint
+    head = {"map": blueprint.register_map.id, "model": blueprint.model.name, "unit": unit}
+    values: dict[str, Plain] = {register.path: show(state, register) for register in blueprint.model.registers}
+    pending = {path: _in_effect(state, path, stored) for path, stored in state.pending.items()}
+    document: dict[str, Any] = {"format": FORMAT, "state": head, "values": values}
+    return document | ({"in_effect": pending} if pending else {}) | ({"wear": dict(wear)} if wear else {})
+
+
+def _in_effect(state: DeviceState, path: str, former: Stored) -> Plain:
+    """What counts of a register that shows another value."""
+    copy = state.copy()
+    copy.take_effect(path)
+    copy.store(path, former)
+    return show(copy, state.register(path))
+
+
+def save(path: Path, document: Mapping[str, Any]) -> None:
+    """Write a state; where that fails, SimulatorError, and a file that was there before is as it was."""
+    remark = "State of a simulated device; `regscribe simulate --state` loads it."
+    try:
+        files.save(path, files.dump(document, remarks=(remark,)))
+    except files.FileError as problem:
+        message = f"cannot write the state: {problem}"
+        raise SimulatorError(message) from None
+
+
+def load(path: Path) -> Mapping[str, Any]:
+    """Return the document in a state or backup file; SimulatorError with line and column where it is none."""
+    from regscribe import source  # noqa: PLC0415 - only who loads a file waits for the reader
+
+    try:
+        size = path.stat().st_size
+    except OSError as problem:
+        message = f"cannot read the state {path}: {problem.strerror or problem}"
+        raise SimulatorError(message) from None
+    if size > MOST_BYTES:
+        message = f"{path} has {size} bytes: a state has at most {MOST_BYTES}"
+        raise SimulatorError(message)
+    document, found = source.load(path, escapes=True)
+    if document is None:
+        first = found[0]
+        message = f"{path} is no state: {first.span.line}:{first.span.column}: {first.message}"
+        raise SimulatorError(message)
+    if not isinstance(document.data, dict):
+        message = f"{path} is no state: it is no mapping with `format`, `state` and `values`"
+        raise SimulatorError(message)
+    return document.data
+
+
+def restore(state: DeviceState, document: Mapping[str, Any], *, name: str = "the state") -> dict[str, int]:
+    """Set a device to a state or a backup; return the wear that it records.
+
+    Raises SimulatorError if it is of another model, or a value is none; the device is then as it was.
+    """
+    head, values = _parts(document, name)
+    here = (state.blueprint.register_map.id, state.blueprint.model.name)
+    there = (str(head.get("map")), str(head.get("model")))
+    if there != here:
+        message = f"{name} is of {there[0]}, model {there[1]}, but this is {here[0]}, model {here[1]}"
+        raise SimulatorError(message)
+    trial = state.copy()
+    for _ in range(PASSES):
+        _set(trial, values, name)
+    _set(trial, {path: plain for path, plain in values.items() if sources_of(trial.register(path))}, name)
+    in_effect = document.get("in_effect")
+    for path, plain in in_effect.items() if isinstance(in_effect, dict) else ():
+        _hold_back(trial, path, plain, name)
+    state.adopt(trial)
+    wear = document.get("wear")
+    counts = wear.items() if isinstance(wear, dict) else ()
+    return {str(path): count for path, count in counts if isinstance(count, int) and count > 0}
+
+
+def _parts(document: Mapping[str, Any], name: str) -> tuple[Mapping[str, Any], Mapping[str, object]]:
+    """The head and the values of a state, or of a backup, whose settings stand in groups."""
+    if document.get("format") != FORMAT:
+        message = f"{name} is no state of format {FORMAT}: its `format` is {document.get('format')!r}"
+        raise SimulatorError(message)
+    head, values = document.get("state"), document.get("values")
+    if isinstance(head, dict) and isinstance(values, dict):
+        return head, values
+    head, settings = document.get("backup"), document.get("settings")
+    if isinstance(head, dict) and isinstance(settings, dict):
+        groups = (group for group in settings.values() if isinstance(group, dict))
+        entries = ((path, entry) for group in groups for path, entry in group.items() if isinstance(entry, dict))
+        return head, {path: entry["value"] for path, entry in entries if entry.get("value") is not None}
+    message = f"{name} is no state: it has neither `state` and `values` nor `backup` and `settings`"
+    raise SimulatorError(message)
+
+
+def _set(state: DeviceState, values: Mapping[str, object], name: str) -> None:
+    known = {register.path: register for register in state.blueprint.model.registers}
+    for path, plain in values.items():
+        if path not in known:
+            message = f"{name}: model {state.blueprint.model.name} has no register `{path}`{meant(path, list(known))}"
+            raise SimulatorError(message)
+        try:
+            set_to(state, known[path], plain)
+        except SimulatorError as problem:
+            message = f"{name}: {problem}"
+            raise SimulatorError(message) from None
+
+
+def _hold_back(state: DeviceState, path: str, plain: object, name: str) -> None:
+    """Let another value be in effect than the one that a register shows."""
+    shown = state.stored(path) if any(each.path == path for each in state.blueprint.model.registers) else None
+    _set(state, {path: plain}, name)
+    former = state.stored(path)
+    if shown is not None and former != shown:
+        state.store(path, shown)
+        state.hold_back(path, former)

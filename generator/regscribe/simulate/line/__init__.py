@@ -1,0 +1,1 @@
+"""The lines and connections that simulated devices answer on."""

@@ -1,0 +1,233 @@
+"""A bad line: requests and answers that are lost, late, doubled, cut, garbled, foreign, stale, or end in a hang-up.
+
+`LineFaults` stands between simulated devices and their line, as the `arrival` and the `delivery` of a `Service`. Which
+exchange gets which fault is decided by a seed, or by a test (`plan`).
+"""
+
+from collections import Counter, deque
+from collections.abc import Callable, Iterable, Sequence
+from enum import StrEnum
+from random import Random
+from threading import Lock
+
+from regscribe.simulate.line.connection import Chunk, Exchange
+from regscribe.simulate.line.framing import Framing, Request, framer_for
+
+EXCEPTION_BIT = 0x80
+STORM = 3
+"""Requests in a row that are refused while the device is busy."""
+STORM_CODES = (1, 2, 3, 4, 5, 6, 8, 10, 11)
+FUNCTIONS = (1, 2, 3, 4, 5, 6, 15, 16)
+MOST_NOISE = 24
+KEPT = 8
+"""Answers that are kept, to come once more when another one is asked for."""
+MBAP_COMPARED = 7
+"""The header of MBAP: what stands in it is compared with the request."""
+
+
+SPLIT_SECONDS, CHATTER_SECONDS = 0.002, 0.001
+
+
+class LineFault(StrEnum):
+    """What happens to a request and its answer.
+
+    `REQUEST_LOST` and `REFUSED` keep the request from the device; after all others it was carried out. `FORGED` flips
+    a bit of what the protocol compares (byte count, echo) and repairs the check; `FALSIFIED` one of what nothing can
+    compare: values, exception codes, counts of words written. No client can detect `FALSIFIED`, nor a `STALE` answer
+    that looks like the right one (see `Faults.forgeries`).
+    """
+
+    REQUEST_LOST = "request lost"
+    REFUSED = "refused again and again"
+    LOST = "answer lost"
+    LATE = "answer after the timeout"
+    TWICE = "answer twice"
+    CUT = "answer cut short"
+    EXTENDED = "answer with bytes behind it"
+    SPLIT = "answer in two parts"
+    FLIPPED = "bit flipped"
+    FORGED = "bit flipped and check repaired"
+    FOREIGN_UNIT = "wrong unit"
+    FOREIGN_FUNCTION = "wrong function"
+    FOREIGN_TRANSACTION = "wrong transaction id"
+    STALE = "answer of an earlier request"
+    NOISE = "garbage before the answer"
+    CHATTER = "garbage after the answer"
+    HANGUP = "disconnected"
+    FALSIFIED = "value falsified"
+
+
+UNDETECTABLE = frozenset({LineFault.FALSIFIED})
+USUAL = tuple(fault for fault in LineFault if fault not in UNDETECTABLE)
+
+
+class LineFaults:
+    """Faults of one service, one for about every `rate` of its exchanges; safe to read from any thread.
+
+    `framing` is mbap (Modbus TCP), rtu or ascii, as the service has it.
+    `late` is in seconds: longer than the client's timeout, shorter than its patience with late answers. `kinds` may
+    hold `HANGUP` only where a line can hang up (TCP). `injected` counts the faults, `exchanges` all exchanges; in
+    `forgeries` are the faults that no client could have detected.
+    """
+
+    def __init__(
+        self,
+        framing: Framing | str,
+        *,
+        rate: float = 0.2,
+        late: float = 1.5,
+        seed: int = 0,
+        kinds: Iterable[LineFault] = USUAL,
+    ) -> None:
+        self.rate, self.late = rate, late
+        self.kinds = tuple(kinds)
+        self.injected: Counter[LineFault] = Counter()
+        self.exchanges = 0
+        self.forgeries: list[Exchange] = []
+        self._framing = Framing(framing)
+        self._framer = framer_for(self._framing)
+        self._random = Random(seed)  # noqa: S311 - repeatable, and no secret
+        self._planned: deque[tuple[LineFault | None, int | None]] = deque()
+        self._chosen: dict[int, tuple[LineFault | None, int | None]] = {}
+        self._earlier: deque[Exchange] = deque(maxlen=KEPT)
+        self._storm = 0
+        self._lock = Lock()
+
+    def plan(self, *faults: LineFault | None, at: int | None = None) -> None:
+        """Give the next exchanges these faults (None: none), before chance decides again.
+
+        `at` is the byte at which an answer is cut or the line hangs up, or the bit that is flipped.
+        """
+        with self._lock:
+            self._planned += [(fault, at) for fault in faults]
+
+    def calm(self) -> None:
+        """No faults from now on."""
+        with self._lock:
+            self._planned.clear()
+            self.rate, self._storm = 0.0, 0
+
+    def arrival(self, request: Request, act: Callable[[], bytes | None]) -> bytes | None:
+        """Choose a fault for an exchange, and keep its request from the device if that is the fault."""
+        with self._lock:
+            self.exchanges += 1
+            fault, at = self._choose()
+            if (fault is LineFault.REFUSED or self._storm) and request.unit:
+                self._storm = self._storm - 1 if self._storm else STORM - 1
+                self.injected[LineFault.REFUSED] += 1
+                return bytes([request.pdu[0] | EXCEPTION_BIT, at or self._random.choice(STORM_CODES)])
+            if fault is LineFault.REQUEST_LOST:
+                self.injected[fault] += 1
+                return None
+            if request.unit:
+                self._chosen[id(request)] = (fault, at)
+        return act()
+
+    def _choose(self) -> tuple[LineFault | None, int | None]:
+        if self._planned:
+            return self._planned.popleft()
+        return (self._random.choice(self.kinds) if self._random.random() < self.rate else None), None
+
+    async def delivery(self, exchange: Exchange) -> Sequence[Chunk]:
+        """The answer as it comes out of the bad line."""
+        fault, at = self._chosen.pop(id(exchange.request), (None, None))
+        if not exchange.frame:
+            return ()
+        spoilt = None if fault is None else self._spoil(fault, exchange, at)
+        if fault is not None and spoilt is not None:
+            with self._lock:
+                self.injected[fault] += 1
+        self._earlier.append(exchange)
+        return (Chunk(exchange.frame),) if spoilt is None else spoilt
+
+    def _spoil(self, fault: LineFault, exchange: Exchange, at: int | None) -> Sequence[Chunk] | None:
+        """What is sent instead of the frame; None where this fault does not fit this answer."""
+        if fault in CUTS:
+            frame = exchange.frame
+            return CUTS[fault](self, frame, self._random.randrange(len(frame)) if at is None else at)
+        if fault is LineFault.FLIPPED:
+            return self._flipped(exchange, at)
+        return self._stale(exchange) if fault is LineFault.STALE else self._rewritten(fault, exchange, at)
+
+    def noise(self) -> bytes:
+        """Some bytes."""
+        return self._random.randbytes(self._random.randint(1, MOST_NOISE))
+
+    def _flipped(self, exchange: Exchange, at: int | None) -> Sequence[Chunk] | None:
+        frame = bytearray(exchange.frame)
+        checked = len(frame)
+        if self._framing is Framing.MBAP:  # TCP has a check of its own: only what this protocol compares flips here
+            checked = MBAP_COMPARED + len(_compared(exchange.answer or b""))
+        bit = self._random.randrange(8 * checked) if at is None else at % (8 * checked)
+        frame[bit // 8] ^= 1 << bit % 8
+        return (Chunk(bytes(frame)),)
+
+    def _stale(self, exchange: Exchange) -> Sequence[Chunk] | None:
+        """An earlier answer in place of this one, or before it."""
+        able = [one for one in self._earlier if not self._resembles(one, exchange)]
+        if not able:
+            return None
+        old = self._random.choice(able).frame
+        return (Chunk(old + exchange.frame if self._random.random() < 1 / 2 else old),)
+
+    def _resembles(self, one: Exchange, other: Exchange) -> bool:
+        """Whether nothing in an answer tells it from another; a transaction id does."""
+        mine, its = one.request, other.request
+        if self._framing is Framing.MBAP:
+            return mine.transaction == its.transaction
+        return (mine.unit, mine.pdu[0]) == (its.unit, its.pdu[0])
+
+    def _rewritten(self, fault: LineFault, exchange: Exchange, at: int | None) -> Sequence[Chunk] | None:
+        request, answer = exchange.request, exchange.answer or b""
+        unit, transaction, chance = request.unit, request.transaction, self._random
+        if fault is LineFault.FOREIGN_UNIT:
+            unit = chance.choice([one for one in range(1, 248) if one != unit])
+        elif fault is LineFault.FOREIGN_TRANSACTION and self._framing is Framing.MBAP:
+            transaction = (transaction + chance.randrange(1, 1 << 16)) % (1 << 16)
+        elif fault is LineFault.FOREIGN_FUNCTION:
+            answer = bytes([chance.choice([one for one in FUNCTIONS if one != request.pdu[0]])]) + answer[1:]
+        elif fault in {LineFault.FORGED, LineFault.FALSIFIED} and (
+            places := _places(answer, compared=fault is LineFault.FORGED)
+        ):
+            answer = _flip(answer, chance.choice(places) if at is None else places[at % len(places)], chance)
+        else:
+            return None
+        if fault in UNDETECTABLE:
+            self.forgeries.append(exchange)
+        return (Chunk(self._framer.answer(Request(unit, request.pdu, transaction), answer)),)
+
+
+CUTS: dict[LineFault, Callable[[LineFaults, bytes, int], Sequence[Chunk]]] = {
+    LineFault.LOST: lambda *_: (),
+    LineFault.LATE: lambda faults, frame, _: (Chunk(frame, faults.late),),
+    LineFault.TWICE: lambda _, frame, __: (Chunk(frame * 2),),
+    LineFault.CUT: lambda _, frame, at: (Chunk(frame[:at]),),
+    LineFault.EXTENDED: lambda faults, frame, _: (Chunk(frame + faults.noise()),),
+    LineFault.SPLIT: lambda _, frame, at: (Chunk(frame[:at]), Chunk(frame[at:], SPLIT_SECONDS)),
+    LineFault.NOISE: lambda faults, frame, _: (Chunk(faults.noise() + frame),),
+    LineFault.CHATTER: lambda faults, frame, _: (Chunk(frame), Chunk(faults.noise(), CHATTER_SECONDS)),
+    LineFault.HANGUP: lambda _, frame, at: (Chunk(frame[:at], hangup=True),),
+}
+"""What needs nothing but the frame: what is sent, given a place in it."""
+
+
+def _flip(answer: bytes, place: int, chance: Random) -> bytes:
+    changed = bytearray(answer)
+    changed[place] ^= 1 << chance.randrange(8)
+    return bytes(changed)
+
+
+def _compared(answer: bytes) -> range:
+    """The bytes of an answer that a client can compare with its request, the function code first."""
+    function, whole = answer[0], range(len(answer))
+    if function in {1, 2, 3, 4}:
+        return whole[:2]
+    if function in {5, 6, 8}:
+        return whole
+    return whole[:3] if function in {15, 16} else whole[:0]  # 07 with the bit of an exception is one
+
+
+def _places(answer: bytes, *, compared: bool) -> Sequence[int]:
+    """The bytes behind the function code that a client can compare with its request, or those that it cannot."""
+    sure = _compared(answer)
+    return [place for place in range(1, len(answer)) if (place in sure) is compared]

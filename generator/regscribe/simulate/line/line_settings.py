@@ -1,0 +1,61 @@
+"""How a device talks on its line: the registers that govern it, and what follows when they are written."""
+
+from fractions import Fraction
+
+from regscribe.model import Governs, Register, Setting
+from regscribe.simulate.device.state import DeviceState
+from regscribe.simulate.line.addressing import FIRST_ADDRESSES, first_address
+
+AT_ONCE, RESTART = "at_once", "restart"
+
+
+class Tuning:
+    """The unit id and the first address of one device; a speed or a format is the line's own and changes nothing here.
+
+    At first the registers show what the device was made with. Where the map does not say from when a setting holds, it
+    holds after the answer.
+    """
+
+    __slots__ = ("_governing", "_known", "_state", "first", "unit")
+
+    def __init__(self, state: DeviceState, *, unit: int, addressing: str) -> None:
+        self._state, self.unit, self.first = state, unit, first_address(addressing)
+        registers = state.blueprint.model.registers
+        self._governing = tuple((each, each.governs) for each in registers if each.governs is not None)
+        self._known: dict[str, object] = {}
+        self.keep()
+
+    def keep(self) -> None:
+        """Talk on as now, whatever was put into the registers: they show it."""
+        addressing = next(name for name, first in FIRST_ADDRESSES.items() if first == self.first)
+        for register, governs in self._governing:
+            self._show(register, governs, addressing)
+        self._known.update((each.path, self._state.stored(each.path)) for each, _ in self._governing)
+
+    def _show(self, register: Register, governs: Governs, addressing: str) -> None:
+        if governs.setting is Setting.ADDRESS:
+            self._state.poke(register.path, self.unit)
+        elif governs.setting is Setting.ADDRESSING:
+            code = next((code for code, name in governs.codes if name == addressing), None)
+            if code is not None:
+                self._state.poke(register.path, code)
+
+    def follow(self, *, restarted: bool = False) -> bool:
+        """Talk as the registers say after a request, or after power came back; whether its answer is lost by that."""
+        lost = False
+        for register, governs in self._governing:
+            path, stored = register.path, self._state.stored(register.path)
+            waits = path in self._state.pending or (governs.since == RESTART and not restarted)
+            if waits or stored == self._known[path]:
+                continue
+            self._known[path] = stored
+            self._set(governs, self._state.lookup(path))
+            lost |= governs.since == AT_ONCE
+        return lost
+
+    def _set(self, governs: Governs, value: Fraction) -> None:
+        if governs.setting is Setting.ADDRESS:
+            self.unit = int(value)
+        elif governs.setting is Setting.ADDRESSING:
+            name = next((name for code, name in governs.codes if code == value), "")
+            self.first = FIRST_ADDRESSES.get(name, self.first)

@@ -1,0 +1,1 @@
+"""The thermal process behind a simulated controller."""

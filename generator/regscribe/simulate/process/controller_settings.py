@@ -1,0 +1,60 @@
+"""What a controller is set to: numbers and conditions that are looked up again only when one of them changed."""
+
+from collections.abc import Iterator
+
+from regscribe.model import Condition, Register, registers_of
+from regscribe.simulate.device.state import DeviceState
+
+
+class ControllerSettings:
+    """A memory of look-ups. Registers that the controller itself moves are in it, too: `refresh` sees that."""
+
+    __slots__ = ("_conditions", "_numbers", "_paths", "_state")
+
+    def __init__(self, state: DeviceState) -> None:
+        self._state = state
+        self._numbers: dict[str, float] = {}
+        self._conditions: dict[int, bool] = {}
+        self._paths: set[str] = set()
+
+    def refresh(self) -> frozenset[str]:
+        """Forget all that may have changed since the last time; return the registers that were touched."""
+        touched = frozenset(self._state.touched)
+        if not touched.isdisjoint(self._paths):
+            self._numbers.clear()
+            self._conditions.clear()
+        self._state.touched.clear()
+        return touched
+
+    def number(self, path: str) -> float:
+        """Return the value of use of a register; 0 for none."""
+        if not path:
+            return 0.0
+        if path not in self._numbers:
+            register, _ = self._state.find(path)
+            self._paths.update(_needed(register))
+            self._numbers[path] = float(self._state.lookup(path))
+        return self._numbers[path]
+
+    def holds(self, condition: Condition | None) -> bool:
+        """Whether a condition holds; none never does."""
+        if condition is None:
+            return False
+        key = id(condition)  # conditions live as long as their map
+        if key not in self._conditions:
+            for path in condition.registers:
+                self._paths.update(_needed(self._state.register(path)))
+            self._conditions[key] = self._state.holds(condition)
+        return self._conditions[key]
+
+
+def scale_of(register: Register) -> frozenset[str]:
+    """Return the registers on which the scale of one depends."""
+    return frozenset(_needed(register)) - {register.path}
+
+
+def _needed(register: Register) -> Iterator[str]:
+    """The registers on which the value of one depends."""
+    yield register.path
+    yield from registers_of(register.scale)
+    yield from (case.then.decimals.register for case in register.scale if case.then.decimals)

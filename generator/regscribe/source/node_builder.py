@@ -1,0 +1,249 @@
+"""YAML events to nodes, without recursion: depth, size and aliases are bounded while the file is being read."""
+
+import re
+from collections.abc import Iterator
+from decimal import Decimal
+
+import yaml
+from yaml.events import (
+    AliasEvent,
+    CollectionStartEvent,
+    DocumentEndEvent,
+    Event,
+    MappingEndEvent,
+    MappingStartEvent,
+    ScalarEvent,
+    SequenceEndEvent,
+)
+
+from regscribe.source.document import Plain, SourceNode, SourcePlace
+from regscribe.source.findings import Findings
+from regscribe.source.open_collection import OpenCollection, place_of
+from regscribe.source.rules import (
+    BAD_ALIAS,
+    CONTROL_CHARACTER,
+    DUPLICATE_KEY,
+    EMPTY,
+    KEY_NOT_TEXT,
+    MERGE_KEY,
+    NUMBER_FORM,
+    SEVERAL_DOCUMENTS,
+    SYNTAX,
+    TAG,
+    TEXT_TOO_LONG,
+    TOO_DEEP,
+    TOO_MANY_VALUES,
+)
+from regscribe.source.scalars import NUMBER_HELP, NumberFormError, resolve, shorten
+from regscribe.source.utf8 import find_invisible, place_at
+from regscribe.source.yaml_errors import explain
+
+MAX_DEPTH = 64
+MAX_VALUES = 300_000
+MAX_TEXT = 100_000
+CHARACTERS_PER_VALUE = 50  # a long text counts as several values, so that aliases of it are bounded too
+
+_LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)  # PyYAML may have been built without libyaml: slow, but equal
+_CORE = "tag:yaml.org,2002:"
+_TYPES: dict[str, tuple[type, ...]] = {
+    "null": (type(None),),
+    "bool": (bool,),
+    "int": (int,),
+    "float": (int, Decimal),
+}
+_BLANK_OR_COMMENT = re.compile(r"(?:[ \t]*+(?:#.*)?+(?:\n|\Z))*+[ \t]*+")
+
+
+class Composer:
+    """Builds the tree of one file; what is wrong goes to `findings`. With `escapes` these may spell any character."""
+
+    def __init__(self, text: str, findings: Findings, *, escapes: bool = False) -> None:
+        self._escapes = escapes
+        self._text = text
+        self._findings = findings
+        self._stack: list[OpenCollection] = []
+        self._anchors: dict[str, SourceNode | None] = {}
+        self._values = 0
+        self._root: SourceNode | None = None
+
+    def compose(self) -> SourceNode:
+        """Return the top of the tree; raises StopReadingError if the file cannot be read to its end."""
+        for event in self._events():
+            self._take(event)
+            if isinstance(event, DocumentEndEvent):
+                self._end_of_document(event)
+                break
+        if self._root is None or self._root.value is None:
+            advice = "start one with `regscribe new MAKER/FAMILY`"
+            raise self._findings.stop(EMPTY, "the file holds no map", SourcePlace(0, 0, 0, 0), advice=advice)
+        return self._root
+
+    def _events(self) -> Iterator[Event]:
+        try:
+            yield from yaml.parse(self._text, Loader=_LOADER)
+        except yaml.YAMLError as error:
+            raise explain(error, self._text, self._findings) from None
+
+    def _take(self, event: Event) -> None:
+        if isinstance(event, ScalarEvent):
+            self._scalar(event)
+        elif isinstance(event, CollectionStartEvent):
+            self._open(event)
+        elif isinstance(event, MappingEndEvent | SequenceEndEvent):
+            self._close(event)
+        elif isinstance(event, AliasEvent):
+            self._alias(event)
+
+    def _scalar(self, event: ScalarEvent) -> None:
+        place = place_of(event)
+        size = 1 + len(event.value) // CHARACTERS_PER_VALUE
+        self._count(size, place)
+        self._check_text(event, place)
+        frame = self._stack[-1] if self._stack else None
+        if frame and frame.awaits_key:
+            self._key(frame, event, place)
+            if event.anchor:
+                self._anchors[event.anchor] = SourceNode(frame.key, place)
+            return
+        node = SourceNode(self._value(event, place), place, size=size)
+        if event.anchor:
+            self._anchors[event.anchor] = node
+        self._attach(node)
+
+    def _check_text(self, event: ScalarEvent, place: SourcePlace) -> None:
+        if len(event.value) > MAX_TEXT:
+            message = f"a text of {len(event.value):,} characters; at most {MAX_TEXT:,} are read"
+            self._findings.add(TEXT_TOO_LONG, message, place, advice="is a quote missing before? else shorten it")
+        hidden = find_invisible(event.value) if event.style == '"' and not self._escapes else None
+        if hidden:
+            advice = "leave the escape out; only visible characters, \\n and \\t have a place in a map"
+            self._findings.add(CONTROL_CHARACTER, f"{hidden} written as an escape", place, advice=advice)
+
+    def _value(self, event: ScalarEvent, place: SourcePlace) -> Plain:
+        plain = not event.style
+        tag = (event.tag or "").removeprefix(_CORE)
+        if tag in {"", "!", "str"}:
+            return self._resolve(event.value, place) if plain and not tag else event.value
+        value = self._resolve(event.value, place)
+        if not isinstance(value, _TYPES.get(tag, ())) or (tag in {"int", "float"} and isinstance(value, bool)):
+            self._refuse_tag(event.tag, place)
+        return Decimal(value) if tag == "float" and type(value) is int else value
+
+    def _resolve(self, text: str, place: SourcePlace) -> Plain:
+        try:
+            return resolve(text)
+        except NumberFormError as error:
+            self._findings.add(NUMBER_FORM, str(error), place, advice=NUMBER_HELP)
+            return text
+
+    def _key(self, frame: OpenCollection, event: ScalarEvent, place: SourcePlace) -> None:
+        frame.awaits_value = True
+        frame.key = key = self._key_text(event, place)
+        if key is None:
+            return
+        if key in frame.keys:
+            self._findings.add(
+                DUPLICATE_KEY,
+                f"the key `{shorten(key)}` is given twice",
+                place,
+                advice="delete one of the two, or give it its own name",
+                related=((f"`{shorten(key)}` stands here first", frame.keys[key]),),
+            )
+            frame.key = None
+        else:
+            frame.keys[key] = place
+
+    def _key_text(self, event: ScalarEvent, place: SourcePlace) -> str | None:
+        """Return a key as text: codes in decimal whatever their notation, words as they stand."""
+        if not event.style and event.value == "<<":
+            advice = "write the keys out, or put what is common into the group's `each`"
+            self._findings.add(MERGE_KEY, "a merge key `<<`", place, advice=advice)
+            return None
+        value = self._value(event, place)
+        if value is None or value == "":
+            advice = "write the key before the `:`; put it in quotes if it is really `null`"
+            self._findings.add(KEY_NOT_TEXT, "an empty key", place, advice=advice)
+            return None
+        return str(value) if type(value) is int else event.value
+
+    def _open(self, event: CollectionStartEvent) -> None:
+        place = place_of(event)
+        self._count(1, place)
+        if len(self._stack) >= MAX_DEPTH:
+            self._too_deep(place)
+        mapping = isinstance(event, MappingStartEvent)
+        if event.tag not in {None, "!", f"{_CORE}{'map' if mapping else 'seq'}"}:
+            self._refuse_tag(event.tag, place)
+        is_key = bool(self._stack) and self._stack[-1].awaits_key
+        if is_key:
+            self._refuse_key(place)
+        if event.anchor:
+            self._anchors[event.anchor] = None
+        frame = OpenCollection(
+            place, event.anchor, bool(event.flow_style), is_key, {} if mapping else [], {} if mapping else []
+        )
+        self._stack.append(frame)
+
+    def _close(self, event: Event) -> None:
+        frame = self._stack.pop()
+        node = frame.close(event)
+        if frame.anchor:
+            self._anchors[frame.anchor] = node
+        if not frame.is_key:
+            self._attach(node)
+
+    def _alias(self, event: AliasEvent) -> None:
+        place = place_of(event)
+        if self._stack and self._stack[-1].awaits_key:
+            self._refuse_key(place)
+            return
+        anchor = event.anchor or ""
+        node = self._anchors.get(anchor)
+        if node is None:
+            reason = "stands inside its own" if anchor in self._anchors else "has no"
+            message = f"the alias `*{shorten(anchor)}` {reason} anchor"
+            advice = f"write `&{shorten(anchor)}` before a value above it, or quote a text that starts with `*`"
+            self._findings.add(BAD_ALIAS, message, place, advice=advice)
+            node = SourceNode(None, place)
+        self._count(node.size, place)
+        if len(self._stack) + node.height > MAX_DEPTH:
+            self._too_deep(place)
+        self._attach(node._replace(place=place))
+
+    def _attach(self, node: SourceNode) -> None:
+        if self._stack:
+            self._stack[-1].attach(node)
+        else:
+            self._root = node
+
+    def _count(self, values: int, place: SourcePlace) -> None:
+        self._values += values
+        if self._values > MAX_VALUES:
+            message = f"more than {MAX_VALUES:,} values with all aliases expanded"
+            advice = "write fewer aliases of aliases, or split the family into several maps"
+            raise self._findings.stop(TOO_MANY_VALUES, message, place, advice=advice)
+
+    def _too_deep(self, place: SourcePlace) -> None:
+        message = f"more than {MAX_DEPTH} levels of nesting"
+        raise self._findings.stop(TOO_DEEP, message, place, advice="is a bracket not closed? a map needs about ten")
+
+    def _refuse_tag(self, tag: str | None, place: SourcePlace) -> None:
+        message = f"the tag `{shorten((tag or '').replace(_CORE, '!!'))}` does not fit"
+        self._findings.add(TAG, message, place, advice="leave the tag out; put a text in quotes to keep it a text")
+
+    def _refuse_key(self, place: SourcePlace) -> None:
+        frame = self._stack[-1]
+        frame.awaits_value, frame.key = True, None
+        advice = "write the key as a text; quote a text that starts with `[`, `{`, `?` or `*`"
+        self._findings.add(KEY_NOT_TEXT, "a key that is a list, a mapping or an alias", place, advice=advice)
+
+    def _end_of_document(self, event: DocumentEndEvent) -> None:
+        rest = _BLANK_OR_COMMENT.match(self._text, event.end_mark.index if event.end_mark else 0)
+        if rest and rest.end() < len(self._text):
+            place = place_at(self._text, rest.end())
+            if event.explicit or self._text.startswith("---", rest.end()):
+                raise self._findings.stop(
+                    SEVERAL_DOCUMENTS, "a second document", place, advice="keep one map in a file"
+                )
+            advice = "indent all keys of the map alike, and quote a text that starts with `&`, `*`, `!` or `%`"
+            raise self._findings.stop(SYNTAX, "the map has ended before this", place, advice=advice)

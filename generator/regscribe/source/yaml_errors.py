@@ -1,0 +1,73 @@
+"""What the YAML parser dislikes, said for people who write maps."""
+
+import yaml
+
+from regscribe.source.document import SourcePlace
+from regscribe.source.findings import Findings, StopReadingError
+from regscribe.source.rules import SYNTAX
+from regscribe.source.utf8 import place_at
+
+# (a part of the parser's words, what it means here, what to do)
+_KNOWN = (
+    (
+        "mapping values are not allowed",
+        "a `: ` where no key can stand",
+        "put a text that contains `: ` in quotes, or mend the indentation",
+    ),
+    ("could not find expected ':'", "a key without `:`", "write `key: value`, or indent a text that continues"),
+    (
+        "did not find expected key",
+        "no key where one must stand",
+        "indent all keys of a mapping alike; quote a text that starts with a quote, `[` or `{`",
+    ),
+    ("did not find expected ',' or ']'", "a list is not closed", "write `,` between the elements and `]` at the end"),
+    ("did not find expected ',' or '}'", "a mapping is not closed", "write `,` between the keys and `}` at the end"),
+    (
+        "did not find expected '-' indicator",
+        "no `- ` where the next element of the list must stand",
+        "indent all elements of a list alike",
+    ),
+    ("found unexpected end of stream", "a quote is not closed", "write the closing quote"),
+    (
+        "found character that cannot start any token",
+        "a text cannot start with this character",
+        "put the text in quotes",
+    ),
+    ("found unknown escape character", "an unknown escape after `\\`", "use single quotes; in them `\\` is itself"),
+    (
+        "block sequence entries are not allowed",
+        "a `- ` where no list can stand",
+        "start the list on a line of its own",
+    ),
+    ("did not find expected alphabetic", "an anchor (`&`) or alias (`*`) without a name", "put the text in quotes"),
+    ("did not find expected node content", "a value is missing", "write the value, or delete the `,`"),
+)
+# Noticed at the end of the file or of the line: the place to mend is where the thing starts.
+_BLAMED_ON_START = ("end of stream", "could not find expected ':'")
+_ELSEWHERE = "check indentation, quotes and brackets around here"
+
+
+def explain(error: yaml.YAMLError, text: str, findings: Findings) -> StopReadingError:
+    """Add the parser's `error` in `text` to the findings; the caller raises what this returns."""
+    if not isinstance(error, yaml.MarkedYAMLError):
+        return findings.stop(SYNTAX, "the file is not YAML", SourcePlace(0, 0, 0, 0), advice=_ELSEWHERE)
+    problem = error.problem or "not well-formed"
+    message, advice = next(((said, do) for part, said, do in _KNOWN if part in problem), (problem, _ELSEWHERE))
+    place, start = _place(error.problem_mark), _place(error.context_mark)
+    last = _last(text)
+    if place.line > last.line:
+        place, start, problem = last, min(start, last), _BLAMED_ON_START[0]
+    if error.context_mark and any(part in problem for part in _BLAMED_ON_START):
+        return findings.stop(SYNTAX, message, start, advice=advice)
+    related = ((error.context or "in what starts here", start),) if error.context_mark and start != place else ()
+    return findings.stop(SYNTAX, message, place, advice=advice, related=related)
+
+
+def _last(text: str) -> SourcePlace:
+    """Place the last character that is no blank: libyaml counts a line more than a text has that ends without one."""
+    rest = text.rstrip()
+    return place_at(rest, max(0, len(rest) - 1))
+
+
+def _place(mark: "yaml.Mark | None") -> SourcePlace:
+    return SourcePlace(mark.line, mark.column, mark.line, mark.column + 1) if mark else SourcePlace(0, 0, 0, 0)

@@ -1,0 +1,224 @@
+"""One model's driver on the bench: its registers beside their vectors, and checks that say what differs."""
+
+from collections.abc import Iterator, Mapping
+from functools import cached_property
+from typing import Any
+
+from regscribe.testing.compare import decoded, differs, encoded, refused, report, same
+from regscribe.testing.register_trial import Trial, known
+from regscribe.testing.vectors import Json, Vectors, number
+from regscribe_runtime.registers.register import Register
+
+WRITE_COIL, WRITE_COILS = 5, 15
+WRITE_ONE = (5, 6)
+ON = 0xFF00
+"""What function 05 sends for a coil that is on."""
+WITH_DOMAIN = frozenset({"number", "integer", "raw", "enum"})
+"""Kinds of which a vector says what can be written."""
+
+
+class DriverUnderTest:
+    """The driver class of one model and the vectors of its map."""
+
+    def __init__(self, driver: Any, vectors: Vectors) -> None:  # noqa: ANN401 (a generated class)
+        self.driver, self.vectors, self.model = driver, vectors, str(driver.model)
+        self.places = tuple(vectors.registers(self.model))
+        self.trials = tuple(self._trials())
+
+    @cached_property
+    def readable(self) -> list[Register[Any]]:
+        """The registers that can be read."""
+        return [register for register in self.driver.registers.values() if register.access != "w"]
+
+    @cached_property
+    def written(self) -> list[Trial]:
+        """The trials in which there is something to write."""
+        return [
+            trial
+            for trial in self.trials
+            if trial.entry["access"] != "r" and (trial.case.get("domain") or trial.entry["kind"] not in WITH_DOMAIN)
+        ]
+
+    @cached_property
+    def mirrored(self) -> list[Trial]:
+        """Those of registers with several views."""
+        return [trial for trial in self.written if len(trial.register.view_names) > 1]
+
+    def __repr__(self) -> str:
+        return f"<Bench {self.model}>"
+
+    def _register(self, path: str) -> Register[Any] | None:
+        found: Register[Any] | None = self.driver.registers.get(path)
+        return found
+
+    def _trials(self) -> Iterator[Trial]:
+        """Yield trials of each register that the driver has; equal declarations in one set are tried once."""
+        for entry in self.vectors.sets:
+            tried: list[tuple[object, ...]] = []
+            paths = (place["path"] for place in entry["registers"] if self.model in place["models"])
+            for register in filter(None, map(self._register, paths)):
+                declared = _declaration(register)
+                if declared not in tried:
+                    tried.append(declared)
+                    yield from (Trial(register, entry, case, *known(case)) for case in entry["cases"])
+
+    def check_registers(self) -> None:
+        """Assert that the driver has the registers of the model, no others, at their addresses in every view."""
+        differences = [*self._places(), *self._names()]
+        assert not differences, report(differences)  # noqa: S101 (this is a test library)
+
+    def _names(self) -> Iterator[str]:
+        expected, found = {place["path"] for place, _ in self.places}, set(self.driver.registers)
+        yield from (f"{path}: the driver of {self.model} lacks it" for path in sorted(expected - found))
+        yield from (f"{path}: {self.model} has no such register" for path in sorted(found - expected))
+
+    def _places(self) -> Iterator[str]:
+        for place, entry in self.places:
+            register = self._register(place["path"])
+            if register is None:
+                continue
+            addresses = {view.name: view.address(register.at) for view in register.views}
+            yield from differs(place["path"], "addresses", addresses, place["addresses"])
+            yield from differs(place["path"], "aliases", list(register.aliases), place.get("aliases", []))
+            default = "" if register.default is None else register.default
+            if default != place.get("default", "") and not same(default, place.get("default", "0")):
+                yield from differs(place["path"], "default", default, place.get("default"))
+            yield from differs(place["path"], "access", register.access, entry["access"])
+            spaces = {
+                view["name"]: (view["space"], view["words"], view.get("functions", [])) for view in entry["views"]
+            }
+            found = {view.name: (view.space, view.words, list(view.functions)) for view in register.views}
+            yield from differs(place["path"], "views", found, spaces)
+
+    def check_device(self) -> None:
+        """Assert that the driver knows the limits of the device, and that its commands send what they should."""
+        expected = {
+            name: tuple(fact) if isinstance(fact, list) else fact for name, fact in self.vectors.protocol.items()
+        }
+        found = {name: getattr(self.driver.protocol, name, expected[name]) for name in expected}
+        wrong = [*differs(self.model, "protocol", found, expected), *self._commands()]
+        assert not wrong, report(wrong)  # noqa: S101 (as above)
+
+    def _commands(self) -> Iterator[str]:
+        section = getattr(self.driver, "commands", None)
+        found = {
+            name: (bool(one.danger), list(one.steps)) for name, one in (section.commands() if section else {}).items()
+        }
+        expected = {
+            one["id"]: (one["danger"], [_step(step) for step in one["steps"]])
+            for one in self.vectors.commands
+            if self.model in one["models"]
+        }
+        yield from differs(self.model, "commands", found, expected)
+
+    def check_decoding(self) -> None:
+        """Assert that the words of every vector decode to its value, its fault or its outcome."""
+        differences = [
+            text for trial in self.trials for vector in trial.case.get("decode", ()) for text in decoded(trial, vector)
+        ]
+        assert not differences, report(differences)  # noqa: S101 (as above)
+
+    def check_encoding(self) -> None:
+        """Assert that the value of every vector encodes to its words."""
+        differences = [
+            text for trial in self.trials for vector in trial.case.get("encode", ()) for text in encoded(trial, vector)
+        ]
+        assert not differences, report(differences)  # noqa: S101 (as above)
+
+    def check_refusals(self) -> None:
+        """Assert that every value that has no words is refused."""
+        differences = [
+            text for trial in self.trials for vector in trial.case.get("refuse", ()) for text in refused(trial, vector)
+        ]
+        assert not differences, report(differences)  # noqa: S101 (as above)
+
+    def check_conditions_of_writing(self) -> None:
+        """Assert that a register that can be written at times can be written then and at no other time."""
+        differences: list[str] = []
+        for place, entry in self.places:
+            register = self._register(place["path"])
+            for vector in entry.get("writable", ()) if register else ():
+                state, givens = known(vector)
+                when = register.writable[0] if register and register.writable else ()
+                allowed = all(test.holds(state, givens) for test in when)
+                differences += differs(f"{place['path']} with {state}", "allowed", allowed, vector["allowed"])
+        assert not differences, report(differences)  # noqa: S101 (as above)
+
+    def check_examples(self) -> None:
+        """Assert that the driver reproduces the manual's worked examples."""
+        differences = [text for example in self.vectors.examples_of(self.model) for text in self._example(example)]
+        assert not differences, report(differences)  # noqa: S101 (as above)
+
+    def _example(self, example: Json) -> Iterator[str]:
+        state, givens = known(example)
+        if "register" in example:
+            register = self.driver.registers[example["register"]]
+            trial = Trial(register, {"kind": register.kind.name}, {"view": example["view"]}, state, givens)
+            if set(example) & {"value", "fault", "outcome"}:
+                yield from decoded(trial, example)
+            if example.get("encodes"):
+                yield from encoded(trial, example)
+        elif example.get("encodes") and not example["answer"]:
+            yield from self._frame(example, state, givens)
+
+    def _frame(self, example: Json, state: Mapping[str, Any], givens: Mapping[str, Any]) -> Iterator[str]:
+        sent = bytes.fromhex(example["frame"])[: -2 if example["crc"] else None]
+        data = _carried(example["function"], sent)
+        start = int.from_bytes(sent[2:4], "big")
+        state = {**state, **{path: number(text) for path, text in example["writes"].items()}}
+        for path, text in example["writes"].items():
+            register = self.driver.registers[path]
+            view, address = _placed(register, example.get("view"), start, len(data))
+            words = register.encode(number(text), view=view.name, state=state, givens=givens)
+            place = address - start
+            there = data[place : place + len(words)] if place >= 0 else ()
+            frame = f"frame of {example['source']}" if example["source"] else "frame"
+            yield from differs(frame, f"{path} = {text}", _hex(there), _hex(words))
+
+
+CHECKS = (
+    DriverUnderTest.check_registers,
+    DriverUnderTest.check_device,
+    DriverUnderTest.check_decoding,
+    DriverUnderTest.check_encoding,
+    DriverUnderTest.check_refusals,
+    DriverUnderTest.check_conditions_of_writing,
+    DriverUnderTest.check_examples,
+)
+"""What generated tests ask of a driver and its vectors without drawing values."""
+
+
+def _placed(register: Register[Any], name: str | None, start: int, count: int) -> tuple[Any, int]:
+    """The view (of this name) or alias that a frame of `count` words holds whole, and its address; else the first."""
+    base = register.views[0]
+    places = [(view, view.address(register.at)) for view in register.views if name in {None, view.name}]
+    places += [(base, alias) for alias in register.aliases if name in {None, base.name}]
+    held = ((view, address) for view, address in places if 0 <= address - start <= count - view.words)
+    return next(held, places[0])
+
+
+def _carried(function: int, sent: bytes) -> tuple[int, ...]:
+    """The words that a request writes, or the bits: function 05 sends FF00 for 1."""
+    data = sent[4:] if function in WRITE_ONE else sent[7:]
+    if function == WRITE_COILS:
+        count = int.from_bytes(sent[4:6], "big")
+        return tuple(data[place // 8] >> place % 8 & 1 for place in range(count))
+    words = tuple(int.from_bytes(data[place : place + 2], "big") for place in range(0, len(data), 2))
+    return tuple(int(word == ON) for word in words) if function == WRITE_COIL else words
+
+
+def _hex(words: tuple[int, ...]) -> str:
+    return " ".join(f"{word:04X}" for word in words)
+
+
+def _declaration(register: Register[Any]) -> tuple[object, ...]:
+    """Return all that the codec looks at; two registers with equal declarations cannot differ in it."""
+    scaling = (register.scale, register.special_scale, register.range, register.sentinels)
+    return (register.views, id(register.kind), register.access, *scaling)
+
+
+def _step(step: Json) -> tuple[int, int, tuple[int, ...]]:
+    """Return a step of a command as the runtime has it: function 0 waits."""
+    if "wait" in step:
+        return 0, step["wait"], ()
+    return step["function"], step["address"], tuple(step["words"])

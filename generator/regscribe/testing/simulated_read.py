@@ -1,0 +1,134 @@
+"""Drive the read operation of a driver without a link, and judge the requests that it makes."""
+
+from collections import Counter, defaultdict
+from collections.abc import Callable, Container, Iterator, Sequence
+from typing import Any, NamedTuple
+
+from regscribe_runtime import ValueNotDecodable
+from regscribe_runtime.operations import tasks
+from regscribe_runtime.operations.session import Protocol, Session
+from regscribe_runtime.operations.snapshot import Snapshot
+from regscribe_runtime.planning.alternatives import Way, ways
+from regscribe_runtime.registers.register import Register
+from regscribe_runtime.wire.requests import READ_SPACES, Reply, Request
+
+Cell = tuple[str, int]
+"""A space and a wire address."""
+
+BITS = frozenset({"coil", "discrete"})
+
+
+class ReadTrace(NamedTuple):
+    """The requests that a read made, and what it returned; both as the driver's runtime has them."""
+
+    requests: tuple[Request, ...]
+    snapshot: Snapshot
+    session: Session
+
+
+def read_through(driver: Any, chosen: Sequence[Register[Any]], *, seed: int = 0, code: int = 0) -> ReadTrace:  # noqa: ANN401 (a generated class)
+    """Read registers from a device whose words follow from `seed`.
+
+    All registers that the meaning of others depends on are taken to be known and to hold `code`, so only what was
+    chosen is read.
+    """
+    session = Session(
+        unit=driver.protocol.unit_ids[0],
+        protocol=driver.protocol,
+        registers=driver.registers,
+        commands={},
+        givens=defaultdict(frozenset),
+        unused=unused_of(driver),
+    )
+    needs = (path for register in chosen for path in register.needs(register.read_view()))
+    session.memory.update(dict.fromkeys(needs, code))
+    operation = tasks.read_many(chosen, fresh=False)(session)
+    requests: list[Request] = []
+    try:
+        asked = next(operation)
+        while isinstance(asked, Request):
+            requests.append(asked)
+            space = READ_SPACES[asked.function]
+            words = tuple(word_at(space, asked.address + offset, seed) for offset in range(asked.quantity))
+            asked = operation.send(Reply(asked.function, words))
+    except StopIteration as done:
+        return ReadTrace(tuple(requests), done.value, session)
+    message = f"a read paused: {asked}"
+    raise TypeError(message)
+
+
+def word_at(space: str, address: int, seed: int) -> int:
+    """Return the word (the bit, the status byte) at an address: any one, but always the same."""
+    most = 1 if space in BITS else 0xFF if space == "status" else 0xFFFF
+    return (address * 40503 + seed * 60493) >> 4 & most if seed else 0
+
+
+def wrong_requests(driver: Any, chosen: Sequence[Register[Any]]) -> list[str]:  # noqa: ANN401 (a generated class)
+    """Return what is wrong with the requests: registers left out or asked for twice, holes, limits."""
+    requests = read_through(driver, chosen).requests
+    asked = Counter(cell for request in requests for cell in _cells(READ_SPACES[request.function], request))
+    found = [f"{register.path} is not asked for" for register in chosen if not _is_asked(register, asked)]
+    found += [f"{space} {address} is asked for again" for space, address in asked if asked[space, address] > 1]
+    if not driver.protocol.read_holes:
+        known = {cell for register in driver.registers.values() for cell in _places_of(register)}
+        known |= {(space, at) for space, first, last in unused_of(driver) for at in range(first, last + 1)}
+        found += [f"{space} {address} is no register" for space, address in asked if (space, address) not in known]
+    return found + [text for request in requests for text in _too_much(driver.protocol, request)]
+
+
+def unused_of(driver: Any) -> tuple[tuple[str, int, int], ...]:  # noqa: ANN401 (as above)
+    """Return the addresses of a generated class that read as 0: space, first, last."""
+    found: tuple[tuple[str, int, int], ...] = driver._unused  # noqa: SLF001 (a fact for the runtime and its judges)
+    return found
+
+
+def _cells(space: str, request: Request) -> Iterator[Cell]:
+    return ((space, request.address + offset) for offset in range(request.quantity))
+
+
+def _is_asked(register: Register[Any], asked: Container[Cell]) -> bool:
+    return any(
+        all((way.item.space, address) in asked for address in range(way.item.address, way.item.end))
+        for way in ways(register)
+    )
+
+
+def _places_of(register: Register[Any]) -> Iterator[Cell]:
+    base = register.views[0]
+    starts = [(view, view.address(register.at)) for view in register.views]
+    starts += [(base, alias) for alias in register.aliases]
+    return ((view.space, start + offset) for view, start in starts for offset in range(view.words))
+
+
+def _too_much(protocol: Protocol, request: Request) -> Iterator[str]:
+    most = protocol.read_bits if READ_SPACES[request.function] in BITS else protocol.read_words
+    if request.quantity > most:
+        yield f"{request.quantity} addresses from {request.address} in one request, where {most} are allowed"
+
+
+def wrong_values(driver: Any, chosen: Sequence[Register[Any]], *, seed: int, code: int) -> list[str]:  # noqa: ANN401 (as above)
+    """Return where a read of several registers gives another value (or another error) than each word alone."""
+    reading = read_through(driver, chosen, seed=seed, code=code)
+    found = []
+    for register in chosen:
+        together = _outcome(lambda path=register.path: reading.snapshot[path])  # type: ignore[misc]
+        alone = [
+            _outcome(lambda register=register, way=way: _alone(register, way, reading.session, seed))  # type: ignore[misc]
+            for way in ways(register)
+        ]
+        if together not in alone:
+            found.append(f"{register.path}: {together} with others, {alone[0]} alone")
+    return found
+
+
+def _alone(register: Register[Any], way: Way, session: Session, seed: int) -> Any:  # noqa: ANN401 (any value)
+    words = [word_at(way.item.space, address, seed) for address in range(way.item.address, way.item.end)]
+    return register.decode(words, view=way.view.name, state=session.memory, givens=session.givens)
+
+
+def _outcome(read: Callable[[], Any]) -> tuple[str, Any]:
+    try:
+        value = read()
+    except ValueNotDecodable as error:
+        return type(error).__name__, str(error)
+    return type(value).__name__, value

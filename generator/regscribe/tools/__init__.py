@@ -1,0 +1,1 @@
+"""Tools for real devices: reading and logging, backups, setpoint programs."""

@@ -1,0 +1,60 @@
+"""Lines of logs to captured bytes: what in a line is a frame, and which way it went, whatever program wrote it."""
+
+import re
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+from regscribe.tools.live.captured_frames import CapturedFrame, frames
+
+SENT, RECEIVED = "sent", "received"
+MOST = 100_000
+"""Characters of a line that are looked at."""
+
+_BRACKETS = re.compile(r"(?:[\[<][0-9A-Fa-f]{2}[\]>]\s*)+")
+_PREFIXED = re.compile(r"(?:0x[0-9A-Fa-f]{1,2}[\s,]*)+")
+_PAIRS = re.compile(r"(?<![0-9A-Za-z:.])[0-9A-Fa-f]{2}(?:[ :,\-\t]+[0-9A-Fa-f]{2})+(?![0-9A-Za-z])")
+_SOLID = re.compile(r"(?<![0-9A-Za-z])(?:[0-9A-Fa-f]{2}){4,}(?![0-9A-Za-z])")
+_ASCII = re.compile(r":(?:[0-9A-Fa-f]{2}){3,}")
+_WAYS = (
+    (SENT, re.compile(r"\b(?:tx|sent|sending|send|request|query|out|write)\b|(?<![-=])[-=]+>|>>>?|→", re.IGNORECASE)),
+    (RECEIVED, re.compile(r"\b(?:rx|received|receiving|recv|response|answer|reply|in)\b|<[-=]+|<<<?|←", re.IGNORECASE)),
+)
+
+
+class Captured(NamedTuple):
+    """The frames of one line: its number (from 1), `direction` sent, received or "" where it does not say."""
+
+    line: int
+    direction: str
+    frames: tuple[CapturedFrame, ...]
+
+
+def captured(lines: Iterable[str], framing: str = "") -> Iterator[Captured]:
+    """The lines in which something can be a frame; a sound one is preferred to what only looks like bytes."""
+    for number, line in enumerate(lines, start=1):
+        text = line[:MOST].strip()
+        candidates = [found for raw in _candidates(text) if (found := frames(raw, framing))]
+        if candidates:
+            best = min(candidates, key=lambda one: (any(frame.complaint for frame in one), -_size(one)))
+            yield Captured(number, _direction(text), tuple(best))
+
+
+def _size(found: list[CapturedFrame]) -> int:
+    return sum(len(frame.raw) for frame in found)
+
+
+def _candidates(text: str) -> Iterator[bytes]:
+    """What in a line may be the bytes of a frame, in every notation."""
+    for found in _ASCII.findall(text):
+        yield found.encode("ascii")
+    for pattern in (_BRACKETS, _PREFIXED):
+        for found in pattern.findall(text):
+            yield bytes(int(digits, 16) for digits in re.findall(r"(?:0x)?([0-9A-Fa-f]{1,2})", found))
+    for pattern in (_PAIRS, _SOLID):
+        for found in pattern.findall(text):
+            yield bytes.fromhex(re.sub(r"[^0-9A-Fa-f]", "", found))
+
+
+def _direction(text: str) -> str:
+    found = [way for way, pattern in _WAYS if pattern.search(text)]
+    return found[0] if len(found) == 1 else ""

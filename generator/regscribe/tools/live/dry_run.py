@@ -1,0 +1,65 @@
+"""A link that reads but does not write: what would be written is kept, and reads back as if it had been."""
+
+from typing import Any, NamedTuple, cast
+
+from regscribe_runtime import BareDevice, Link
+from regscribe_runtime.wire.requests import (
+    READ_SPACES,
+    WRITE_COIL,
+    WRITE_COILS,
+    WRITE_REGISTER,
+    WRITE_REGISTERS,
+    Reply,
+    Request,
+)
+
+WRITES = frozenset({WRITE_COIL, WRITE_REGISTER, WRITE_COILS, WRITE_REGISTERS})
+_COUNTED = frozenset({WRITE_COILS, WRITE_REGISTERS})
+_BITS = frozenset({WRITE_COIL, WRITE_COILS})
+
+
+class DryWrite(NamedTuple):
+    """A request that was not sent, and the unit that it would have gone to."""
+
+    unit: int
+    request: Request
+
+
+def dry(device: BareDevice) -> "DryLink":
+    """Let a driver write nothing any more; the link tells what it would have written."""
+    link = DryLink(device.link)
+    device.link = cast("Link", link)
+    return link
+
+
+class DryLink:
+    """Passes reads to a link and answers writes itself, as a device that takes everything."""
+
+    def __init__(self, link: Link) -> None:
+        self._link = link
+        self.written: list[DryWrite] = []
+        self._held: dict[tuple[int, str, int], int] = {}
+
+    def __getattr__(self, name: str) -> Any:  # noqa: ANN401 - whatever else the link has
+        return getattr(self._link, name)
+
+    def retune(self, change: object) -> None:
+        """Talk as before: what would have changed the line was not written."""
+
+    def call(self, unit: int, request: Request) -> Reply:
+        """Answer a write with its echo; send anything else."""
+        if request.function not in WRITES:
+            return self._overlaid(unit, request, self._link.call(unit, request))
+        self.written.append(DryWrite(unit, request))
+        space = "coil" if request.function in _BITS else "holding"
+        for offset, word in enumerate(request.words):
+            self._held[unit, space, request.address + offset] = word
+        words = () if request.function in _COUNTED else request.words
+        return Reply(request.function, words, request.address, len(request.words))
+
+    def _overlaid(self, unit: int, request: Request, reply: Reply) -> Reply:
+        space = READ_SPACES.get(request.function)
+        if space is None or reply.exception is not None:
+            return reply
+        held = (self._held.get((unit, space, request.address + at), word) for at, word in enumerate(reply.words))
+        return reply._replace(words=tuple(held))

@@ -1,0 +1,172 @@
+"""The name of a link: `tcp:10.0.0.7:502`, `rtu:/dev/ttyUSB0?baud=9600&parity=E`, read and written without I/O."""
+
+import re
+from collections.abc import Container, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+from urllib.parse import parse_qsl, urlencode
+
+from regscribe.tools.live.errors import TargetError, meant, unknown
+from regscribe_runtime.link.links import MODBUS_TCP_PORT
+
+SCHEMES = ("tcp", "rtu", "ascii")
+FRAMINGS = ("tcp", "rtu", "ascii")
+ADDRESSINGS = ("modbus", "jbus")
+PARITIES = ("N", "E", "O")
+BAUDS = range(50, 10_000_001)
+DATA_BITS = (7, 8)
+STOP_BITS = (1, 2)
+LAST_PORT = 0xFFFF
+LONGEST_TIMEOUT = 3600.0
+KEYS = ("baud", "parity", "data_bits", "stop_bits", "framing", "addressing", "timeout")
+"""What may stand behind the `?`, besides the keys of the device (see `target`)."""
+_WHOLE: dict[str, tuple[Container[int], str]] = {
+    "baud": (BAUDS, f"{BAUDS[0]} to {BAUDS[-1]}"),
+    "data_bits": (DATA_BITS, "7 or 8"),
+    "stop_bits": (STOP_BITS, "1 or 2"),
+}
+_WORDS = {"parity": PARITIES, "addressing": ADDRESSINGS, "framing": FRAMINGS}
+SERIAL_KEYS = frozenset({"baud", "parity", "data_bits", "stop_bits"})
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LinkName:
+    """How a device is reached: `host` and `port` over TCP, else the serial `device` with its line.
+
+    What is None (or "" for `parity`) is left to the driver: the manual's own line, the timeout of its latencies.
+    `timeout` is in seconds.
+    """
+
+    host: str = ""
+    port: int = MODBUS_TCP_PORT
+    device: str = ""
+    framing: str = "tcp"
+    baud: int | None = None
+    data_bits: int | None = None
+    parity: str = ""
+    stop_bits: int | None = None
+    addressing: str = "modbus"
+    timeout: float | None = None
+
+    @property
+    def serial(self) -> bool:
+        """Whether it is a serial line."""
+        return not self.host
+
+    @property
+    def place(self) -> str:
+        """Where it leads, without any setting: what tells one line or gateway from another."""
+        return self.device if self.serial else f"{self.host}:{self.port}"
+
+    def settings(self) -> dict[str, Any]:
+        """The keyword arguments of a driver's `tcp` or `rtu`, and of the links of the runtime, besides the timeout."""
+        if not self.serial:
+            return {"port": self.port, "framing": self.framing, "addressing": self.addressing}
+        line = {"baud": self.baud, "data_bits": self.data_bits, "parity": self.parity or None}
+        given = {key: value for key, value in {**line, "stop_bits": self.stop_bits}.items() if value is not None}
+        return {**given, "framing": self.framing, "addressing": self.addressing}
+
+    def __str__(self) -> str:
+        given = {
+            "baud": self.baud,
+            "data_bits": self.data_bits,
+            "parity": self.parity,
+            "stop_bits": self.stop_bits,
+            "framing": "" if self.serial or self.framing == "tcp" else self.framing,
+            "addressing": "" if self.addressing == "modbus" else self.addressing,
+            "timeout": None if self.timeout is None else f"{self.timeout:g}",
+        }
+        query = urlencode({key: value for key, value in given.items() if value not in (None, "")})
+        host = f"[{self.host}]" if ":" in self.host else self.host
+        start = f"{self.framing}:{self.device}" if self.serial else f"tcp:{host}:{self.port}"
+        return f"{start}?{query}" if query else start
+
+
+def is_link(text: str) -> bool:
+    """Whether a text is meant as the name of a link: it starts with `tcp:` or another word and a colon."""
+    return bool(re.match(r"[A-Za-z][A-Za-z0-9+-]*:", text))
+
+
+def split(text: str) -> tuple[LinkName, dict[str, str]]:
+    """The link of a text, and the keys behind its `?` that are none of a link; TargetError."""
+    scheme, _, rest = text.partition(":")
+    if scheme not in SCHEMES:
+        message = f"`{text[:100]}`: `{scheme}` is no kind of link{meant(scheme, SCHEMES)}"
+        raise TargetError(message)
+    place, _, query = rest.partition("?")
+    pairs = parse_qsl(query, keep_blank_values=True)
+    given = dict(pairs)
+    if len(given) < len(pairs) or any(not value for value in given.values()) or (query and not pairs):
+        message = f"{text}: write `?key=value&key=value`, each key once"
+        raise TargetError(message)
+    start = _tcp(text, place) if scheme == "tcp" else _serial(text, place, scheme)
+    own = {key: value for key, value in given.items() if key in KEYS}
+    return with_settings(start, own), {key: value for key, value in given.items() if key not in KEYS}
+
+
+def parse(text: str) -> LinkName:
+    """The link that a text names; TargetError if it names none, or more than a link."""
+    link, more = split(text)
+    if more:
+        message = f"{text}: {unknown('setting', next(iter(more)), KEYS, where='of a link')}"
+        raise TargetError(message)
+    return link
+
+
+def with_settings(link: LinkName, given: Mapping[str, str]) -> LinkName:
+    """The link with settings as texts laid over it; TargetError for a value that is none."""
+    wrong = sorted(SERIAL_KEYS & set(given)) if not link.serial else [key for key in given if key == "framing"]
+    if wrong:
+        why = "TCP has no serial line" if not link.serial else "the framing of a line is its first word, rtu or ascii"
+        message = f"{link}: `{wrong[0]}` cannot stand here: {why}"
+        raise TargetError(message)
+    return replace(link, **{key: _setting(key, value) for key, value in given.items()})
+
+
+def _tcp(text: str, place: str) -> LinkName:
+    found = re.fullmatch(r"(?:\[([0-9A-Fa-f:.%]+)\]|([^:/\[\]\s]+))(?::([0-9]{1,5}))?", place)
+    if not found or not 0 < int(found[3] or MODBUS_TCP_PORT) <= LAST_PORT:
+        message = f"{text}: write tcp:HOST or tcp:HOST:PORT with a port from 1 to 65535, for example tcp:10.0.0.7:502"
+        raise TargetError(message)
+    return LinkName(host=found[1] or found[2], port=int(found[3] or MODBUS_TCP_PORT))
+
+
+def _serial(text: str, place: str, framing: str) -> LinkName:
+    if not place:
+        message = f"{text}: name the serial device, for example {framing}:/dev/ttyUSB0"
+        raise TargetError(message)
+    return LinkName(device=place, framing=framing)
+
+
+def _setting(key: str, value: str) -> Any:  # noqa: ANN401 - each field has a type of its own
+    if key in _WHOLE:
+        allowed, said = _WHOLE[key]
+        return _whole(key, value, allowed, said)
+    if key in _WORDS:
+        return _one_of(key, value.upper() if key == "parity" else value, _WORDS[key])
+    return _seconds(value)
+
+
+def _whole(key: str, value: str, allowed: Container[int], said: str) -> int:
+    if not re.fullmatch(r"[0-9]{1,9}", value) or int(value) not in allowed:
+        message = f"{key}={value}: `{key}` is {said}"
+        raise TargetError(message)
+    return int(value)
+
+
+def _seconds(value: str) -> float:
+    try:
+        seconds = float(value)
+    except ValueError:
+        seconds = 0.0
+    if not 0 < seconds <= LONGEST_TIMEOUT:
+        message = f"timeout={value}: a timeout is a number of seconds up to {LONGEST_TIMEOUT:g}, for example 1.5"
+        raise TargetError(message)
+    return seconds
+
+
+def _one_of(key: str, value: str, allowed: tuple[str, ...]) -> str:
+    if value not in allowed:
+        message = f"{key}={value}: `{key}` is {', '.join(allowed)}"
+        raise TargetError(message)
+    return value

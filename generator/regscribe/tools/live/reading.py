@@ -1,0 +1,100 @@
+"""Several registers at once, as plain values with the unit that each stands in; one consistent reading."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+from regscribe.tools.live.value_text import Plain, as_text, show
+from regscribe_runtime import Register, RegscribeError, Snapshot
+from regscribe_runtime.errors import ValueNotDecodable
+from regscribe_runtime.operations import tasks
+from regscribe_runtime.operations.read import know
+from regscribe_runtime.operations.session import Operation, Session, Task
+from regscribe_runtime.values.specs import choose, registers_of
+
+
+class RegisterReading(NamedTuple):
+    """What a register held: `value` plain and as `text` for people, in `unit`; or the `error` in place of it."""
+
+    name: str
+    value: Plain | None
+    text: str
+    unit: str
+    error: RegscribeError | None
+
+    @property
+    def spelled(self) -> str:
+        """For people: the value with its unit, or why there is none."""
+        if self.error is not None:
+            return f"({reason(self.error, self.name)})"
+        return f"{self.text} {self.unit}".rstrip()
+
+
+def readings(registers: Sequence[Register[Any]]) -> Task[tuple[RegisterReading, ...]]:
+    """Read registers in few requests, and with them those that decide their units."""
+
+    def task(session: Session) -> Operation[tuple[RegisterReading, ...]]:
+        wanted = {register.path: register for register in registers}
+        for register in registers:
+            wanted.update((path, session.registers[path]) for path in unit_needs(register))
+        snapshot = yield from tasks.read_many(list(wanted.values()))(session)
+        state = snapshot.valid
+        return tuple(_reading(register, snapshot, state, session.givens) for register in registers)
+
+    return task
+
+
+def held_of(register: Register[Any], value: Any, view: str | None) -> Task[Any]:  # noqa: ANN401 - of any register
+    """What a device will hold once `value` is written in `view`, rounded to what that view can carry.
+
+    Nothing is written; registers that decide the scale are read. Raises what encoding raises.
+    """
+
+    def task(session: Session) -> Operation[Any]:
+        chosen = register.write_view(view)
+        state = {
+            **(yield from know(session, register.needs(chosen))),
+            **(yield from know(session, register.limit_needs)),
+        }
+        words = register.encode(value, view=chosen.name, state=state, givens=session.givens, rounded=True)
+        try:
+            return register.decode(words, view=chosen.name, state=state, givens=session.givens)
+        except ValueNotDecodable:  # the end of the view's range, which reading takes for "this or beyond"
+            return value
+
+    return task
+
+
+def unit_needs(register: Register[Any]) -> tuple[str, ...]:
+    """The registers that decide the unit of a register."""
+    return () if isinstance(register.unit, str) else registers_of(register.unit)
+
+
+def unit_of(register: Register[Any], state: Mapping[str, Any], givens: Mapping[str, Any]) -> str:
+    """The unit under the values in `state`; "" where it has none, or where they do not decide it."""
+    if isinstance(register.unit, str):
+        return register.unit
+    if not set(unit_needs(register)) <= set(state):
+        return ""
+    return str(choose(register.unit, state, givens) or "")
+
+
+def reason(error: RegscribeError, name: str) -> str:
+    """What an error says, without the name that stands beside it already."""
+    return str(error).removeprefix(f"{name}: ")
+
+
+def _reading(
+    register: Register[Any], snapshot: Snapshot, state: Mapping[str, Any], givens: Mapping[str, Any]
+) -> RegisterReading:
+    path, unit = register.path, unit_of(register, state, givens)
+    try:
+        value = snapshot[path]
+    except RegscribeError as error:
+        return RegisterReading(path, None, "", unit, error)
+    plain = show(register, value)
+    return RegisterReading(path, plain, as_text(register, value), unit if _carries_unit(plain, value) else "", None)
+
+
+def _carries_unit(plain: Plain, value: object) -> bool:
+    """A number does; a special value (off, disabled) does not."""
+    return isinstance(plain, (int, float)) and not isinstance(value, bool)

@@ -1,0 +1,218 @@
+"""A target: one text that names a device, wherever a command takes one; read here, and made a driver."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from types import ModuleType
+from typing import Any
+from urllib.parse import urlencode
+
+from regscribe.tools.live import catalogue, givens, link_names
+from regscribe.tools.live.config import Config
+from regscribe.tools.live.errors import TargetError, unknown
+from regscribe.tools.live.link_names import LinkName
+from regscribe_runtime import AsyncBareDevice, BareDevice, Link, LinkLost, NoAnswer, identify, tcp
+from regscribe_runtime.driver.identify import Identification, Known, identity_of
+from regscribe_runtime.link.links import serial
+from regscribe_runtime.link.trace import Tracer
+
+LAST_UNIT = 255
+MOST_DIGITS = 9
+USUAL_UNIT = 1
+GIVEN = "given."
+KEYS = ("unit", "model")
+"""What may stand behind the `?` of a link to name the device, besides `given.ID`."""
+USUAL_BAUD = 9600
+IDENTIFY_SECONDS = 1.0
+"""How long an unknown device may take to answer; its manual is not known yet."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Target:
+    """A device: the link to it, its unit, its model ("" as long as nobody asked it), its givens as texts.
+
+    `name` is what the configuration calls it, `packages` are the user's packages of drivers.
+    `trace` is told of every frame.
+    """
+
+    link: LinkName
+    unit: int = USUAL_UNIT
+    model: str = ""
+    givens: Mapping[str, str] = field(default_factory=dict)
+    name: str = ""
+    packages: tuple[str, ...] = ()
+    trace: Tracer | None = field(default=None, compare=False)
+
+    def __str__(self) -> str:
+        return self.name or f"unit {self.unit} on {self.link}"
+
+    @property
+    def text(self) -> str:
+        """The whole name, as `parse` reads it."""
+        link = str(self.link)
+        more = {"unit": str(self.unit), "model": self.model, **{GIVEN + key: one for key, one in self.givens.items()}}
+        query = urlencode({key: value for key, value in more.items() if value}, safe="/:,")
+        return f"{link}{'&' if '?' in link else '?'}{query}"
+
+    def known(self) -> Known:
+        """The drivers of its model; TargetError if it has none, or none that is known."""
+        if not self.model:
+            message = f"{self}: its model is not known yet: add ?model=..., or let `identified` ask it"
+            raise TargetError(message)
+        return catalogue.find(self.model, self.packages)
+
+
+def parse(text: str, config: Config | None = None) -> Target:
+    """The device that a text names: a link with `?unit=1&model=16C`, or a name of the configuration; TargetError."""
+    configured = config or Config()
+    if link_names.is_link(text):
+        link, more = link_names.split(text)
+        return _with(Target(link=link, packages=configured.packages), text, more)
+    if text not in configured.devices:
+        raise TargetError(_nobody(text, configured))
+    entry = configured.devices[text]
+    link, more = link_names.split(entry.link)
+    link = link_names.with_settings(link, {"timeout": entry.timeout} if entry.timeout else {})
+    found = _with(Target(link=link, name=text, packages=configured.packages), entry.link, more)
+    return override(found, unit=entry.unit, model=entry.model, given=entry.givens)
+
+
+def override(
+    target: Target, *, unit: int | None = None, model: str = "", given: Mapping[str, str] | None = None
+) -> Target:
+    """The target with what is given in place of what it had; TargetError for a unit id that is none."""
+    if unit is not None and not 0 <= unit <= LAST_UNIT:
+        message = f"unit {unit}: a unit id is 0 to {LAST_UNIT}"
+        raise TargetError(message)
+    return replace(
+        target,
+        unit=target.unit if unit is None else unit,
+        model=model or target.model,
+        givens={**target.givens, **(given or {})},
+    )
+
+
+def connect(target: Target) -> BareDevice:
+    """A synchronous driver of the target, not opened yet; TargetError if its model or its givens are wrong."""
+    driver: Any = target.known().driver
+    device: BareDevice = _made(driver, driver, target)
+    return device
+
+
+def connect_async(target: Target) -> AsyncBareDevice:
+    """As `connect`, for asyncio."""
+    known = target.known()
+    device: AsyncBareDevice = _made(known.async_driver, known.driver, target)
+    return device
+
+
+def link_of(target: Target) -> Link:
+    """A link to the target without a driver, not opened yet; 9600 8N1 where a line's settings are not given."""
+    link, seconds = target.link, target.link.timeout or IDENTIFY_SECONDS
+    if not link.serial:
+        return tcp(link.host, timeout=seconds, trace=target.trace, **link.settings())
+    line: dict[str, Any] = {"baud": USUAL_BAUD, **link.settings()}
+    return serial(link.device, timeout=seconds, trace=target.trace, **line)
+
+
+def packages_of(target: Target) -> tuple[ModuleType, ...]:
+    """The packages whose models the target may be; TargetError if one cannot be imported."""
+    return tuple(catalogue.package(name) for name in (*target.packages, catalogue.SHIPPED))
+
+
+def identification(target: Target) -> Identification:
+    """Ask the device what it is; RegscribeError for the link, else what fits (perhaps nothing) with the evidence."""
+    link = link_of(target)
+    link.open()
+    try:
+        return identify(link, unit=target.unit, packages=packages_of(target))
+    finally:
+        link.close()
+
+
+def identified(target: Target) -> Target:
+    """The target with its model: as given, else as the device says; TargetError if it is unknown or ambiguous."""
+    if target.model:
+        return target
+    found = identification(target)
+    if found.certain:
+        return replace(target, model=catalogue.full_name(found.models[0]))
+    answered(found)
+    if not found.models:
+        seen = "; ".join(dict.fromkeys(str(one.error) for one in found.evidence if one.error)) or "no answer fits"
+        message = f"{target}: the device is none that drivers exist for ({seen}): name its model with ?model=..."
+        raise TargetError(message)
+    names = " or ".join(f"model={one.model}" for one in found.models)
+    message = f"{target}: its answers fit {len(found.models)} models alike: write ?{names}"
+    raise TargetError(message)
+
+
+def with_packages(target: Target, packages: Sequence[str]) -> Target:
+    """The target with more packages to look for its model in."""
+    return replace(target, packages=tuple(dict.fromkeys((*packages, *target.packages))))
+
+
+def check_identity(device: BareDevice, target: Target) -> None:
+    """Ask the open device whether it is what its driver is for; TargetError if it shows to be something else.
+
+    A model that its manual gives no identity passes.
+    """
+    known = target.known()
+    if not known.driver.identity:
+        return
+    found = device.run(identity_of(known))
+    answered(found)
+    if found.certain:
+        return
+    seen = [f"{one.register} is {one.value if one.error is None else one.error}" for one in found.evidence]
+    message = f"{target} does not show to be a {known.model}: {', '.join(seen)}"
+    raise TargetError(message)
+
+
+def answered(found: Identification) -> None:
+    """Raise the link's own error if nothing at all was answered."""
+    silent = [one.error for one in found.evidence if isinstance(one.error, (NoAnswer, LinkLost))]
+    if silent and len(silent) == len(found.evidence):
+        raise silent[0]
+
+
+def _with(target: Target, text: str, more: Mapping[str, str]) -> Target:
+    for key in more:
+        if key not in KEYS and not key.startswith(GIVEN):
+            message = f"{text}: {unknown('setting', key, [*KEYS, *link_names.KEYS, f'{GIVEN}ID'])}"
+            raise TargetError(message)
+    unit = more.get("unit", str(USUAL_UNIT))
+    if not unit.isascii() or not unit.isdigit() or len(unit) > MOST_DIGITS or int(unit) > LAST_UNIT:
+        message = f"{text}: unit={unit}: a unit id is 0 to {LAST_UNIT}"
+        raise TargetError(message)
+    given = {key.removeprefix(GIVEN): value for key, value in more.items() if key.startswith(GIVEN)}
+    return override(target, unit=int(unit), model=more.get("model", ""), given=given)
+
+
+def _nobody(text: str, config: Config) -> str:
+    where = f"in {config.path}" if config.path else "and no configuration names devices (regscribe.yaml)"
+    hint = "" if config.devices else ": write tcp:HOST:PORT or rtu:/dev/ttyUSB0"
+    return f"{unknown('device', text, config.devices, where=where)}{hint}"
+
+
+def _made(driver: Any, typed: type[BareDevice], target: Target) -> Any:  # noqa: ANN401 - sync and async drivers alike
+    given = givens.understood(typed, target.givens)
+    link = target.link
+    make = driver.rtu if link.serial else driver.tcp
+    try:
+        place, settings = link.device if link.serial else link.host, link.settings()
+        return make(place, unit=target.unit, timeout=link.timeout, trace=target.trace, **given, **settings)
+    except ValueError as error:
+        message = f"{target}: {error}"
+        raise TargetError(message) from None
+
+
+def given_texts(texts: Sequence[str]) -> dict[str, str]:
+    """`ID=VALUE` of a command line, by id; TargetError."""
+    found = {}
+    for text in texts:
+        name, equals, value = text.partition("=")
+        if not name or not equals:
+            message = f"--given {text}: write ID=VALUE, for example linear_inputs=1,4..6"
+            raise TargetError(message)
+        found[name] = value
+    return found

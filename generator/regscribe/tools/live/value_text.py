@@ -1,0 +1,279 @@
+"""Values as plain text and numbers, for YAML, JSON and the command line; and back, with a reason for each refusal."""
+
+import re
+import unicodedata
+from collections.abc import Iterable, Sequence
+from decimal import Decimal, InvalidOperation
+from enum import Enum
+from typing import Any
+
+from regscribe.tools.live.errors import meant
+from regscribe_runtime import Bit, Choice, Field, Flags, Register, SpecialNumber, ValueRefused, Word
+from regscribe_runtime.registers.enums import unnamed_bits
+
+Plain = str | int | float | bool | list[str]
+"""A value without Python's types: numbers, members and special values by name, the names of set flags."""
+
+_NUMBER = re.compile(r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?")
+_WHOLE = re.compile(r"[+-]?(?:0[xX][0-9A-Fa-f]{1,16}|[0-9]{1,20})")
+_MORE_DIGITS = re.compile(r"[0-9_.,'xX]|\s[\s0-9_.,']*$")
+"""What behind a number is more of it (1_000, 1e5000, 0x and too many digits, 1 000) and no unit."""
+MOST_EXACT = 2.0**53
+"""Up to here a float tells whole numbers apart."""
+_UNITS = {"degc": "°C", "degf": "°F", "c": "°C", "f": "°F", "℃": "°C", "℉": "°F", "k": "K", "percent": "%"}
+_TRUE, _FALSE = frozenset({"true", "on", "yes", "1"}), frozenset({"false", "off", "no", "0"})
+
+
+def show(register: Register[Any], value: Any) -> Plain:  # noqa: ANN401 - a value of any register
+    """A value of use as `parse` takes it: a number, a text, a name, the names of set flags, `part=value` of fields."""
+    if isinstance(value, (Choice, SpecialNumber)):
+        return str(value.name)
+    if isinstance(value, Flags):
+        return [*(member.name or "" for member in type(value) if member in value), *_unnamed(value)]
+    if isinstance(value, Word):
+        return [f"{name}={_shown_part(part)}" for name, part in value] + _rest(value)
+    if register.kind.name == "boolean":
+        return bool(value)
+    return value if isinstance(value, (int, float)) else str(value)
+
+
+def as_text(register: Register[Any], value: Any) -> str:  # noqa: ANN401 - as above
+    """A value of use for people: `150.5`, `RUN`, `HEATER, FAN`; the unit is none of it."""
+    plain = show(register, value)
+    if isinstance(plain, bool):
+        return str(plain).lower()
+    if isinstance(plain, list):
+        return ", ".join(plain) or "none"
+    return spelled(plain)
+
+
+def spelled(plain: float | str) -> str:
+    """A number with all its digits, a whole one without a point: a counter of 64 bits has more than twelve."""
+    if isinstance(plain, float) and plain.is_integer() and abs(plain) < MOST_EXACT:
+        return str(int(plain))
+    return str(plain)
+
+
+def parse(register: Register[Any], plain: Plain, *, unit: str = "", current_unit: str = "") -> Any:  # noqa: ANN401 - as above
+    """The value of use that `plain` means; ValueRefused if it means none, or stands in another unit.
+
+    `unit` is what stands beside the value; a number's text may carry its own (`150.5 °F`). `current_unit` is the unit
+    that the device works in now.
+    """
+    name = register.kind.name
+    if name in {"number", "integer", "raw"}:
+        return _number(register, plain, unit, current_unit)
+    _same_unit(register, unit, current_unit)
+    match name:
+        case "enum":
+            return _member(register, _members_of(register), plain)
+        case "flags":
+            return _flags(register, plain)
+        case "fields":
+            return _word(register, plain)
+        case "boolean":
+            return _boolean(register.path, plain)
+        case _:
+            return _text(register, plain)
+
+
+def choices(register: Register[Any]) -> tuple[str, ...]:
+    """The names that a value of the register may have: of members, special values, flags and parts."""
+    kind = register.kind
+    if kind.name == "boolean":
+        return ("false", "true")
+    if kind.name in {"enum", "flags"}:
+        return tuple(member.name for member in _members_of(register))
+    if kind.name == "fields":
+        return tuple(f"{name}=" for name in _members_of(register).parts)
+    return tuple(member.name for member in kind.special or ())
+
+
+def _members_of(register: Register[Any]) -> Any:  # noqa: ANN401 - an enum, flags or a word of fields
+    return type(register.kind.make(0)) if register.kind.name == "fields" else register.kind.make
+
+
+def _unnamed(value: Flags) -> list[str]:
+    rest = unnamed_bits(value)
+    return [f"bit_{bit}" for bit in range(rest.bit_length()) if rest >> bit & 1]
+
+
+def _rest(value: Word) -> list[str]:
+    rest = int(value)
+    for name in value.parts:
+        part = vars(type(value))[name]
+        rest &= ~((1 << part.high + 1) - (1 << part.low))
+    return [f"rest=0x{rest:04X}"] if rest else []
+
+
+def _shown_part(part: Any) -> str:  # noqa: ANN401 - a bool, a number or a member
+    if isinstance(part, bool):
+        return str(part).lower()
+    return part.name if isinstance(part, Choice) else str(part)
+
+
+def _number(register: Register[Any], plain: Plain, unit: str, current: str) -> Any:  # noqa: ANN401 - or a special value
+    if isinstance(plain, (bool, list)):
+        raise ValueRefused(register.path, f"{plain!r} is no number")
+    if not isinstance(plain, str):
+        _same_unit(register, unit, current)
+        return _exactly(register, str(plain))
+    text = plain.strip()
+    special = register.kind.special
+    if special is not None and not _NUMBER.match(text):
+        _same_unit(register, unit, current)
+        return _member(register, special, text)
+    found = _WHOLE.fullmatch(text) or _NUMBER.match(text)
+    if not found:
+        raise ValueRefused(register.path, f"`{text[:60]}` is no number")
+    if _MORE_DIGITS.match(text, found.end()):
+        raise ValueRefused(
+            register.path, f"`{text[:60]}` is no number of use: they look like 1500, 150.5, 2e-7 or 0x1F"
+        )
+    beside = text[found.end() :].strip()
+    if beside and unit and _unit(beside) != _unit(unit):
+        raise ValueRefused(register.path, f"`{text[:60]}` stands beside the unit {unit}: which one is meant?")
+    _same_unit(register, beside or unit, current)
+    return _exactly(register, found[0])
+
+
+def _exactly(register: Register[Any], text: str) -> int | float:
+    if _WHOLE.fullmatch(text):
+        return _whole(text)
+    try:
+        number = Decimal(text)
+    except InvalidOperation:
+        number = Decimal("NaN")
+    close = float(number)
+    if not number.is_finite() or Decimal(repr(close)) != number:
+        raise ValueRefused(register.path, f"`{text[:60]}` has more digits than a number of use can carry")
+    return close if close != int(close) or register.kind.name == "number" else int(close)
+
+
+def _whole(text: str) -> int:
+    return int(text, 16 if "x" in text.lower() else 10)
+
+
+def _same_unit(register: Register[Any], unit: str, current: str) -> None:
+    if not unit or _unit(unit) == _unit(current):
+        return
+    if not current:
+        raise ValueRefused(register.path, f"the value is given in {unit}, but the register has no unit")
+    raise ValueRefused(
+        register.path,
+        f"the value is given in {unit}, but the device works in {current}: convert it first",
+    )
+
+
+def _unit(text: str) -> str:
+    folded = unicodedata.normalize("NFC", " ".join(text.split()))
+    return unicodedata.normalize("NFKC", _UNITS.get(folded.casefold(), folded))
+
+
+def _member(register: Register[Any], members: type[Enum], plain: Plain) -> Any:  # noqa: ANN401 - a member
+    if isinstance(plain, (bool, list)) or (isinstance(plain, float) and not plain.is_integer()):
+        raise ValueRefused(register.path, f"{plain!r} names no member of {members.__name__}")
+    text = str(int(plain) if isinstance(plain, float) else plain).strip()
+    known: list[Any] = list(members)
+    by_name = [one for one in known if one.name.casefold() == text.casefold()]
+    by_label = [one for one in known if one.label.casefold() == text.casefold()]
+    by_code = [one for one in known if _WHOLE.fullmatch(text) and one.value == _whole(text)]
+    first_word = [one for one in known if one.label.casefold().split()[:1] == [text.casefold()]]
+    found = by_name or list(dict.fromkeys(by_label + by_code)) or first_word
+    if len(found) == 1:
+        return found[0]
+    if found:
+        which = " or ".join(f"{one.name} ({one.value} {one.label})" for one in found)
+        raise ValueRefused(register.path, f"`{text[:60]}` may be {which}: write the name")
+    raise ValueRefused(register.path, f"`{text[:60]}` is no member of {members.__name__}{_named(known, text)}")
+
+
+def _named(known: Sequence[Any], text: str) -> str:
+    labels = {one.label: one.name for one in known if one.label}
+    hint = meant(text, [*(one.name for one in known), *labels])
+    for label, name in labels.items():
+        hint = hint.replace(f"`{label}`", f"`{name}` ({label})") if name != label else hint
+    return hint if "did you mean" in hint else meant("", [one.name for one in known])
+
+
+def _flags(register: Register[Any], plain: Plain) -> Any:  # noqa: ANN401 - flags of the register
+    members = _members_of(register)
+    if not isinstance(plain, (str, list)):
+        return members(_bits(register.path, plain))
+    if isinstance(plain, str) and _WHOLE.fullmatch(plain.strip()):
+        return members(_whole(plain.strip()))
+    value = members(0)
+    for name in _parts(plain):
+        value |= _flag(register.path, members, name)
+    return value
+
+
+def _flag(path: str, members: Any, name: str) -> Any:  # noqa: ANN401 - flags of the register
+    found = [one for one in members if name.casefold() in {one.name.casefold(), _label(one).casefold()}]
+    if found:
+        return found[0]
+    bit = re.fullmatch(r"bit_([0-9]{1,2})", name)
+    if bit:
+        return members(1 << int(bit[1]))
+    raise ValueRefused(path, f"`{name[:60]}` is no flag{meant(name, [one.name for one in members])}")
+
+
+def _label(member: Any) -> str:  # noqa: ANN401 - a member of flags, which need no label
+    return str(getattr(member, "label", ""))
+
+
+def _parts(plain: str | list[str]) -> Iterable[str]:
+    given = plain.split(",") if isinstance(plain, str) else plain
+    names = [str(name).strip() for name in given]
+    return [name for name in names if name and name.casefold() != "none"]
+
+
+def _word(register: Register[Any], plain: Plain) -> Any:  # noqa: ANN401 - a word of the register
+    members = _members_of(register)
+    if not isinstance(plain, (str, list)):
+        return members(_bits(register.path, plain))
+    if isinstance(plain, str) and _WHOLE.fullmatch(plain.strip()):
+        return members(_whole(plain.strip()))
+    value = members(0)
+    for text in _parts(plain):
+        name, _, said = text.partition("=")
+        if name == "rest" and _WHOLE.fullmatch(said):
+            value = members(int(value) | _whole(said))
+            continue
+        if name not in members.parts or not said:
+            hint = meant(name, members.parts) if name not in members.parts else ": write part=value"
+            raise ValueRefused(register.path, f"`{text[:60]}` is no part{hint}")
+        value = value.replace(**{name: _part(register, vars(members)[name], said)})
+    return value
+
+
+def _part(register: Register[Any], part: Bit | Field[Any], said: str) -> int:
+    if isinstance(part, Bit):
+        return int(_boolean(register.path, said))
+    if issubclass(part.kind, Choice):
+        return int(_member(register, part.kind, said))
+    if not _WHOLE.fullmatch(said):
+        raise ValueRefused(register.path, f"`{said[:60]}` is no whole number")
+    number = _whole(said)
+    if not 0 <= number < 1 << (part.high - part.low + 1):
+        raise ValueRefused(register.path, f"{number} does not fit {part.high - part.low + 1} bits")
+    return number
+
+
+def _bits(path: str, plain: object) -> int:
+    if isinstance(plain, bool) or not isinstance(plain, int):
+        raise ValueRefused(path, f"{plain!r} is no pattern of bits: name them, or write a whole number")
+    return plain
+
+
+def _boolean(path: str, plain: object) -> bool:
+    text = str(plain).strip().casefold()
+    if text not in _TRUE | _FALSE:
+        raise ValueRefused(path, f"`{text[:60]}` is neither true nor false")
+    return text in _TRUE
+
+
+def _text(register: Register[Any], plain: Plain) -> str:
+    if not isinstance(plain, str):
+        raise ValueRefused(register.path, f"{plain!r} is no text: put it in quotes")
+    return plain

@@ -1,0 +1,226 @@
+"""The structure of a program: which registers a setting belongs to, and what a device has no place for. No I/O."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from decimal import Decimal
+from typing import Any, NamedTuple
+
+from regscribe.tools.live.errors import unknown
+from regscribe.tools.live.value_text import choices, spelled
+from regscribe.tools.programs.program import FOREVER, Amount, Program, Segment, Setting
+from regscribe.tools.programs.slot import ProgramSlot
+from regscribe_runtime import Register
+
+Where = tuple[str | int, ...]
+"""A place in a program: `("segments", 2, "to")` is that of the third segment."""
+
+
+class Problem(NamedTuple):
+    """Why a program cannot be written: where (as in a file), and what; `label` names the place as the device does."""
+
+    where: Where
+    label: str
+    message: str
+
+    def __str__(self) -> str:
+        return f"{self.label}: {self.message}" if self.label else self.message
+
+
+def label(place: ProgramSlot, where: Where) -> str:
+    """A place in a program in words, with the device's own number of the segment."""
+    if len(where) > 1 and where[0] == "segments":
+        rest = ".".join(map(str, where[2:]))
+        number = place.spec.segments.first + int(where[1])
+        return f"segment {number}{f', {rest}' if rest else ''}"
+    return ".".join(map(str, where))
+
+
+class ProgramAssignment(NamedTuple):
+    """A register and its setting, before the device is asked what that means."""
+
+    part: str
+    register: Register[Any]
+    setting: Setting
+    where: Where
+    time: bool = False
+    limited: bool = False
+
+
+def wanted(place: ProgramSlot, program: Program) -> tuple[list[ProgramAssignment], list[Problem]]:
+    """The registers of a program with their settings, and what is wrong with its structure; no device is asked."""
+    made = _Structure(place, program)
+    made.look()
+    return made.asked, made.problems
+
+
+@dataclass(slots=True)
+class _Structure:
+    place: ProgramSlot
+    program: Program
+    asked: list[ProgramAssignment] = field(default_factory=list)
+    problems: list[Problem] = field(default_factory=list)
+
+    def look(self) -> None:
+        self._time_unit()
+        self._named("power_failure", self.program.power_failure, self.place.spec.power_failure)
+        self._named("end", self.program.end, self.place.spec.end)
+        self._named("holdback", self.program.holdback, self.place.spec.holdback)
+        self._cycles()
+        self._segments()
+        self._final()
+        self._count()
+        for path, code in self.place.spec.enable:
+            self._ask("enable", path, Amount(_decimal(code)), ("enable", path))
+
+    def _wrong(self, where: Where, message: str) -> None:
+        self.problems.append(Problem(where, label(self.place, where), message))
+
+    def _ask(
+        self, part: str, path: str, setting: Setting, where: Where, segment: int = 0, *, time: bool = False
+    ) -> None:
+        limited = self.place.spec.setpoint_limits is not None and where[-1] == "to"
+        found = self.place.register(path, segment)
+        self.asked.append(ProgramAssignment(part, found, setting, where, time, limited))  # pyright: ignore[reportArgumentType] # a register is a descriptor, but no attribute of this tuple
+
+    def _lacks(self, key: str) -> None:
+        self._wrong((key,), f"the {self.place.model} has no such setting: remove `{key}`")
+
+    def _named(self, key: str, setting: Setting | None, path: str) -> None:
+        if setting is None:
+            return
+        if path:
+            self._ask(key, path, setting, (key,))
+        else:
+            self._lacks(key)
+
+    def _time_unit(self) -> None:
+        unit, spec = self.program.time_unit, self.place.spec.time_unit
+        if spec is None:
+            return  # its times have a unit of their own, so the key says nothing about the device
+        path, units = spec
+        codes = {symbol: code for code, symbol in units}
+        if unit is None:
+            self._wrong(("time_unit",), f"it is missing: say in what the times count, one of {', '.join(codes)}")
+        elif unit not in codes:
+            self._wrong(("time_unit",), unknown("unit of time", unit, codes, where=f"in the {self.place.model}"))
+        else:
+            self._ask("time_unit", path, Amount(_decimal(codes[unit])), ("time_unit",))
+
+    def _cycles(self) -> None:
+        cycles, spec = self.program.cycles, self.place.spec
+        if cycles is None:
+            return
+        if not spec.cycles:
+            self._lacks("cycles")
+        elif cycles == FOREVER and spec.forever is None:
+            self._wrong(("cycles",), f"the {self.place.model} has no program without end: give a number")
+        elif cycles == FOREVER:
+            self._ask("cycles", spec.cycles, Amount(_decimal(spec.forever or 0)), ("cycles",))
+        elif cycles == spec.forever:
+            self._wrong(("cycles",), f"{cycles} stands for a program without end: write `{FOREVER}` if that is meant")
+        else:
+            self._ask("cycles", spec.cycles, Amount(_decimal(cycles)), ("cycles",))
+
+    def _segments(self) -> None:
+        segments, given = self.place.spec.segments, self.program.segments
+        if not given:
+            self._wrong(("segments",), "there are none: a program has at least one")
+        if len(given) > segments.many:
+            message = f"{len(given)} segments, but the {self.place.model} has {segments.many}: leave some out"
+            self._wrong(("segments",), f"{message} ({segments.first} to {self.place.last})")
+        for place, segment in enumerate(given[: segments.many]):
+            self._segment(place, segment)
+        if segments.idle:
+            for number in range(segments.first + len(given), segments.first + segments.many):
+                self._idle(number)
+
+    def _segment(self, index: int, segment: Segment) -> None:
+        spec, where = self.place.spec.segments, ("segments", index)
+        number = spec.first + index
+        self._ask("segments", spec.setpoint, segment.to, (*where, "to"), number)
+        self._ask("segments", spec.ramp, segment.ramp, (*where, "ramp"), number, time=True)
+        if spec.soak:
+            soak = Amount(_decimal(0), "s") if segment.soak is None else segment.soak
+            self._ask("segments", spec.soak, soak, (*where, "soak"), number, time=True)
+        elif segment.soak is not None:
+            advice = "a further segment to the same setpoint keeps it"
+            self._wrong(
+                (*where, "soak"), f"the segments of the {self.place.model} have no time of their own to stay: {advice}"
+            )
+        self._outputs("segments", dict(spec.outputs), segment.outputs, (*where, "outputs"), number)
+
+    def _idle(self, number: int) -> None:
+        """Make a segment that is behind the last one do nothing."""
+        spec, where = self.place.spec.segments, ("segments", number - self.place.spec.segments.first)
+        for path in spec.idle:
+            self._ask("segments", path, Amount(_decimal(0), "s"), where, number, time=True)
+        for name, path in spec.outputs:
+            state = _usual(self.place.register(path, number))
+            if state:
+                self._ask("segments", path, state, (*where, "outputs", name), number)
+
+    def _outputs(
+        self, part: str, paths: Mapping[str, str], given: Mapping[str, str], where: Where, segment: int = 0
+    ) -> None:
+        for name in given:
+            if name not in paths:
+                message = unknown("output", name, paths, where=f"in the {self.place.model}")
+                self._wrong((*where, name), message)
+        for name, path in paths.items():
+            register = self.place.register(path, segment)
+            state = given.get(name) or _usual(register)
+            if state:
+                self._ask(part, path, state, (*where, name), segment)
+            else:
+                self._wrong(
+                    where, f"`{name}` is missing, and the manual has no default: give one of {_states(register)}"
+                )
+
+    def _final(self) -> None:
+        spec, final = self.place.spec.final, self.program.final
+        if spec is None and final is not None:
+            self._lacks("final")
+        elif spec is not None and final is None:
+            self._wrong(("final",), "it is missing: say what setpoint and outputs stay behind the last segment")
+        elif spec is not None and final is not None:
+            self._ask("final", spec.setpoint, final.to, ("final", "to"))
+            self._outputs("final", dict(spec.outputs), final.outputs, ("final", "outputs"))
+
+    def _count(self) -> None:
+        spec, given, have = self.place.spec, self.program.number_of_segments, len(self.program.segments)
+        if not spec.number_of_segments:
+            if given is not None:
+                self._lacks("number_of_segments")
+            return
+        counted = have if spec.counts == "all" else have - 1
+        if spec.counts == "not_stated" and given != counted:
+            self._wrong(("number_of_segments",), self._open_count(given, have))
+        elif given is not None and given != counted:
+            self._wrong(
+                ("number_of_segments",), f"{given}, but {have} segments are {counted} as the device counts them"
+            )
+        elif counted > 0 and have <= spec.segments.many:
+            self._ask("count", spec.number_of_segments, Amount(_decimal(counted)), ("number_of_segments",))
+
+    def _open_count(self, given: int | None, have: int) -> str:
+        first = self.place.spec.segments.first
+        why = "the manual does not say whether this number counts the first segment, so all that may run must be given"
+        if given is None:
+            return f"it is missing; {why}: write {have - 1} for the {have} segments {first} to {first + have - 1}"
+        advice = f"give {given + 1} segments ({first} to {first + given}), or write {have - 1}"
+        return f"{given} for {have} segments; {why}: {advice}"
+
+
+def _decimal(number: object) -> Decimal:
+    return Decimal(str(number))
+
+
+def _usual(register: Register[Any]) -> str:
+    """The default of an output as a name; empty if the manual gives none."""
+    if register.default is None:
+        return ""
+    return spelled(register.default)
+
+
+def _states(register: Register[Any]) -> str:
+    return ", ".join(choices(register))

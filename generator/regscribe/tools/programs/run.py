@@ -1,0 +1,130 @@
+"""Running a program: its state, and start, hold, resume and reset by the ways that the map tells."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from regscribe.tools.programs.program import Setting
+from regscribe.tools.programs.settings import SettingConverter, needs
+from regscribe.tools.programs.slot import ProgramSlot
+from regscribe_runtime import ProgramAction, RegscribeError, ValueRefused
+from regscribe_runtime.operations import tasks
+from regscribe_runtime.operations.session import Operation, Session, Task
+
+Act = Literal["start", "hold", "resume", "reset"]
+
+MEANINGFUL = {"start": ("ended",), "hold": ("running",), "resume": ("held",), "reset": ("running", "held")}
+"""The states in which an act means anything."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ProgramState:
+    """What a device does: `running`, `held`, `ended`, or `unknown`; `detail` is its own word (`RAMPING`).
+
+    `program` and `segment` are the numbers of what runs, `setpoint` what the program asks for; None: it does not tell.
+    """
+
+    state: str
+    detail: str = ""
+    program: int | None = None
+    segment: int | None = None
+    setpoint: Setting | None = None
+
+
+class NotNow(RegscribeError):  # noqa: N818 (as the errors of drivers)
+    """An act that means nothing in the present state of the device, or that it has no way for; nothing was written."""
+
+
+def status(place: ProgramSlot) -> Task[ProgramState]:
+    """Read what the device does."""
+
+    def task(session: Session) -> Operation[ProgramState]:
+        spec = place.spec
+        told = (spec.status.register if spec.status else "", spec.program_now, spec.segment_now, spec.setpoint_now)
+        registers = {path: place.register(path) for path in told if path}
+        paths = {path for one in registers.values() for path in needs(one)}
+        wanted = {path: session.registers[path] for path in sorted(paths)} | {
+            one.path: one for one in registers.values()
+        }
+        snapshot = yield from tasks.read_many(list(wanted.values()))(session)
+        found = snapshot.valid
+        bench = SettingConverter(place, found, session.givens)
+        values = {path: found.get(one.path) for path, one in registers.items()}
+        code = values.get(spec.status.register) if spec.status else None
+        setpoint = values.get(spec.setpoint_now)
+        return ProgramState(
+            state=_state(place, code),
+            detail=getattr(code, "name", "") or "",
+            program=_whole(values.get(spec.program_now)),
+            segment=_whole(values.get(spec.segment_now)),
+            setpoint=None if setpoint is None else bench.setting(registers[spec.setpoint_now], setpoint),
+        )
+
+    return task
+
+
+def _whole(value: object) -> int | None:
+    return None if not isinstance(value, int) else int(value)
+
+
+def _state(place: ProgramSlot, code: int | None) -> str:
+    states = place.spec.status
+    if states is None or code is None:
+        return "unknown"
+    named = {"running": states.running, "held": states.held, "ended": states.ended}
+    return next((name for name, codes in named.items() if code in codes), "unknown")
+
+
+def act(place: ProgramSlot, what: Act, *, confirm: bool = False) -> Task[ProgramState]:
+    """Start, hold, resume or reset a program; the state read afterwards.
+
+    `confirm` is needed where a register or command of it is dangerous. NotNow if the map has no way, or the state of
+    the device has no use for it; ValueRefused if a condition of a start does not hold.
+    """
+
+    def task(session: Session) -> Operation[ProgramState]:
+        action: ProgramAction = getattr(place.spec, what)
+        if not action.writes and not action.command:
+            message = f"{place.name}: the manual of the {place.model} names no way to {what} a program over the line"
+            raise NotNow(message)
+        now = yield from status(place)(session)
+        if now.state != "unknown" and now.state not in MEANINGFUL[what]:
+            doing = f"it is {now.state} ({now.detail})"
+            message = f"{place.name}: there is nothing to {what}: {doing}"
+            raise NotNow(message)
+        if what == "start":
+            yield from _ready(place)(session)
+        if action.command:
+            yield from tasks.run(session.commands[action.command], confirm=confirm)(session)
+        for path, code in action.writes:
+            register = place.register(path)
+            yield from tasks.write(register, int(code), view=None, rounded=False, confirm=confirm)(session)
+        return (yield from status(place)(session))
+
+    return task
+
+
+def _ready(place: ProgramSlot) -> Task[None]:
+    """Look at what must be set before a start; ValueRefused with what is set instead."""
+
+    def task(session: Session) -> Operation[None]:
+        for path, code in place.spec.enable:
+            register = place.register(path)
+            held = yield from tasks.read(register, None)(session)
+            if held != int(code):
+                wanted = register.kind.make(int(code))
+                advice = f"set it to {_shown(wanted)}, or write the program"
+                raise ValueRefused(register.path, f"it is {_shown(held)}, so the program does not run: {advice}")
+        if place.spec.requires:
+            when, reason = place.spec.requires
+            paths = list(dict.fromkeys(test.register for test in when if test.register))
+            snapshot = yield from tasks.read_many([session.registers[path] for path in paths])(session)
+            state = snapshot.valid
+            if not all(test.holds(state, session.givens) for test in when):
+                now = ", ".join(f"{path} is {_shown(state[path])}" for path in paths)
+                raise ValueRefused(place.name, f"{reason}; now {now}")
+
+    return task
+
+
+def _shown(value: object) -> str:
+    return str(getattr(value, "name", value))

@@ -1,0 +1,75 @@
+"""What a backup holds: where it comes from, and each setting by group and name."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+
+from regscribe.tools.live.value_text import Plain, spelled
+
+FORMAT = 1
+NO_GROUP = "other"
+"""The group of settings that belong to none of the map's."""
+
+
+class BackupError(Exception):
+    """A file that is no backup, cannot be read or cannot be written: what is wrong, and where."""
+
+
+class UnfitError(BackupError):
+    """A backup of another device, or with values that this one cannot take; nothing was written."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Saved:
+    """One setting: a plain value in `unit`, and the words that transmit it in the view that drivers prefer.
+
+    `value` is None and `error` says why where the device held no value. `stays` is why the setting must not be copied
+    to another device ("": it may be).
+    """
+
+    value: Plain | None = None
+    unit: str = ""
+    raw: tuple[int, ...] = ()
+    stays: str = ""
+    error: str = ""
+
+    @property
+    def spelled(self) -> str:
+        """For people: the value with its unit."""
+        if self.value is None:
+            return f"({self.error})"
+        shown = ", ".join(self.value) or "none" if isinstance(self.value, list) else _plain(self.value)
+        return f"{shown} {self.unit}".rstrip()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Origin:
+    """Which device was saved: map and its content hash, model, unit, link, and when (RFC 3339, UTC).
+
+    `identification` is what the device answered that tells its model, for the record.
+    """
+
+    map_id: str
+    map_sha256: str
+    model: str
+    unit: int
+    link: str = ""
+    taken: str = ""
+    identification: Mapping[str, Saved] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Backup:
+    """The settings of one device: saved values by path, in groups, in the manual's order."""
+
+    origin: Origin
+    groups: Mapping[str, Mapping[str, Saved]]
+
+    def settings(self) -> Iterator[tuple[str, Saved]]:
+        """Every setting with its path."""
+        return ((path, saved) for group in self.groups.values() for path, saved in group.items())
+
+
+def _plain(value: Plain) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    return str(value) if isinstance(value, list) else spelled(value)

@@ -1,0 +1,99 @@
+"""Backups as text: YAML that people read and compare line by line, checked against its JSON Schema when read."""
+
+from collections.abc import Mapping
+from decimal import Decimal
+from pathlib import Path
+from typing import Any
+
+from regscribe import files
+from regscribe.files import FileError, OneLine, dump, read
+from regscribe.tools.settings.backup import FORMAT, Backup, BackupError, Origin, Saved
+
+_HEAD = "Settings of a device, written by regscribe; `regscribe restore` writes them back."
+
+
+def to_text(backup: Backup) -> str:
+    """A backup as YAML; BackupError if reading it would give another backup."""
+    origin = backup.origin
+    head = {
+        "map": origin.map_id,
+        "map_sha256": origin.map_sha256,
+        "model": origin.model,
+        "unit": origin.unit,
+        "link": origin.link,
+        "taken": origin.taken,
+        "identification": {path: _entry(saved) for path, saved in origin.identification.items()},
+    }
+    settings = {
+        group: {path: _entry(saved) for path, saved in members.items()} for group, members in backup.groups.items()
+    }
+    text = dump({"format": FORMAT, "backup": head, "settings": settings}, remarks=(_HEAD,))
+    try:
+        kept = _backup(files.parse(text, language="backup", what="backup").data)
+    except FileError as error:
+        message = f"the settings cannot be kept, because what was to be written cannot be read back: {error}"
+        raise BackupError(message) from None
+    if kept != backup:
+        lost = [path for path, saved in backup.settings() if dict(kept.settings()).get(path) != saved]
+        message = f"the settings cannot be kept: read back, {', '.join(lost) or 'the head'} would be something else"
+        raise BackupError(message)
+    return text
+
+
+def _entry(saved: Saved) -> OneLine:
+    entry = OneLine()
+    if saved.value is not None:
+        entry["value"] = saved.value
+    for key, value in (("unit", saved.unit), ("error", saved.error)):
+        if value:
+            entry[key] = value
+    if saved.raw:
+        entry["raw"] = list(saved.raw)
+    if saved.stays:
+        entry["stays"] = saved.stays
+    return entry
+
+
+def save(path: Path, text: str) -> None:
+    """Write a backup; where that fails (a full disk) BackupError, and a file that was there before is as it was."""
+    try:
+        files.save(path, text)
+    except FileError as error:
+        raise BackupError(str(error)) from None
+
+
+def load(path: Path) -> Backup:
+    """The backup in a file; BackupError says with line and column what is wrong with one that is none."""
+    try:
+        return _backup(read(path, language="backup", what="backup").data)
+    except FileError as error:
+        raise BackupError(str(error)) from None
+
+
+def _backup(data: Mapping[str, Any]) -> Backup:
+    head = data["backup"]
+    origin = Origin(
+        map_id=head["map"],
+        map_sha256=head["map_sha256"],
+        model=head["model"],
+        unit=head["unit"],
+        link=head.get("link", ""),
+        taken=head.get("taken", ""),
+        identification={path: _saved(entry) for path, entry in (head.get("identification") or {}).items()},
+    )
+    groups = {
+        group: {path: _saved(entry) for path, entry in (members or {}).items()}
+        for group, members in (data["settings"] or {}).items()
+    }
+    return Backup(origin=origin, groups=groups)
+
+
+def _saved(entry: Mapping[str, Any]) -> Saved:
+    value = entry.get("value")
+    return Saved(
+        value=float(value) if isinstance(value, Decimal) else value,
+        unit=entry.get("unit", ""),
+        raw=tuple(entry.get("raw", ())),
+        stays=entry.get("stays", ""),
+        error=entry.get("error", ""),
+    )

@@ -1,0 +1,41 @@
+"""The values that the manual gives as defaults, as if a device had been saved with them."""
+
+from fractions import Fraction
+from typing import Any
+
+from regscribe.tools.live.names import Driver
+from regscribe.tools.live.reading import unit_needs, unit_of
+from regscribe.tools.live.value_text import show
+from regscribe.tools.settings.backup import Saved
+from regscribe.tools.settings.take import is_number, writable
+from regscribe_runtime import Register
+from regscribe_runtime.values.wire_types import exact
+
+TEXTS = frozenset({"string", "version"})
+
+
+def factory(driver: Driver) -> dict[str, Saved]:
+    """The settings of a model by path, where its manual gives a default."""
+    values = {one.path: default_of(one) for one in writable(driver) if one.default is not None}
+    return {path: _saved(driver.registers[path], value, values) for path, value in values.items()}
+
+
+def default_of(register: Register[Any]) -> Any:  # noqa: ANN401 (a value of any register)
+    """The default as a driver would read it: a member of the enum, a special value, a number, a text."""
+    kind, default = register.kind, register.default
+    if kind.name in TEXTS or default is None:
+        return default
+    if kind.coded:
+        return kind.make(int(default))
+    number = Fraction(default) if isinstance(default, str) else exact(default)
+    for member in kind.special or ():
+        if exact(member.value) == number:
+            return member
+    return kind.make(number)
+
+
+def _saved(register: Register[Any], value: Any, state: dict[str, Any]) -> Saved:  # noqa: ANN401 (as above)
+    plain = show(register, value)
+    known = set(unit_needs(register)) <= set(state)
+    unit = unit_of(register, state, {}) if known and is_number(plain) else ""
+    return Saved(value=plain, unit=unit, stays=register.stays)

@@ -1,0 +1,1 @@
+"""What users hold: devices, attributes, arrays, buses, identification; and the two executors."""

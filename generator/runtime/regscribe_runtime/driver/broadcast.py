@@ -1,0 +1,100 @@
+"""What may be sent to all units of a line at once, and as which request."""
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from regscribe_runtime.errors import ValueRefused
+from regscribe_runtime.link.timing import broadcast_seconds
+from regscribe_runtime.operations.write_request import condition_needs, confirmed, permitted
+from regscribe_runtime.values.serial_line import Line
+from regscribe_runtime.wire.requests import Request
+
+if TYPE_CHECKING:
+    from regscribe_runtime.driver.device import AsyncBareDevice, BareDevice
+    from regscribe_runtime.operations.session import Protocol
+    from regscribe_runtime.registers.register import Register
+    from regscribe_runtime.values.specs import View
+
+SINGLE, SEVERAL = {"coil": 5}, {"coil": 15}
+WRITE_ONE, WRITE_MANY = 6, 16
+NOBODY = "no device of this bus is known: add one, or pass driver=..."
+
+Driver = type["BareDevice"] | type["AsyncBareDevice"]
+State = Mapping[str, Any]
+
+
+def request_for(
+    register: "Register[Any]",
+    value: object,
+    drivers: Mapping[str, Driver],
+    *,
+    view: str | None,
+    state: State,
+    givens: State,
+    confirm: bool,
+) -> Request:
+    """The request that writes a register of all units; ValueRefused with the reason why it may not be sent.
+
+    `drivers` are those of all units on the line, by what a message is to call them.
+    """
+    chosen = register.write_view(view)
+    _known_to_all(register, drivers)
+    _no_dialogue(register)
+    confirmed(register, confirm=confirm)
+    needs = (*register.needs(chosen), *register.limit_needs, *condition_needs(register))
+    missing = [path for path in dict.fromkeys(needs) if path not in state]
+    if missing:
+        reason = f"it depends on {', '.join(missing)}, which may differ from unit to unit: pass state={{...}}"
+        raise ValueRefused(register.path, reason)
+    permitted(register, state, givens)
+    words = register.encode(value, view=view, state=state, givens=givens)
+    address = chosen.address(register.at)
+    function = _function(register, chosen, len(words), [driver.protocol for driver in drivers.values()])
+    return Request(function, address, len(words), words)
+
+
+def _known_to_all(register: "Register[Any]", drivers: Mapping[str, Driver]) -> None:
+    if not drivers:
+        raise ValueRefused(register.path, NOBODY)
+    for name, driver in drivers.items():
+        other = driver.registers.get(register.path)
+        if other is None or (other.at, other.views) != (register.at, register.views):
+            reason = f"a broadcast reaches every unit, but {name} ({driver.model}) has no such register there"
+            raise ValueRefused(register.path, reason)
+
+
+def _no_dialogue(register: "Register[Any]") -> None:
+    """Refuse what takes more than one write that nobody answers."""
+    command = register.unlock or register.apply
+    if command:
+        raise ValueRefused(register.path, f"each unit has to answer the command {command} with it: write unit by unit")
+    if register.governs is not None:
+        raise ValueRefused(register.path, "it changes how units talk, or their ids: write unit by unit")
+
+
+def _function(register: "Register[Any]", view: "View", words: int, protocols: "Iterable[Protocol]") -> int:
+    single, several = SINGLE.get(view.space, WRITE_ONE), SEVERAL.get(view.space, WRITE_MANY)
+    able = [several, single] if words > 1 else [single, several]
+    for function in able[: 1 if words > 1 else 2]:
+        if all(function in protocol.broadcast for protocol in protocols) and function in (view.functions or able):
+            return function
+    allowed = {name for protocol in protocols for name in protocol.broadcast}
+    reason = f"the manual allows broadcasts by functions {sorted(allowed)}" if allowed else "the manual allows none"
+    raise ValueRefused(register.path, f"it cannot be broadcast: {reason}")
+
+
+def timed(request: Request, drivers: Mapping[str, Driver], line: Line | None) -> Request:
+    """The request with the time that the slowest unit needs; ValueRefused if a manual does not allow it."""
+    for name, driver in drivers.items():
+        if request.function not in driver.protocol.broadcast:
+            allowed = list(driver.protocol.broadcast) or "none"
+            reason = f"to {name} ({driver.model}) the manual allows {allowed}"
+            raise ValueRefused(_shown(request), reason)
+    seconds = [broadcast_seconds(driver.protocol, request, line) for driver in drivers.values()]
+    if not seconds:
+        raise ValueRefused(_shown(request), NOBODY)
+    return request._replace(seconds=max(seconds))
+
+
+def _shown(request: Request) -> str:
+    return f"broadcast of function {request.function:02d} to address {request.address}"

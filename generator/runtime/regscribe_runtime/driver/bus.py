@@ -1,0 +1,227 @@
+"""Several devices on one line: `Bus` for threads, `AsyncBus` for the tasks of an event loop.
+
+The devices share one link. Their requests go out one after the other, first come, first served; operations of one unit
+(a read with what it depends on, a write with its read-back) come one after the other, but requests of other units may
+stand between theirs: a long operation of one device does not keep the others waiting.
+"""
+
+from collections.abc import Iterator, Mapping
+from contextlib import AsyncExitStack, ExitStack
+from typing import Any, Generic, Self, TypeVar, Unpack
+
+from regscribe_runtime.driver import broadcast
+from regscribe_runtime.driver.device import AsyncBareDevice, BareDevice
+from regscribe_runtime.driver.member import AsyncMember, Member
+from regscribe_runtime.errors import ValueRefused
+from regscribe_runtime.link import links
+from regscribe_runtime.link.links import MODBUS_TCP_PORT, AsyncLink, LineSettings, Link, LinkSettings
+from regscribe_runtime.registers.register import Register
+from regscribe_runtime.values.serial_line import Line
+from regscribe_runtime.wire.requests import Request
+
+ALL_UNITS = 0
+USUAL_GAP = 4.0
+"""Characters of silence between frames on a bus: the standard asks for 3.5, some manuals for 4."""
+
+D = TypeVar("D", bound="BareDevice | AsyncBareDevice")
+S = TypeVar("S", bound=BareDevice)
+A = TypeVar("A", bound=AsyncBareDevice)
+
+
+class _Common(Generic[D]):
+    """The devices of a bus, by unit."""
+
+    def __init__(self, gap: float) -> None:
+        self._devices: list[D] = []
+        self._gap = gap
+
+    def __iter__(self) -> Iterator[D]:
+        return iter(tuple(self._devices))
+
+    def __len__(self) -> int:
+        return len(self._devices)
+
+    def __getitem__(self, unit: int) -> D:
+        for device in self._devices:
+            if device.session.unit == unit:
+                return device
+        raise KeyError(unit)
+
+    @property
+    def units(self) -> tuple[int, ...]:
+        """The ids of the devices, in ascending order: that of taking their locks."""
+        return tuple(sorted(device.session.unit for device in self._devices))
+
+    def _added(self, device: D, line: Line | None) -> None:
+        unit, protocol = device.session.unit, device.protocol
+        if unit in self.units:
+            message = f"unit {unit} of this bus is {self[unit]!r} already: give each device an id of its own"
+            raise ValueError(message)
+        if line is not None and protocol.gap > self._gap:
+            message = f"{device!r} needs {protocol.gap:g} characters of silence: open the bus with gap={protocol.gap:g}"
+            raise ValueError(message)
+        self._devices.append(device)
+
+    def _drivers(self, driver: "broadcast.Driver | None") -> "dict[str, broadcast.Driver]":
+        known: dict[str, Any] = {f"unit {one.session.unit}": type(one) for one in self._devices}
+        return known | ({driver.__name__: driver} if driver is not None else {})
+
+    def _givens(self, register: Register[Any]) -> Mapping[str, Any]:
+        found = [one.session.givens for one in self]
+        if any(one != found[0] for one in found):
+            raise ValueRefused(register.path, "the units have different givens, so it may mean something else to each")
+        return found[0] if found else {}
+
+    def _encoded(self, register: Register[Any], value: object, **more: Any) -> Request:
+        drivers, state = self._drivers(more["driver"]), more["state"] or {}
+        return broadcast.request_for(
+            register,
+            value,
+            drivers,
+            view=more["view"],
+            state=state,
+            givens=self._givens(register),
+            confirm=more["confirm"],
+        )
+
+    def _forget(self) -> None:
+        for device in self:
+            device.session.forget()
+
+
+class Bus(_Common[BareDevice]):
+    """Several synchronous drivers on one link, for any number of threads."""
+
+    def __init__(self, link: Link, *, gap: float = USUAL_GAP) -> None:
+        super().__init__(gap)
+        self.link = link
+
+    @classmethod
+    def tcp(cls, host: str, *, port: int = MODBUS_TCP_PORT, **settings: Unpack[LinkSettings]) -> Self:
+        """A bus behind a gateway; see `LinkSettings`."""
+        return cls(links.tcp(host, port=port, **settings))
+
+    @classmethod
+    def rtu(cls, port: str, *, baud: int, **settings: Unpack[LineSettings]) -> Self:
+        """A bus on a serial port, 8N1 unless said otherwise; see `LineSettings`."""
+        gap = settings.setdefault("gap", USUAL_GAP)
+        return cls(links.serial(port, baud=baud, **settings), gap=gap)
+
+    def device(self, driver: type[S], *, unit: int, **givens: Any) -> S:
+        """A driver of a unit of this bus; ValueError if the unit has one already.
+
+        It needs no `open`: closing it leaves the bus open.
+        """
+        device = driver(Member(self.link), unit=unit, **givens)
+        self._added(device, self.link.line)
+        return device
+
+    def open(self) -> None:
+        """Open the link, if it is not open; LinkLost if that fails."""
+        self.link.open()
+
+    def close(self) -> None:
+        """Close the link; harmless if it is closed."""
+        self.link.close()
+
+    def __enter__(self) -> Self:
+        self.open()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def broadcast(
+        self,
+        register: Register[Any],
+        value: object,
+        *,
+        view: str | None = None,
+        state: Mapping[str, Any] | None = None,
+        driver: type[BareDevice] | None = None,
+        confirm: bool = False,
+    ) -> None:
+        """Write a register of all units at once (`Athena16C.setpoint_ram`); returns when all had time to do it.
+
+        Nobody answers, so nothing tells who took it. ValueRefused where a manual does not allow it, a unit of the bus
+        has another register there, or the value depends on registers that are not in `state`. `driver` stands for the
+        units of a bus that has no devices.
+        """
+        request = self._encoded(register, value, view=view, state=state, driver=driver, confirm=confirm)
+        self.broadcast_raw(request, driver=driver)
+
+    def broadcast_raw(self, request: Request, *, driver: type[BareDevice] | None = None) -> None:
+        """Send a request of function 05, 06, 15 or 16 to all units, if the manuals allow it; ValueRefused otherwise."""
+        timed = broadcast.timed(request, self._drivers(driver), self.link.line)
+        with ExitStack() as held:
+            for unit in self.units:
+                held.enter_context(self.link.lock.of(unit))
+            try:
+                self.link.call(ALL_UNITS, timed)
+            finally:  # broken off, it may have been carried out
+                self._forget()
+
+
+class AsyncBus(_Common[AsyncBareDevice]):
+    """As `Bus`, for asyncio."""
+
+    def __init__(self, link: AsyncLink, *, gap: float = USUAL_GAP) -> None:
+        super().__init__(gap)
+        self.link = link
+
+    @classmethod
+    def tcp(cls, host: str, *, port: int = MODBUS_TCP_PORT, **settings: Unpack[LinkSettings]) -> Self:
+        """As `Bus.tcp`."""
+        return cls(links.async_tcp(host, port=port, **settings))
+
+    @classmethod
+    def rtu(cls, port: str, *, baud: int, **settings: Unpack[LineSettings]) -> Self:
+        """As `Bus.rtu`."""
+        gap = settings.setdefault("gap", USUAL_GAP)
+        return cls(links.async_serial(port, baud=baud, **settings), gap=gap)
+
+    def device(self, driver: type[A], *, unit: int, **givens: Any) -> A:
+        """As `Bus.device`."""
+        device = driver(AsyncMember(self.link), unit=unit, **givens)
+        self._added(device, self.link.line)
+        return device
+
+    async def open(self) -> None:
+        """As `Bus.open`."""
+        await self.link.open()
+
+    async def close(self) -> None:
+        """As `Bus.close`."""
+        await self.link.close()
+
+    async def __aenter__(self) -> Self:
+        await self.open()
+        return self
+
+    async def __aexit__(self, *_: object) -> None:
+        await self.close()
+
+    async def broadcast(
+        self,
+        register: Register[Any],
+        value: object,
+        *,
+        view: str | None = None,
+        state: Mapping[str, Any] | None = None,
+        driver: type[AsyncBareDevice] | None = None,
+        confirm: bool = False,
+    ) -> None:
+        """As `Bus.broadcast`."""
+        request = self._encoded(register, value, view=view, state=state, driver=driver, confirm=confirm)
+        await self.broadcast_raw(request, driver=driver)
+
+    async def broadcast_raw(self, request: Request, *, driver: type[AsyncBareDevice] | None = None) -> None:
+        """As `Bus.broadcast_raw`."""
+        timed = broadcast.timed(request, self._drivers(driver), self.link.line)
+        async with AsyncExitStack() as held:
+            for unit in self.units:
+                await held.enter_async_context(self.link.lock.of(unit))
+            try:
+                await self.link.call(ALL_UNITS, timed)
+            finally:  # as above
+                self._forget()

@@ -1,0 +1,237 @@
+"""Drivers: a device behind a link, synchronous and asyncio, running the same operations."""
+
+from collections.abc import Mapping
+from typing import Any, ClassVar, Self, TypeVar, Unpack
+
+from regscribe_runtime.driver.attributes import _AsyncBound, _Bound
+from regscribe_runtime.driver.executor import run, run_async
+from regscribe_runtime.driver.parts import AsyncPart, Catalogue, Command, Group, Part, SubPart, groups_of
+from regscribe_runtime.link import links
+from regscribe_runtime.link.links import AsyncLink, LineSettings, Link, LinkSettings
+from regscribe_runtime.operations import tasks
+from regscribe_runtime.operations.configure import ConfigureOptions
+from regscribe_runtime.operations.session import Protocol, Session
+from regscribe_runtime.operations.snapshot import Snapshot
+from regscribe_runtime.registers.register import Register
+from regscribe_runtime.report import Wear, WriteReport
+from regscribe_runtime.values.programs import SetpointProgram
+from regscribe_runtime.values.serial_line import Line
+from regscribe_runtime.values.specs import Identity
+
+T = TypeVar("T")
+What = Group | Register[Any] | _Bound[Any] | _AsyncBound[Any]
+
+
+class SerialSettings(LineSettings, total=False):
+    """Settings of a serial line: `baud` and what `LineSettings` has, by default what the manual gives."""
+
+    baud: int
+
+
+class TcpSettings(LinkSettings, total=False):
+    """Settings of a TCP link: `port` and what `LinkSettings` has."""
+
+    port: int
+
+
+class _Common:
+    """What both kinds of driver have: the model's facts and the session."""
+
+    model: ClassVar[str] = ""
+    map_id: ClassVar[str] = ""
+    map_sha256: ClassVar[str] = ""
+    protocol: ClassVar[Protocol] = Protocol()
+    identity: ClassVar[tuple[Identity, ...]] = ()
+    setpoint_programs: ClassVar[tuple[SetpointProgram, ...]] = ()
+    _unused: ClassVar[tuple[tuple[str, int, int], ...]] = ()
+    registers = Catalogue(whole=True)
+    session: Session
+
+    def _begin(self, unit: int, givens: Mapping[str, Any]) -> None:
+        self.session = Session(
+            unit=unit,
+            protocol=self.protocol,
+            registers=type(self).registers,
+            commands=self._declared_commands(),
+            givens=givens,
+            groups=groups_of(type(self)),
+            unused=self._unused,
+        )
+
+    @property
+    def wear(self) -> Wear:
+        """Writes to the EEPROM by this driver: how many were sent, and how many spared, of each register."""
+        return self.session.wear
+
+    def _declared_commands(self) -> dict[str, Command]:
+        section = getattr(type(self), "commands", None)
+        return section.commands() if isinstance(section, SubPart) else {}
+
+    def _chosen(self, what: tuple[What, ...]) -> list[Register[Any]]:
+        found: list[Register[Any]] = []
+        for one in what:
+            if isinstance(one, Group):
+                found += one.registers(type(self))
+            else:
+                found.append(self.session.own(one if isinstance(one, Register) else one.register))
+        return found
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} unit {self.session.unit}>"
+
+
+class BareDevice(_Common, Part):
+    """A synchronous driver of one unit behind a link; `givens` are the facts that the manual leaves to others."""
+
+    def __init__(self, link: Link, *, unit: int, **givens: Any) -> None:
+        Part.__init__(self, self)
+        self.link = link
+        self._begin(unit, givens)
+
+    def open(self) -> None:
+        """Open the link; LinkLost if that fails."""
+        self.link.open()
+
+    def close(self) -> None:
+        """Close the link."""
+        self.link.close()
+
+    def __enter__(self) -> Self:
+        self.open()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def run(self, task: tasks.Task[T]) -> T:
+        """Carry out an operation, alone among those of this unit; other units may talk between its requests."""
+        return run(task, self.session, self.link)
+
+    def read(self, *what: What, fresh: bool = True) -> Snapshot:
+        """Read groups and registers (all without arguments) at the least cost on this line; see `Snapshot`.
+
+        What the values depend on is read along (decimals, input type, word order), so no value has a stale scale;
+        Unsteady is raised if that changes again and again meanwhile. Without `fresh` what was read before is trusted.
+        """
+        chosen = self._chosen(what) if what else list(self.placed().values())
+        return self.run(tasks.read_many(chosen, fresh=fresh))
+
+    def read_part(self, part: Part) -> Snapshot:
+        """Read the registers of a part, keyed by their ids in it."""
+        placed = part.placed()
+        values = self.run(tasks.read_many(list(placed.values())))
+        return values.renamed({register.path: path for path, register in placed.items()})
+
+    def configure(self, values: Mapping[Any, Any], **how: Unpack[ConfigureOptions]) -> WriteReport:
+        """Write several values as one operation; `values` by path, declaration or attribute; `how`: `ConfigureOptions`.
+
+        All values are checked before the first is sent, each in the state that those before it will leave. They are
+        written in the map's order, neighbours in one request; what the device holds already is left out; unlocking and
+        applying is done once, and all is read back in the end. Raises ValueRefused (ValuesRefused for several) before
+        anything is sent, and NotConfigured with a report of every register if it breaks off.
+        """
+        return self.run(tasks.configure(values, **how))
+
+    def loopback(self, data: int = 0x55AA) -> int:
+        """Function 08: send one word, return the echo."""
+        return self.run(tasks.loopback(data))
+
+    def exception_status(self) -> int:
+        """Function 07: the eight status bits."""
+        return self.run(tasks.exception_status())
+
+
+class Device(BareDevice):
+    """A synchronous driver of a device without givens."""
+
+    @classmethod
+    def tcp(cls, host: str, *, unit: int, **settings: Unpack[TcpSettings]) -> Self:
+        """A driver over TCP; see `TcpSettings`."""
+        return cls(links.tcp(host, **settings), unit=unit)
+
+    @classmethod
+    def rtu(cls, port: str, *, unit: int, **line: Unpack[SerialSettings]) -> Self:
+        """A driver over a serial line; see `SerialSettings`."""
+        return cls(serial_link(cls.protocol, port, **line), unit=unit)
+
+
+class AsyncBareDevice(_Common, AsyncPart):
+    """An asyncio driver; otherwise as `BareDevice`."""
+
+    def __init__(self, link: AsyncLink, *, unit: int, **givens: Any) -> None:
+        AsyncPart.__init__(self, self)
+        self.link = link
+        self._begin(unit, givens)
+
+    async def open(self) -> None:
+        """Open the link; LinkLost if that fails."""
+        await self.link.open()
+
+    async def close(self) -> None:
+        """Close the link."""
+        await self.link.close()
+
+    async def __aenter__(self) -> Self:
+        await self.open()
+        return self
+
+    async def __aexit__(self, *_: object) -> None:
+        await self.close()
+
+    async def run(self, task: tasks.Task[T]) -> T:
+        """As `BareDevice.run`."""
+        return await run_async(task, self.session, self.link)
+
+    async def read(self, *what: What, fresh: bool = True) -> Snapshot:
+        """As `BareDevice.read`."""
+        chosen = self._chosen(what) if what else list(self.placed().values())
+        return await self.run(tasks.read_many(chosen, fresh=fresh))
+
+    async def read_part(self, part: AsyncPart) -> Snapshot:
+        """As `BareDevice.read_part`."""
+        placed = part.placed()
+        values = await self.run(tasks.read_many(list(placed.values())))
+        return values.renamed({register.path: path for path, register in placed.items()})
+
+    async def configure(self, values: Mapping[Any, Any], **how: Unpack[ConfigureOptions]) -> WriteReport:
+        """As `BareDevice.configure`."""
+        return await self.run(tasks.configure(values, **how))
+
+    async def loopback(self, data: int = 0x55AA) -> int:
+        """Function 08: send one word, return the echo."""
+        return await self.run(tasks.loopback(data))
+
+    async def exception_status(self) -> int:
+        """Function 07: the eight status bits."""
+        return await self.run(tasks.exception_status())
+
+
+class AsyncDevice(AsyncBareDevice):
+    """An asyncio driver of a device without givens."""
+
+    @classmethod
+    def tcp(cls, host: str, *, unit: int, **settings: Unpack[TcpSettings]) -> Self:
+        """As `Device.tcp`."""
+        return cls(links.async_tcp(host, **settings), unit=unit)
+
+    @classmethod
+    def rtu(cls, port: str, *, unit: int, **line: Unpack[SerialSettings]) -> Self:
+        """As `Device.rtu`."""
+        return cls(async_serial_link(cls.protocol, port, **line), unit=unit)
+
+
+def _usual(protocol: Protocol, line: SerialSettings) -> dict[str, Any]:
+    usual = Line.of("", protocol.baud, protocol.format)
+    return {**usual._asdict(), "gap": protocol.gap, **line}
+
+
+def serial_link(protocol: Protocol, port: str, **line: Unpack[SerialSettings]) -> Link:
+    """A serial link with the settings that the manual gives as default, unless `line` says otherwise."""
+    settings: dict[str, Any] = {**_usual(protocol, line), "port": port}
+    return links.serial(**settings)
+
+
+def async_serial_link(protocol: Protocol, port: str, **line: Unpack[SerialSettings]) -> AsyncLink:
+    """As `serial_link`, for asyncio."""
+    settings: dict[str, Any] = {**_usual(protocol, line), "port": port}
+    return links.async_serial(**settings)

@@ -1,0 +1,255 @@
+"""What can go wrong when a driver talks to a device: one small tree.
+
+RegscribeError
+├── LinkLost            the link is closed, or broke
+├── NoAnswer            nothing came within the response timeout
+├── ExceptionAnswer     the device refused, with a code and its own meaning of it
+├── WrongAnswer         an answer that does not fit the request
+│   └── PartialWrite    fewer words were written than were sent
+├── Absent              this unit does not have the register: a batch goes round it for a while
+├── Unsteady            what the values depend on changed while they were read, again and again
+├── ValueRefused        refused here, before anything was sent
+│   ├── ConditionNotMet the register cannot be written in the present state of the device
+│   └── ValuesRefused   several values of one `configure`
+├── WriteFailed         a write was sent and did not come to its good end
+│   ├── NotWritten      certainly not carried out
+│   ├── WriteUnknown    nobody can tell whether it was carried out
+│   ├── ReadBackDiffers the device took the write and holds another value
+│   ├── NotApplied      carried out, but the command that makes it take effect was not
+│   ├── NotConfigured   `configure` broke off: its report says what was written, undone, unknown
+│   └── LeftAt          the device talks otherwise now than this link does
+└── ValueNotDecodable   words that are no value of the register
+    ├── SensorFault     a sentinel: the device reports a fault instead of a number
+    ├── Saturated       the view was clipped: the true value lies at or beyond its end
+    └── NotDecodable    anything else (no scale holds, not a number, a version with too many digits)
+
+A lost answer to a write is never answered by sending it again: the register is read back. If that shows the value, the
+write was good. Otherwise NotWritten or WriteUnknown say so, and they are NoAnswer, LinkLost or WrongAnswer as well,
+whichever it was: who handles these handles the lost write with them.
+"""
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+    from datetime import datetime
+
+    from regscribe_runtime.report import WriteReport
+
+
+class RegscribeError(Exception):
+    """Base of all errors of a driver."""
+
+
+class LinkLost(RegscribeError, ConnectionError):  # noqa: N818 (the field's word; the tree says it is an error)
+    """The link is closed or broke; whether a request under way was carried out is unknown."""
+
+
+class NoAnswer(RegscribeError, TimeoutError):  # noqa: N818 (as above)
+    """No answer from `unit` to `function` at `address` within the response timeout.
+
+    A write may have been carried out nevertheless; it is never sent a second time.
+    """
+
+    def __init__(self, *, unit: int, function: int, address: int, seconds: float) -> None:
+        self.unit, self.function, self.address, self.seconds = unit, function, address, seconds
+        super().__init__(f"unit {unit} gave no answer to function {function:02d} at address {address} in {seconds:g} s")
+
+
+STANDARD = {
+    1: "illegal function",
+    2: "illegal data address",
+    3: "illegal data value",
+    4: "server device failure",
+    5: "acknowledge",
+    6: "server device busy",
+    8: "memory parity error",
+    10: "gateway path unavailable",
+    11: "gateway target device failed to respond",
+}
+"""The names of exception codes where the device's manual gives none (Modbus Application Protocol V1.1b3, section 7)."""
+GATEWAY = frozenset({10, 11})
+"""Exceptions of a gateway, not of the device: nobody answered behind it."""
+
+
+class ExceptionAnswer(RegscribeError):  # noqa: N818 (as above)
+    """The device answered with exception `code`; `name` and `meaning` are the device's own, "" where it has none."""
+
+    def __init__(self, *, unit: int, function: int, address: int, code: int, name: str, meaning: str) -> None:
+        self.unit, self.function, self.address = unit, function, address
+        self.code, self.name, self.meaning = code, name, meaning
+        usual = name or STANDARD.get(code, "")
+        said = f" ({name}: {meaning})" if meaning else f" ({usual})" if usual else ""
+        super().__init__(
+            f"unit {unit} refused function {function:02d} at address {address} with exception {code:02d}{said}"
+        )
+
+
+class WrongAnswer(RegscribeError):  # noqa: N818 (as above)
+    """An answer whose function, address, length or echo does not fit the request: nothing of it is used."""
+
+
+class PartialWrite(WrongAnswer):
+    """The device wrote `written` of `sent` words; the first word not written is at `first_unwritten`."""
+
+    def __init__(self, *, unit: int, address: int, sent: int, written: int) -> None:
+        self.unit, self.address, self.sent, self.written = unit, address, sent, written
+        self.first_unwritten = address + written
+        super().__init__(
+            f"unit {unit} wrote {written} of {sent} words from address {address}: "
+            f"it stopped at address {self.first_unwritten}"
+        )
+
+
+class Absent(RegscribeError):  # noqa: N818 (as above)
+    """Unit `unit` refused the address of `register` at the time `when` (UTC); `answer` is its exception (or silence).
+
+    Reads of several registers leave it out until `minutes` later (0: until the next read); reading it alone asks the
+    device at once.
+    """
+
+    def __init__(
+        self, register: str, *, unit: int, address: int, answer: RegscribeError, when: "datetime", minutes: float
+    ) -> None:
+        self.register, self.unit, self.address, self.answer, self.when = register, unit, address, answer, when
+        asked = f"{register}: unit {unit} does not have it at address {address}: {answer}; asked at {when:%H:%M:%S} UTC"
+        left_out = f"left out of reads of several registers for {minutes:g} minutes (reading it alone asks again)"
+        super().__init__(f"{asked}, {left_out if minutes else 'though it was read before; the next read asks again'}")
+        self.__cause__ = answer
+
+
+class Unsteady(RegscribeError):  # noqa: N818 (as above)
+    """The registers `changed`, which values depend on, changed during each of `tries` reads: no value is certain."""
+
+    def __init__(self, *, unit: int, changed: "Sequence[str]", tries: int) -> None:
+        self.unit, self.changed, self.tries = unit, tuple(changed), tries
+        super().__init__(
+            f"unit {unit}: {', '.join(self.changed)} changed while the values that depend on it were read, {tries} "
+            "times in a row: read again when nobody configures the device"
+        )
+
+
+class ValueRefused(RegscribeError, ValueError):  # noqa: N818 (as above)
+    """A write that was refused before anything was sent: access, range, resolution, type or condition."""
+
+    def __init__(self, register: str, reason: str) -> None:
+        self.register, self.reason = register, reason
+        super().__init__(f"{register}: {reason}")
+
+
+class ConditionNotMet(ValueRefused):
+    """The register cannot be written in the present state of the device: `present` is that state by path."""
+
+    def __init__(self, register: str, reason: str, present: "Mapping[str, str]") -> None:
+        self.present = dict(present)
+        now = ", ".join(f"{path} is {value}" for path, value in self.present.items())
+        super().__init__(register, f"{reason}; {now}")
+        self.reason = reason
+
+
+class ValuesRefused(ValueRefused):
+    """Several values were refused before anything was sent: `refusals` has one error for each register."""
+
+    def __init__(self, refusals: "Sequence[ValueRefused]") -> None:
+        self.refusals = tuple(refusals)
+        super().__init__(", ".join(one.register for one in self.refusals), "; ".join(map(str, self.refusals)))
+        self.args = (f"{len(self.refusals)} values refused, nothing was written: {self.reason}",)
+
+
+class WriteFailed(RegscribeError):  # noqa: N818 (as above)
+    """A write to `register` (a path, or the id of a command) was sent and did not come to its good end."""
+
+    def __init__(self, register: str, reason: str) -> None:
+        self.register, self.reason = register, reason
+        Exception.__init__(self, f"{register}: {reason}")
+
+
+class NotWritten(WriteFailed):
+    """The write was certainly not carried out; `__cause__` is what happened on the line."""
+
+
+class WriteUnknown(WriteFailed):
+    """Whether the write was carried out cannot be told; it was not sent again. `__cause__` is what happened."""
+
+
+class ReadBackDiffers(WriteFailed):
+    """The device took the write and holds something else: it rounded, clipped or ignored the value.
+
+    `sent` and `read` are words, `value` and `held` what they mean (None for words that mean nothing).
+    """
+
+    def __init__(self, register: str, *, sent: tuple[int, ...], read: tuple[int, ...], value: Any, held: Any) -> None:
+        self.sent, self.read, self.value, self.held = sent, read, value, held
+        shown = f"{value} was sent (words {list(sent)}), the device holds {held} (words {list(read)})"
+        super().__init__(register, f"{shown}: it changed the value or did not take it")
+
+
+class NotApplied(WriteFailed):
+    """The register was written, but the command that makes it take effect was not carried out, or may not have been."""
+
+
+class NotConfigured(WriteFailed):
+    """`configure` broke off; `report` says of each register what became of it."""
+
+    def __init__(self, reason: str, report: "WriteReport") -> None:
+        self.report = report
+        super().__init__("configure", f"{reason}. {report.told}")
+
+
+class LeftAt(WriteFailed):
+    """After `register` was written the device is not found: neither as it talked before nor as it was told to talk.
+
+    `before` and `asked` are the two settings in words.
+    """
+
+    def __init__(self, register: str, *, before: str, asked: str, reason: str) -> None:
+        self.before, self.asked = before, asked
+        super().__init__(register, f"{reason}. Before: {before}. Asked for: {asked}")
+
+
+class ValueNotDecodable(RegscribeError, ValueError):  # noqa: N818 (as above)
+    """Words that are no value of the register; `words` are as read."""
+
+    def __init__(self, register: str, reason: str, words: tuple[int, ...] = ()) -> None:
+        self.register, self.reason, self.words = register, reason, words
+        super().__init__(f"{register}: {reason}")
+
+
+class SensorFault(ValueNotDecodable):
+    """The device reports fault `fault` (an id of the map) in place of a value; `label` is the manual's name."""
+
+    def __init__(self, register: str, fault: str, label: str, words: tuple[int, ...] = ()) -> None:
+        self.fault, self.label = fault, label
+        super().__init__(register, f"fault {label} ({fault}) instead of a value", words)
+
+
+class Saturated(ValueNotDecodable):
+    """The view stands at the end of its range: the value is this or beyond, so it is not decoded."""
+
+
+class NotDecodable(ValueNotDecodable):
+    """Words that mean nothing under the present state of the device."""
+
+
+LOST = (NoAnswer, LinkLost, WrongAnswer)
+"""What can happen to the answer of a write that was carried out nevertheless."""
+
+
+def lost(kind: type[WriteFailed], register: str, reason: str, cause: Exception) -> WriteFailed:
+    """An error of `kind` that is of the kind of its cause as well: NoAnswer, LinkLost or WrongAnswer."""
+    base = next((one for one in LOST if isinstance(cause, one)), None)
+    made = kind if base is None else _both(kind, base)
+    error = made.__new__(made)
+    error.__dict__.update(vars(cause))
+    WriteFailed.__init__(error, register, reason)
+    error.__cause__ = cause
+    return error
+
+
+_BOTH: dict[tuple[type[WriteFailed], type[RegscribeError]], type[WriteFailed]] = {}
+
+
+def _both(kind: type[WriteFailed], base: type[RegscribeError]) -> type[WriteFailed]:
+    if (kind, base) not in _BOTH:
+        _BOTH[kind, base] = type(f"{kind.__name__}{base.__name__}", (kind, base), {"__doc__": kind.__doc__})
+    return _BOTH[kind, base]

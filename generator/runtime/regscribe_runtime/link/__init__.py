@@ -1,0 +1,1 @@
+"""A connection: open, send, wait, be patient with late answers, one at a time."""

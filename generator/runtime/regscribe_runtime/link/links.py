@@ -1,0 +1,184 @@
+"""Links: what carries requests to a unit and answers back. The drivers know these protocols, not pymodbus."""
+
+from typing import TYPE_CHECKING, Protocol, TypedDict, Unpack
+
+from regscribe_runtime.link.locks import AsyncTurns, Turns
+from regscribe_runtime.link.retry import Retry
+from regscribe_runtime.link.trace import Tracer
+from regscribe_runtime.values.serial_line import Line
+from regscribe_runtime.wire.requests import Reply, Request
+
+if TYPE_CHECKING:
+    from regscribe_runtime.operations.session import LineChange
+
+MODBUS_TCP_PORT = 502
+
+
+class LinkSettings(TypedDict, total=False):
+    """How to talk over a link.
+
+    `framing` is tcp (MBAP), rtu or ascii, `addressing` modbus or jbus (for a unit that counts its addresses from 1).
+    `timeout` in seconds overrides the response timeouts that follow from the manual; `retry` says what is tried again.
+    `trace` is called with every frame. On a serial line `gap` is the silence between frames in characters, and `echo`
+    whether the adapter gives back what is sent (None: find out).
+    """
+
+    framing: str
+    addressing: str
+    timeout: float | None
+    retry: Retry | None
+    trace: Tracer | None
+    gap: float
+    echo: bool | None
+
+
+class LineSettings(LinkSettings, total=False):
+    """As `LinkSettings`, with the character format of a serial line: `parity` is N, E or O."""
+
+    data_bits: int
+    parity: str
+    stop_bits: int
+
+
+class Link(Protocol):
+    """A synchronous link, for any number of threads.
+
+    Requests go out one after the other, first come, first served; the lock of a unit (`link.lock.of(unit)`) is held for
+    a whole operation.
+    """
+
+    @property
+    def epoch(self) -> int:
+        """How often it was opened."""
+        raise NotImplementedError
+
+    @property
+    def lock(self) -> Turns:
+        """Whose turn it is."""
+        raise NotImplementedError
+
+    @property
+    def line(self) -> Line | None:
+        """The serial line, None over TCP."""
+
+    @property
+    def timeout(self) -> float | None:
+        """The response timeout that overrides all others, in seconds."""
+
+    @property
+    def retry(self) -> Retry:
+        """What is tried again."""
+        raise NotImplementedError
+
+    @property
+    def addressing(self) -> str:
+        """How units count their addresses: modbus from 0, jbus from 1."""
+        raise NotImplementedError
+
+    def retune(self, change: "LineChange") -> None:
+        """Talk at another speed, in another format or with other addresses from the next request on."""
+
+    def open(self) -> None:
+        """Open it, if it is not open; LinkLost if that fails."""
+
+    def close(self) -> None:
+        """Close it; harmless if it is closed."""
+
+    def call(self, unit: int, request: Request) -> Reply:
+        """Send one request once and wait for its answer; NoAnswer, WrongAnswer or LinkLost.
+
+        A link that was lost is opened again first. A write to unit 0 is a broadcast: it returns after the request's
+        `seconds`, which the units have to carry it out, with an answer that nobody gave.
+        """
+        raise NotImplementedError
+
+
+class AsyncLink(Protocol):
+    """An asyncio link, for any number of tasks of one event loop; otherwise as `Link`."""
+
+    @property
+    def epoch(self) -> int:
+        """How often it was opened."""
+        raise NotImplementedError
+
+    @property
+    def lock(self) -> AsyncTurns:
+        """Whose turn it is."""
+        raise NotImplementedError
+
+    @property
+    def line(self) -> Line | None:
+        """The serial line, None over TCP."""
+
+    @property
+    def timeout(self) -> float | None:
+        """The response timeout that overrides all others, in seconds."""
+
+    @property
+    def retry(self) -> Retry:
+        """What is tried again."""
+        raise NotImplementedError
+
+    @property
+    def addressing(self) -> str:
+        """How units count their addresses: modbus from 0, jbus from 1."""
+        raise NotImplementedError
+
+    def retune(self, change: "LineChange") -> None:
+        """Talk at another speed, in another format or with other addresses from the next request on."""
+
+    async def open(self) -> None:
+        """Open it, if it is not open; LinkLost if that fails."""
+
+    async def close(self) -> None:
+        """Close it; harmless if it is closed."""
+
+    async def call(self, unit: int, request: Request) -> Reply:
+        """As `Link.call`; a task that is cancelled here leaves the link in order."""
+        raise NotImplementedError
+
+
+def _tcp_settings(settings: LinkSettings) -> LinkSettings:
+    return {"framing": "tcp", **settings}
+
+
+def _serial_settings(settings: LineSettings) -> LinkSettings:
+    framing = settings.get("framing", "rtu")
+    if framing == "tcp":
+        message = "framing 'tcp' is not for a serial line: rtu or ascii"
+        raise ValueError(message)
+    kept = {key: value for key, value in settings.items() if key in LinkSettings.__annotations__}
+    return {**kept, "framing": framing}  # type: ignore[typeddict-item] # the keys are those of LinkSettings
+
+
+def _line(port: str, baud: int, settings: LineSettings) -> Line:
+    data_bits, stop_bits = settings.get("data_bits", 8), settings.get("stop_bits", 1)
+    return Line(port, baud, data_bits, settings.get("parity", "N"), stop_bits)
+
+
+def tcp(host: str, *, port: int = MODBUS_TCP_PORT, **settings: Unpack[LinkSettings]) -> Link:
+    """A TCP link; see `LinkSettings`."""
+    from regscribe_runtime.link import transports  # noqa: PLC0415 (pymodbus loads slowly; a driver's import must not wait)
+
+    return transports.SyncTransport((host, port), **_tcp_settings(settings))
+
+
+def serial(port: str, *, baud: int, **settings: Unpack[LineSettings]) -> Link:
+    """A serial link, 8N1 unless said otherwise; see `LineSettings`."""
+    from regscribe_runtime.link import transports  # noqa: PLC0415 (as above)
+
+    return transports.SyncTransport(_line(port, baud, settings), **_serial_settings(settings))
+
+
+def async_tcp(host: str, *, port: int = MODBUS_TCP_PORT, **settings: Unpack[LinkSettings]) -> AsyncLink:
+    """As `tcp`, for asyncio."""
+    from regscribe_runtime.link import transports  # noqa: PLC0415 (as above)
+
+    return transports.AsyncTransport((host, port), **_tcp_settings(settings))
+
+
+def async_serial(port: str, *, baud: int, **settings: Unpack[LineSettings]) -> AsyncLink:
+    """As `serial`, for asyncio."""
+    from regscribe_runtime.link import transports  # noqa: PLC0415 (as above)
+
+    return transports.AsyncTransport(_line(port, baud, settings), **_serial_settings(settings))

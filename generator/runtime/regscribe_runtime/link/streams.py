@@ -1,0 +1,244 @@
+"""Bytes out and in: a socket or a serial port that never blocks, and waiting for bytes in a thread or in a task."""
+
+import asyncio
+import contextlib
+import errno
+import os
+import select
+import socket
+import sys
+import time
+from collections.abc import Iterator
+from typing import Any, Protocol
+
+import serial  # type: ignore[import-untyped]  # pyserial ships no types
+from serial.tools import list_ports  # type: ignore[import-untyped]  # as above
+
+from regscribe_runtime.errors import LinkLost
+from regscribe_runtime.values.serial_line import Line
+
+CONNECT_SECONDS = 3.0
+"""How long a host may take to accept a connection."""
+
+CHUNK = 4096
+POLL_SECONDS = 0.002
+"""Between two looks at a port that the system cannot wait for (a serial port of Windows)."""
+PORTS_NAMED = 5
+MOST_SELECTED = 1024 if os.name == "posix" else sys.maxsize
+"""Descriptors from here on are too high for select (FD_SETSIZE)."""
+
+
+class Stream(Protocol):
+    """An open connection or port. `descriptor` is what the system can wait for, -1 if it cannot."""
+
+    descriptor: int
+
+    def read(self) -> bytes:
+        """What has come, perhaps nothing; OSError (for a closed connection too) if it is broken."""
+        raise NotImplementedError
+
+    def write(self, data: bytes) -> None:
+        """Send all of it; OSError if it is broken or takes no more."""
+
+    def waiting(self) -> bool:
+        """Whether bytes have come; for ports that the system cannot wait for."""
+        raise NotImplementedError
+
+    def close(self) -> None:
+        """Close it; never fails."""
+
+
+class SocketWire:
+    """A TCP connection."""
+
+    def __init__(self, connection: socket.socket) -> None:
+        connection.settimeout(0)
+        connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self._socket = connection
+        self.descriptor = connection.fileno()
+
+    def read(self) -> bytes:
+        """See `Wire.read`."""
+        try:
+            data = self._socket.recv(CHUNK)
+        except (BlockingIOError, InterruptedError):
+            return b""
+        if not data:
+            raise ConnectionResetError(errno.ECONNRESET, "the other end closed the connection")
+        return data
+
+    def write(self, data: bytes) -> None:
+        """See `Wire.write`; a frame always fits into the buffer of a connection that is alive."""
+        if self._socket.send(data) < len(data):
+            raise BlockingIOError(errno.EAGAIN, "the other end takes no more bytes")
+
+    def waiting(self) -> bool:
+        """See `Wire.waiting`."""
+        return bool(select.select([self._socket], [], [], 0)[0])
+
+    def close(self) -> None:
+        """See `Wire.close`."""
+        self._socket.close()
+
+
+class SerialWire:
+    """A serial port of this machine, held by this process alone."""
+
+    def __init__(self, port: serial.SerialBase) -> None:
+        self._port: Any = port  # pyserial's base has less than each of its ports
+        self.descriptor = port.fileno() if os.name == "posix" and hasattr(port, "fd") else -1
+
+    def read(self) -> bytes:
+        """See `Wire.read`."""
+        if self.descriptor >= 0:
+            with contextlib.suppress(BlockingIOError, InterruptedError):
+                return os.read(self.descriptor, CHUNK)
+            return b""
+        return bytes(self._port.read(self._port.in_waiting))
+
+    def write(self, data: bytes) -> None:
+        """See `Wire.write`."""
+        if (self._port.write(data) or 0) < len(data):
+            raise BlockingIOError(errno.EAGAIN, "the port takes no more bytes")
+
+    def waiting(self) -> bool:
+        """See `Wire.waiting`."""
+        return bool(self._port.in_waiting)
+
+    def close(self) -> None:
+        """See `Wire.close`."""
+        with contextlib.suppress(OSError):  # an adapter that was pulled out
+            self._port.close()
+
+
+def open_serial(line: Line) -> SerialWire:
+    """Open a serial port for this process alone; LinkLost with what to do."""
+    try:
+        port = serial.serial_for_url(line.port, timeout=0, write_timeout=0, exclusive=True, **line.settings())
+    except (OSError, ValueError) as error:
+        message = f"cannot open {line.port}: {_why_not(line, error)}"
+        raise LinkLost(message) from error
+    except Exception as error:  # pyserial lets the errors of termios through, which are not OSError
+        message = f"cannot open {line.port} at {line.baud} baud {line.format}: {error}. Is it a serial port?"
+        raise LinkLost(message) from error
+    return SerialWire(port)
+
+
+def _why_not(line: Line, error: OSError | ValueError) -> str:
+    code = getattr(error, "errno", None)
+    if code in {errno.ENOENT, errno.ENODEV, errno.ENXIO}:
+        ports = sorted(one.device for one in list_ports.comports())[:PORTS_NAMED]
+        return f"there is no such port. Plug the adapter in; ports here: {', '.join(ports) or 'none'}"
+    if code == errno.EACCES:
+        return "permission denied. Add your user to the group that owns the port (often dialout), then log in anew"
+    if code in {errno.EBUSY, errno.EAGAIN}:
+        return "another program has it open. Two masters on one line would garble each other: stop the other one"
+    return f"{error}. Is it a serial port, and can it do {line.baud} baud {line.format}?"
+
+
+def addresses(host: str, port: int) -> list[tuple[Any, ...]]:
+    """What a host name stands for; LinkLost if it is unknown."""
+    try:
+        return list(socket.getaddrinfo(host, port, type=socket.SOCK_STREAM))
+    except (OSError, UnicodeError) as error:
+        raise unknown(host, port, error) from error
+
+
+def unknown(host: str, port: int, error: Exception) -> LinkLost:
+    """The error for a host without address."""
+    return LinkLost(f"cannot open tcp://{host}:{port}: the host {host!r} is unknown ({error}). Check its name")
+
+
+def refused(host: str, port: int, error: Exception) -> LinkLost:
+    """The error for a host that takes no connection."""
+    if isinstance(error, ConnectionRefusedError):
+        why = "it refuses the connection, nobody answers there. Check the port, and that Modbus TCP is switched on"
+    elif isinstance(error, TimeoutError):
+        why = f"it did not answer within {CONNECT_SECONDS:g} s. Check power, cable, address and firewall"
+    else:
+        why = f"{error}. Check address, port and network"
+    return LinkLost(f"cannot open tcp://{host}:{port}: {why}")
+
+
+def open_tcp(host: str, port: int) -> SocketWire:
+    """Connect; LinkLost with what to do."""
+    failure: Exception = OSError("it has no address")
+    for family, kind, number, _, address in addresses(host, port):
+        connection = socket.socket(family, kind, number)
+        try:
+            connection.settimeout(CONNECT_SECONDS)
+            connection.connect(address)
+            return SocketWire(connection)
+        except OSError as error:
+            connection.close()
+            failure = error
+        except BaseException:
+            connection.close()
+            raise
+    raise refused(host, port, failure) from failure
+
+
+async def open_tcp_async(host: str, port: int) -> SocketWire:
+    """As `open_tcp`, for asyncio."""
+    loop = asyncio.get_running_loop()
+    try:
+        found = await loop.getaddrinfo(host, port, type=socket.SOCK_STREAM)
+    except (OSError, UnicodeError) as error:
+        raise unknown(host, port, error) from error
+    failure: Exception = OSError("it has no address")
+    for family, kind, number, _, address in found:
+        connection = socket.socket(family, kind, number)
+        try:
+            connection.settimeout(0)
+            async with asyncio.timeout(CONNECT_SECONDS):
+                await loop.sock_connect(connection, address)
+            return SocketWire(connection)
+        except OSError as error:  # TimeoutError is one
+            connection.close()
+            failure = error
+        except BaseException:
+            connection.close()
+            raise
+    raise refused(host, port, failure) from failure
+
+
+def wait(wire: Stream, seconds: float) -> bool:
+    """Wait in this thread until bytes are there (True), for `seconds` at most."""
+    if wire.descriptor < 0:
+        return any(wire.waiting() for _ in _looks(seconds))
+    if wire.descriptor < MOST_SELECTED:  # to the microsecond, where poll counts in milliseconds
+        return bool(select.select([wire.descriptor], [], [], max(seconds, 0.0))[0])
+    poller = select.poll()
+    poller.register(wire.descriptor, select.POLLIN)
+    return bool(poller.poll(max(seconds, 0.0) * 1000))
+
+
+def _looks(seconds: float) -> Iterator[None]:
+    deadline = time.monotonic() + seconds
+    yield
+    while time.monotonic() < deadline:
+        time.sleep(POLL_SECONDS)
+        yield
+
+
+async def wait_async(wire: Stream, seconds: float) -> bool:
+    """Wait in this task until bytes are there (True), for `seconds` at most."""
+    loop = asyncio.get_running_loop()
+    if wire.descriptor < 0:
+        deadline = loop.time() + seconds
+        while not (there := wire.waiting()) and loop.time() < deadline:  # noqa: ASYNC110 (nothing tells of bytes there)
+            await asyncio.sleep(POLL_SECONDS)
+        return there
+    there_or_late: asyncio.Future[bool] = loop.create_future()
+    loop.add_reader(wire.descriptor, _settle, there_or_late, True)  # noqa: FBT003 (the result)
+    timer = loop.call_later(max(seconds, 0), _settle, there_or_late, False)  # noqa: FBT003 (as above)
+    try:
+        return await there_or_late
+    finally:
+        timer.cancel()
+        loop.remove_reader(wire.descriptor)
+
+
+def _settle(future: "asyncio.Future[bool]", result: bool) -> None:  # noqa: FBT001 (as above)
+    if not future.done():
+        future.set_result(result)

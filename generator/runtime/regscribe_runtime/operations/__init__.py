@@ -1,0 +1,1 @@
+"""Reading, writing and configuring, step by step and without I/O."""

@@ -1,0 +1,112 @@
+"""A request that the unit refused is halved until the registers that it does not have are found; the rest is delivered.
+
+What counts as "does not have" is the exception that the map gives for bad addresses (illegal data address, as a rule).
+Every other exception, and silence, concerns the whole operation and is raised. Only where the map says that the device
+keeps silent about bad addresses is silence taken for an absence: if it was silent twice, and the unit spoke otherwise.
+
+Each register that is called absent was refused alone. If a half is good, the other one must be bad, so it is halved
+without being asked for: one absent register among n takes between log2(n) and 2 log2(n) requests.
+"""
+
+from collections.abc import Generator, Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+from regscribe_runtime.errors import ExceptionAnswer, NoAnswer, RegscribeError
+from regscribe_runtime.planning.address_ranges import RegisterSpan
+from regscribe_runtime.planning.alternatives import ways
+from regscribe_runtime.planning.plan import Block
+from regscribe_runtime.wire.requests import Request
+
+if TYPE_CHECKING:
+    from regscribe_runtime.operations.session import Session
+
+MOST_SILENT = 3
+"""Requests in a row without an answer after which the unit is not asked any more."""
+
+REFUSALS = (ExceptionAnswer, NoAnswer)
+"""What an absent register may be answered with; `is_absence` tells whether it is."""
+
+Words = tuple[int | None, ...]
+"""What a block holds; None at addresses that could not be read."""
+
+
+def is_absence(error: RegscribeError, absent: int) -> bool:
+    """Whether an error is this device's way to say that it has no such address."""
+    if isinstance(error, ExceptionAnswer):
+        return bool(absent) and error.code == absent
+    return isinstance(error, NoAnswer) and not absent
+
+
+class Bisection:
+    """Reads of a refused block whatever can be read, and remembers in the session what cannot."""
+
+    def __init__(self, session: "Session", block: Block, error: RegscribeError, *, heard: bool) -> None:
+        self.session, self.block, self.error = session, block, error
+        self.words: list[int | None] = [None] * block.quantity
+        self.refused: dict[RegisterSpan, RegscribeError] = {}
+        self.silent = int(isinstance(error, NoAnswer))
+        self.heard = heard or not self.silent
+
+    def run(self) -> Generator[Any, Any, Words]:
+        """The words of the block that can be read; raises what concerns the whole unit."""
+        items = self.block.items
+        if len(items) == 1 and isinstance(self.error, ExceptionAnswer):
+            self.refused[items[0]] = self.error
+        else:
+            yield from self._sift(items, bad=True)
+        if not self.heard:
+            raise self.error
+        proven = {way.item for path in self.session.proven for way in ways(self.session.registers[path])}
+        for item, error in self.refused.items():
+            self.session.absences.add(item, error, passing=item in proven)
+        for item in self._between():
+            self.session.absences.add(item, self.error, alone=False)
+        self.session.prepared.clear()
+        return tuple(self.words)
+
+    def _sift(self, items: Sequence[RegisterSpan], *, bad: bool) -> Generator[Any, Any, bool]:
+        """Whether all of `items` could be read; `bad`: known to be refused as a whole."""
+        if len(items) == 1:
+            return (yield from self._alone(items[0]))
+        if not bad and (yield from self._read(items)) is None:
+            return True
+        half = len(items) // 2
+        first = yield from self._sift(items[:half], bad=False)
+        second = yield from self._sift(items[half:], bad=first)
+        return first and second
+
+    def _alone(self, item: RegisterSpan) -> Generator[Any, Any, bool]:
+        error = yield from self._read([item])
+        if isinstance(error, NoAnswer):
+            error = yield from self._read([item])  # a frame may have been lost: silence must be repeated to count
+        if error:
+            self.refused[item] = error
+        return error is None
+
+    def _read(self, items: Sequence[RegisterSpan]) -> Generator[Any, Any, RegscribeError | None]:
+        """Read items by one request; the device's way to say that it has not all of them, if it does."""
+        wide = [self.session.terms().ground.widened(item) for item in items]
+        start, end = min(item.address for item in wide), max(item.end for item in wide)
+        try:
+            words = yield from self.session.exchange(Request(self.block.function, start, end - start))
+        except REFUSALS as error:
+            self._judge(error)
+            return error
+        self.heard, self.silent = True, 0
+        self.words[start - self.block.address : end - self.block.address] = words
+        return None
+
+    def _judge(self, error: RegscribeError) -> None:
+        if not is_absence(error, self.session.protocol.absent):
+            raise error
+        self.silent = self.silent + 1 if isinstance(error, NoAnswer) else 0
+        self.heard = self.heard or not self.silent
+        if self.silent >= MOST_SILENT and not self.heard:
+            raise error
+
+    def _between(self) -> Iterator[RegisterSpan]:
+        """The addresses that were read along and are in no good request: what was refused may lie there."""
+        wanted = {address for item in self.block.items for address in range(item.address, item.end)}
+        for address, word in enumerate(self.words, self.block.address):
+            if word is None and address not in wanted:
+                yield RegisterSpan(self.block.space, address, 1)

@@ -1,0 +1,141 @@
+"""Decoding many registers of one request at once: one struct.unpack for all of them."""
+
+import struct
+from collections.abc import Callable, Mapping, Sequence
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+from regscribe_runtime.errors import RegscribeError, ValueNotDecodable
+from regscribe_runtime.planning.plan import Block
+from regscribe_runtime.registers import codec
+from regscribe_runtime.values.specs import View
+from regscribe_runtime.values.wire_types import BIG, LITTLE
+from regscribe_runtime.wire.requests import Request
+
+if TYPE_CHECKING:
+    from regscribe_runtime.operations.bisect import Words
+    from regscribe_runtime.operations.session import Session
+    from regscribe_runtime.registers.register import Register
+
+Placed = tuple["Register[Any]", View, int]
+"""A register, its view, and the place of its first word in the block."""
+
+
+class PreparedBlock:
+    """A request and what to do with its words, under the state of the device at the time of preparation.
+
+    Registers of numbers are unpacked together; texts, bits and registers that share words are decoded alone. `unknown`
+    are registers whose values could not be learnt, with why: what depends on them has no value either.
+    """
+
+    __slots__ = ("alone", "block", "converters", "order", "packer", "paths", "placed", "request", "unpacker")
+
+    def __init__(
+        self,
+        block: Block,
+        placed: Sequence[Placed],
+        session: "Session",
+        unknown: Mapping[str, RegscribeError] = MappingProxyType({}),
+    ) -> None:
+        self.block, self.placed = block, placed
+        self.request = Request(block.function, block.address, block.quantity)
+        together, others = _split(placed)
+        self.packer = struct.Struct(f">{block.quantity}H")
+        self.unpacker = struct.Struct(_format(together, block.quantity))
+        self.order = _order(together, block.quantity, session)
+        self.paths = [register.path for register, _, _ in together]
+        converters = [_converter(*one, session, unknown) for one in together]
+        self.converters = [(place, convert) for place, convert in enumerate(converters) if convert is not codec.same]
+        self.alone = [(*one, _decoder(*one, session, unknown)) for one in others]
+
+    def decode(self, words: Sequence[int]) -> dict[str, Any]:
+        """Values by path; a ValueNotDecodable in place of a value that is none."""
+        if self.order:
+            words = [words[place] for place in self.order]
+        found = self._together(words) if self.paths else {}
+        for register, view, start, decode in self.alone:
+            found[register.path] = _caught(decode, words[start : start + view.words])
+        return found
+
+    def decode_partly(
+        self, words: "Words", session: "Session", unknown: Mapping[str, RegscribeError]
+    ) -> dict[str, Any]:
+        """As `decode`, of the registers whose words are all there."""
+        found = {}
+        for register, view, start in self.placed:
+            there = words[start : start + view.words]
+            if None not in there:
+                decode = _decoder(register, view, start, session, unknown)
+                found[register.path] = _caught(decode, there)
+        return found
+
+    def _together(self, words: Sequence[int]) -> dict[str, Any]:
+        values: list[Any] = list(self.unpacker.unpack(self.packer.pack(*words)))
+        for place, convert in self.converters:
+            try:
+                values[place] = convert(values[place])
+            except ValueNotDecodable as error:
+                values[place] = error
+        return dict(zip(self.paths, values, strict=True))
+
+
+def _split(placed: Sequence[Placed]) -> tuple[list[Placed], list[Placed]]:
+    together: list[Placed] = []
+    alone: list[Placed] = []
+    end = 0
+    for one in placed:
+        register, view, start = one
+        plain = register.kind.name != "string" and view.space not in codec.BIT_SPACES and view.byte_order == BIG
+        (together if plain and start >= end else alone).append(one)
+        end = max(end, start + view.words)
+    return together, alone
+
+
+def _format(together: Sequence[Placed], quantity: int) -> str:
+    codes, end = [">"], 0
+    for _, view, start in together:
+        codes.append("xx" * (start - end) + view.type.code)
+        end = start + view.words
+    return "".join(codes) + "xx" * (quantity - end)
+
+
+def _order(together: Sequence[Placed], quantity: int, session: "Session") -> list[int] | None:
+    places = list(range(quantity))
+    for register, view, start in together:
+        if view.words > 1 and _backward(register, view, session):
+            places[start : start + view.words] = places[start : start + view.words][::-1]
+    return None if places == sorted(places) else places
+
+
+def _backward(register: "Register[Any]", view: View, session: "Session") -> bool:
+    try:
+        return view.word_order(register.path, session.memory) == LITTLE
+    except (ValueNotDecodable, KeyError):
+        return False  # its converter says so, for this register alone
+
+
+def _converter(
+    register: "Register[Any]", view: View, _: int, session: "Session", unknown: Mapping[str, RegscribeError]
+) -> Callable[[Any], Any]:
+    try:
+        if view.words > 1:
+            view.word_order(register.path, codec.known(register, session.memory, unknown))
+    except ValueNotDecodable as error:
+        return codec.always(error)
+    return codec.reader(register, view, session.memory, session.givens, unknown)
+
+
+def _decoder(
+    register: "Register[Any]", view: View, _: int, session: "Session", unknown: Mapping[str, RegscribeError]
+) -> Callable[[Any], Any]:
+    try:
+        return codec.decoder(register, view, session.memory, session.givens, unknown)
+    except ValueNotDecodable as error:
+        return codec.always(error)
+
+
+def _caught(convert: Callable[[Any], Any], given: Any) -> Any:
+    try:
+        return convert(given)
+    except ValueNotDecodable as error:
+        return error

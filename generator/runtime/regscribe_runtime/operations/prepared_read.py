@@ -1,0 +1,163 @@
+"""What a read of several registers comes down to under the present state: requests, decoders, and what must not change.
+
+The registers that the meaning of values depends on (decimals, input type, word order) are read in the same plan, behind
+all values that depend on them. If they hold at the end what was known before the first request, they held it all the
+time between, so every value was made under the state that it is decoded with.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from regscribe_runtime.errors import RegscribeError, ValueNotDecodable
+from regscribe_runtime.operations.decode_block import Placed, PreparedBlock
+from regscribe_runtime.planning.alternatives import open_ways, ways
+from regscribe_runtime.planning.read_order import ReadOrder, WordPosition, lay_out
+from regscribe_runtime.registers import codec
+
+if TYPE_CHECKING:
+    from regscribe_runtime.operations.bisect import Words
+    from regscribe_runtime.operations.session import Session
+    from regscribe_runtime.registers.register import Register
+
+MISSING = object()
+"""In place of a value that is not known."""
+
+
+class PreparedRead:
+    """The requests of one read, and how to judge and decode the answers; made by `make_ready`."""
+
+    __slots__ = ("_seen", "_watched", "absent", "atomic", "blocks", "paths", "unknown")
+
+    def __init__(
+        self,
+        blocks_: list[PreparedBlock],
+        paths: Iterable[str],
+        *,
+        watched: "list[tuple[Register[Any], WordPosition]]",
+        atomic: bool,
+        absent: Mapping[str, RegscribeError],
+        unknown: Mapping[str, RegscribeError],
+    ) -> None:
+        self.blocks, self.paths, self.atomic = blocks_, tuple(paths), atomic
+        self.absent, self.unknown = absent, unknown
+        self._watched = watched
+        self._seen: list[Words] | None = None if watched else []
+
+    def changed(self, answers: "Sequence[Words]", session: "Session") -> dict[str, Any]:
+        """What the values depend on and is not as it was known: new values, MISSING for what is none any more."""
+        words = [_words(place, answers) for _, place in self._watched]
+        if words == self._seen:
+            return {}
+        state, found = dict(session.memory), {}
+        for (register, place), raw in zip(self._watched, words, strict=True):
+            value = _value(register, place, raw, state, session)
+            if session.memory.get(register.path, MISSING) != value:
+                found[register.path] = value
+            if value is MISSING:
+                state.pop(register.path, None)
+            else:
+                state[register.path] = value
+        if not found:
+            self._seen = words
+        return found
+
+    def decode(self, answers: Sequence[Sequence[int]]) -> dict[str, Any]:
+        """Values by path, in the order asked for; an error in place of a value that is none."""
+        values: dict[str, Any] = dict.fromkeys(self.paths)
+        values.update(self.absent)
+        for block, words in zip(self.blocks, answers, strict=True):
+            values.update(block.decode(words))
+        return values
+
+    def decode_partly(self, answers: "Sequence[Words]", session: "Session") -> dict[str, Any]:
+        """As `decode`, where words may be missing: None for a register that could not be read."""
+        values: dict[str, Any] = dict.fromkeys(self.paths)
+        values.update(self.absent)
+        for block, words in zip(self.blocks, answers, strict=True):
+            values.update(block.decode_partly(words, session, self.unknown))
+        return values
+
+    def blind(self, answers: "Sequence[Words]") -> bool:
+        """Whether something that values depend on could not be read."""
+        return any(None in _words(place, answers) for _, place in self._watched)
+
+    def alike(self, other: "PreparedRead") -> bool:
+        """Whether another one sends the same requests."""
+        return [block.request for block in self.blocks] == [block.request for block in other.blocks]
+
+
+def _words(place: WordPosition, answers: "Sequence[Words]") -> "Words":
+    return answers[place.block][place.start : place.start + place.view.words]
+
+
+def _value(
+    register: "Register[Any]", place: WordPosition, words: "Words", state: Mapping[str, Any], session: "Session"
+) -> Any:
+    try:
+        return codec.decode(register, place.view, words, state, session.givens, named=False)  # type: ignore[arg-type] # asked: `blind`
+    except (ValueNotDecodable, KeyError):
+        return MISSING
+
+
+def dependencies(session: "Session", registers: "Iterable[Register[Any]]") -> dict[str, frozenset[str]]:
+    """Of each register and of all that the meaning of one depends on, what its own depends on; those first."""
+    found: dict[str, frozenset[str]] = {}
+
+    def visit(register: "Register[Any]") -> frozenset[str]:
+        if register.path not in found:
+            direct = register.needs(register.read_view())
+            deeper = [visit(session.registers[path]) for path in direct]
+            found[register.path] = frozenset(direct).union(*deeper)
+        return found[register.path]
+
+    for register in registers:
+        visit(register)
+    return found
+
+
+def laid_out(
+    session: "Session", registers: "Sequence[Register[Any]]", *, fresh: bool
+) -> "tuple[ReadOrder, dict[str, Register[Any]], dict[str, frozenset[str]]]":
+    """Where registers and, with `fresh`, all that they depend on are read; these by path, and what each depends on."""
+    terms = session.terms()
+    needs = dependencies(session, registers) if fresh else {}
+    needed = frozenset().union(*needs.values())
+    wanted = {register.path: register for register in registers}
+    wanted |= {path: session.registers[path] for path in needs if path in needed and path not in wanted}
+    open_ = {path: found for path, one in wanted.items() if (found := open_ways(one, terms.ground))}
+    return lay_out(open_, needs, terms), wanted, needs
+
+
+def make_ready(
+    session: "Session", registers: "Sequence[Register[Any]]", *, fresh: bool, unknown: Mapping[str, RegscribeError]
+) -> PreparedRead:
+    """Plan the read of registers and, with `fresh`, of what they depend on; `unknown` are those of no known value."""
+    layout, wanted, needs = laid_out(session, registers, fresh=fresh)
+    chosen = {register.path: register for register in registers}
+    placed: list[list[Placed]] = [[] for _ in layout.blocks]
+    for path, place in layout.places.items():
+        if path in chosen:
+            placed[place.block].append((chosen[path], place.view, place.start))
+    made = [
+        PreparedBlock(block, sorted(own, key=lambda one: one[2]), session, unknown)
+        for block, own in zip(layout.blocks, placed, strict=True)
+    ]
+    return PreparedRead(
+        made,
+        chosen,
+        watched=[(wanted[path], layout.checks[path]) for path in needs if path in layout.checks],
+        atomic=layout.atomic,
+        absent={path: why for path, one in chosen.items() if (why := missing(session, one))},
+        unknown=unknown,
+    )
+
+
+def missing(session: "Session", register: "Register[Any]") -> RegscribeError | None:
+    """Why a register is left out of every plan; None if some way to read it is open."""
+    if open_ways(register, session.terms().ground):
+        return None
+    for way in ways(register):
+        if found := session.absences.error(register.path, way.item, session.unit):
+            return found
+    message = f"{register.path} cannot be read from this device: it can only be written, or belongs to another one"
+    raise ValueError(message)

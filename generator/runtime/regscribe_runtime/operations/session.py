@@ -1,0 +1,277 @@
+"""What a driver knows between requests: the device's protocol, the givens and the remembered registers. No I/O."""
+
+from collections.abc import Callable, Generator, Iterable, Mapping
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+
+from regscribe_runtime.errors import ExceptionAnswer, LinkLost, NoAnswer, RegscribeError, WrongAnswer
+from regscribe_runtime.link.retry import Retry
+from regscribe_runtime.link.timing import response_seconds
+from regscribe_runtime.operations.missing_registers import MissingRegisters
+from regscribe_runtime.planning.address_ranges import AddressRanges, ground_of
+from regscribe_runtime.planning.cost import Cost
+from regscribe_runtime.planning.plan import RequestLimits, Terms
+from regscribe_runtime.report import Wear, WriteReport
+from regscribe_runtime.values.serial_line import Line
+from regscribe_runtime.wire.requests import READ_SPACES, Meanings, Reply, Request, verify
+
+if TYPE_CHECKING:
+    from regscribe_runtime.link.links import AsyncLink, Link
+    from regscribe_runtime.registers.register import Register
+
+T = TypeVar("T")
+
+Operation = Generator["Request | Pause | LineChange", "Reply | None", T]
+"""Protocol logic without I/O: yields requests (or pauses, or how to talk on), receives replies, returns a value."""
+
+
+GATEWAY_GOT_NO_ANSWER = 0x0B
+"""The exception of a gateway whose serial side stayed silent, unless a device's manual gives it another meaning."""
+
+
+class Pause(NamedTuple):
+    """Time that the device needs, in seconds."""
+
+    seconds: float
+
+
+class LineChange(NamedTuple):
+    """How the device talks from now on, so that the session and its link follow; None: as before.
+
+    Over TCP speed and format are those of a gateway, which a link cannot set: they stay as they are.
+    """
+
+    unit: int | None = None
+    baud: int | None = None
+    data_bits: int | None = None
+    parity: str | None = None
+    stop_bits: int | None = None
+    addressing: str | None = None
+
+    @property
+    def line(self) -> dict[str, int | str]:
+        """What changes of the serial line."""
+        found = {"baud": self.baud, "data_bits": self.data_bits, "parity": self.parity, "stop_bits": self.stop_bits}
+        return {name: value for name, value in found.items() if value is not None}
+
+
+class Latency(NamedTuple):
+    """Milliseconds from the end of a request to the start of its answer: a part that is fixed, and one for each word.
+
+    `characters` character times at the speed of the line come on top.
+    """
+
+    minimum: float = 0
+    maximum: float = 0
+    minimum_per_word: float = 0
+    maximum_per_word: float = 0
+    characters: float = 0
+
+
+class Protocol(NamedTuple):
+    """What the device accepts: function codes, limits, unit ids, its meanings of exception codes, and its times.
+
+    `timeout` is the longest time in seconds that a good answer may take at any speed, from the manual's latencies,
+    which `latencies` has by function code; `gap` is the silence between frames in characters. `broadcast` are the
+    functions that may be sent to all units at once, `bauds` and `formats` (8N1) what the serial line can be set to.
+    `absent` is the exception code by which the device refuses an address that it does not have; 0: it keeps silent.
+    """
+
+    functions: tuple[int, ...] = (3, 6, 16)
+    read_words: int = 125
+    write_words: int = 123
+    read_bits: int = 2000
+    write_bits: int = 1968
+    read_holes: bool = False
+    unit_ids: tuple[int, int] = (1, 247)
+    exceptions: Meanings = MappingProxyType({})
+    timeout: float = 1.0
+    baud: int = 9600
+    format: str = "8N1"
+    modes: tuple[str, ...] = ("rtu",)
+    bauds: tuple[int, ...] = ()
+    formats: tuple[str, ...] = ()
+    gap: float = 3.5
+    latencies: Mapping[int, Latency] = MappingProxyType({})
+    broadcast: tuple[int, ...] = ()
+    absent: int = 2
+
+    @property
+    def read_limits(self) -> RequestLimits:
+        """What a read plan must keep to."""
+        return RequestLimits(words=self.read_words, bits=self.read_bits, holes=self.read_holes)
+
+
+MOST_TIMED = 2000
+"""Reads whose timeout is kept: more than a device has registers; a scan of all addresses must not fill the memory."""
+
+TERMS = object()
+"""The key of the terms among what is prepared."""
+
+
+class Session:
+    """One device behind one link: `memory` holds the registers that the meaning of others depends on.
+
+    It is forgotten when one of them is written, when a command ran, and when the link was opened anew (`epoch`).
+    `prepared` caches requests and decoders made under that memory, so it goes whenever the memory changes. `line` is
+    the link's serial line (None over TCP), `retry` what is tried again (None: as the link has it), `wrote` whether the
+    operation under way has sent anything but reads. `proven` are registers that others depend on and that were read
+    since the link was opened. `unused` addresses (space, first, last) read as 0; `absences` are
+    those that this unit refused. `broken_off` is the report of the last `configure` that a cancelled task or Ctrl-C
+    ended in the middle, where nothing could be undone. `home` is how the device talked before a write that governs the
+    line: what breaks the operation off, whatever it is, brings the driver back there.
+    """
+
+    __slots__ = (
+        "_ground", "_timed", "_tries", "absences", "addressing", "broken_off", "commands", "epoch", "givens",
+        "groups", "home", "line", "memory", "prepared", "protocol", "proven", "registers", "retry", "unit", "unused",
+        "wear", "wrote",
+    )  # fmt: skip # one name a line says no more
+
+    def __init__(
+        self,
+        *,
+        unit: int,
+        protocol: Protocol,
+        registers: Mapping[str, Any],
+        commands: Mapping[str, Any],
+        givens: Mapping[str, Any],
+        groups: Mapping[str, Any] = MappingProxyType({}),
+        unused: tuple[tuple[str, int, int], ...] = (),
+    ) -> None:
+        low, high = protocol.unit_ids
+        if not low <= unit <= high:
+            message = f"unit {unit} is outside {low} to {high}, the unit ids of this device"
+            raise ValueError(message)
+        self.unit, self.protocol, self.givens = unit, protocol, givens
+        self.registers, self.commands, self.groups = registers, commands, groups
+        self.memory: dict[str, Any] = {}
+        self.proven: set[str] = set()
+        self.prepared: dict[Any, Any] = {}
+        self.wear = Wear()
+        self.epoch = 0
+        self.line: Line | None = None
+        self.addressing = "modbus"
+        self.retry: Retry | None = None
+        self.wrote = False
+        self.broken_off: WriteReport | None = None
+        self.home: LineChange | None = None
+        self._tries = Retry()
+        self._timed: dict[Request, Request] = {}
+        self.unused, self.absences = unused, MissingRegisters()
+        self._ground: AddressRanges | None = None
+
+    def own(self, register: "Register[Any]") -> "Register[Any]":
+        """The register of this device that a declaration means.
+
+        ValueError for one of another device, or of the elements of an array as such, which stands nowhere.
+        """
+        found: Register[Any] | None = self.registers.get(register.path)
+        if found is not None and (found is register or (found.at, found.views) == (register.at, register.views)):
+            return found
+        message = f"{register.path} at {register.at} is no register of this device; one of an array's element is taken"
+        message = f"{message} from the driver itself, as driver.elements[1].{register.id}"
+        raise ValueError(message)
+
+    def remember(self, path: str, value: object) -> None:
+        """Keep the value of a register that others depend on."""
+        self.memory[path] = value
+        self.proven.add(path)
+        self.prepared.clear()
+
+    def forget(self, paths: Iterable[str] | None = None) -> None:
+        """Drop some registers from memory; all of them without `paths`."""
+        gone = list(self.memory) if paths is None else [path for path in paths if path in self.memory]
+        for path in gone:
+            del self.memory[path]
+        if gone:
+            self.prepared.clear()
+
+    def at_epoch(self, epoch: int) -> None:
+        """Forget everything if the link was opened anew since the last operation."""
+        if epoch != self.epoch:
+            self.epoch = epoch
+            self.forget()
+            self.proven.clear()
+            if self.absences.clear():
+                self.prepared.clear()
+
+    def terms(self) -> Terms:
+        """What a read plan must keep to, and what requests cost on this line."""
+        if TERMS not in self.prepared:
+            if self._ground is None:
+                holes = self.protocol.read_holes
+                self._ground = ground_of(self.registers.values(), unused=self.unused, holes=holes)
+            ground = self._ground
+            if self.absences:
+                ground = ground.refusing(self.absences.items(alone=True), apart=self.absences.items(alone=False))
+            self.prepared[TERMS] = Terms(self.protocol.read_limits, ground, Cost.of(self.protocol, self.line))
+        found: Terms = self.prepared[TERMS]
+        return found
+
+    def begin(self, link: "Link | AsyncLink") -> None:
+        """Before an operation: what its link is like now."""
+        if link.epoch != self.epoch:
+            self.at_epoch(link.epoch)
+        self.addressing = link.addressing
+        self._tries = self.retry or link.retry
+        self.wrote, self.home = False, None
+        line = link.line
+        if line is not self.line and line != self.line:
+            self.line = line
+            self.prepared.clear()
+            self._timed.clear()
+
+    def retuned(self, change: LineChange, *, line: Line | None, addressing: str) -> None:
+        """The device talks otherwise from now on: another unit id, line or addressing. Nothing remembered counts."""
+        self.unit = self.unit if change.unit is None else change.unit
+        self.line, self.addressing = line, addressing
+        self._timed.clear()
+        self.memory.clear()
+        self.proven.clear()
+        self.prepared.clear()
+
+    def doubt(self) -> None:
+        """The device fell silent: it may be another one when it speaks again, so nothing remembered will count."""
+        self.epoch = -1
+
+    def timed(self, request: Request) -> Request:
+        """The request with its response timeout, from the manual's latencies and the line."""
+        found = self._timed.get(request)
+        if found is None:
+            found = request._replace(seconds=response_seconds(self.protocol, request, self.line))
+            if request.reads and len(self._timed) < MOST_TIMED:
+                self._timed[request] = found
+        return found
+
+    def _heard(self, request: Request) -> None:
+        """A good answer ends the memory of a refusal."""
+        if self.absences.heard(READ_SPACES[request.function], request.address, request.quantity):
+            self.prepared.clear()
+
+    def exchange(self, request: Request) -> Operation[tuple[int, ...]]:
+        """Send one request and verify its answer; a read is sent again as `retry` says, a write never."""
+        left = self._tries.reads if request.reads else 0
+        while True:
+            try:
+                reply = yield request
+                assert reply is not None, "an executor answers a request with a reply"  # noqa: S101 (their contract)
+                words = verify(request, reply, unit=self.unit, meanings=self.protocol.exceptions)
+            except (NoAnswer, WrongAnswer, LinkLost, ExceptionAnswer) as error:
+                if not left or not _passing(error):
+                    raise
+                left = 0 if isinstance(error, LinkLost) else left - 1  # the second time, nobody is there
+            else:
+                if self.absences and request.reads:
+                    self._heard(request)
+                return words
+            yield Pause(self._tries.pause)
+
+
+def _passing(error: RegscribeError) -> bool:
+    """Whether an error may be gone at the next try; of a device's refusals, only that of a gateway before it."""
+    return not isinstance(error, ExceptionAnswer) or (error.code == GATEWAY_GOT_NO_ANSWER and not error.name)
+
+
+Task = Callable[[Session], Operation[T]]
+"""An operation before it knows its device."""

@@ -1,0 +1,46 @@
+"""All operations of a driver: reading, writing, commanding, and the functions that concern no register."""
+
+# an annotation of an inner function is evaluated at every call otherwise, which costs a read a hundredth of its time
+from __future__ import annotations
+
+from regscribe_runtime.operations.configure import configure
+from regscribe_runtime.operations.read import read, read_many, read_raw, read_unit
+from regscribe_runtime.operations.session import Operation, Session, Task
+from regscribe_runtime.operations.write import change, write, write_raw
+from regscribe_runtime.operations.write_request import run
+from regscribe_runtime.wire.requests import LOOPBACK, READ_STATUS, Request
+
+__all__ = [
+    "Task",
+    "change",
+    "configure",
+    "exception_status",
+    "loopback",
+    "read",
+    "read_many",
+    "read_raw",
+    "read_unit",
+    "run",
+    "write",
+    "write_raw",
+]
+
+
+def loopback(data: int) -> Task[int]:
+    """Function 08, subfunction 00: the device echoes one word."""
+
+    def task(session: Session) -> Operation[int]:
+        (echo,) = yield from session.exchange(Request(LOOPBACK, 0, 1, (data,)))
+        return echo
+
+    return task
+
+
+def exception_status() -> Task[int]:
+    """Function 07: eight status bits."""
+
+    def task(session: Session) -> Operation[int]:
+        (status,) = yield from session.exchange(Request(READ_STATUS, 0))
+        return status
+
+    return task

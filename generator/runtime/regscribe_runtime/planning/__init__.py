@@ -1,0 +1,1 @@
+"""Which requests read a set of registers at the least cost."""

@@ -1,0 +1,486 @@
+"""From words to values of use and back, exactly: the only place where numbers are scaled."""
+
+import math
+import struct
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, NoReturn
+
+from regscribe_runtime.errors import NotDecodable, Saturated, SensorFault, ValueNotDecodable, ValueRefused
+from regscribe_runtime.values.specs import Conversion, Converter, Givens, Limits, Ref, State, Text, View, choose
+from regscribe_runtime.values.wire_types import FLOAT32, LITTLE, ROUNDINGS, brief, carries, exact, shortest, show
+
+if TYPE_CHECKING:
+    from regscribe_runtime.registers.register import Register
+
+BIT_SPACES = frozenset({"coil", "discrete", "status"})
+"""Spaces whose values come as one number, not as words: bits, and the byte of function 07."""
+
+NAN = "nan"
+"""How a sentinel says that it is any float that is no number."""
+
+Unknown = Mapping[str, object]
+"""Registers of no known value, by path, and why."""
+
+NOTHING: Unknown = MappingProxyType({})
+
+LARGEST_FLOAT = Fraction(sys.float_info.max)
+
+PATTERNS = frozenset({"flags", "fields"})
+"""Kinds whose words are patterns of bits: never negative, whatever the type of the view."""
+
+MAX_DECIMALS = 9
+"""A decimals register above this is no decimal position of any device; scaling by it would only hide a fault."""
+
+
+def power(name: str, register: str, at_most: int | None, state: State) -> int:
+    """10^d with d from `register`; NotDecodable if that register holds no plausible number of decimals."""
+    if not register:
+        return 1
+    digits = int(state[register])
+    if not 0 <= digits <= MAX_DECIMALS:
+        raise NotDecodable(name, f"{register} is {digits}, which is no number of decimals")
+    return int(10 ** (digits if at_most is None else min(digits, at_most)))
+
+
+def _conversion(register: "Register[Any]", state: State, givens: Givens) -> tuple[Conversion, int]:
+    found: Conversion | None = choose(register.scale, state, givens)
+    if found is None:
+        known = ", ".join(f"{name} = {state[name]}" for name in register.scale_needs)
+        raise NotDecodable(register.path, f"no scale of the manual holds with {known}")
+    return found, power(register.path, found.decimals, found.at_most, state)
+
+
+Words = Sequence[int]
+
+
+def arranger(view: View, name: str, state: State) -> Callable[[Words], Words]:
+    """What turns words from wire order to most-significant-first under the present `state`; the same step both ways."""
+    backward = view.words > 1 and view.word_order(name, state) == LITTLE
+    if view.byte_order == LITTLE:
+        return _backward_and_swapped if backward else _swapped
+    return _backward if backward else _as_they_are
+
+
+def _as_they_are(words: Words) -> Words:
+    return words
+
+
+def _backward(words: Words) -> Words:
+    return words[::-1]
+
+
+def _swapped(words: Words) -> Words:
+    return [(word & 0xFF) << 8 | word >> 8 for word in words]
+
+
+def _backward_and_swapped(words: Words) -> Words:
+    return _swapped(words[::-1])
+
+
+def reader(
+    register: "Register[Any]",
+    view: View,
+    state: State,
+    givens: Givens,
+    unknown: Unknown = NOTHING,
+    *,
+    named: bool = True,
+) -> Converter:
+    """A function from a wire number of `view` to a value of use, under the present `state`.
+
+    It raises Saturated, SensorFault or NotDecodable for numbers that are no values. A fault is a fault even where no
+    scale holds, or where a register that the scale needs now is `unknown` (its path, and why). A special value is
+    returned as its member; without `named` as the number that it is, which is how conditions and limits count it.
+    """
+    try:
+        convert = _with_specials(register, view, known(register, state, unknown), givens, named=named)
+    except ValueNotDecodable as error:
+        convert = always(error)
+    return _guarded(register, view, convert)
+
+
+class _Known(dict[str, Any]):
+    """The values that are known; asking for one that is not says so of the register that depends on it."""
+
+    def __init__(self, register: "Register[Any]", state: State, unknown: Unknown) -> None:
+        super().__init__({path: value for path, value in state.items() if path not in unknown})
+        self._register, self._unknown = register, unknown
+
+    def __missing__(self, path: str) -> NoReturn:
+        why = self._unknown[path]
+        raise NotDecodable(self._register.path, f"its meaning depends on {path}: {why}")
+
+
+def known(register: "Register[Any]", state: State, unknown: Unknown) -> State:
+    """The state as it decides about a register: NotDecodable for what is asked of it and `unknown` (path, and why)."""
+    return _Known(register, state, unknown) if unknown else state
+
+
+def always(error: ValueNotDecodable) -> Converter:
+    """A reader of what cannot be read: it raises `error`."""
+
+    def fail(_: object) -> NoReturn:
+        raise error
+
+    return fail
+
+
+def same(wire: int) -> int:
+    """The reader of plain whole numbers; a block recognises it and does not call it."""
+    return wire
+
+
+def _scaled(register: "Register[Any]", view: View, state: State, givens: Givens) -> Converter:
+    if register.kind.name in PATTERNS:
+        make, mask = register.kind.make, view.type.maximum - view.type.minimum
+        return lambda wire: make(wire & mask)
+    if register.kind.coded:
+        return register.kind.make
+    conversion, divisor = _conversion(register, state, givens)
+    factor, multiply, add = Fraction(view.factor), Fraction(conversion.multiply), Fraction(conversion.add)
+    slope, offset = multiply / factor / divisor, add / divisor
+    return _ieee(register, view, slope, offset) if view.type.is_float else _whole(register, view, slope, offset)
+
+
+def _whole(register: "Register[Any]", view: View, slope: Fraction, offset: Fraction) -> Callable[[int], Any]:
+    # int / int is correctly rounded in Python, so (a x wire + b) / c is the float nearest to the exact value
+    scale = math.lcm(slope.denominator, offset.denominator)
+    a, b = int(slope * scale), int(offset * scale)
+    if register.kind.make is float:
+        if max(abs(slope * end + offset) for end in (view.type.minimum, view.type.maximum)) > LARGEST_FLOAT:
+            return lambda wire: _float(register, Fraction(a * wire + b, scale))
+        if b:
+            return lambda wire: (a * wire + b) / scale
+        return (lambda wire: wire / scale) if a == 1 else (lambda wire: a * wire / scale)
+    if (a, b, scale) == (1, 0, 1):
+        return same
+    return lambda wire: _no_fraction(register, Fraction(a * wire + b, scale))
+
+
+def _no_fraction(register: "Register[Any]", value: Fraction) -> int:
+    if value.denominator != 1:
+        raise NotDecodable(register.path, f"{show(value)} is no whole number")
+    return value.numerator
+
+
+def _float(register: "Register[Any]", value: Fraction) -> float:
+    try:
+        return float(value)
+    except OverflowError:
+        raise NotDecodable(register.path, f"{show(value)} is beyond every float of a program") from None
+
+
+def _ieee(register: "Register[Any]", view: View, slope: Fraction, offset: Fraction) -> Callable[[float], Any]:
+    def scaled(wire: float) -> Any:
+        if not math.isfinite(wire):
+            raise NotDecodable(register.path, f"the {view.name} view holds {wire}, which is no number")
+        value = Fraction(shortest(wire, view.type)) * slope + offset
+        return _float(register, value) if register.kind.make is float else _no_fraction(register, value)
+
+    return scaled
+
+
+def _on_wire(view: View, stored: Fraction) -> float | None:
+    """The number that is unpacked from what a view sends for `stored`; None if the view cannot carry it."""
+    exactly = stored * Fraction(view.factor)
+    if view.type.is_float:
+        try:
+            return view.type.nearest(exactly)
+        except OverflowError:
+            return None
+    fits = exactly.denominator == 1 and view.type.minimum <= exactly <= view.type.maximum
+    return exactly.numerator if fits else None
+
+
+def _specials(register: "Register[Any]", state: State, givens: Givens) -> dict[Fraction, tuple[Any, Fraction]]:
+    """Of each special value, by its code as a value of use: its member (None where it has none) and its number."""
+    special, means = register.kind.special, register.kind.means
+    if special is None and not means:
+        return {}
+    chosen: Conversion | None = choose(register.special_scale, state, givens)
+    if chosen is None:
+        raise NotDecodable(register.path, "no decimals of the manual hold for its special values")
+    divisor = power(register.path, chosen.decimals, chosen.at_most, state)
+    found = {exact(member.value) / divisor: member for member in special or ()}
+    meant = {Fraction(code) / divisor: Fraction(number) for code, number in means.items()}
+    return {code: (member, code) for code, member in found.items()} | {
+        code: (None, number) for code, number in meant.items()
+    }
+
+
+def _with_specials(register: "Register[Any]", view: View, state: State, givens: Givens, *, named: bool) -> Converter:
+    scaled = _scaled(register, view, state, givens)
+    specials = _specials(register, state, givens)
+    if not specials:
+        return scaled
+    conversion, divisor = _conversion(register, state, givens)
+    multiply, add = Fraction(conversion.multiply), Fraction(conversion.add)
+    shown: dict[float | None, Any] = {}
+    for code, (member, number) in specials.items():
+        wire = _on_wire(view, (code * divisor - add) / multiply)
+        shown[wire] = register.kind.make(number) if member is None or not named else member
+    shown.pop(None, None)
+    return lambda wire: shown[wire] if wire in shown else scaled(wire)
+
+
+Faults = dict[float | None, tuple[str, str]]
+"""By the number on the wire, as it is unpacked: id and label of a fault; None stands for a float that is no number."""
+
+
+def _faults(register: "Register[Any]", view: View) -> Faults:
+    found: Faults = {}
+    for stored, name, label in register.sentinels:
+        wire = None if stored == NAN else _on_wire(view, Fraction(stored))
+        if wire is not None or stored == NAN:
+            found[wire] = (name, label)
+    return found
+
+
+def _fault(faults: Faults, wire: float) -> tuple[str, str] | None:
+    return faults.get(None if math.isnan(wire) else wire)
+
+
+def _guarded(register: "Register[Any]", view: View, scaled: Converter) -> Converter:
+    ends = (view.type.minimum, view.type.maximum) if view.saturates else ()
+    faults = _faults(register, view)
+    if not ends and not faults:
+        return scaled
+
+    def checked(wire: Any) -> Any:
+        if wire in ends:
+            also = f" (or {' or '.join(label for *_, label in register.sentinels)})" if register.sentinels else ""
+            raise Saturated(register.path, f"the {view.name} view stands at its end, {wire}{also}: read another view")
+        fault = _fault(faults, wire)
+        if fault:
+            raise SensorFault(register.path, *fault)
+        return scaled(wire)
+
+    return checked
+
+
+def decoder(
+    register: "Register[Any]",
+    view: View,
+    state: State,
+    givens: Givens,
+    unknown: Unknown = NOTHING,
+    *,
+    named: bool = True,
+) -> Callable[[Sequence[int]], Any]:
+    """A function from the words of `view` (in wire order) to a value of use, under the present `state`; see `reader`.
+
+    It raises ValueNotDecodable with the words in it.
+    """
+    state = known(register, state, unknown)
+    arrange = arranger(view, register.path, state)
+    convert = (
+        _text_reader(register)
+        if register.kind.name == "string"
+        else _number_reader(view, reader(register, view, state, givens, named=named))
+    )
+
+    def decode(words: Sequence[int]) -> Any:
+        try:
+            return convert(arrange(words))
+        except ValueNotDecodable as error:
+            error.words = tuple(words)
+            raise
+
+    return decode
+
+
+def _number_reader(view: View, convert: Converter) -> Callable[[Words], Any]:
+    unpack = view.type.unpack
+    return lambda words: convert(unpack(words))
+
+
+def decode(
+    register: "Register[Any]",
+    view: View,
+    words: Sequence[int],
+    state: State,
+    givens: Givens,
+    unknown: Unknown = NOTHING,
+    *,
+    named: bool = True,
+) -> Any:
+    """The value that `words` (in wire order) spell; ValueNotDecodable carries the words. The rest: see `reader`."""
+    if len(words) != view.words:
+        message = f"{register.path} has {view.words} words in its {view.name} view, not {len(words)}"
+        raise ValueError(message)
+    try:
+        return decoder(register, view, state, givens, unknown, named=named)(words)
+    except ValueNotDecodable as error:
+        error.words = tuple(words)
+        raise
+
+
+def _text_reader(register: "Register[Any]") -> Callable[[Sequence[int]], str]:
+    def text(words: Sequence[int]) -> str:
+        raw = struct.pack(f">{len(words)}H", *words).partition(b"\0")[0]  # what follows is whatever was there before
+        try:
+            return raw.decode("ascii").rstrip(" ")
+        except UnicodeDecodeError:
+            raise NotDecodable(register.path, f"{raw.hex(' ')} is no ASCII text") from None
+
+    return text
+
+
+def carried_over(register: "Register[Any]", view: View, other: View, words: Words, state: State) -> tuple[int, ...]:
+    """The words by which a device shows in the view `other` what `words` in `view` set; ValueRefused if it cannot."""
+    numbers = arranger(view, register.path, state)(words)
+    if register.kind.name == "string":
+        return tuple(arranger(other, register.path, state)(numbers))
+    wire = view.type.unpack(numbers)
+    exactly = Fraction(shortest(wire, view.type)) if view.type.is_float else Fraction(wire)
+    shown = _wire_words(register, other, exactly / Fraction(view.factor), rounded=True)
+    return tuple(arranger(other, register.path, state)(shown))
+
+
+def encode(
+    register: "Register[Any]",
+    view: View,
+    value: object,
+    state: State,
+    givens: Givens,
+    *,
+    rounded: bool = False,
+    kept: int = 0,
+) -> tuple[int, ...]:
+    """The words of `value` in wire order; ValueRefused says which limit, step or type it breaks.
+
+    With `rounded`, a value finer than the view can carry is rounded by the view's rule instead of refused. `kept` are
+    bits without a name that the device has set and that stay as they are.
+    """
+    arrange = arranger(view, register.path, state)
+    if register.kind.name == "string":
+        return tuple(arrange(_from_text(register, view, value)))
+    if isinstance(value, float) and view.type is FLOAT32 and carries(FLOAT32, value):
+        value = Fraction(value)  # 2.0**63 is meant, whose shortest decimal is another number
+    amount, special = _amount(register, int(value) & ~kept if kept else value, state, givens)  # type: ignore[call-overload] # flags are whole numbers
+    amount += kept
+    if not register.kind.coded:
+        if not special:
+            _within_limits(register, amount, state, givens)
+        stored = _stored(register, amount, state, givens, rounded=rounded)
+        if not rounded:
+            _carried(register, view, amount, stored, state, givens)
+        amount = stored
+    words = _wire_words(register, view, amount, rounded=rounded)
+    fault = _fault(_faults(register, view), view.type.unpack(words))
+    if fault:
+        raise ValueRefused(register.path, f"{brief(value)} is how the device reports {fault[1]}")
+    return tuple(arrange(words))
+
+
+def _amount(register: "Register[Any]", value: object, state: State, givens: Givens) -> tuple[Fraction, bool]:
+    """`value` as an exact value of use, and whether it is a special value, which no range limits."""
+    specials = _specials(register, state, givens)
+    for code, (member, _) in specials.items():
+        if value is member and member is not None:
+            return code, True
+    amount = register.kind.number(register.path, value)
+    for code, (member, number) in specials.items():
+        if amount == number and member is None:
+            return code, True
+    if amount in specials and specials[amount][0] is None:  # it would be read back as another number
+        meant = show(specials[amount][1])
+        raise ValueRefused(register.path, f"{show(amount)} is the device's code for {meant}: write {meant}")
+    return amount, amount in specials
+
+
+def _limit(bound: Text | Ref | None, divisor: int, state: State) -> Fraction | None:
+    if bound is None:
+        return None
+    if isinstance(bound, Ref):
+        return exact(state[bound.register])
+    return Fraction(bound) / divisor
+
+
+def _within_limits(register: "Register[Any]", amount: Fraction, state: State, givens: Givens) -> None:
+    if not register.range:
+        return
+    limits: Limits | None = choose(register.range, state, givens)
+    if limits is None:
+        raise ValueRefused(register.path, "no range of the manual holds as the device is configured")
+    divisor = power(register.path, limits.decimals, limits.at_most, state)
+    ends = [(_limit(low, divisor, state), _limit(high, divisor, state)) for low, high in limits.intervals]
+    if not any((low is None or low <= amount) and (high is None or amount <= high) for low, high in ends):
+        allowed = " or ".join(
+            f"{'(open)' if low is None else show(low)} to {'(open)' if high is None else show(high)}"
+            for low, high in ends
+        )
+        raise ValueRefused(register.path, f"{show(amount)} lies outside {allowed}")
+
+
+def _stored(register: "Register[Any]", amount: Fraction, state: State, givens: Givens, *, rounded: bool) -> Fraction:
+    conversion, divisor = _conversion(register, state, givens)
+    stored = (amount * divisor - Fraction(conversion.add)) / Fraction(conversion.multiply)
+    if conversion.step is not None:
+        increment = Fraction(conversion.step) / power(register.path, conversion.places, conversion.at_most, state)
+        steps = stored / increment
+        if steps.denominator != 1:
+            step = increment * Fraction(conversion.multiply) / divisor
+            if not rounded:
+                of = f" of {conversion.places}" if conversion.places else ""
+                message = f"{show(amount)} is finer than the resolution {show(abs(step))}{of} (rounded=True rounds)"
+                raise ValueRefused(register.path, message)
+            stored = ROUNDINGS["half_up"](steps) * increment
+    return stored
+
+
+def _carried(
+    register: "Register[Any]", view: View, amount: Fraction, stored: Fraction, state: State, givens: Givens
+) -> None:
+    exactly = stored * Fraction(view.factor)
+    if view.type.is_float or exactly.denominator == 1:
+        return
+    conversion, divisor = _conversion(register, state, givens)
+    around = sorted(
+        (wire / Fraction(view.factor) * Fraction(conversion.multiply) + Fraction(conversion.add)) / divisor
+        for wire in (math.floor(exactly), math.ceil(exactly))
+    )
+    near = " and ".join(map(show, around))
+    message = f"{show(amount)} is finer than the {view.name} view can carry; nearest are {near} (rounded=True rounds)"
+    raise ValueRefused(register.path, message)
+
+
+def _wire_words(register: "Register[Any]", view: View, stored: Fraction, *, rounded: bool) -> tuple[int, ...]:
+    exactly = stored * Fraction(view.factor)
+    if view.type.is_float:
+        return _float_words(register, view, exactly, rounded=rounded)
+    wire = ROUNDINGS[view.rounding](exactly)
+    low, high = view.type.minimum + view.saturates, view.type.maximum - view.saturates
+    if register.kind.name in PATTERNS:  # never negative, whatever the type
+        low, high = 0, view.type.maximum - view.type.minimum
+    if not low <= wire <= high:
+        raise ValueRefused(
+            register.path, f"{show(Fraction(wire))} on the wire lies outside {low} to {high} of the {view.name} view"
+        )
+    if wire > view.type.maximum:
+        wire -= high + 1
+    return view.type.pack(wire)
+
+
+def _float_words(register: "Register[Any]", view: View, exactly: Fraction, *, rounded: bool) -> tuple[int, ...]:
+    try:
+        there = view.type.nearest(exactly)
+    except OverflowError:
+        raise ValueRefused(register.path, f"{show(exactly)} is too large for {view.type.name}") from None
+    back = shortest(there, view.type)
+    if exactly not in (Fraction(there), Fraction(back)) and not rounded:
+        raise ValueRefused(
+            register.path, f"finer than {view.type.name} can carry; the nearest number on the wire is {back}"
+        )
+    return view.type.pack(there)
+
+
+def _from_text(register: "Register[Any]", view: View, value: object) -> tuple[int, ...]:
+    if not isinstance(value, str) or not value.isascii() or "\0" in value:
+        raise ValueRefused(register.path, f"{brief(value)} is no ASCII text without NUL")
+    if len(value) > 2 * view.words:
+        raise ValueRefused(register.path, f"{brief(value)} has {len(value)} characters; {2 * view.words} fit")
+    return struct.unpack(f">{view.words}H", value.ljust(2 * view.words).encode("ascii"))

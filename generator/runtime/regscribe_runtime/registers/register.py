@@ -1,0 +1,295 @@
+"""The declaration of a register: one descriptor that serves synchronous and asynchronous drivers."""
+
+from collections.abc import Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, Generic, Never, Self, TypeVar, cast, overload
+
+from regscribe_runtime.driver.attributes import (
+    AsyncReadable,
+    AsyncReadWritable,
+    AsyncWritable,
+    Readable,
+    ReadWritable,
+    WritableAttribute,
+)
+from regscribe_runtime.driver.section import renumbered
+from regscribe_runtime.errors import ValueRefused
+from regscribe_runtime.registers import codec, element
+from regscribe_runtime.registers.value_types import ValueType
+from regscribe_runtime.values.specs import (
+    SAME,
+    Cases,
+    Conversion,
+    Givens,
+    Governs,
+    Limits,
+    Ref,
+    State,
+    View,
+    When,
+    registers_of,
+)
+
+if TYPE_CHECKING:
+    from regscribe_runtime.driver.parts import AsyncPart, Part
+
+T = TypeVar("T")
+SPEAKING = ("views", "scale", "special_scale", "range", "unit", "writable")
+"""The attributes of a register that may speak of other registers."""
+Sentinels = tuple[tuple[int | str, str, str], ...]
+
+
+class Register(Generic[T]):
+    """What a device's register is: where it stands, what its words mean and when it may be written.
+
+    `at` is the n of its views' address formulas. `special_scale` divides the codes of special values, as the range's
+    decimals divide its limits. `default` is the manual's, in values of use. `unit` is an engineering
+    unit, or cases of them. `stays` is why the value must not be copied to another device (address, line, calibration,
+    identity, counter, operation; "": it may be), `governs` what it sets of the line, `settle` for how many milliseconds
+    after a write reading it back says nothing; `rescales` names the unit whose values the device converts then.
+
+    `decode` and `encode` need no device: `state` holds the values of the registers in `needs`.
+    """
+
+    access = "r"
+
+    def __init__(  # noqa: PLR0913 (a register has this many properties; all but three are keywords)
+        self,
+        at: int,
+        views: tuple[View, ...],
+        kind: ValueType[T],
+        *,
+        scale: Cases = SAME,
+        special_scale: Cases = SAME,
+        range: Cases = (),  # noqa: A002 (the manuals' own word)
+        default: float | str | None = None,
+        unit: str | Cases = "",
+        section: str = "",
+        sentinels: Sentinels = (),
+        aliases: tuple[int, ...] = (),
+        writable: tuple[When, str] | None = None,
+        persistence: str = "",
+        unlock: str = "",
+        apply: str = "",
+        danger: str = "",
+        stays: str = "",
+        governs: Governs | None = None,
+        settle: int = 0,
+        rescales: str = "",
+    ) -> None:
+        self.at, self.views, self.kind = at, views, kind
+        self.scale, self.range, self.sentinels = scale, range, sentinels
+        self.special_scale = special_scale
+        self.default, self.unit, self.section, self.aliases = default, unit, section, aliases
+        self.writable, self.persistence = writable, persistence
+        self.unlock, self.apply, self.danger = unlock, apply, danger
+        self.stays, self.governs, self.settle, self.rescales = stays, governs, settle, rescales
+        self.id = self.path = self.home = ""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.id = self.path = name
+        self.home = owner.__module__
+
+    def __set__(self, instance: object, value: Never) -> None:
+        message = f"{self.path} is a register: use .write(...) to change it"
+        raise AttributeError(message)
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self.path} at {self.at}: {self.kind.name}>"
+
+    def told(self, home: str, *, section: str | None, persistence: str | None) -> Self:
+        """The same register in the module `home`, which tells of it what is given here."""
+        other = self._copy()
+        other.home = home
+        other.section = self.section if section is None else section
+        other.persistence = self.persistence if persistence is None else persistence
+        return other
+
+    def _copy(self) -> Self:
+        # copy.copy goes through the protocol of pickle, which takes five times as long
+        other = object.__new__(type(self))
+        other.__dict__ = self.__dict__.copy()
+        return other
+
+    @cached_property
+    def is_open(self) -> bool:
+        """Whether it speaks of others in the same element of an array, as the declaration of all elements does."""
+        return any(element.is_open(getattr(self, name)) for name in SPEAKING)
+
+    def moved(self, steps: int, path: str) -> Self:
+        """The same register of another array element: `steps` further on, at this path."""
+        _ = self.is_open  # found out before the copy is made, so that all elements share the answer
+        other = self._copy()
+        other.at, other.path = self.at + steps, path
+        stride = self.views[0].stride
+        other.aliases = tuple(alias + steps * stride for alias in self.aliases)
+        return other
+
+    def closed(self) -> Self:
+        """The same register where the path is whole: what it says of the same element is said of that at its path."""
+        if not self.is_open:
+            return self
+        other = self._copy()
+        for name in SPEAKING:
+            setattr(other, name, element.closed(getattr(self, name), self.path))
+        other.is_open = False
+        return other
+
+    def cited(self, owner: type) -> Self:
+        """The same register for a device `owner` that inherits it: its section as the manual of `owner` numbers it."""
+        chapters = getattr(owner, "_sections", {}).get(self.home)
+        if not chapters:
+            return self
+        other = self._copy()
+        other.section = renumbered(self.section, chapters)
+        return other
+
+    def seen(self, owner: type) -> Self:
+        """This register as an attribute of the class `owner`: always the one in its catalogue."""
+        if not getattr(owner, "_sections", None):
+            return self
+        found: Self = getattr(owner, "registers", {}).get(self.id, self)
+        return found
+
+    @property
+    def is_configuration(self) -> bool:
+        """Whether it is a setting that the device keeps: no passing operation, no counter, not in RAM alone."""
+        return self.access == "rw" and self.persistence != "ram" and self.stays not in {"operation", "counter"}
+
+    @property
+    def view_names(self) -> tuple[str, ...]:
+        """The names of the views, the base view first."""
+        return tuple(view.name for view in self.views)
+
+    def view(self, name: str | None = None) -> View:
+        """The view of that name; without one, the view to prefer. ValueError for an unknown name."""
+        for view in self.views:
+            if view.name == name or (name is None and view.preferred):
+                return view
+        if name is None:
+            return self.views[0]
+        message = f"{self.path} has no view {name!r}; it has {', '.join(self.view_names)}"
+        raise ValueError(message)
+
+    def read_view(self, name: str | None = None) -> View:
+        """The view of that name, or else the one to read: that to prefer, if the map lets it be read.
+
+        ValueError for an unknown name, and for a view by functions that do not read.
+        """
+        return self._view_by(name, [view.name for view in self.views if view.readable], "read")
+
+    def write_view(self, name: str | None = None) -> View:
+        """As `read_view`, of the view to write."""
+        return self._view_by(name, [view.name for view in self.views if view.writable], "written")
+
+    def _view_by(self, name: str | None, able: Sequence[str], verb: str) -> View:
+        view = self.view(name)
+        if view.name in able:
+            return view
+        if name is None and able:
+            return self.view(able[0])
+        message = (
+            f"the {view.name} view of {self.path} cannot be {verb} (it is by functions {list(view.functions)}); "
+            f"{', '.join(able) or 'none'} can"
+        )
+        raise ValueError(message)
+
+    def seen_in(self, view: View) -> View:
+        """The view in which what was written in `view` is read back."""
+        return view if view.readable else self.read_view()
+
+    @property
+    def scale_needs(self) -> tuple[str, ...]:
+        """Registers that decide or set the scale, or that of special values."""
+        cases = cast("tuple[tuple[When, Conversion], ...]", (*self.scale, *self.special_scale))
+        found = [*registers_of(cases), *(conversion.decimals for _, conversion in cases if conversion.decimals)]
+        return tuple(dict.fromkeys(found))
+
+    def needs(self, view: View) -> tuple[str, ...]:
+        """Registers whose values the meaning of `view` depends on."""
+        return tuple(dict.fromkeys((*view.needs(), *self.scale_needs)))
+
+    @property
+    def limit_needs(self) -> tuple[str, ...]:
+        """Registers that decide or are limits of a write."""
+        found = list(registers_of(self.range))
+        found += [conversion.places for _, conversion in self.scale if conversion.places]
+        for _, limits in cast("tuple[tuple[When, Limits], ...]", self.range):
+            found += [limits.decimals] if limits.decimals else []
+            found += [end.register for interval in limits.intervals for end in interval if isinstance(end, Ref)]
+        return tuple(dict.fromkeys(found))
+
+    def decode(
+        self, words: Sequence[int], *, view: str | None = None, state: State | None = None, givens: Givens | None = None
+    ) -> T:
+        """The value of use that `words` spell in `view`; raises ValueNotDecodable (SensorFault, Saturated, ...)."""
+        chosen = self.view(view) if view else self.read_view()
+        return cast("T", codec.decode(self, chosen, words, state or {}, givens or {}))
+
+    def encode(
+        self,
+        value: T,
+        *,
+        view: str | None = None,
+        state: State | None = None,
+        givens: Givens | None = None,
+        rounded: bool = False,
+    ) -> tuple[int, ...]:
+        """The words of `value` in `view`; raises ValueRefused for what may not or cannot be written."""
+        if self.access == "r":
+            raise ValueRefused(self.path, "the register is read-only")
+        chosen = self.view(view) if view else self.write_view()
+        return codec.encode(self, chosen, value, state or {}, givens or {}, rounded=rounded)
+
+
+class ReadOnly(Register[T]):
+    """A register that can only be read."""
+
+    @overload
+    def __get__(self, instance: None, owner: type) -> Self: ...
+    @overload
+    def __get__(self, instance: "Part", owner: type) -> Readable[T]: ...
+    @overload
+    def __get__(self, instance: "AsyncPart", owner: type) -> AsyncReadable[T]: ...
+    def __get__(self, instance: "Part | AsyncPart | None", owner: type) -> "Self | Readable[T] | AsyncReadable[T]":
+        if instance is None:
+            return self.seen(owner)
+        return cast("Readable[T]", instance.bind(self, Readable, AsyncReadable))
+
+
+class ReadWrite(Register[T]):
+    """A register that can be read and written."""
+
+    access = "rw"
+
+    @overload
+    def __get__(self, instance: None, owner: type) -> Self: ...
+    @overload
+    def __get__(self, instance: "Part", owner: type) -> ReadWritable[T]: ...
+    @overload
+    def __get__(self, instance: "AsyncPart", owner: type) -> AsyncReadWritable[T]: ...
+    def __get__(
+        self, instance: "Part | AsyncPart | None", owner: type
+    ) -> "Self | ReadWritable[T] | AsyncReadWritable[T]":
+        if instance is None:
+            return self.seen(owner)
+        return cast("ReadWritable[T]", instance.bind(self, ReadWritable, AsyncReadWritable))
+
+
+class WriteOnly(Register[T]):
+    """A register that can only be written."""
+
+    access = "w"
+
+    @overload
+    def __get__(self, instance: None, owner: type) -> Self: ...
+    @overload
+    def __get__(self, instance: "Part", owner: type) -> WritableAttribute[T]: ...
+    @overload
+    def __get__(self, instance: "AsyncPart", owner: type) -> AsyncWritable[T]: ...
+    def __get__(
+        self, instance: "Part | AsyncPart | None", owner: type
+    ) -> "Self | WritableAttribute[T] | AsyncWritable[T]":
+        if instance is None:
+            return self.seen(owner)
+        return cast("WritableAttribute[T]", instance.bind(self, WritableAttribute, AsyncWritable))

@@ -1,0 +1,166 @@
+"""What a number is to a program: float, int, enum, flags, word, text, version or bool."""
+
+from collections.abc import Callable
+from enum import Enum
+from fractions import Fraction
+from typing import Any, Generic, NoReturn, TypeVar
+
+from regscribe_runtime.errors import NotDecodable, ValueRefused
+from regscribe_runtime.registers.enums import Choice, Flags, SpecialNumber, Word
+from regscribe_runtime.values.specs import Text
+from regscribe_runtime.values.wire_types import brief, exact, show
+
+T = TypeVar("T")
+C = TypeVar("C", bound=Choice)
+S = TypeVar("S", bound=Choice | SpecialNumber)
+F = TypeVar("F", bound=Flags)
+W = TypeVar("W", bound=Word)
+
+
+def _refuse(value: object) -> NoReturn:
+    message = f"{value!r} is of the wrong type"
+    raise TypeError(message)
+
+
+class ValueType(Generic[T]):
+    """How values of a register look to a program.
+
+    `make` builds a value from a number of use; `number` takes one apart again (ValueRefused for what is no value).
+    `coded` kinds have no scale: their number is the code itself. `special` names values beside the range, `means` maps
+    their code to the number they stand for.
+    """
+
+    __slots__ = ("coded", "make", "means", "name", "number", "special")
+
+    def __init__(
+        self,
+        name: str,
+        make: Callable[[Any], T],
+        number: Callable[[str, Any], Fraction],
+        *,
+        coded: bool = False,
+        special: type[Enum] | None = None,
+        means: dict[Text, Text] | None = None,
+    ) -> None:
+        self.name, self.make, self.number, self.coded = name, make, number, coded
+        self.special, self.means = special, means or {}
+
+
+def _any_number(register: str, value: Any) -> Fraction:
+    try:
+        return exact(value)
+    except ValueError as error:
+        raise ValueRefused(register, str(error)) from None
+
+
+def _whole_number(register: str, value: Any) -> Fraction:
+    number = _any_number(register, value)
+    if number.denominator != 1:
+        raise ValueRefused(register, f"{show(number)} is no whole number; the register holds whole numbers only")
+    return number
+
+
+number: ValueType[float] = ValueType("number", float, _any_number)
+integer: ValueType[int] = ValueType("integer", int, _whole_number)
+raw: ValueType[int] = ValueType("raw", int, _whole_number)
+raw_float: ValueType[float] = ValueType("raw", float, _any_number)
+
+
+def number_or(special: type[S], means: dict[Text, Text] | None = None) -> "ValueType[float | S]":
+    """A number with special values: a code in `means` stands for a number, the others are members of `special`."""
+    return ValueType("number", float, _any_number, special=special, means=means)
+
+
+def integer_or(special: type[C], means: dict[Text, Text] | None = None) -> "ValueType[int | C]":
+    """As `number_or`, of whole numbers."""
+    return ValueType("integer", int, _whole_number, special=special, means=means)
+
+
+def number_with(means: dict[Text, Text]) -> ValueType[float]:
+    """A number some of whose codes stand for another number (0 for 0.2 s)."""
+    return ValueType("number", float, _any_number, means=means)
+
+
+def integer_with(means: dict[Text, Text]) -> ValueType[int]:
+    """As `number_with`, of whole numbers."""
+    return ValueType("integer", int, _whole_number, means=means)
+
+
+def choice(members: type[C]) -> ValueType[C]:
+    """An enum: only members are written, unknown codes are read as pseudo-members."""
+
+    def code(register: str, value: Any) -> Fraction:
+        if isinstance(value, bool) or not isinstance(value, int) or (isinstance(value, Choice) and not value.known):
+            raise ValueRefused(register, f"{brief(value)} is no member of {members.__name__}")
+        if isinstance(value, Choice) and not isinstance(value, members):
+            raise ValueRefused(register, f"{value!r} belongs to {type(value).__name__}, not to {members.__name__}")
+        if all(member.value != value for member in members):
+            known = ", ".join(f"{member.value} {member.label}" for member in members)
+            raise ValueRefused(register, f"code {brief(int(value))} is none of {known}")
+        return Fraction(int(value))
+
+    return ValueType("enum", members, code, coded=True)
+
+
+def flags(members: type[F]) -> ValueType[F]:
+    """A word of single bits: only named bits are written."""
+
+    def code(register: str, value: Any) -> Fraction:
+        if isinstance(value, bool) or not isinstance(value, int):
+            raise ValueRefused(register, f"{brief(value)} is no {members.__name__}")
+        unnamed = _any_number(register, int(value)).numerator & ~int(members.named())
+        if unnamed:
+            raise ValueRefused(register, f"bits 0x{unnamed:X} have no meaning in {members.__name__}")
+        return Fraction(int(value))
+
+    return ValueType("flags", members, code, coded=True)
+
+
+def word_of(members: type[W]) -> ValueType[W]:
+    """A word of bit fields, written as one number."""
+
+    def code(register: str, value: Any) -> Fraction:
+        if isinstance(value, bool) or not isinstance(value, int):
+            raise ValueRefused(register, f"{brief(value)} is no {members.__name__}")
+        return _any_number(register, int(value))
+
+    return ValueType("fields", members, code, coded=True)
+
+
+def _bit(register: str, value: Any) -> Fraction:
+    if not isinstance(value, int | float) or value not in (0, 1):
+        raise ValueRefused(register, f"{brief(value)} is neither True nor False")
+    return Fraction(int(value))
+
+
+boolean: ValueType[bool] = ValueType("boolean", bool, _bit, coded=True)
+
+
+_VERSION = "a version"
+
+
+def version(digits: int, group: int) -> ValueType[str]:
+    """Decimal digits packed in a number: 013100 with groups of 2 is "01.31.00"."""
+
+    def make(code: int) -> str:
+        packed = f"{code:0{digits}d}"
+        if code < 0 or len(packed) > digits:
+            raise NotDecodable(_VERSION, f"{code} has more than {digits} decimal digits")
+        return ".".join(packed[start : start + group] for start in range(0, digits, group))
+
+    def code(register: str, value: Any) -> Fraction:
+        packed = value.replace(".", "") if isinstance(value, str) else ""
+        if not (packed.isascii() and packed.isdigit() and len(packed) == digits and make(int(packed)) == value):
+            raise ValueRefused(register, f"{brief(value)} is no version of {digits} digits in groups of {group}")
+        return Fraction(int(packed))
+
+    return ValueType("version", make, code, coded=True)
+
+
+def _no_number(register: str, value: Any) -> Fraction:
+    if not isinstance(value, str):
+        raise ValueRefused(register, f"{brief(value)} is no text")
+    _refuse(value)  # texts are encoded from their characters, never through a number
+
+
+text: ValueType[str] = ValueType("string", str, _no_number, coded=True)

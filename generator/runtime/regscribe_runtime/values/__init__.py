@@ -1,0 +1,1 @@
+"""The vocabulary of register maps: frozen facts that compiler, drivers and simulator share."""

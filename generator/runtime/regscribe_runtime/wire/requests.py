@@ -1,0 +1,105 @@
+"""Requests and answers as plain data, and the test whether an answer fits its request.
+
+pymodbus matches unit and transaction only; a wrong function or length would pass as a good answer, so every answer is
+compared with its request here (Modbus Application Protocol V1.1b3, section 6).
+"""
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from regscribe_runtime.errors import ExceptionAnswer, PartialWrite, WrongAnswer
+
+READ_COILS, READ_DISCRETE_INPUTS, READ_HOLDING, READ_INPUT = 1, 2, 3, 4
+WRITE_COIL, WRITE_REGISTER, READ_STATUS, LOOPBACK, WRITE_COILS, WRITE_REGISTERS = 5, 6, 7, 8, 15, 16
+READ_FUNCTIONS = {
+    "coil": READ_COILS,
+    "discrete": READ_DISCRETE_INPUTS,
+    "holding": READ_HOLDING,
+    "input": READ_INPUT,
+    "status": READ_STATUS,
+}
+READ_SPACES = {function: space for space, function in READ_FUNCTIONS.items()}
+WRITE_FUNCTIONS = {"coil": (WRITE_COIL, WRITE_COILS), "holding": (WRITE_REGISTER, WRITE_REGISTERS)}
+"""By space: the function that writes one address, and the one that writes several."""
+READS = frozenset(READ_FUNCTIONS.values())
+
+
+class Request(NamedTuple):
+    """One request: `quantity` addresses from `address`; `words` are what a write sends (bits as 0 and 1).
+
+    `seconds` is its response timeout, set on the way to the link; 0 leaves it to the link.
+    """
+
+    function: int
+    address: int
+    quantity: int = 1
+    words: tuple[int, ...] = ()
+    seconds: float = 0.0
+
+    @property
+    def reads(self) -> bool:
+        """Whether it only reads, so that it may be sent again."""
+        return self.function in READS
+
+
+class Reply(NamedTuple):
+    """One answer: `words` as read or echoed, or an `exception` code (None: it is none)."""
+
+    function: int
+    words: tuple[int, ...] = ()
+    address: int = 0
+    quantity: int = 0
+    exception: int | None = None
+
+
+Meanings = Mapping[int, tuple[str, str]]
+"""Exception code -> (name, meaning), as the device's manual has them."""
+
+
+def fits(request: Request, reply: Reply) -> bool:
+    """Whether an answer may be the one to a request, as far as its function, length and address tell."""
+    if reply.function != request.function:
+        return False
+    if reply.exception is not None:
+        return True
+    return len(reply.words) == request.quantity if request.reads else reply.address == request.address
+
+
+def verify(request: Request, reply: Reply, *, unit: int, meanings: Meanings) -> tuple[int, ...]:
+    """The words of a reply that fits; ExceptionAnswer, PartialWrite or WrongAnswer otherwise."""
+    if reply.exception is not None:
+        name, meaning = meanings.get(reply.exception, ("", ""))
+        raise ExceptionAnswer(
+            unit=unit,
+            function=request.function,
+            address=request.address,
+            code=reply.exception,
+            name=name,
+            meaning=meaning,
+        )
+    if reply.function == request.function and request.function in READS and len(reply.words) == request.quantity:
+        return reply.words
+    asked = f"unit {unit}, function {request.function:02d}, address {request.address}"
+    if reply.function != request.function:
+        message = f"{asked}: the answer is to function {reply.function:02d}"
+        raise WrongAnswer(message)
+    if request.function in READS:
+        message = f"{asked}: {len(reply.words)} values came where {request.quantity} were asked for"
+        raise WrongAnswer(message)
+    _verify_echo(request, reply, unit=unit, asked=asked)
+    return reply.words
+
+
+def _verify_echo(request: Request, reply: Reply, *, unit: int, asked: str) -> None:
+    if reply.address != request.address:
+        message = f"{asked}: the answer names address {reply.address}"
+        raise WrongAnswer(message)
+    if request.function in (WRITE_REGISTERS, WRITE_COILS):
+        if reply.quantity < len(request.words):
+            raise PartialWrite(unit=unit, address=request.address, sent=len(request.words), written=reply.quantity)
+        if reply.quantity > len(request.words):
+            message = f"{asked}: {reply.quantity} values confirmed where {len(request.words)} were sent"
+            raise WrongAnswer(message)
+    elif reply.words != request.words:
+        message = f"{asked}: sent {list(request.words)}, the answer echoes {list(reply.words)}"
+        raise WrongAnswer(message)

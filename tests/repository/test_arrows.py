@@ -1,0 +1,149 @@
+"""Imports run one way, as the table says; those for type checkers alone and those inside functions count as well."""
+
+import ast
+import subprocess
+import sys
+from collections import defaultdict
+from collections.abc import Iterator, Mapping
+from functools import cache
+from graphlib import CycleError, TopologicalSorter
+from importlib.util import resolve_name
+from pathlib import Path
+
+import pytest
+
+import regscribe
+import regscribe_runtime
+
+PACKAGES = {package.__name__: Path(str(package.__file__)).parent for package in (regscribe, regscribe_runtime)}
+
+RUNTIME = "regscribe_runtime"
+ROOMS = {
+    "regscribe_runtime": set[str](),
+    "model": set[str](),
+    "visible": set[str](),
+    "shipped": set[str](),
+    "reference": {"model"},
+    "source": {"model"},
+    "schema": {"model", "source"},
+    "compose": {"model", "source", "schema", "shipped"},
+    "lower": {"model", "reference", "source", "schema"},
+    "checks": {"model", "reference", "source", "schema", "compose", "lower"},
+    "emit": {"model", "reference", "schema", "visible", RUNTIME},
+    "pictures": {"model", "emit", "visible"},
+    "evidence": {"model", "emit"},
+    "files": {"model", "source", "schema", "visible"},
+    "pipeline": {"model", "source", "schema", "compose", "lower", "checks"},
+    "simulate": {"model", "reference", "source", "files", "shipped", "pipeline"},
+    "pytest_plugin": {"model", "simulate"},
+    "testing": {RUNTIME},
+    "tools": {"model", "source", "schema", "files", "visible", "emit", "pictures", RUNTIME},
+    "cli": {"model", "reference", "source", "schema", "compose", "lower", "checks", "emit", "pictures", "evidence"}
+    | {"simulate", "pipeline", "files", "tools", "shipped", "visible", RUNTIME},
+}
+"""Which other rooms a room may import."""
+
+LIBRARIES = {
+    "yaml": {"source", "files"},
+    "jsonschema": {"schema"},
+    "jinja2": {"emit"},
+    "click": {"cli"},
+    "rich": {"cli"},
+    "plotille": {"cli"},
+    "pymodbus": {RUNTIME, "simulate"},
+    "serial": {RUNTIME, "simulate"},
+    "hypothesis": {"testing"},
+}
+"""Which rooms may import a library."""
+
+
+def _statements(body: list[ast.stmt]) -> Iterator[ast.stmt]:
+    for statement in body:
+        yield statement
+        for field in ("body", "orelse", "finalbody"):
+            yield from _statements(getattr(statement, field, []))
+        for handler in getattr(statement, "handlers", []) + getattr(statement, "cases", []):
+            yield from _statements(handler.body)
+
+
+def _targets(statement: ast.stmt, package: str) -> Iterator[str]:
+    if isinstance(statement, ast.Import):
+        yield from (alias.name for alias in statement.names)
+    elif isinstance(statement, ast.ImportFrom):
+        origin = resolve_name("." * statement.level + (statement.module or ""), package)
+        yield from (f"{origin}.{alias.name}" for alias in statement.names)
+
+
+@cache
+def imports() -> Mapping[str, frozenset[str]]:
+    """What each module of the packages imports, anywhere in it; `from a import b` as a.b."""
+    found = {}
+    for top, folder in PACKAGES.items():
+        for path in sorted(folder.rglob("*.py")):
+            parts = (top, *path.relative_to(folder).with_suffix("").parts)
+            module = ".".join(parts).removesuffix(".__init__")
+            package = module if path.name == "__init__.py" else module.rpartition(".")[0]
+            statements = _statements(ast.parse(path.read_bytes()).body)
+            found[module] = frozenset(target for one in statements for target in _targets(one, package))
+    return found
+
+
+def room_of(module: str) -> str:
+    """`regscribe.emit.write` is in the room emit; the package itself, with its version, is in none."""
+    top, *inner = module.split(".")
+    if top == RUNTIME:
+        return RUNTIME
+    return inner[0] if top == "regscribe" and inner and inner[0] in ROOMS else ""
+
+
+def test_every_module_is_in_a_room() -> None:
+    assert {module for module in imports() if not room_of(module)} <= {"regscribe", "regscribe.__main__"}
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_a_room_imports_only_what_it_may(room: str) -> None:
+    wrong = {
+        f"{module} imports {name}"
+        for module, names in imports().items()
+        if room_of(module) == room
+        for name in names
+        if room_of(name) not in ROOMS[room] | {room, ""}
+    }
+    assert wrong == set()
+
+
+@pytest.mark.parametrize("library", LIBRARIES)
+def test_a_library_is_used_in_its_rooms_alone(library: str) -> None:
+    users = {module for module, names in imports().items() if any(name.split(".")[0] == library for name in names)}
+    assert {room_of(module) for module in users} <= LIBRARIES[library]
+
+
+def test_no_modules_of_the_compiler_import_each_other_in_a_circle() -> None:
+    graph: dict[str, set[str]] = defaultdict(set)
+    for module, names in imports().items():
+        if room_of(module) != RUNTIME:
+            graph[module] = {one for name in names for one in _loaded(name) if not f"{module}.".startswith(f"{one}.")}
+    try:
+        TopologicalSorter(graph).prepare()
+    except CycleError as circle:
+        pytest.fail(" -> ".join(circle.args[1]))
+
+
+def _loaded(name: str) -> Iterator[str]:
+    """The modules that an import loads: the packages around a module run before it."""
+    parts = name.split(".")
+    for end in range(2, len(parts) + 1):
+        module = ".".join(parts[:end])
+        if module in imports():
+            yield module
+
+
+@pytest.mark.parametrize("module", ["regscribe_devices.fdc.series_100", "regscribe_devices.athena.series_c"])
+def test_a_generated_driver_loads_nothing_of_the_compiler(module: str) -> None:
+    script = f"import sys, {module}\nprint(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=True)  # noqa: S603 - our own
+    loaded = set(done.stdout.split())
+    unwanted = {
+        name for name in loaded if name.split(".")[0] in {"regscribe", "yaml", "jinja2", "jsonschema", "click", "rich"}
+    }
+    assert (module in loaded, unwanted) == (True, set())

@@ -1,0 +1,173 @@
+"""Three wheels (what drivers need, the drivers, the compiler): each is whole, and works without the source tree."""
+
+import os
+import subprocess
+import sys
+import sysconfig
+import tomllib
+import venv
+import zipfile
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+FOLDERS = {"regscribe_runtime": "generator/runtime", "regscribe_devices": "generated", "regscribe": "."}
+"""The import package of each distribution, and the folder of its pyproject file."""
+
+SOURCES = {
+    "regscribe_runtime": "generator/runtime/regscribe_runtime",
+    "regscribe_devices": "generated/regscribe_devices",
+    "regscribe": "generator/regscribe",
+}
+LIBRARIES = {"pymodbus", "serial", "yaml", "_yaml", "jinja2", "markupsafe", "jsonschema", "jsonschema_specifications"}
+LIBRARIES |= {"referencing", "rpds", "attr", "attrs", "click", "rich", "plotille", "pygments", "markdown_it", "mdurl"}
+LIBRARIES |= {"typing_extensions.py"}
+
+
+def run(*command: str | Path, cwd: Path) -> str:
+    """Standard output of a command that must succeed, without what would let it see the source tree."""
+    env = {key: value for key, value in os.environ.items() if not key.startswith("PYTHON")}
+    done = subprocess.run(  # noqa: S603 - our own commands
+        list(map(str, command)), cwd=cwd, env=env, capture_output=True, text=True, timeout=120, check=False
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+def project(package: str) -> dict[str, Any]:
+    path = ROOT / FOLDERS[package] / "pyproject.toml"
+    found: dict[str, Any] = tomllib.loads(path.read_text(encoding="utf-8"))["project"]
+    return found
+
+
+@pytest.fixture(scope="module")
+def wheels(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    """The wheel of each distribution by its import package."""
+    built = {}
+    for package, folder in FOLDERS.items():
+        out = tmp_path_factory.mktemp(package)
+        run(sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", out, cwd=ROOT / folder)
+        (built[package],) = out.glob("*.whl")
+    return built
+
+
+@pytest.fixture(scope="module")
+def environment(
+    wheels: dict[str, Path], tmp_path_factory: pytest.TempPathFactory
+) -> Callable[[set[str], set[str]], Path]:
+    """Make an environment of some wheels and some libraries of this one; its bin folder."""
+
+    def make(packages: set[str], libraries: set[str]) -> Path:
+        folder = tmp_path_factory.mktemp("environment")
+        venv.create(folder, with_pip=False, symlinks=True)
+        (site,) = folder.glob("lib/python*/site-packages")
+        for library in libraries:
+            source = Path(sysconfig.get_path("purelib")) / library
+            if source.exists():
+                (site / library).symlink_to(source)
+        chosen = [wheels[package] for package in sorted(packages)]
+        pip = (sys.executable, "-m", "pip", "--python", folder / "bin/python", "install", "--no-deps")
+        run(*pip, *chosen, cwd=folder)
+        return folder / "bin"
+
+    return make
+
+
+@pytest.fixture(scope="module")
+def installed(environment: Callable[[set[str], set[str]], Path]) -> Path:
+    """All three, with the libraries that they ask for and with theirs."""
+    return environment(set(FOLDERS), LIBRARIES)
+
+
+def source_files(folder: str, pattern: str) -> Iterator[str]:
+    for path in sorted((ROOT / folder).rglob(pattern)):
+        yield path.relative_to(ROOT / folder).as_posix()
+
+
+@pytest.mark.parametrize("package", FOLDERS)
+def test_a_wheel_holds_its_package_whole_and_nothing_of_another(package: str, wheels: dict[str, Path]) -> None:
+    names = set(zipfile.ZipFile(wheels[package]).namelist())
+    kinds = ("*.py", "*.j2", "*.yaml", "py.typed")
+    expected = {f"{package}/{name}" for kind in kinds for name in source_files(SOURCES[package], kind)}
+    assert expected - names == set()
+    assert f"{package}/py.typed" in names
+    tops = {name.split("/")[0] for name in names}
+    assert {top for top in tops if not top.endswith(".dist-info")} == {package}
+
+
+def test_the_compiler_carries_maps_and_schemas(wheels: dict[str, Path]) -> None:
+    names = set(zipfile.ZipFile(wheels["regscribe"]).namelist())
+    expected = {
+        *(f"regscribe/data/maps/{name}" for name in source_files("maps", "*.yaml")),
+        *(f"regscribe/data/schema/{name}" for name in source_files("schema", "*.json")),
+    }
+    assert expected - names == set()
+    assert {"regscribe/data/maps/fdc/series-100.yaml", "regscribe/data/schema/map.schema.json"} <= names
+
+
+def test_the_three_are_released_together() -> None:
+    import regscribe  # noqa: PLC0415 - the version that the command prints
+
+    versions = {project(package)["version"] for package in FOLDERS}
+    assert versions == {regscribe.__version__}
+    pinned = [one for package in FOLDERS for one in project(package)["dependencies"] if one.startswith("regscribe-")]
+    assert {one.split("==")[1] for one in pinned} == versions
+    assert len(pinned) == 3
+
+
+def test_the_runtime_imports_alone(environment: Callable[[set[str], set[str]], Path], tmp_path: Path) -> None:
+    alone = environment({"regscribe_runtime"}, {"pymodbus", "serial"})
+    script = "import regscribe_runtime; print(regscribe_runtime.__file__)"
+    assert Path(run(alone / "python", "-c", script, cwd=tmp_path)).is_relative_to(alone.parent)
+
+
+def test_drivers_need_the_runtime_alone(environment: Callable[[set[str], set[str]], Path], tmp_path: Path) -> None:
+    production = environment({"regscribe_runtime", "regscribe_devices"}, {"pymodbus", "serial"})
+    script = (
+        "import importlib.util\n"
+        "from regscribe_devices.fdc.series_100 import FdcC21\n"
+        "from regscribe_runtime import known_models\n"
+        "heavy = ('regscribe', 'yaml', 'jinja2', 'click', 'rich', 'jsonschema')\n"
+        "print(FdcC21.model, len(known_models()), [one for one in heavy if importlib.util.find_spec(one)])"
+    )
+    assert run(production / "python", "-c", script, cwd=tmp_path) == "C21 21 []\n"
+
+
+def test_an_installed_driver_reads_a_simulated_device_of_another_process(
+    environment: Callable[[set[str], set[str]], Path], installed: Path, tmp_path: Path
+) -> None:
+    production = environment({"regscribe_runtime", "regscribe_devices"}, {"pymodbus", "serial"})
+    simulator = """
+import subprocess, sys
+from regscribe.simulate import simulate
+
+with simulate("athena/series-c", "16C") as device:
+    device.poke("output_2_type", "inactive_disabled")
+    reader = subprocess.run([*sys.argv[1:], str(device.port)], capture_output=True, text=True, timeout=60)
+    print(reader.stdout + reader.stderr, end="")
+"""
+    reader = """
+import sys
+from regscribe_devices.athena.series_c import Athena16C
+
+with Athena16C.tcp("127.0.0.1", port=int(sys.argv[1]), unit=1) as controller:
+    print(controller.output_2_type.read().name)
+"""
+    read = run(installed / "python", "-c", simulator, production / "python", "-c", reader, cwd=tmp_path)
+    assert read == "INACTIVE_DISABLED\n"
+
+
+def test_an_installed_regscribe_stands_on_its_own(installed: Path, tmp_path: Path) -> None:
+    assert run(installed / "regscribe", "--version", cwd=tmp_path).startswith("regscribe 0.")
+    where = run(installed / "python", "-c", "import regscribe; print(regscribe.__file__)", cwd=tmp_path)
+    assert Path(where).is_relative_to(installed.parent)
+
+
+def test_an_installed_regscribe_checks_compiles_and_starts_maps(installed: Path, tmp_path: Path) -> None:
+    assert "1 map checked" in run(installed / "regscribe", "check", "fdc/series-100", cwd=tmp_path)
+    run(installed / "regscribe", "new", "acme/oven", cwd=tmp_path)
+    assert "1 map, 2 models" in run(installed / "regscribe", "generate", cwd=tmp_path)
+    assert "RS0109" in run(installed / "regscribe", "explain", "RS0109", cwd=tmp_path)
