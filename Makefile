@@ -17,8 +17,8 @@ test-all: $(INSTALLED) ## run the tests, the slow ones too
 	$(BIN)/pytest -q -n 2 -m "not wire"
 
 test-wire: $(INSTALLED) ## let clients by others talk to the simulated devices; installs them (Debian packages, npm)
-	$(BIN)/python tests/wire/install.py
-	$(BIN)/pytest -q -n 8 -m wire tests/wire
+	$(BIN)/python tests/system/independent_clients/install.py
+	$(BIN)/pytest -q -n 8 -m wire tests/system/independent_clients
 
 check: $(INSTALLED) ## lint, types of code and generated drivers, drift of generated files
 	$(BIN)/ruff check
@@ -32,7 +32,7 @@ format: $(INSTALLED) ## format the code
 	$(BIN)/ruff format
 
 bench: $(INSTALLED) ## measure against the budgets and against other tools, side by side
-	$(BIN)/python tests/bench/run.py
+	$(BIN)/python tests/system/bench/run.py
 
 fuzz: $(INSTALLED) ## random maps in thousands (FUZZ_MAPS=..): drivers, reference, simulator and vectors must agree
 	$(BIN)/pytest -q -m slow tests/conformance/test_differential.py
@@ -42,14 +42,14 @@ conformance: $(INSTALLED) ## what the language means, as bytes and values: the c
 	$(BIN)/pytest -q -m slow tests/conformance/test_matrix.py
 
 mutate: $(INSTALLED) ## break scales, codes, addresses, orders and limits: the tests must notice each
-	$(BIN)/python tests/mutate/run.py
+	$(BIN)/python tests/system/mutate/run.py
 
 MINUTES ?= 2
 soak: $(INSTALLED) ## drive the drivers over bad lines for MINUTES=.. and report operations, faults, errors, wrong values
-	@SOAK_MINUTES=$(MINUTES) $(BIN)/pytest -q tests/fire/test_soak.py
+	@SOAK_MINUTES=$(MINUTES) $(BIN)/pytest -q tests/system/bad_lines/test_soak.py
 
 sessions: $(INSTALLED) ## carry out the sessions of docs/cli.md, settings.md and programs.md anew and write what they print
-	$(BIN)/python tests/live/sessions.py
+	$(BIN)/python tests/regscribe/tools/live/sessions.py
 
 lock: $(INSTALLED) ## pin the newest versions that requirements.in allows
 	$(BIN)/pip install --quiet uv
