@@ -31,7 +31,10 @@ ROOMS = {
     "checks": {"model", "reference", "source", "schema", "compose", "lower"},
     "emit": {"model", "reference", "schema", "visible", RUNTIME},
     "pictures": {"model", "emit", "visible"},
-    "evidence": {"model", "emit"},
+    "plugins": {"model", "visible"},
+    "export": {"model", "reference", "checks", "emit", "plugins", "visible"},
+    "evidence": {"model", "emit", "export"},
+    "import_csv": {"model", "emit", "evidence", "files"},
     "files": {"model", "source", "schema", "visible"},
     "pipeline": {"model", "source", "schema", "compose", "lower", "checks"},
     "simulate": {"model", "reference", "source", "files", "shipped", "pipeline"},
@@ -39,7 +42,7 @@ ROOMS = {
     "testing": {RUNTIME},
     "tools": {"model", "source", "schema", "files", "visible", "emit", "pictures", RUNTIME},
     "cli": {"model", "reference", "source", "schema", "compose", "lower", "checks", "emit", "pictures", "evidence"}
-    | {"simulate", "pipeline", "files", "tools", "shipped", "visible", RUNTIME},
+    | {"plugins", "simulate", "pipeline", "files", "tools", "shipped", "visible", RUNTIME},
 }
 """Which other rooms a room may import."""
 
@@ -110,6 +113,12 @@ def test_a_room_imports_only_what_it_may(room: str) -> None:
         if room_of(name) not in ROOMS[room] | {room, ""}
     }
     assert wrong == set()
+
+
+def test_nothing_but_its_entry_point_knows_collectd() -> None:
+    own = "regscribe.export.collectd"
+    others = {module: names for module, names in imports().items() if not module.startswith(own)}
+    assert [module for module, names in others.items() if any(name.startswith(own) for name in names)] == []
 
 
 @pytest.mark.parametrize("library", LIBRARIES)

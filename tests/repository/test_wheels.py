@@ -171,3 +171,9 @@ def test_an_installed_regscribe_checks_compiles_and_starts_maps(installed: Path,
     run(installed / "regscribe", "new", "acme/oven", cwd=tmp_path)
     assert "1 map, 2 models" in run(installed / "regscribe", "generate", cwd=tmp_path)
     assert "RS0109" in run(installed / "regscribe", "explain", "RS0109", cwd=tmp_path)
+
+
+def test_an_installed_regscribe_finds_its_own_plugins(installed: Path, tmp_path: Path) -> None:
+    exported = run(installed / "regscribe", "export", "fdc/series-100", "--format", "csv", cwd=tmp_path)
+    (tmp_path / "table.csv").write_text(exported)
+    assert "is ready" in run(installed / "regscribe", "new", "acme/oven", "--from", "table.csv", cwd=tmp_path)

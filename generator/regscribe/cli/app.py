@@ -25,7 +25,7 @@ COMMANDS = {
     "generate": "Compile maps to drivers, reference docs, test vectors and tests.",
     "explain": "Explain a rule, with a bad and a good example.",
     "new": "Start a map: a commented skeleton that passes `check`.",
-    "export": "Print every value of every model as CSV or JSON, or a poll for collectd.",
+    "export": "Print what maps say as CSV, JSON, a poll for collectd, or by a plug-in.",
     "compare": "Hold a map against a second transcription in CSV, or against another map.",
     "coverage": "Count what maps cover; list what is inferred and open.",
     "simulate": "Serve models of maps as Modbus devices.",

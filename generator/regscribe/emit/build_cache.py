@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field
 from importlib.util import find_spec
+from itertools import chain
 from pathlib import Path
 
 import regscribe
@@ -81,9 +82,12 @@ class Cache:
             temporary.replace(place)
 
 
-def load(out: Path) -> Cache:
-    """Return the record of the last run into `out`; an empty one if there is none as this generator wrote it."""
-    empty = Cache(out, fingerprint())
+def load(out: Path, more: Iterable[tuple[str, bytes]] = ()) -> Cache:
+    """Return the record of the last run into `out`; an empty one if there is none as this generator wrote it.
+
+    `more` are names and contents of what decides about the texts besides the generator: templates and plug-ins.
+    """
+    empty = Cache(out, fingerprint(more))
     try:
         checksum, _, record = _place(out).read_text(encoding="utf-8").partition("\n")
         plain = json.loads(record) if checksum == digest(record.encode()) else {}
@@ -120,10 +124,10 @@ def digest(content: bytes) -> str:
     return hashlib.sha256(content).hexdigest()
 
 
-def fingerprint() -> str:
-    """Return a hash of all that decides what a map becomes: the package, the schema, Python and the libraries."""
+def fingerprint(more: Iterable[tuple[str, bytes]] = ()) -> str:
+    """Return a hash of all that decides what a map becomes: the package, the schema, Python, the libraries, `more`."""
     total = hashlib.sha256(sys.version.encode())
-    for name, content in _ingredients():
+    for name, content in chain(_ingredients(), more):
         total.update(f"{name}\0{len(content)}\0".encode())
         total.update(content)
     return total.hexdigest()

@@ -112,7 +112,9 @@ def _read(target: Path) -> bytes | None:
 def _stale(targets: Mapping[str, Path], out: Path, owned: Callable[[str], bool]) -> list[str]:
     """Generated files of maps that `owned` claims, at no path of this run; only in folders that this run writes to."""
     tops = sorted({PurePosixPath(path).parts[0] for path in targets if "/" in path})
-    present = (path for top in tops for path in _files_below(out / top))
+    present = [path for top in tops for path in _files_below(out / top)]
+    if any("/" not in path for path in targets):
+        present += sorted(path for path in out.glob("*") if path.is_file())
     relative = {path: path.relative_to(out).as_posix() for path in present}
     candidates = [
         path

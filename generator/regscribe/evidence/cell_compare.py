@@ -42,7 +42,7 @@ def problem(column: str, text: str) -> str:
     """Say why a cell cannot be read at all; empty if it can."""
     if column in NUMBERS and DECIMAL_COMMA.fullmatch(text.strip()):
         return f"`{text.strip()}` has a comma: write a decimal point, and no separator of thousands"
-    if column in OBJECTS and text.strip() and _object(text) is None:
+    if column in OBJECTS and text.strip() and objects(text) is None:
         return f"`{one_line(text)[:60]}` is neither a JSON object nor a list: `0 = off; 1 = on` or `base:0 x10:1000`"
     return ""
 
@@ -68,7 +68,7 @@ def _same(column: str, ours: str, theirs: str, same: Same) -> bool:
     if column in WORDS:
         return ours.strip().casefold() == theirs.strip().casefold()
     if column == "access":
-        return _access(ours) == _access(theirs)
+        return access(ours) == access(theirs)
     if column == "section" and same is _loosely:
         return _within(ours, theirs) or _within(theirs, ours)
     return same(ours, theirs)
@@ -87,7 +87,8 @@ def _bare(text: str) -> str:
     return re.sub(r"[\W_]+", "", text.casefold()) or one_line(text)
 
 
-def _access(text: str) -> str:
+def access(text: str) -> str:
+    """Return `r`, `w` or `rw` however it is written; other text as it is."""
     return ACCESS.get(re.sub(r"[\s/_-]+", "", text.casefold()), text)
 
 
@@ -97,7 +98,7 @@ def _within(part: str, whole: str) -> bool:
     return parts == wholes[: len(parts)] and bool(parts) == bool(wholes)
 
 
-def _object(text: str) -> dict[str, object] | None:
+def objects(text: str) -> dict[str, object] | None:
     """Read a cell that holds an object; None if it does not."""
     if text.lstrip().startswith("{"):
         try:
@@ -114,7 +115,7 @@ def _object(text: str) -> dict[str, object] | None:
 
 
 def _objects(ours: str, theirs: str, same: Same) -> tuple[str, str] | None:
-    left, right = (_by_code(_object(text) or {}) for text in (ours, theirs))
+    left, right = (_by_code(objects(text) or {}) for text in (ours, theirs))
     wrong = [key for key in {**left, **right} if not _entry(left.get(key), right.get(key), same)]
     return (_shown(left, wrong), _shown(right, wrong)) if wrong else None
 

@@ -5,8 +5,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 
-from regscribe.emit.spreadsheet import COLUMNS
 from regscribe.evidence.table import Table, TableError
+from regscribe.export.csv import COLUMNS
 
 SYNONYMS = {
     "models": "model",

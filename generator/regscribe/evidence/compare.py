@@ -4,7 +4,6 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from difflib import get_close_matches
 
-from regscribe.emit.spreadsheet import COLUMNS
 from regscribe.emit.words import one_line
 from regscribe.evidence.cell_compare import differing
 from regscribe.evidence.columns import Columns, choose, fold
@@ -12,6 +11,7 @@ from regscribe.evidence.differences import CellDifference, Comparison
 from regscribe.evidence.row_matching import Matching, match
 from regscribe.evidence.rows import ComparedRow, Spot, of_map, of_table
 from regscribe.evidence.table import Table, TableError
+from regscribe.export.csv import COLUMNS
 from regscribe.model import RegisterMap, Space
 
 OF_BASE = frozenset({"address", "aliases", "views", "id"})

@@ -4,12 +4,12 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
-from regscribe.emit.spreadsheet import COLUMNS, rows
 from regscribe.emit.words import one_line
 from regscribe.evidence.cell_compare import problem
 from regscribe.evidence.columns import Columns, fold
 from regscribe.evidence.differences import Location
 from regscribe.evidence.table import Table, TableError, TableRow
+from regscribe.export.csv import COLUMNS, rows
 from regscribe.model import Notation, RegisterMap, Space
 
 COMMAND = "command"

@@ -96,7 +96,7 @@ def variants(name: str, value: str) -> Iterator[list[str]]:
         arguments = [each for each in one.params if isinstance(each, click.Argument)]
         for place in range(len(arguments)):
             yield [name, *filter(None, [sub]), *usual[:place], value, *usual[place + 1 :]]
-        for option in one.params:
+        for option in one.get_params(click.Context(one)):
             if isinstance(option, click.Option) and not option.is_flag:
                 yield [name, *filter(None, [sub]), *usual, max(option.opts, key=len), value]
 

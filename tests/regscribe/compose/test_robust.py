@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from regscribe.emit.document import json_text
+from regscribe.export.json import json_text
 from regscribe.pipeline import compile_map
 
 WORDS = (

@@ -5,8 +5,8 @@ from typing import Any
 
 import pytest
 
-from regscribe.emit.export import csv_text
 from regscribe.evidence import Comparison, compare_table, read
+from regscribe.export.csv import csv_text
 from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map
 

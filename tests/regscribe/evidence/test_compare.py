@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import pytest
 
-from regscribe.emit.spreadsheet import COLUMNS
 from regscribe.evidence import Comparison, TableError, compare_table, read
 from regscribe.evidence.cell_compare import OBJECTS, differing
+from regscribe.export.csv import COLUMNS
 from regscribe.model import RegisterMap
 
 Held = Callable[..., Comparison]

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import pytest
 
-from regscribe.emit.export import Poll, collectd_text
+from regscribe.export.collectd.configuration import Poll, collectd_text
 from regscribe.model import (
     Access,
     Case,

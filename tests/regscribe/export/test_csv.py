@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 
-from regscribe.emit.export import COLUMNS, csv_text
+from regscribe.export.csv import COLUMNS, csv_text
 from regscribe.model import (
     Case,
     CodeRange,

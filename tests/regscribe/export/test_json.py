@@ -9,8 +9,7 @@ from typing import Any
 import jsonschema
 import pytest
 
-from regscribe.emit.document import number
-from regscribe.emit.export import json_text
+from regscribe.export.json import json_text, number
 from regscribe.model import RegisterMap
 
 SCHEMA = Path(__file__).parents[3] / "schema" / "export.schema.json"

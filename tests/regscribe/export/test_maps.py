@@ -8,7 +8,8 @@ from pathlib import Path
 import jsonschema
 import pytest
 
-from regscribe.emit.export import COLUMNS, csv_text, json_text
+from regscribe.export.csv import COLUMNS, csv_text
+from regscribe.export.json import json_text
 from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map
 

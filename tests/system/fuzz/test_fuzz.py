@@ -26,8 +26,8 @@ import pytest
 from regscribe import checks, compose, lower, pipeline, schema, source
 from regscribe.checks.catalogue import Example
 from regscribe.emit import EMITTERS
-from regscribe.emit.document import json_text
-from regscribe.emit.spreadsheet import csv_text
+from regscribe.export.csv import csv_text
+from regscribe.export.json import json_text
 from regscribe.model import RegisterMap
 from regscribe.pipeline import Compiled, compile_map, has_errors
 

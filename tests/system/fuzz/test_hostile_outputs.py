@@ -21,7 +21,8 @@ import yaml
 
 from regscribe.cli.shared import output
 from regscribe.emit import python
-from regscribe.emit.export import Poll, collectd_text, csv_text
+from regscribe.export.collectd.configuration import Poll, collectd_text
+from regscribe.export.csv import csv_text
 from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map
 from regscribe.reference import Surroundings

@@ -1,124 +1,133 @@
-"""`regscribe export`: every value of every model as CSV or JSON, or a poll of one model for collectd."""
+"""`regscribe export`: what maps say in the form of an exporter, a plug-in with options of its own."""
 
-import re
 import sys
-from collections.abc import Sequence
-from dataclasses import dataclass
-from difflib import get_close_matches
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 
 import click
 
-from regscribe.cli.shared.assumed_state import surroundings
+from regscribe import plugins
 from regscribe.cli.shared.diagnostic_text import findings, tally
-from regscribe.cli.shared.map_by_id import find_map, find_maps
+from regscribe.cli.shared.map_by_id import find_maps
 from regscribe.cli.shared.terminal import show, tell, warn
-from regscribe.emit.export import BAUD, EVERY, Poll, collectd_text, csv_text, json_text
-from regscribe.model import Model, RegisterMap
+from regscribe.emit.write import WriteError, write
 from regscribe.pipeline import compile_map
+from regscribe.plugins import EXPORTERS, Exporter, Option, OptionError, PluginError
+from regscribe.visible import safe
 
-FIRST_UNIT = 1
-LAST_PORT = 0xFFFF
-NAME = r"[A-Za-z0-9][A-Za-z0-9._-]{0,39}"
-"""What collectd can make a folder of."""
+OWN = "option_"
+"""Begins the name of the parameter that holds an option of an exporter: `--with` would be a keyword of Python."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Asked:
-    """The options that a poll needs and no other format takes."""
+class ExportCommand(click.Command):
+    """The command with a choice of all exporters, and with their options."""
 
-    model: str | None
-    place: str | None
-    name: str | None
-    unit: int | None
-    every: int | None
-    state: tuple[str, ...]
-    givens: tuple[str, ...]
+    def get_params(self, ctx: click.Context) -> list[click.Parameter]:
+        """Return the parameters, those of the exporters among them, found once a run."""
+        found: list[click.Parameter] = ctx.meta.setdefault(__name__, []) or _parameters()
+        ctx.meta[__name__] = found
+        return [*found, *super().get_params(ctx)]
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Beside an unknown option, tell which exporters are broken: it may be one of theirs."""
+        try:
+            return super().parse_args(ctx, args)
+        except click.NoSuchOption as error:
+            broken = [fault for name in plugins.names(EXPORTERS) if isinstance(fault := _loaded(name), PluginError)]
+            raise click.UsageError("\n".join([error.format_message(), *map(str, broken)]), ctx) from None
+
+
+def _parameters() -> list[click.Parameter]:
+    try:
+        names = plugins.names(EXPORTERS)
+    except PluginError as error:
+        raise click.ClickException(str(error)) from None
+    if not names:
+        message = "no exporter is installed, not even those of regscribe: install regscribe anew"
+        raise click.ClickException(message)
+    working = {name: one for name in names if not isinstance(one := _loaded(name), PluginError)}
+    about = "; ".join(f"{safe(name)}: {safe(one.summary)}" for name, one in working.items())
+    choice = click.Option(["--format", "form"], type=click.Choice([*map(safe, names)]), required=True, help=f"{about}.")
+    options = [option.name for one in working.values() for option in one.options]
+    return [choice, *(_parameter(option, working) for option in dict.fromkeys(options))]
+
+
+def _loaded(name: str) -> Exporter | PluginError:
+    """Load an exporter; what is wrong with it if it is broken, which is told only where it matters."""
+    try:
+        return plugins.exporter(name)
+    except PluginError as error:
+        return error
+
+
+def _parameter(name: str, exporters: Mapping[str, Exporter]) -> click.Option:
+    having = [(who, option) for who, one in exporters.items() for option in one.options if option.name == name]
+    said = "  ".join(safe(f"{who}: {option.help}{_default(option)}") for who, option in having)
+    metavar = safe(having[0][1].metavar)
+    return click.Option([f"--{name}", f"{OWN}{name.replace('-', '_')}"], multiple=True, metavar=metavar, help=said)
+
+
+def _default(option: Option) -> str:
+    return f"  [default: {option.default}]" if option.default else ""
 
 
 @click.command(
     name="export",
+    cls=ExportCommand,
     epilog="Example: regscribe export fdc/series-100 --format csv > series-100.csv\n\n"
     "regscribe export athena/series-c --format collectd --model 16C --at 10.0.0.7:502 > modbus.conf\n\n"
-    "Exit code 0: done, 1: errors in a map (nothing is printed to standard output), 2: wrong usage.",
+    "Exit code 0: done, 1: errors in a map or a broken exporter (nothing is printed to standard output), "
+    "2: wrong usage.",
 )
 @click.argument("maps", nargs=-1, metavar="[MAP]...")
-@click.option("--format", "form", type=click.Choice(["csv", "json", "collectd"]), required=True)
-@click.option("--model", metavar="M", help="collectd: the manual's name of the model.")
-@click.option("--at", "place", metavar="HOST:PORT|DEVICE", help="collectd: where it answers, on TCP or a serial line.")
-@click.option("--name", metavar="NAME", help="collectd: what to call it; else by its model and unit.")
-@click.option("--unit", type=click.IntRange(1, 255), metavar="N", help="collectd: unit id; else the map's default.")
-@click.option("--every", type=click.IntRange(1), metavar="SECONDS", help="collectd: how often; else every 10.")
-@click.option("--with", "state", multiple=True, metavar="PATH=VALUE", help="collectd: what a register holds for good.")
-@click.option("--given", "givens", multiple=True, metavar="ID=VALUE", help="collectd: what the manual does not say.")
-def command(*, maps: tuple[str, ...], form: str, **options: object) -> int:
-    """Print every value of every model to standard output, arrays expanded.
+@click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Where files go that an exporter makes.")
+def command(*, maps: tuple[str, ...], form: str, out: Path | None, **said: tuple[str, ...]) -> int:
+    """Print what maps say in the form of an exporter: every value as CSV, the whole model as JSON, and others.
 
     MAP is a map file, a folder that is searched for *.yaml, or the id of a map (fdc/series-100). Without MAP: maps/.
-    The format collectd takes one MAP and a --model, and prints a configuration of its modbus plugin.
+    The format collectd takes one MAP and a --model. Plug-ins bring further formats (docs/plugins.md).
     """
-    asked = _Asked(**options)  # type: ignore[arg-type]  # click has checked the types
-    if form == "collectd":
-        _demand_options(maps, asked)
-    else:
-        _refuse_options(asked, form)
-    paths = [find_map(maps[0])] if form == "collectd" else find_maps(maps)
-    compiled = [compile_map(path) for path in paths]
-    found = [diagnostic for one in compiled for diagnostic in one.diagnostics]
-    show(findings(found), stream=sys.stderr)
-    register_maps = [one.map for one in compiled if one.map is not None]
-    if len(register_maps) < len(compiled):
-        warn(f"nothing was exported: {tally(found)}\n")
-        return 1
-    tell(_text(form, register_maps, asked))
+    try:
+        options = _options(plugins.exporter(form), said)
+        compiled = [compile_map(path) for path in find_maps(maps)]
+        found = [diagnostic for one in compiled for diagnostic in one.diagnostics]
+        show(findings(found), stream=sys.stderr)
+        register_maps = [one.map for one in compiled if one.map is not None]
+        if len(register_maps) < len(compiled):
+            warn(f"nothing was exported: {tally(found)}\n")
+            return 1
+        _put(form, plugins.export(form, register_maps, options), out)
+    except PluginError as error:
+        raise click.ClickException(str(error)) from None
+    except OptionError as error:
+        raise click.UsageError(str(error)) from None
     return 0
 
 
-def _text(form: str, register_maps: Sequence[RegisterMap], asked: _Asked) -> str:
-    if form == "collectd":
-        (register_map,) = register_maps
-        model = _model(register_map, asked.model or "")
-        known = surroundings(register_map, model, asked.state, asked.givens)
-        return collectd_text(register_map, model, _poll(register_map, model, asked), known)
-    return csv_text(register_maps) if form == "csv" else json_text(register_maps)
+def _options(exporter: Exporter, said: Mapping[str, Sequence[str]]) -> dict[str, str]:
+    """Return the value of each option of an exporter; those of others are refused."""
+    given = {name.removeprefix(OWN).replace("_", "-"): texts for name, texts in said.items() if texts}
+    own = {option.name: option for option in exporter.options}
+    if foreign := [f"--{name}" for name in given if name not in own]:
+        message = f"{', '.join(foreign)}: the format {exporter.name} takes no such option"
+        raise OptionError(message)
+    return {name: _value(option, given.get(name, ())) for name, option in own.items()}
 
 
-def _demand_options(maps: Sequence[str], asked: _Asked) -> None:
-    if len(maps) != 1 or asked.model is None or asked.place is None:
-        message = "--format collectd polls one device: name one MAP, its --model, and where it answers (--at)"
-        raise click.UsageError(message)
+def _value(option: Option, texts: Sequence[str]) -> str:
+    return ("\n".join(texts) if option.several else texts[-1]) if texts else option.default
 
 
-def _refuse_options(asked: _Asked, form: str) -> None:
-    names: dict[str, object] = {"model": asked.model, "at": asked.place, "name": asked.name, "unit": asked.unit}
-    names |= {"every": asked.every, "with": asked.state or None, "given": asked.givens or None}
-    given = [f"--{name}" for name, value in names.items() if value is not None]
-    if given:
-        message = f"{', '.join(given)}: only --format collectd takes that; {form} prints all models in every state"
-        raise click.UsageError(message)
-
-
-def _model(register_map: RegisterMap, name: str) -> Model:
-    if register_map.has(name):
-        return register_map.model(name)
-    names = [one.name for one in register_map.models]
-    near = get_close_matches(name, names, n=1, cutoff=0.3)
-    meant = f"; did you mean `{near[0]}`?" if near else ""
-    message = f"{register_map.id} has no model `{name}`: it has {', '.join(names)}{meant}"
-    raise click.UsageError(message)
-
-
-def _poll(register_map: RegisterMap, model: Model, asked: _Asked) -> Poll:
-    protocol = register_map.protocol
-    unit = asked.unit or protocol.default_unit or max(FIRST_UNIT, protocol.unit_ids[0])
-    every, place, name = asked.every or EVERY, asked.place or "", asked.name or f"{model.class_name}-{unit}"
-    if not re.fullmatch(NAME, name):
-        message = f"--name {name}: at most 40 letters, digits, points, hyphens and underscores"
-        raise click.UsageError(message)
-    if place.startswith("/"):
-        baud = protocol.serial.default_baud or BAUD
-        return Poll(name=name, unit=unit, every=every, device=place, baud=baud)
-    found = re.fullmatch(r"([^:\s]+):([0-9]{1,5})", place)
-    if not found or not 1 <= int(found[2]) <= LAST_PORT:
-        message = f"--at {place}: write HOST:PORT, for example 10.0.0.7:502, or a serial device such as /dev/ttyUSB0"
-        raise click.UsageError(message)
-    return Poll(name=name, unit=unit, every=every, host=found[1], port=int(found[2]))
+def _put(form: str, texts: Mapping[str, str], out: Path | None) -> None:
+    """Print the text for standard output, and write the files below `out`."""
+    files = {path: text for path, text in texts.items() if path}
+    if files and out is None:
+        message = f"the format {form} makes files: say with --out in which folder"
+        raise OptionError(message)
+    try:
+        if files and out is not None:
+            write(files, out)
+    except WriteError as error:
+        message = f"the exporter {form}: {error}"
+        raise PluginError(message) from None
+    tell(texts.get("", ""))

@@ -1,20 +1,21 @@
 """`regscribe generate`: compile maps to drivers, docs, vectors and tests."""
 
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import perf_counter
 
 import click
 
+from regscribe import plugins
 from regscribe.cli.shared.diagnostic_text import count, findings, tally
 from regscribe.cli.shared.map_by_id import find_maps
 from regscribe.cli.shared.terminal import show, tell, warn
-from regscribe.emit import build_cache, render
+from regscribe.emit import build_cache, docs_index, render
 from regscribe.emit.build_cache import BuildRecord, Counts
-from regscribe.emit.docs_index import render_index
-from regscribe.emit.write import Report, WriteError, origin_of, write
+from regscribe.emit.templates import Templates
+from regscribe.emit.write import Report, WriteError, origin_of, with_package_files, write
 from regscribe.model import Diagnostic, RegisterMap
 from regscribe.visible import safe_lines
 
@@ -23,6 +24,7 @@ from regscribe.visible import safe_lines
 class Build:
     """One run: what is known of each map, the texts to write, and the maps that have warnings."""
 
+    templates: Templates | None = None
     entries: dict[Path, BuildRecord] = field(default_factory=dict)
     rendered: dict[str, str] = field(default_factory=dict)
     diagnostics: list[Diagnostic] = field(default_factory=list)
@@ -38,7 +40,14 @@ class Build:
 @click.argument("maps", nargs=-1, metavar="[MAP]...")
 @click.option("--check", is_flag=True, help="Write nothing; show what would change and exit 1 if anything would.")
 @click.option("--out", type=click.Path(path_type=Path), default=Path("generated"), show_default=True, metavar="DIR")
-def command(*, maps: tuple[str, ...], check: bool, out: Path) -> int:
+@click.option(
+    "--templates",
+    "folder",
+    type=click.Path(path_type=Path, exists=True, file_okay=False),
+    metavar="DIR",
+    help="Templates of your own: each *.j2 below DIR is rendered for every map (docs/templates.md).",
+)
+def command(*, maps: tuple[str, ...], check: bool, out: Path, folder: Path | None) -> int:
     """Compile maps to typed drivers, reference docs, test vectors and tests.
 
     MAP is a map file, a folder that is searched for *.yaml, or the id of a map (fdc/series-100). Without MAP all of
@@ -49,8 +58,12 @@ def command(*, maps: tuple[str, ...], check: bool, out: Path) -> int:
     """
     started = perf_counter()
     paths = find_maps(maps)
-    known = build_cache.Cache(out, "") if check else build_cache.load(out)
-    build = _build(paths, known)
+    templates = _templates(folder)
+    known = build_cache.Cache(out, "") if check else build_cache.load(out, _ingredients(templates))
+    try:
+        build = _build(paths, known, templates)
+    except WriteError as error:
+        raise click.ClickException(str(error)) from None
     show(findings(build.diagnostics), stream=sys.stderr)
     if build.failed:
         warn(f"nothing was written: {tally(build.diagnostics)}\n")
@@ -66,9 +79,24 @@ def command(*, maps: tuple[str, ...], check: bool, out: Path) -> int:
     return int(check and bool(report.written or report.removed))
 
 
-def _build(paths: Iterable[Path], known: build_cache.Cache) -> Build:
+def _templates(folder: Path | None) -> Templates | None:
+    templates = Templates(folder) if folder else None
+    if templates and not templates.names:
+        message = f"--templates {folder}: there is no template (*.j2) in this folder"
+        raise click.UsageError(message)
+    return templates
+
+
+def _ingredients(templates: Templates | None) -> Iterator[tuple[str, bytes]]:
+    """Yield what decides about the texts besides the generator: plug-ins and templates."""
+    yield from ((version, b"") for version in plugins.versions())
+    if templates:
+        yield from templates.contents()
+
+
+def _build(paths: Iterable[Path], known: build_cache.Cache, templates: Templates | None) -> Build:
     """Compile and render every map that `known` does not show to be unchanged."""
-    build = Build()
+    build = Build(templates)
     for path in paths:
         entry = known.unchanged(path)
         if entry is None:
@@ -88,6 +116,8 @@ def _compile(path: Path, build: Build) -> None:
     if compiled.map is None or build.failed:
         return
     files = render(compiled.map)
+    if build.templates:
+        files |= build.templates.render(compiled.map, {*with_package_files(files), docs_index.PATH})
     build.rendered |= files
     hashes = {name: build_cache.digest(text.encode()) for name, text in files.items()}
     counts = _counts(compiled.map)
@@ -116,6 +146,7 @@ def _write(build: Build, out: Path, *, check: bool, whole: bool) -> Report:
             other = build.entries[makers.setdefault(name, path)]
             if other is not entry and (other.id == entry.id or other.files[name] != content):
                 message = f"{makers[name]} and {path} both make {name}: give one of them another id"
+                message += ", or put {maker} and {family} into the template's path" if build.templates else ""
                 raise WriteError(message)
     ids = {entry.id for entry in build.entries.values()}
     return write(
@@ -131,7 +162,7 @@ def _index(build: Build, out: Path, *, whole: bool) -> dict[str, str]:
     """Render the index, unless there are references of maps that are not of this run: then theirs is left as it is."""
     pages = () if whole else (out / "docs").rglob("*.md")
     others = {origin_of(page) for page in pages} - {entry.id for entry in build.entries.values()} - {None}
-    return {} if others else render_index(entry.card for entry in build.entries.values())
+    return {} if others else docs_index.render_index(entry.card for entry in build.entries.values())
 
 
 def _remember(build: Build, known: build_cache.Cache, *, whole: bool) -> None:

@@ -1,7 +1,8 @@
-"""`regscribe new`: start a map from a commented skeleton."""
+"""`regscribe new`: start a map from a commented skeleton, or from a file that an importer reads."""
 
 import keyword
 import re
+import sys
 from importlib.resources import files
 from pathlib import Path
 from shutil import copyfileobj
@@ -9,7 +10,11 @@ from string import Template
 
 import click
 
-from regscribe.cli.shared.terminal import tell
+from regscribe import plugins
+from regscribe.cli.shared.diagnostic_text import findings, tally
+from regscribe.cli.shared.terminal import show, tell, warn
+from regscribe.model import Severity
+from regscribe.plugins import IMPORTERS, PluginError
 from regscribe.shipped import shipped
 from regscribe.visible import safe
 
@@ -18,22 +23,37 @@ WORD = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 
 SCHEMA = "map.schema.json"
 
+HEAD = ("# yaml-language-server:", "format:", "map:")
+"""Lines of the skeleton that every map begins with."""
 
-@click.command(name="new", epilog="Example: regscribe new acme/oven-3")
+
+@click.command(
+    name="new",
+    epilog="Example: regscribe new acme/oven-3\n\n"
+    "Exit code 0: done, 1: the file cannot be imported or the map not written, 2: wrong usage.",
+)
 @click.argument("map_id", metavar="MAKER/FAMILY")
 @click.option("--dir", "folder", type=click.Path(path_type=Path), default=Path("maps"), show_default=True)
-def command(*, map_id: str, folder: Path) -> int:
-    """Start a map: a commented skeleton that passes `regscribe check`.
+@click.option(
+    "--from", "origin", type=click.Path(path_type=Path), metavar="FILE", help="Begin with what this file says."
+)
+@click.option("--format", "form", metavar="NAME", help="The importer that reads FILE; else by the ending of its name.")
+def command(*, map_id: str, folder: Path, origin: Path | None, form: str | None) -> int:
+    """Start a map: a commented skeleton that passes `regscribe check`, or with --from what a file of registers says.
 
+    FILE is a table (.csv) in the columns of `regscribe export`, or of a form that a plug-in reads (docs/plugins.md).
     Nothing is overwritten. If there is no schema beside the folder, a copy of it is put there, so that an editor can
     complete and explain the keys.
     """
     maker, family = _parts(map_id)
     path = folder / maker / f"{family}.yaml"
+    imported = _imported(origin, form)
+    if imported is None:
+        return 1
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         with path.open("x", encoding="utf-8") as file:
-            file.write(_skeleton(maker, family, schema=_schema_for(folder)))
+            file.write(_text(maker, family, _schema_for(folder), imported))
     except FileExistsError:
         message = f"{path} exists; nothing was changed. Choose another name or edit that map"
         raise click.UsageError(message) from None
@@ -57,6 +77,38 @@ def _parts(map_id: str) -> tuple[str, str]:
             )
             raise click.UsageError(message)
     return parts[0], parts[1]
+
+
+def _imported(origin: Path | None, form: str | None) -> str | None:
+    """Return the text of a map that an importer makes of a file; empty without a file, None if it finds errors."""
+    if origin is None and form is not None:
+        message = "--format says how a file is read: name the file with --from"
+        raise click.UsageError(message)
+    if origin is None:
+        return ""
+    chosen = form or origin.suffix.removeprefix(".").lower()
+    try:
+        known = plugins.names(IMPORTERS)
+        if chosen not in known:
+            message = f"nothing imports {origin}: say with --format how, as {' or '.join(known)}"
+            raise click.UsageError(message)
+        text, found = plugins.read(chosen, origin.read_bytes(), str(origin))
+    except OSError as error:
+        message = f"cannot read {origin}: {error.strerror or error}"
+        raise click.UsageError(message) from None
+    except PluginError as error:
+        raise click.ClickException(str(error)) from None
+    show(findings(found), stream=sys.stderr)
+    if any(one.severity is Severity.ERROR for one in found):
+        warn(f"nothing was written: {tally(found)}\n")
+        return None
+    return text
+
+
+def _text(maker: str, family: str, schema: str, imported: str) -> str:
+    skeleton = _skeleton(maker, family, schema=schema)
+    head = [line for line in skeleton.splitlines(keepends=True) if line.startswith(HEAD)]
+    return "".join(head) + imported if imported else skeleton
 
 
 def _skeleton(maker: str, family: str, *, schema: str) -> str:

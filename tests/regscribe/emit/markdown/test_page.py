@@ -174,7 +174,8 @@ SCRIPT = """
 import sys
 from pathlib import Path
 from regscribe import lower, source
-from regscribe.emit.export import csv_text, json_text
+from regscribe.export.csv import csv_text
+from regscribe.export.json import json_text
 from regscribe.emit.markdown import render
 found, _ = lower.lower(source.load(Path(sys.argv[1]))[0])
 sys.stdout.buffer.write("".join([*render(found).values(), csv_text([found]), json_text([found])]).encode())

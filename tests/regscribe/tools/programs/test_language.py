@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from regscribe import lower, schema, source
-from regscribe.emit.export import json_text
+from regscribe.export.json import json_text
 from regscribe.model import Diagnostic, ProgramCounts, ProgramPart, SetpointProgram, WhileRunning
 from regscribe.pipeline import compile_map
 

@@ -1,7 +1,7 @@
-"""The JSON export: the whole model under `schema/export.schema.json`, ready for programs in any language."""
+"""The exporter of JSON: the whole model under `schema/export.schema.json`, ready for programs in any language."""
 
 import json
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import fields
 from enum import Enum as PythonEnum
 from fractions import Fraction
@@ -19,12 +19,22 @@ from regscribe.model import (
     exact,
     show,
 )
+from regscribe.plugins import Option
+
+name = "json"
+summary = "the whole model, for programs in any language"
+options: tuple[Option, ...] = ()
 
 EXAMPLES = {ValueExample: "value", FrameExample: "frame", TimingExample: "timing"}
 PLACES = frozenset({"span", "by_path", "base", "renumber", "libraries", "shipped"})
 """Fields that say where something stands in a file, that only speed a look-up, or that only let emitters share."""
 
 Json = Any  # what the json module writes: nested lists and dicts of str, int, float, bool and None
+
+
+def export(maps: Sequence[RegisterMap], _: Mapping[str, str]) -> dict[str, str]:
+    """Return the document for standard output."""
+    return {"": json_text(maps)}
 
 
 def json_text(maps: Iterable[RegisterMap]) -> str:

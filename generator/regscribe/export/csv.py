@@ -1,9 +1,9 @@
-"""The CSV export: one row for each value of each model; docs/export.md is its contract."""
+"""The exporter of CSV: one row for each value of each model; docs/export.md is its contract."""
 
 import csv
 import io
 import json
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import astuple, dataclass, fields, replace
 
 from regscribe.emit.words import (
@@ -33,7 +33,12 @@ from regscribe.model import (
     always,
     show,
 )
+from regscribe.plugins import Option
 from regscribe.visible import cell
+
+name = "csv"
+summary = "every value of every model, arrays expanded, as a table"
+options: tuple[Option, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -66,6 +71,11 @@ class Row:
 
 
 COLUMNS = tuple(field.name for field in fields(Row))
+
+
+def export(maps: Sequence[RegisterMap], _: Mapping[str, str]) -> dict[str, str]:
+    """Return the table for standard output."""
+    return {"": csv_text(maps)}
 
 
 def csv_text(maps: Iterable[RegisterMap]) -> str:

@@ -1,0 +1,79 @@
+"""The exporter of a poll by collectd's modbus plugin, of one model of one map (docs/export.md is its contract)."""
+
+import re
+from collections.abc import Mapping, Sequence
+from difflib import get_close_matches
+
+from regscribe.export.collectd.configuration import BAUD, EVERY, Poll, collectd_text
+from regscribe.export.collectd.state import surroundings
+from regscribe.model import Model, RegisterMap
+from regscribe.plugins import Option, OptionError
+
+name = "collectd"
+summary = "a configuration of collectd's modbus plugin that polls one model"
+options = (
+    Option("model", "the manual's name of the model.", metavar="M"),
+    Option("at", "where it answers, on TCP or a serial line.", metavar="HOST:PORT|DEVICE"),
+    Option("name", "what to call it; else by its model and unit.", metavar="NAME"),
+    Option("unit", "unit id; else the map's default.", metavar="N"),
+    Option("every", "how often.", default=str(EVERY), metavar="SECONDS"),
+    Option("with", "what a register holds for good.", metavar="PATH=VALUE", several=True),
+    Option("given", "a fact that the manual does not say.", metavar="ID=VALUE", several=True),
+)
+
+FIRST_UNIT, LAST_UNIT = 1, 255
+LAST_PORT = 0xFFFF
+LONGEST_INTERVAL = 10**9
+NAME = r"[A-Za-z0-9][A-Za-z0-9._-]{0,39}"
+"""What collectd can make a folder of."""
+
+
+def export(maps: Sequence[RegisterMap], options: Mapping[str, str]) -> dict[str, str]:
+    """Return the configuration. Raises OptionError."""
+    if len(maps) != 1 or not options["model"] or not options["at"]:
+        message = "--format collectd polls one device: name one MAP, its --model, and where it answers (--at)"
+        raise OptionError(message)
+    (register_map,) = maps
+    model = _model(register_map, options["model"])
+    known = surroundings(register_map, model, _each(options["with"]), _each(options["given"]))
+    return {"": collectd_text(register_map, model, _poll(register_map, model, options), known)}
+
+
+def _each(texts: str) -> list[str]:
+    return texts.split("\n") if texts else []
+
+
+def _model(register_map: RegisterMap, wanted: str) -> Model:
+    if register_map.has(wanted):
+        return register_map.model(wanted)
+    known = [one.name for one in register_map.models]
+    near = get_close_matches(wanted, known, n=1, cutoff=0.3)
+    meant = f"; did you mean `{near[0]}`?" if near else ""
+    message = f"{register_map.id} has no model `{wanted}`: it has {', '.join(known)}{meant}"
+    raise OptionError(message)
+
+
+def _poll(register_map: RegisterMap, model: Model, options: Mapping[str, str]) -> Poll:
+    protocol, place = register_map.protocol, options["at"]
+    usual = protocol.default_unit or max(FIRST_UNIT, protocol.unit_ids[0])
+    unit = _whole("unit", options["unit"] or str(usual), LAST_UNIT)
+    every = _whole("every", options["every"], LONGEST_INTERVAL)
+    called = options["name"] or f"{model.class_name}-{unit}"
+    if not re.fullmatch(NAME, called):
+        message = f"--name {called}: at most 40 letters, digits, points, hyphens and underscores"
+        raise OptionError(message)
+    if place.startswith("/"):
+        baud = protocol.serial.default_baud or BAUD
+        return Poll(name=called, unit=unit, every=every, device=place, baud=baud)
+    found = re.fullmatch(r"([^:\s]+):([0-9]{1,5})", place)
+    if not found or not 1 <= int(found[2]) <= LAST_PORT:
+        message = f"--at {place}: write HOST:PORT, for example 10.0.0.7:502, or a serial device such as /dev/ttyUSB0"
+        raise OptionError(message)
+    return Poll(name=called, unit=unit, every=every, host=found[1], port=int(found[2]))
+
+
+def _whole(option: str, text: str, most: int) -> int:
+    if not re.fullmatch(r"[0-9]{1,10}", text) or not 1 <= int(text) <= most:
+        message = f"--{option} {text}: write a whole number from 1 to {most}"
+        raise OptionError(message)
+    return int(text)

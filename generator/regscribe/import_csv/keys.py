@@ -1,0 +1,115 @@
+"""The keys of a register that the columns of a table say."""
+
+import re
+from collections.abc import Callable, Mapping
+from fractions import Fraction
+from typing import Any
+
+from regscribe.evidence.cell_compare import access, number, objects
+from regscribe.files import OneLine
+from regscribe.model import Space, WireType, exact, show
+
+Cells = Mapping[str, str]
+
+PLAIN_SCALE = re.compile(r"x/1(0{1,18})")
+PLAIN_UNIT = re.compile(r"[^;:]+")
+"""A unit under no condition."""
+
+
+def _nothing(_: Cells) -> dict[str, Any]:
+    return {}
+
+
+def _space(cells: Cells) -> dict[str, Any] | None:
+    space = cells["space"].lower()
+    return None if space not in list(Space) else {} if space == Space.HOLDING else {"space": space}
+
+
+def _access(cells: Cells) -> dict[str, Any] | None:
+    found = access(cells["access"])
+    return {"access": found} if found in {"r", "rw", "w"} else None
+
+
+def _type(cells: Cells) -> dict[str, Any] | None:
+    wire = cells["type"].lower()
+    if wire not in list(WireType):
+        return None
+    length = {"length": int(cells["words"])} if wire == WireType.STRING and cells.get("words", "").isdecimal() else {}
+    return {} if wire == WireType.UINT16 else {"type": wire, **length}
+
+
+def _unit(cells: Cells) -> dict[str, Any] | None:
+    return {"unit": cells["unit"]} if PLAIN_UNIT.fullmatch(cells["unit"]) else None
+
+
+def _range(cells: Cells) -> dict[str, Any] | None:
+    """`a..b`, once both limits are plain numbers."""
+    low, high = (number(cells.get(side, "")) for side in ("minimum", "maximum"))
+    return None if low is None or high is None else {"range": f"{show(low)}..{show(high)}"}
+
+
+def _default(cells: Cells) -> dict[str, Any] | None:
+    value = number(cells["default"])
+    if value is None:
+        return {"default": cells["default"]}
+    return {"default": plain} if (plain := _plain(value)) is not None else None
+
+
+def _plain(value: Fraction) -> int | float | None:
+    if value.denominator == 1:
+        return value.numerator
+    return float(value) if exact(float(value)) == value else None
+
+
+def _values(cells: Cells) -> dict[str, Any] | None:
+    """An enum, where nothing says that the codes stand beside a number."""
+    found = objects(cells["values"])
+    if not found or cells.get("minimum") or cells.get("kind", "enum") != "enum":
+        return None
+    codes = {number(code): label for code, label in found.items()}
+    whole: dict[Any, str] = {
+        code.numerator: str(label) for code, label in codes.items() if code is not None and code.denominator == 1
+    }
+    return {"enum": OneLine(whole)} if len(whole) == len(found) else None
+
+
+def _bits(cells: Cells) -> dict[str, Any] | None:
+    found = objects(cells["bits"])
+    if not found or not all(bit.isdecimal() for bit in found):
+        return None
+    flags: dict[Any, str] = {int(bit): str(label) for bit, label in found.items()}
+    return {"flags": OneLine(flags)}
+
+
+def _scale(cells: Cells) -> dict[str, Any] | None:
+    if cells["scale"] == "not stated":
+        return {"decimals": "not_stated"}
+    found = PLAIN_SCALE.fullmatch(cells["scale"])
+    return {"decimals": len(found[1])} if found else None
+
+
+def _aliases(cells: Cells) -> dict[str, Any] | None:
+    words = re.split(r"[\s,;]+", cells["aliases"])
+    return {"aliases": [int(word) for word in words]} if all(word.isdecimal() for word in words) else None
+
+
+KEYS: dict[str, Callable[[Cells], dict[str, Any] | None]] = {
+    "address": _nothing,
+    "name": _nothing,
+    "kind": lambda cells: None if cells["kind"] in {"version", "fields"} else {},
+    "space": _space,
+    "access": _access,
+    "type": _type,
+    "unit": _unit,
+    "minimum": _range,
+    "maximum": _range,
+    "default": _default,
+    "values": _values,
+    "bits": _bits,
+    "scale": _scale,
+    "aliases": _aliases,
+    "symbol": lambda cells: {"symbol": cells["symbol"]},
+    "persistence": lambda cells: {"persistence": cells["persistence"]},
+    "section": lambda cells: {"source": cells["section"]},
+}
+"""The keys of a register that a column says; None: it cannot be said so."""
