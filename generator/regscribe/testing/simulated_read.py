@@ -8,7 +8,7 @@ from regscribe_runtime import ValueNotDecodable
 from regscribe_runtime.operations import tasks
 from regscribe_runtime.operations.session import Protocol, Session
 from regscribe_runtime.operations.snapshot import Snapshot
-from regscribe_runtime.planning.alternatives import Way, ways
+from regscribe_runtime.planning.read_places import ReadPlace, read_places
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.wire.requests import READ_SPACES, Reply, Request
 
@@ -88,8 +88,8 @@ def _cells(space: str, request: Request) -> Iterator[Cell]:
 
 def _is_asked(register: Register[Any], asked: Container[Cell]) -> bool:
     return any(
-        all((way.item.space, address) in asked for address in range(way.item.address, way.item.end))
-        for way in ways(register)
+        all((place.span.space, address) in asked for address in range(place.span.address, place.span.end))
+        for place in read_places(register)
     )
 
 
@@ -113,17 +113,17 @@ def wrong_values(driver: Any, chosen: Sequence[Register[Any]], *, seed: int, cod
     for register in chosen:
         together = _outcome(lambda path=register.path: reading.snapshot[path])  # type: ignore[misc]
         alone = [
-            _outcome(lambda register=register, way=way: _alone(register, way, reading.session, seed))  # type: ignore[misc]
-            for way in ways(register)
+            _outcome(lambda register=register, place=place: _alone(register, place, reading.session, seed))  # type: ignore[misc]
+            for place in read_places(register)
         ]
         if together not in alone:
             found.append(f"{register.path}: {together} with others, {alone[0]} alone")
     return found
 
 
-def _alone(register: Register[Any], way: Way, session: Session, seed: int) -> Any:  # noqa: ANN401 (any value)
-    words = [word_at(way.item.space, address, seed) for address in range(way.item.address, way.item.end)]
-    return register.decode(words, view=way.view.name, state=session.memory, givens=session.givens)
+def _alone(register: Register[Any], place: ReadPlace, session: Session, seed: int) -> Any:  # noqa: ANN401 (any value)
+    words = [word_at(place.span.space, address, seed) for address in range(place.span.address, place.span.end)]
+    return register.decode(words, view=place.view.name, state=session.memory, givens=session.givens)
 
 
 def _outcome(read: Callable[[], Any]) -> tuple[str, Any]:

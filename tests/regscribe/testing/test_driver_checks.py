@@ -87,9 +87,9 @@ def test_a_driver_that_decodes_wrongly_does_not_come_back(
 def test_a_request_over_the_limit_or_asked_twice_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     tried = DriverUnderTest(series_100.FdcC21, load(PATH))
 
-    def one_block(wants: Any, _: object) -> tuple[tuple[Block, ...], bool]:
-        items = tuple(want[0] for want in wants)
-        return ((Block(3, 0, 80, items),) if items else ()), True
+    def one_block(items: Any, _: object) -> tuple[Block, ...]:
+        held = tuple(items)
+        return (Block(3, 0, 80, held),) if held else ()
 
     monkeypatch.setattr("regscribe_runtime.planning.read_order.blocks", one_block)
 

@@ -6,8 +6,8 @@ from types import FrameType
 from typing import Any
 
 from regscribe_runtime.operations.prepared_read import dependencies
-from regscribe_runtime.planning.alternatives import ways
 from regscribe_runtime.planning.read_order import lay_out
+from regscribe_runtime.planning.read_places import read_places
 
 HEAD = """\
 format: 1
@@ -118,7 +118,7 @@ def test_to_lay_out_many_requests_takes_as_much_for_each_as_for_few(
 
 
 def wants(driver: Any) -> tuple[Any, Any, Any]:
-    """All registers of a driver with the ways to read them, what each depends on, and what a plan must keep to."""
+    """All registers of a driver with the place to read them at, what each depends on, and what a plan must keep to."""
     every = list(driver.registers.values())
     needs = dependencies(driver.session, every)
-    return {one.path: ways(one) for one in every}, needs, driver.session.terms()
+    return {one.path: read_places(one)[0] for one in every}, needs, driver.session.terms()

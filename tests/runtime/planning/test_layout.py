@@ -5,17 +5,17 @@ from hypothesis import strategies as st
 
 from regscribe_runtime import INT16, View
 from regscribe_runtime.planning.address_ranges import AddressRanges, RegisterSpan
-from regscribe_runtime.planning.alternatives import Way
 from regscribe_runtime.planning.cost import Cost, SerialLine
 from regscribe_runtime.planning.plan import RequestLimits, Terms
 from regscribe_runtime.planning.read_order import ReadOrder, lay_out
+from regscribe_runtime.planning.read_places import ReadPlace
 
 VIEW = View("base", INT16)
 TERMS = Terms(RequestLimits(), AddressRanges({"holding": [(0, 10), (100, 110), (200, 210)]}), Cost(SerialLine()))
 
 
-def ways(**places: int) -> dict[str, tuple[Way, ...]]:
-    return {path: (Way(VIEW, RegisterSpan("holding", address, 1)),) for path, address in places.items()}
+def at(**places: int) -> dict[str, ReadPlace]:
+    return {path: ReadPlace(VIEW, RegisterSpan("holding", address, 1)) for path, address in places.items()}
 
 
 def witnessed(layout: ReadOrder, needs: dict[str, set[str]]) -> bool:
@@ -31,7 +31,7 @@ def witnessed(layout: ReadOrder, needs: dict[str, set[str]]) -> bool:
 def test_the_request_with_the_scale_is_sent_last() -> None:
     needs = {"value": {"places"}}
 
-    layout = lay_out(ways(places=0, value=100), needs, TERMS)
+    layout = lay_out(at(places=0, value=100), needs, TERMS)
 
     assert [block.address for block in layout.blocks] == [100, 0]
     assert not layout.atomic
@@ -39,7 +39,7 @@ def test_the_request_with_the_scale_is_sent_last() -> None:
 
 
 def test_values_beside_their_scale_are_of_one_piece() -> None:
-    layout = lay_out(ways(places=100, value=101, other=0), {"value": {"places"}}, TERMS)
+    layout = lay_out(at(places=100, value=101, other=0), {"value": {"places"}}, TERMS)
 
     assert layout.atomic
     assert len(layout.blocks) == 2
@@ -48,7 +48,7 @@ def test_values_beside_their_scale_are_of_one_piece() -> None:
 def test_what_goes_round_in_a_circle_is_read_once_more_at_the_end() -> None:
     needs = {"low": {"high_scale"}, "high": {"low_scale"}}
 
-    layout = lay_out(ways(low=0, low_scale=1, high=100, high_scale=101), needs, TERMS)
+    layout = lay_out(at(low=0, low_scale=1, high=100, high_scale=101), needs, TERMS)
 
     assert [(block.address, block.quantity) for block in layout.blocks] == [(0, 2), (100, 2), (1, 1)]
     assert witnessed(layout, needs)
@@ -68,7 +68,7 @@ def test_every_dependency_is_checked_behind_what_depends_on_it(
     for path, need in sorted(pairs, reverse=True):  # what a dependency depends on, its dependents depend on too
         needs.setdefault(path, set()).update({need, *needs.get(need, ())})
 
-    layout = lay_out(ways(**places), needs, TERMS)
+    layout = lay_out(at(**places), needs, TERMS)
 
     assert witnessed(layout, needs)
     for path, place in layout.places.items():

@@ -48,7 +48,7 @@ def test_no_plan_for_a_real_model_is_dearer_than_those_of_others(bench: Any, sub
 def test_every_rival_reads_all_that_is_wanted_and_keeps_to_the_device(bench: Any, subjects: dict[str, Any]) -> None:
     subject = subjects["M5000"]
     terms = subject.terms(Cost.serial(subject.protocol))
-    known = [subject.ways(path)[0].item for path in subject.readable]
+    known = [subject.places(path)[0].span for path in subject.readable]
     task = bench.Task.of(known[::3], known, terms)
 
     plans = {name: mode(task) for name, mode in bench.MODES.items()} | {"gap": bench.fixed_gap(task, 3)}

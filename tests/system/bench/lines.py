@@ -76,7 +76,7 @@ def _driver(driver: Any, path: str, unit: int, givens: dict[str, Any]) -> float:
 
 
 def _items(subject: Subject) -> list[RegisterSpan]:
-    return list(dict.fromkeys(subject.ways(path)[0].item for path in subject.readable))
+    return list(dict.fromkeys(subject.places(path)[0].span for path in subject.readable))
 
 
 def _fixed_gap(subject: Subject, path: str, unit: int) -> float:

@@ -84,7 +84,7 @@ def _shown(subject: Subject, paths: Sequence[str]) -> float:
 def duels(subject: Subject, cost: Cost, gaps: Sequence[int] = GAPS) -> Iterator[Duel]:
     """Our plan and those of the others for each set of registers; all read the same registers at the same places."""
     terms = subject.terms(cost)
-    known = [subject.ways(path)[0].item for path in subject.readable]
+    known = [subject.places(path)[0].span for path in subject.readable]
     for what, paths in sets(subject):
         ways = [tuple(way.item for way in subject.ways(path)) for path in paths]
         made, _ = blocks(ways, terms)

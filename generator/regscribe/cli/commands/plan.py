@@ -73,7 +73,7 @@ def command(  # noqa: PLR0913 - one parameter an option
     asked = wanted if remembered else subject.with_needs(wanted)
     terms = subject.terms(_cost(subject, baud, form, framing, tcp=tcp))
     layout = subject.layout(wanted, terms, fresh=not remembered)
-    single = [terms.cost.tariff(item.space).of(item.words) for item in (subject.ways(path)[0].item for path in asked)]
+    single = [terms.cost.tariff(item.space).of(item.words) for item in (subject.places(path)[0].span for path in asked)]
     told = _Told(layout, asked, terms, milliseconds(sum(single)))
     if as_json:
         print_json(map=compiled.map.id, model=subject.model.name, also=asked[len(wanted) :], **told.plain())
@@ -141,7 +141,7 @@ class _Told:
 
     def __init__(self, layout: ReadOrder, paths: Sequence[str], terms: Terms, single_ms: float) -> None:
         self.terms, self.single_ms, self.paths = terms, single_ms, paths
-        self.found = plan.told(layout.blocks, terms, again=layout.again, exact=layout.exact)
+        self.found = plan.told(layout.blocks, terms, again=layout.again)
         self.names: list[list[str]] = [[] for _ in layout.blocks]
         for path in paths:
             for number in dict.fromkeys(found[path].block for found in (layout.places, layout.checks) if path in found):
@@ -160,8 +160,6 @@ class _Told:
         tell(f"one request a register: {single}, {ratio:.1f} times as long\n")
         if also:
             tell(f"read along, since the meaning of others depends on it: {', '.join(also)}\n")
-        if not found.exact:
-            remark("so many registers can be read at several places that not all choices were tried")
 
     def _row(self, one: Planned, names: Sequence[str]) -> tuple[str, ...]:
         more = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
@@ -204,5 +202,4 @@ class _Told:
             "total": {"requests": len(found.requests), "wanted": found.wanted, "carried": found.carried}
             | {"bytes": found.bytes, "ms": round(found.ms, 3)},
             "one_by_one": {"requests": len(self.paths), "ms": round(self.single_ms, 3)},
-            "exact": found.exact,
         }

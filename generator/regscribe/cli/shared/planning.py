@@ -11,10 +11,10 @@ from regscribe.emit import python
 from regscribe_runtime import BareDevice, Protocol, Register
 from regscribe_runtime.operations.prepared_read import dependencies, laid_out
 from regscribe_runtime.operations.session import TERMS, Session
-from regscribe_runtime.planning.alternatives import Way, ways
 from regscribe_runtime.planning.cost import Cost
 from regscribe_runtime.planning.plan import Terms
 from regscribe_runtime.planning.read_order import ReadOrder
+from regscribe_runtime.planning.read_places import ReadPlace, read_places
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,9 +49,9 @@ class Subject:
         """What plans keep to, at a cost."""
         return self._session().terms()._replace(cost=cost)
 
-    def ways(self, path: str) -> tuple[Way, ...]:
+    def places(self, path: str) -> tuple[ReadPlace, ...]:
         """Where a register can be read with the same result."""
-        return ways(self.driver.registers[path])
+        return read_places(self.driver.registers[path])
 
     def with_needs(self, paths: Iterable[str]) -> list[str]:
         """The same registers and behind them all that their meaning depends on, as a driver reads them."""

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 from regscribe_runtime.errors import ExceptionAnswer, NoAnswer, RegscribeError
 from regscribe_runtime.planning.address_ranges import RegisterSpan
-from regscribe_runtime.planning.alternatives import ways
 from regscribe_runtime.planning.plan import Block
+from regscribe_runtime.planning.read_places import read_places
 from regscribe_runtime.wire.requests import Request
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ class Bisection:
             yield from self._sift(items, bad=True)
         if not self.heard:
             raise self.error
-        proven = {way.item for path in self.session.proven for way in ways(self.session.registers[path])}
+        proven = {one.span for path in self.session.proven for one in read_places(self.session.registers[path])}
         for item, error in self.refused.items():
             self.session.absences.add(item, error, passing=item in proven)
         for item in self._between():

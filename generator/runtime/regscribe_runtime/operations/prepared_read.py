@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 from regscribe_runtime.errors import RegscribeError, ValueNotDecodable
 from regscribe_runtime.operations.decode_block import Placed, PreparedBlock
-from regscribe_runtime.planning.alternatives import open_ways, ways
 from regscribe_runtime.planning.read_order import ReadOrder, WordPosition, lay_out
+from regscribe_runtime.planning.read_places import place_of, read_places
 from regscribe_runtime.registers import codec
 
 if TYPE_CHECKING:
@@ -124,8 +124,8 @@ def laid_out(
     needed = frozenset().union(*needs.values())
     wanted = {register.path: register for register in registers}
     wanted |= {path: session.registers[path] for path in needs if path in needed and path not in wanted}
-    open_ = {path: found for path, one in wanted.items() if (found := open_ways(one, terms.ground))}
-    return lay_out(open_, needs, terms), wanted, needs
+    there = {path: place for path, one in wanted.items() if (place := place_of(one, terms.ground))}
+    return lay_out(there, needs, terms), wanted, needs
 
 
 def make_ready(
@@ -153,11 +153,11 @@ def make_ready(
 
 
 def missing(session: "Session", register: "Register[Any]") -> RegscribeError | None:
-    """Why a register is left out of every plan; None if some way to read it is open."""
-    if open_ways(register, session.terms().ground):
+    """Why a register is left out of every plan; None if it can be read somewhere."""
+    if place_of(register, session.terms().ground):
         return None
-    for way in ways(register):
-        if found := session.absences.error(register.path, way.item, session.unit):
+    for place in read_places(register):
+        if found := session.absences.error(register.path, place.span, session.unit):
             return found
     message = f"{register.path} cannot be read from this device: it can only be written, or belongs to another one"
     raise ValueError(message)

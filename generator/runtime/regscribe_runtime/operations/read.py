@@ -13,7 +13,7 @@ from regscribe_runtime.operations.bisect import REFUSALS, Bisection, is_absence
 from regscribe_runtime.operations.prepared_read import MISSING, PreparedRead, dependencies, make_ready, missing
 from regscribe_runtime.operations.snapshot import Snapshot
 from regscribe_runtime.planning.address_ranges import RegisterSpan
-from regscribe_runtime.planning.plan import blocks
+from regscribe_runtime.planning.plan import RequestLimits, Terms, blocks
 from regscribe_runtime.registers import codec
 from regscribe_runtime.values.specs import View, choose, registers_of
 from regscribe_runtime.wire.requests import READ_FUNCTIONS, Request
@@ -29,6 +29,9 @@ T = TypeVar("T")
 TRIES = 4
 """Reads of a snapshot until it is given up as unsteady; an absent dependency takes one of them."""
 
+FEW = 3
+"""Requests for registers that another one depends on, up to which no plan of the whole device is made for them."""
+
 MAX_DEPTH = 8
 """Dependencies of dependencies; the compiler refuses cycles, this bounds what it let through."""
 
@@ -39,20 +42,41 @@ def item_of(register: Register[Any], view: View) -> RegisterSpan:
 
 
 def fetch(session: Session, items: Iterable[RegisterSpan]) -> Operation[dict[RegisterSpan, tuple[int, ...]]]:
-    """The present words of items, in few requests; what plans go round is asked for alone."""
+    """The present words of items: a few without a plan of the whole device, more in the requests of least cost."""
+    wanted = sorted(set(items))
+    requests = _joined(wanted, session.protocol.read_limits)
+    if len(requests) > FEW or session.absences:
+        requests = _planned(wanted, session.terms())
     found = {}
-    terms = session.terms()
-    known: list[RegisterSpan] = []
-    for item in dict.fromkeys(items):
-        if terms.ground.stretch(item) is None:
-            found[item] = yield from session.exchange(Request(READ_FUNCTIONS[item.space], item.address, item.words))
-        else:
-            known.append(item)
-    for block in blocks([(item,) for item in known], terms)[0]:
-        words = yield from session.exchange(Request(block.function, block.address, block.quantity))
-        for item in block.items:
-            start = item.address - block.address
+    for asked, held in requests.items():
+        words = yield from session.exchange(Request(READ_FUNCTIONS[asked.space], asked.address, asked.words))
+        for item in held:
+            start = item.address - asked.address
             found[item] = tuple(words[start : start + item.words])
+    return found
+
+
+def _planned(items: Sequence[RegisterSpan], terms: Terms) -> dict[RegisterSpan, Sequence[RegisterSpan]]:
+    """Items by the span that reads them at the least cost; what plans go round is asked for alone."""
+    alone = [item for item in items if terms.ground.stretch(item) is None]
+    planned = blocks([item for item in items if item not in alone], terms)
+    return {item: [item] for item in alone} | {
+        RegisterSpan(block.space, block.address, block.quantity): block.items for block in planned
+    }
+
+
+def _joined(items: Sequence[RegisterSpan], limits: RequestLimits) -> dict[RegisterSpan, Sequence[RegisterSpan]]:
+    """Sorted items by the span that reads them: those that follow each other without a gap are read together."""
+    found: dict[RegisterSpan, Sequence[RegisterSpan]] = {}
+    last = RegisterSpan("", 0, 0)
+    for item in items:
+        both = last._replace(words=item.end - last.address)
+        if (item.space, item.address) == (last.space, last.end) and both.words <= limits.most(item.space):
+            found[both] = [*found.pop(last), item]
+            last = both
+        else:
+            found[item] = [item]
+            last = item
     return found
 
 

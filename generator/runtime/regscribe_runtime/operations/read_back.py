@@ -19,7 +19,7 @@ from regscribe_runtime.errors import (
 )
 from regscribe_runtime.operations.read import fetch, item_of, read_request
 from regscribe_runtime.operations.session import Pause
-from regscribe_runtime.planning.alternatives import same_precision
+from regscribe_runtime.planning.read_places import same_precision
 from regscribe_runtime.registers import codec
 
 if TYPE_CHECKING:

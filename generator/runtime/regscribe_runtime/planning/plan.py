@@ -1,8 +1,8 @@
 """Which registers in which requests: the plan of least total cost, and why it is parted where it is.
 
 A request may cover what `ground` allows, up to the device's limit; it costs what `cost` says of the real line. Among
-all partitions (and all ways to read a register, see `ways`) the cheapest is taken, exactly; of equally cheap ones the
-same at every time. `blocks` is for drivers, `plan` with costs and reasons for people: `regscribe plan` shows it.
+all partitions the cheapest is taken, exactly; of equally cheap ones the same at every time. `blocks` is for drivers,
+`told` adds costs and reasons for people: `regscribe plan` shows them.
 """
 
 from bisect import bisect_right
@@ -13,7 +13,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from regscribe_runtime.planning.address_ranges import AddressRanges, RegisterSpan
-from regscribe_runtime.planning.block_cover import Lane, Want, cover
+from regscribe_runtime.planning.block_cover import Lane, cover
 from regscribe_runtime.planning.cost import BIT_SPACES, Cost, Tariff, milliseconds
 from regscribe_runtime.wire.requests import READ_FUNCTIONS
 
@@ -94,13 +94,9 @@ class Planned(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """The requests of a plan in the order of sending.
-
-    `exact` is False only where so many registers can be read at several places that not all could be tried.
-    """
+    """The requests of a plan in the order of sending."""
 
     requests: tuple[Planned, ...]
-    exact: bool = True
 
     @property
     def wanted(self) -> int:
@@ -127,25 +123,19 @@ class Uncoverable(ValueError):  # noqa: N818 (a fact about an item; callers ask 
     """An item that no request may read."""
 
 
-def blocks(wants: Iterable[Want], terms: Terms) -> tuple[tuple[Block, ...], bool]:
-    """The requests of least total cost that read one item of each want; False beside them if not all was tried.
-
-    Of a want's items the first that is read counts. Raises Uncoverable for a want with an item that cannot be read.
-    """
-    distinct = list(dict.fromkeys(wants))
-    wide = {item: _widened(item, terms.ground) for want in distinct for item in want}
-    lanes = _lanes(wide.values(), terms)
-    found = cover([tuple(wide[item] for item in want) for want in distinct], lanes)
-    return tuple(_filled(found.requests, distinct, wide)), found.exact
+def blocks(items: Iterable[RegisterSpan], terms: Terms) -> tuple[Block, ...]:
+    """The requests of least total cost that read all items; Uncoverable for one that cannot be read."""
+    wide = {item: _widened(item, terms.ground) for item in items}
+    requests = cover(wide.values(), _lanes(wide.values(), terms))
+    return tuple(_filled(requests, wide))
 
 
-def plan(wants: Iterable[Want], terms: Terms) -> Plan:
+def plan(items: Iterable[RegisterSpan], terms: Terms) -> Plan:
     """The same with costs and reasons, for people."""
-    made, exact = blocks(wants, terms)
-    return told(made, terms, exact=exact)
+    return told(blocks(items, terms), terms)
 
 
-def told(made: Sequence[Block], terms: Terms, *, again: int = 0, exact: bool = True) -> Plan:
+def told(made: Sequence[Block], terms: Terms, *, again: int = 0) -> Plan:
     """Requests in the order of sending, each with its cost and why it is not one with the one before it by address.
 
     The last `again` of them are read once more.
@@ -159,7 +149,7 @@ def told(made: Sequence[Block], terms: Terms, *, again: int = 0, exact: bool = T
         ms = milliseconds(terms.cost.tariff(block.space).of(block.quantity))
         reason = Split(SplitReason.AGAIN, "others depend on it, and it on them") if repeated else reasons[block]
         requests.append(Planned(block, _wanted(block.items), taken, ms, reason))
-    return Plan(tuple(requests), exact)
+    return Plan(tuple(requests))
 
 
 GAPS = {"hole": "no registers", "refused": "refused by this unit", "unreadable": "not readable"}
@@ -216,18 +206,12 @@ def _lanes(items: Iterable[RegisterSpan], terms: Terms) -> dict[RegisterSpan, La
     return found
 
 
-def _filled(
-    requests: Sequence[RegisterSpan], wants: Sequence[Want], wide: dict[RegisterSpan, RegisterSpan]
-) -> Iterable[Block]:
+def _filled(requests: Sequence[RegisterSpan], wide: dict[RegisterSpan, RegisterSpan]) -> Iterable[Block]:
     spaces = {request.space for request in requests}
     holders = {space: _Holders([one for one in requests if one.space == space]) for space in spaces}
-    held: dict[RegisterSpan, dict[RegisterSpan, None]] = {request: {} for request in requests}
-    for want in wants:
-        for item in want:
-            holder = holders[item.space].of(wide[item]) if item.space in holders else None
-            if holder:
-                held[holder][item] = None
-                break
+    held: dict[RegisterSpan, list[RegisterSpan]] = {request: [] for request in requests}
+    for item, asked in wide.items():
+        held[holders[item.space].of(asked)].append(item)
     for request, items in held.items():
         yield Block(READ_FUNCTIONS[request.space], request.address, request.words, tuple(sorted(items)))
 
@@ -240,13 +224,13 @@ class _Holders:
         self._starts = [one.address for one in requests]
         self._longest = max(one.words for one in requests)
 
-    def of(self, item: RegisterSpan) -> RegisterSpan | None:
+    def of(self, item: RegisterSpan) -> RegisterSpan:
         place = bisect_right(self._starts, item.address)
         while place and item.address - self._starts[place - 1] < self._longest:
             place -= 1
             if item.end <= self._requests[place].end:
                 return self._requests[place]
-        return None
+        raise Uncoverable(item)  # not reached: `cover` holds each item whole
 
 
 def _wanted(items: Iterable[RegisterSpan]) -> int:

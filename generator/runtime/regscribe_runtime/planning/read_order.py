@@ -8,8 +8,8 @@ import heapq
 from collections.abc import Collection, Mapping
 from typing import NamedTuple
 
-from regscribe_runtime.planning.alternatives import Way
 from regscribe_runtime.planning.plan import Block, Terms, blocks
+from regscribe_runtime.planning.read_places import ReadPlace
 from regscribe_runtime.values.specs import View
 
 
@@ -25,8 +25,7 @@ class ReadOrder(NamedTuple):
     """Blocks in the order of sending, the place of each register in them, and the one where a dependency is checked.
 
     The last `again` blocks are read once more: what goes round in a circle, behind all that depends on it. `atomic`:
-    each value stands in one request with all that it depends on. `exact` is False only where so many registers can be
-    read at several places that not all could be tried.
+    each value stands in one request with all that it depends on.
     """
 
     blocks: tuple[Block, ...]
@@ -34,40 +33,32 @@ class ReadOrder(NamedTuple):
     checks: Mapping[str, WordPosition]
     atomic: bool
     again: int = 0
-    exact: bool = True
 
 
-def lay_out(wanted: Mapping[str, tuple[Way, ...]], needs: Mapping[str, Collection[str]], terms: Terms) -> ReadOrder:
-    """The cheapest blocks for `wanted` (ways by path), ordered by what the meaning of each depends on."""
-    made, exact = blocks([tuple(way.item for way in ways) for ways in wanted.values()], terms)
-    taken = _taken(wanted, made)
+def lay_out(wanted: Mapping[str, ReadPlace], needs: Mapping[str, Collection[str]], terms: Terms) -> ReadOrder:
+    """The cheapest blocks for `wanted` (places by path), ordered by what the meaning of each depends on."""
+    made = blocks((place.span for place in wanted.values()), terms)
+    numbers = {item: number for number, block in enumerate(made) for item in block.items}
+    taken = {path: numbers[place.span] for path, place in wanted.items()}
     relations = [(path, need) for path in taken for need in needs.get(path, ()) if need in taken]
-    edges = {(taken[path][0], taken[need][0]) for path, need in relations}
+    edges = {(taken[path], taken[need]) for path, need in relations}
     order = _in_order(len(made), {edge for edge in edges if edge[0] != edge[1]})
     rank = {number: place for place, number in enumerate(order)}
-    late = {need for path, need in relations if rank[taken[path][0]] > rank[taken[need][0]]}
+    late = {need for path, need in relations if rank[taken[path]] > rank[taken[need]]}
     late |= {need for path, need in relations if path in late}
-    tail, _ = blocks([(taken[path][1].item,) for path in taken if path in late], terms)
+    tail = blocks((wanted[path].span for path in taken if path in late), terms)
     ordered = (*(made[number] for number in order), *tail)
-    places = {path: _place(rank[number], way, ordered) for path, (number, way) in taken.items()}
+    places = {path: _position(rank[number], wanted[path], ordered) for path, number in taken.items()}
     again = {
-        path: _place(number, taken[path][1], ordered)
-        for number, block in enumerate(ordered[len(made) :], len(made))
+        path: _position(number, wanted[path], ordered)
+        for number, block in enumerate(tail, len(made))
         for path in late
-        if taken[path][1].item in block.items
+        if wanted[path].span in block.items
     }
     needed = {need for _, need in relations}
     checks = {path: again.get(path, place) for path, place in places.items() if path in needed}
     atomic = not late and all(first == then for first, then in edges)
-    return ReadOrder(ordered, places, checks, atomic, again=len(tail), exact=exact)
-
-
-def _taken(wanted: Mapping[str, tuple[Way, ...]], made: tuple[Block, ...]) -> dict[str, tuple[int, Way]]:
-    """The block and the way by which each register is read: the first of its ways that is read at all."""
-    numbers = {item: number for number, block in enumerate(made) for item in block.items}
-    return {
-        path: next((numbers[way.item], way) for way in ways if way.item in numbers) for path, ways in wanted.items()
-    }
+    return ReadOrder(ordered, places, checks, atomic, again=len(tail))
 
 
 def _in_order(count: int, edges: Collection[tuple[int, int]]) -> list[int]:
@@ -92,5 +83,5 @@ def _in_order(count: int, edges: Collection[tuple[int, int]]) -> list[int]:
     return order
 
 
-def _place(number: int, way: Way, ordered: tuple[Block, ...]) -> WordPosition:
-    return WordPosition(number, way.view, way.item.address - ordered[number].address)
+def _position(number: int, place: ReadPlace, ordered: tuple[Block, ...]) -> WordPosition:
+    return WordPosition(number, place.view, place.span.address - ordered[number].address)

@@ -1,8 +1,8 @@
-"""The ways to read a register: every place that gives the same value with the same precision.
+"""The places where a register can be read, and the first of them that this unit has.
 
-A driver decodes the preferred view. Another view is as good only if it transmits the same number in the same type:
+A driver decodes the view to prefer. Another view is as good only if it transmits the same number in the same type:
 equal type, length, factor, rounding and clipping; so an integer view never stands in for an IEEE one. Aliases repeat
-the base view, so they count where the base view does. Of what is left, the planner may take the cheapest.
+the base view, so they count where the base view does. The others are for units that lack the first.
 """
 
 from collections.abc import Iterator
@@ -15,25 +15,30 @@ if TYPE_CHECKING:
     from regscribe_runtime.registers.register import Register
 
 
-class Way(NamedTuple):
+class ReadPlace(NamedTuple):
     """One place to read a register at, and the view that decodes it."""
 
     view: View
-    item: RegisterSpan
+    span: RegisterSpan
 
 
-def ways(register: "Register[Any]") -> tuple[Way, ...]:
-    """All ways to read a register, the view to prefer first; at least one."""
+def read_places(register: "Register[Any]") -> tuple[ReadPlace, ...]:
+    """All places to read a register at, the view to prefer first; at least one."""
     preferred = register.read_view()
     if len(register.views) == 1 and not register.aliases:
-        return (_way(preferred, preferred.address(register.at)),)
-    found: dict[RegisterSpan, Way] = {}
+        return (_place(preferred, preferred.address(register.at)),)
+    found: dict[RegisterSpan, ReadPlace] = {}
     for view, address in _from_preferred(register, preferred):
         if view is preferred or same_number(view, preferred):
-            way = _way(view, address)
-            found.setdefault(way.item, way)
-    readable = tuple(way for way in found.values() if way.view.readable)
+            place = _place(view, address)
+            found.setdefault(place.span, place)
+    readable = tuple(place for place in found.values() if place.view.readable)
     return readable or tuple(found.values())[:1]
+
+
+def place_of(register: "Register[Any]", ranges: AddressRanges) -> ReadPlace | None:
+    """The first place that may be read; None if this unit has the register nowhere."""
+    return next((place for place in read_places(register) if ranges.stretch(place.span) is not None), None)
 
 
 def same_number(view: View, other: View) -> bool:
@@ -60,15 +65,10 @@ def same_precision(view: View, other: View) -> bool:
     )
 
 
-def open_ways(register: "Register[Any]", ground: AddressRanges) -> tuple[Way, ...]:
-    """The ways that the ground leaves open: none, if this unit has the register at no place."""
-    return tuple(way for way in ways(register) if ground.stretch(way.item) is not None)
-
-
 def _from_preferred(register: "Register[Any]", preferred: View) -> Iterator[tuple[View, int]]:
     yield preferred, preferred.address(register.at)
     yield from places(register)
 
 
-def _way(view: View, address: int) -> Way:
-    return Way(view, RegisterSpan(view.space, address, view.words))
+def _place(view: View, address: int) -> ReadPlace:
+    return ReadPlace(view, RegisterSpan(view.space, address, view.words))
