@@ -5,7 +5,7 @@ BIN := .venv/bin
 INSTALLED := .venv/.installed
 
 .DEFAULT_GOAL := generate
-.PHONY: generate test test-all test-wire check format bench conformance fuzz mutate sessions lock clean
+.PHONY: generate test test-all test-wire test-versions check format bench conformance fuzz mutate sessions lock clean
 
 generate: $(INSTALLED) ## compile all maps; only what changed is written
 	@$(BIN)/regscribe generate
@@ -19,6 +19,9 @@ test-all: $(INSTALLED) ## run the tests, the slow ones too
 test-wire: $(INSTALLED) ## let clients by others talk to the simulated devices; installs them (Debian packages, npm)
 	$(BIN)/python tests/system/independent_clients/install.py
 	$(BIN)/pytest -q -n 8 -m wire tests/system/independent_clients
+
+test-versions: ## run the tests of runtime and drivers with the oldest and newest pymodbus, on every Python that is here
+	$(PYTHON) tests/repository/versions.py
 
 check: $(INSTALLED) ## lint, types of code and generated drivers, drift of generated files
 	$(BIN)/ruff check

@@ -9,11 +9,13 @@ from typing import Self, Unpack
 from regscribe_runtime import (
     UINT16,
     AsyncBareDevice,
+    AsyncClient,
     AsyncLink,
     AsyncPart,
     BareDevice,
     Bit,
     Choice,
+    ClientSettings,
     Command,
     Conversion,
     Field,
@@ -30,11 +32,14 @@ from regscribe_runtime import (
     ReadWrite,
     SerialSettings,
     SubPart,
+    SyncClient,
     TcpSettings,
     Word,
+    async_client_link,
     async_serial_link,
     async_tcp,
     choice,
+    client_link,
     integer,
     number,
     serial_link,
@@ -264,6 +269,19 @@ class _Series100Device(BareDevice):
         link = serial_link(cls.protocol, port, **line)
         return cls(link, unit=unit, linear_inputs=linear_inputs)
 
+    @classmethod
+    def over(
+        cls,
+        client: SyncClient,
+        *,
+        unit: int,
+        linear_inputs: Collection[int],
+        **settings: Unpack[ClientSettings],
+    ) -> Self:
+        """A driver over a connected pymodbus client, which stays the caller's; see `ClientSettings`."""
+        link = client_link(cls.protocol, client, **settings)
+        return cls(link, unit=unit, linear_inputs=linear_inputs)
+
 
 class _AsyncSeries100Device(AsyncBareDevice):
     """An asyncio driver; its keyword arguments are facts that the manual leaves to another one."""
@@ -295,6 +313,19 @@ class _AsyncSeries100Device(AsyncBareDevice):
     ) -> Self:
         """A driver over a serial line; see `SerialSettings`."""
         link = async_serial_link(cls.protocol, port, **line)
+        return cls(link, unit=unit, linear_inputs=linear_inputs)
+
+    @classmethod
+    def over(
+        cls,
+        client: AsyncClient,
+        *,
+        unit: int,
+        linear_inputs: Collection[int],
+        **settings: Unpack[ClientSettings],
+    ) -> Self:
+        """A driver over a connected pymodbus client, which stays the caller's; see `ClientSettings`."""
+        link = async_client_link(cls.protocol, client, **settings)
         return cls(link, unit=unit, linear_inputs=linear_inputs)
 
 

@@ -11,7 +11,9 @@ from regscribe_runtime.driver.device import (
     Device,
     SerialSettings,
     TcpSettings,
+    async_client_link,
     async_serial_link,
+    client_link,
     serial_link,
 )
 from regscribe_runtime.driver.identify import Identification, identify, identify_async, known_models
@@ -41,7 +43,16 @@ from regscribe_runtime.errors import (
     WriteUnknown,
     WrongAnswer,
 )
-from regscribe_runtime.link.links import AsyncLink, Link, LinkSettings, async_tcp, tcp
+from regscribe_runtime.link.links import (
+    AsyncClient,
+    AsyncLink,
+    ClientSettings,
+    Link,
+    LinkSettings,
+    SyncClient,
+    async_tcp,
+    tcp,
+)
 from regscribe_runtime.link.retry import Retry
 from regscribe_runtime.link.trace import Trace, Tracer
 from regscribe_runtime.operations.session import Latency, Protocol
@@ -114,6 +125,7 @@ __all__ = [
     "Array",
     "AsyncBareDevice",
     "AsyncBus",
+    "AsyncClient",
     "AsyncDevice",
     "AsyncLink",
     "AsyncPart",
@@ -122,6 +134,7 @@ __all__ = [
     "Bus",
     "Change",
     "Choice",
+    "ClientSettings",
     "Command",
     "ConditionNotMet",
     "Conversion",
@@ -174,6 +187,7 @@ __all__ = [
     "Snapshot",
     "SpecialNumber",
     "SubPart",
+    "SyncClient",
     "TcpSettings",
     "Trace",
     "Tracer",
@@ -189,10 +203,12 @@ __all__ = [
     "WriteReport",
     "WriteUnknown",
     "WrongAnswer",
+    "async_client_link",
     "async_serial_link",
     "async_tcp",
     "boolean",
     "choice",
+    "client_link",
     "flags",
     "identify",
     "identify_async",

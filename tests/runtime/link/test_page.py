@@ -13,8 +13,8 @@ from .conftest import serving
 PAGE = (Path(__file__).parents[3] / "docs" / "bus.md").read_text(encoding="utf-8")
 
 
-def test_the_session_of_the_page_runs_as_it_is_shown(units: list[SimulatedDevice]) -> None:
-    (session,) = re.findall(r"^```pycon\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE)
+def test_the_sessions_of_the_page_run_as_they_are_shown(units: list[SimulatedDevice]) -> None:
+    session = "\n".join(re.findall(r"^```pycon\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE))
     with serving(units) as server:
         test = doctest.DocTestParser().get_doctest(session.replace("5020", str(server.port)), {}, "bus", "bus.md", 0)
         assert test.examples

@@ -14,7 +14,16 @@ from regscribe_runtime.driver.device import AsyncBareDevice, BareDevice
 from regscribe_runtime.driver.member import AsyncMember, Member
 from regscribe_runtime.errors import ValueRefused
 from regscribe_runtime.link import links
-from regscribe_runtime.link.links import MODBUS_TCP_PORT, AsyncLink, LineSettings, Link, LinkSettings
+from regscribe_runtime.link.links import (
+    MODBUS_TCP_PORT,
+    AsyncClient,
+    AsyncLink,
+    ClientSettings,
+    LineSettings,
+    Link,
+    LinkSettings,
+    SyncClient,
+)
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.serial_line import Line
 from regscribe_runtime.wire.requests import Request
@@ -107,6 +116,12 @@ class Bus(_Common[BareDevice]):
         gap = settings.setdefault("gap", USUAL_GAP)
         return cls(links.serial(port, baud=baud, **settings), gap=gap)
 
+    @classmethod
+    def over(cls, client: SyncClient, **settings: Unpack[ClientSettings]) -> Self:
+        """A bus over a connected pymodbus client, which stays the caller's; see `ClientSettings`."""
+        gap = settings.setdefault("gap", USUAL_GAP)
+        return cls(links.over(client, **settings), gap=gap)
+
     def device(self, driver: type[S], *, unit: int, **givens: Any) -> S:
         """A driver of a unit of this bus; ValueError if the unit has one already.
 
@@ -179,6 +194,12 @@ class AsyncBus(_Common[AsyncBareDevice]):
         """As `Bus.rtu`."""
         gap = settings.setdefault("gap", USUAL_GAP)
         return cls(links.async_serial(port, baud=baud, **settings), gap=gap)
+
+    @classmethod
+    def over(cls, client: AsyncClient, **settings: Unpack[ClientSettings]) -> Self:
+        """As `Bus.over`, with an asyncio client."""
+        gap = settings.setdefault("gap", USUAL_GAP)
+        return cls(links.async_over(client, **settings), gap=gap)
 
     def device(self, driver: type[A], *, unit: int, **givens: Any) -> A:
         """As `Bus.device`."""

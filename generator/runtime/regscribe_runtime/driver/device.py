@@ -7,7 +7,15 @@ from regscribe_runtime.driver.attributes import _AsyncBound, _Bound
 from regscribe_runtime.driver.executor import run, run_async
 from regscribe_runtime.driver.parts import AsyncPart, Catalogue, Command, Group, Part, SubPart, groups_of
 from regscribe_runtime.link import links
-from regscribe_runtime.link.links import AsyncLink, LineSettings, Link, LinkSettings
+from regscribe_runtime.link.links import (
+    AsyncClient,
+    AsyncLink,
+    ClientSettings,
+    LineSettings,
+    Link,
+    LinkSettings,
+    SyncClient,
+)
 from regscribe_runtime.operations import tasks
 from regscribe_runtime.operations.configure import ConfigureOptions
 from regscribe_runtime.operations.session import Protocol, Session
@@ -154,6 +162,11 @@ class Device(BareDevice):
         """A driver over a serial line; see `SerialSettings`."""
         return cls(serial_link(cls.protocol, port, **line), unit=unit)
 
+    @classmethod
+    def over(cls, client: SyncClient, *, unit: int, **settings: Unpack[ClientSettings]) -> Self:
+        """A driver over a connected pymodbus client, which stays the caller's; see `ClientSettings`."""
+        return cls(client_link(cls.protocol, client, **settings), unit=unit)
+
 
 class AsyncBareDevice(_Common, AsyncPart):
     """An asyncio driver; otherwise as `BareDevice`."""
@@ -219,6 +232,11 @@ class AsyncDevice(AsyncBareDevice):
         """As `Device.rtu`."""
         return cls(async_serial_link(cls.protocol, port, **line), unit=unit)
 
+    @classmethod
+    def over(cls, client: AsyncClient, *, unit: int, **settings: Unpack[ClientSettings]) -> Self:
+        """As `Device.over`, with an asyncio client."""
+        return cls(async_client_link(cls.protocol, client, **settings), unit=unit)
+
 
 def _usual(protocol: Protocol, line: SerialSettings) -> dict[str, Any]:
     usual = Line.of("", protocol.baud, protocol.format)
@@ -235,3 +253,15 @@ def async_serial_link(protocol: Protocol, port: str, **line: Unpack[SerialSettin
     """As `serial_link`, for asyncio."""
     settings: dict[str, Any] = {**_usual(protocol, line), "port": port}
     return links.async_serial(**settings)
+
+
+def client_link(protocol: Protocol, client: SyncClient, **settings: Unpack[ClientSettings]) -> Link:
+    """A link over a client of one's own, with the silence between frames that the manual asks for."""
+    settings.setdefault("gap", protocol.gap)
+    return links.over(client, **settings)
+
+
+def async_client_link(protocol: Protocol, client: AsyncClient, **settings: Unpack[ClientSettings]) -> AsyncLink:
+    """As `client_link`, for asyncio."""
+    settings.setdefault("gap", protocol.gap)
+    return links.async_over(client, **settings)

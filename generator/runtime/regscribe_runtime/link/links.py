@@ -40,6 +40,33 @@ class LineSettings(LinkSettings, total=False):
     stop_bits: int
 
 
+class ClientSettings(TypedDict, total=False):
+    """How to talk over a pymodbus client of one's own: `addressing`, `retry` and `gap` as in `LinkSettings`.
+
+    Framing, timeout, speed and echo are the client's.
+    """
+
+    addressing: str
+    retry: Retry | None
+    gap: float
+
+
+class SyncClient(Protocol):
+    """A client of pymodbus for threads, connected: `ModbusTcpClient`, `ModbusSerialClient`, ..."""
+
+    def connect(self) -> bool:
+        """Connect; a driver never does."""
+        raise NotImplementedError
+
+
+class AsyncClient(Protocol):
+    """A client of pymodbus for asyncio, connected: `AsyncModbusTcpClient`, `AsyncModbusSerialClient`, ..."""
+
+    async def connect(self) -> bool:
+        """Connect; a driver never does."""
+        raise NotImplementedError
+
+
 class Link(Protocol):
     """A synchronous link, for any number of threads.
 
@@ -182,3 +209,17 @@ def async_serial(port: str, *, baud: int, **settings: Unpack[LineSettings]) -> A
     from regscribe_runtime.link import transports  # noqa: PLC0415 (as above)
 
     return transports.AsyncTransport(_line(port, baud, settings), **_serial_settings(settings))
+
+
+def over(client: SyncClient, **settings: Unpack[ClientSettings]) -> Link:
+    """A link over a client of one's own; see `ClientSettings`. TypeError for another kind of client."""
+    from regscribe_runtime.link import clients  # noqa: PLC0415 (as above)
+
+    return clients.ClientLink(client, **settings)
+
+
+def async_over(client: AsyncClient, **settings: Unpack[ClientSettings]) -> AsyncLink:
+    """As `over`, for asyncio."""
+    from regscribe_runtime.link import clients  # noqa: PLC0415 (as above)
+
+    return clients.AsyncClientLink(client, **settings)
