@@ -86,9 +86,9 @@ def duels(subject: Subject, cost: Cost, gaps: Sequence[int] = GAPS) -> Iterator[
     terms = subject.terms(cost)
     known = [subject.places(path)[0].span for path in subject.readable]
     for what, paths in sets(subject):
-        ways = [tuple(way.item for way in subject.ways(path)) for path in paths]
-        made, _ = blocks(ways, terms)
-        task = Task.of([one[0] for one in ways], known, terms)
+        wanted = [subject.places(path)[0].span for path in paths]
+        made = blocks(wanted, terms)
+        task = Task.of(wanted, known, terms)
         ours = sum(terms.cost.tariff(block.space).of(block.quantity) for block in made)
         fixed = tuple(task.cost(fixed_gap(task, gap)) for gap in gaps)
         yield Duel(what, ours, fixed, {name: task.cost(mode(task)) for name, mode in MODES.items()})
