@@ -6,7 +6,7 @@ object or a module. One that is broken is told by its name: whatever it raises b
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib.metadata import EntryPoint, entry_points
 from typing import Protocol, cast
@@ -72,13 +72,6 @@ class Importer(Protocol):
 def names(group: str) -> tuple[str, ...]:
     """The names of all plug-ins of a group, broken ones too, sorted. Raises PluginError."""
     return tuple(sorted({one.name for one in _found(group)}))
-
-
-def versions() -> Iterator[str]:
-    """Each plug-in with its distribution and the version of that, in a fixed order."""
-    with suppress(PluginError):  # told where a plug-in is asked for
-        for group, kind in KINDS.items():
-            yield from sorted(f"{kind} {one.name} {one.value} {_owner(one)}" for one in _found(group))
 
 
 def exporter(name: str) -> Exporter:

@@ -85,7 +85,7 @@ class Cache:
 def load(out: Path, more: Iterable[tuple[str, bytes]] = ()) -> Cache:
     """Return the record of the last run into `out`; an empty one if there is none as this generator wrote it.
 
-    `more` are names and contents of what decides about the texts besides the generator: templates and plug-ins.
+    `more` are names and contents of what decides about the texts besides the generator: templates.
     """
     empty = Cache(out, fingerprint(more))
     try:

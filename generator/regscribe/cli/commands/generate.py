@@ -1,14 +1,13 @@
 """`regscribe generate`: compile maps to drivers, docs, vectors and tests."""
 
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import perf_counter
 
 import click
 
-from regscribe import plugins
 from regscribe.cli.shared.diagnostic_text import count, findings, tally
 from regscribe.cli.shared.map_by_id import find_maps
 from regscribe.cli.shared.terminal import show, tell, warn
@@ -59,7 +58,7 @@ def command(*, maps: tuple[str, ...], check: bool, out: Path, folder: Path | Non
     started = perf_counter()
     paths = find_maps(maps)
     templates = _templates(folder)
-    known = build_cache.Cache(out, "") if check else build_cache.load(out, _ingredients(templates))
+    known = build_cache.Cache(out, "") if check else build_cache.load(out, templates.contents() if templates else ())
     try:
         build = _build(paths, known, templates)
     except WriteError as error:
@@ -85,13 +84,6 @@ def _templates(folder: Path | None) -> Templates | None:
         message = f"--templates {folder}: there is no template (*.j2) in this folder"
         raise click.UsageError(message)
     return templates
-
-
-def _ingredients(templates: Templates | None) -> Iterator[tuple[str, bytes]]:
-    """Yield what decides about the texts besides the generator: plug-ins and templates."""
-    yield from ((version, b"") for version in plugins.versions())
-    if templates:
-        yield from templates.contents()
 
 
 def _build(paths: Iterable[Path], known: build_cache.Cache, templates: Templates | None) -> Build:
