@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+from regscribe.emit import python
 from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map
 from regscribe.simulate import simulate
@@ -101,3 +102,20 @@ identify:
   - {text: {product_code: X1}, models: [X1]}
   - {text: {product_code: X3}, models: [X4]}
 """
+
+
+def test_drivers_of_a_package_that_declares_them_are_known(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    register_map = compile_map(MAPS / "fdc" / "series-100.yaml").map
+    assert register_map is not None
+    (module,) = python.render(register_map).values()
+    (tmp_path / "kiln_drivers").mkdir()
+    (tmp_path / "kiln_drivers" / "__init__.py").write_text(module.replace('"fdc/series-100"', '"kiln/other"'))
+    about = tmp_path / "kiln_drivers-1.0.dist-info"
+    about.mkdir()
+    (about / "METADATA").write_text("Metadata-Version: 2.1\nName: kiln-drivers\nVersion: 1.0\n")
+    (about / "entry_points.txt").write_text("[regscribe.drivers]\nkilns = kiln_drivers\n")
+    monkeypatch.syspath_prepend(tmp_path)
+
+    known = {(one.map_id, one.model) for one in known_models()}
+
+    assert {("kiln/other", "C21"), ("fdc/series-100", "C21"), ("athena/series-c", "16C")} <= known

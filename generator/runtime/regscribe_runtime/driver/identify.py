@@ -3,6 +3,8 @@
 import importlib
 import pkgutil
 from collections.abc import Iterable, Iterator
+from importlib.metadata import entry_points
+from importlib.util import find_spec
 from types import ModuleType
 from typing import Any, NamedTuple
 
@@ -15,6 +17,11 @@ from regscribe_runtime.registers import codec
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.specs import View
 from regscribe_runtime.wire.requests import READ_FUNCTIONS, Request, verify
+
+DRIVERS = "regscribe.drivers"
+"""The group of entry points by which a package says that it holds generated drivers."""
+SHIPPED = "regscribe_devices"
+"""The package of the drivers that come with regscribe, and of those that `regscribe generate` writes."""
 
 
 class Known(NamedTuple):
@@ -50,14 +57,21 @@ class Identification(NamedTuple):
 
 
 def known_models(*packages: ModuleType) -> tuple[Known, ...]:
-    """The models of generated packages (by default those of `regscribe_devices`) that have identity facts."""
+    """The models of generated packages (by default of all that are installed) that have identity facts."""
     found = {}
-    for module in _modules(packages or (importlib.import_module("regscribe_devices"),)):
+    for module in _modules(packages or _installed()):
         for value in list(vars(module).values()):
             if isinstance(value, type) and issubclass(value, BareDevice) and value.identity:
                 partner = getattr(module, f"Async{value.__name__}")
                 found[value.map_id, value.model] = Known(value.map_id, value.model, value, partner)
     return tuple(found[key] for key in sorted(found))
+
+
+def _installed() -> tuple[ModuleType, ...]:
+    """`regscribe_devices`, if it is there, and what distributions declare as entry points of the group DRIVERS."""
+    declared = {point.module for point in entry_points(group=DRIVERS)}
+    names = sorted(declared | ({SHIPPED} if find_spec(SHIPPED) else set()))
+    return tuple(map(importlib.import_module, names))
 
 
 def _modules(packages: Iterable[ModuleType]) -> Iterator[ModuleType]:
