@@ -5,9 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from difflib import get_close_matches
-from typing import Any
-
-from jsonschema import ValidationError
+from typing import TYPE_CHECKING, Any
 
 from regscribe.schema.rules import (
     EXCLUSIVE_KEYS,
@@ -19,6 +17,9 @@ from regscribe.schema.rules import (
     WRONG_TYPE,
 )
 from regscribe.schema.wording import describe, example, title
+
+if TYPE_CHECKING:
+    from jsonschema import ValidationError
 
 _TYPES = {
     "string": "a text",
@@ -69,7 +70,7 @@ class Violation:
     instance: Any
 
 
-def violation(error: ValidationError) -> Violation:
+def violation(error: "ValidationError") -> Violation:
     """Take over what is needed of an error; its own message shows the instance, so it is not."""
     schema = error.schema if isinstance(error.schema, dict) else {}
     return Violation(str(error.validator), tuple(error.absolute_path), schema, error.validator_value, error.instance)

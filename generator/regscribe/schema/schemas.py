@@ -1,16 +1,16 @@
 """The JSON Schemas of the files that people write: where they lie, and the validators, each built once."""
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from pathlib import Path
-from typing import Any
-
-from jsonschema import Draft202012Validator, ValidationError
-from jsonschema.protocols import Validator
-from jsonschema.validators import extend
+from typing import TYPE_CHECKING, Any
 
 import regscribe
+
+if TYPE_CHECKING:
+    from jsonschema import ValidationError
+    from jsonschema.protocols import Validator
 
 MAP = "map"
 """The language of maps; `schema/map.schema.json`."""
@@ -34,8 +34,11 @@ def schema_json(language: str = MAP) -> dict[str, Any]:
 
 
 @cache
-def validator(language: str = MAP) -> Validator:
+def validator(language: str = MAP) -> "Validator":
     """Return the validator of a language, built at the first call."""
+    from jsonschema import Draft202012Validator  # noqa: PLC0415 - 60 ms that a document without mistakes does not need
+    from jsonschema.validators import extend  # noqa: PLC0415 - as above
+
     schema = schema_json(language)
     checks: type[Validator] = extend(  # type: ignore[no-untyped-call]  # types-jsonschema leaves it untyped
         Draft202012Validator, {"uniqueItems": _unique_items}
@@ -55,15 +58,15 @@ def _inline(node: Any, definitions: Mapping[str, Any], done: dict[tuple[int, str
         return node
     if (id(node), title) not in done:
         done[id(node), title] = copy = {}
-        merged = ({"title": title} if title else {}) | _resolve(node, definitions)
+        merged = ({"title": title} if title else {}) | resolved(node, definitions)
         for key, value in merged.items():
-            exact = key == "pattern" and isinstance(value, str)
+            is_pattern = key == "pattern" and isinstance(value, str)
             around = merged.get("title", "") if key in _BRANCHES else ""
-            copy[_exact(key)] = _exact(value) if exact else _inline(value, definitions, done, around)
+            copy[exact(key)] = exact(value) if is_pattern else _inline(value, definitions, done, around)
     return done[id(node), title]
 
 
-def _resolve(node: Mapping[str, Any], definitions: Mapping[str, Any]) -> dict[str, Any]:
+def resolved(node: Mapping[str, Any], definitions: Mapping[str, Any]) -> dict[str, Any]:
     """Lay a schema's own keywords over those of the definition that it refers to, if it does."""
     own = {key: value for key, value in node.items() if key not in {"$ref", "$defs"}}
     if "$ref" not in node:
@@ -71,17 +74,23 @@ def _resolve(node: Mapping[str, Any], definitions: Mapping[str, Any]) -> dict[st
     target: Any = {"$defs": definitions}
     for step in node["$ref"].removeprefix("#/").split("/"):
         target = target[step]
-    return _resolve(target, definitions) | own
+    return resolved(target, definitions) | own
 
 
-def _exact(pattern: str) -> str:
+def exact(pattern: str) -> str:
     r"""Let a pattern's `$` mean the end, as in ECMA 262; in Python it also stands before a last line feed."""
     return f"{pattern[:-1]}\\Z" if pattern.startswith("^") and pattern.endswith("$") else pattern
 
 
-def _unique_items(_: Validator, unique: Any, instance: Any, __: Any) -> Iterator[ValidationError]:  # noqa: ANN401  JSON
+def _unique_items(_: "Validator", unique: Any, instance: Any, __: Any) -> "Iterator[ValidationError]":  # noqa: ANN401  JSON
     """Find an element given twice, in linear time (jsonschema compares each with each where types differ)."""
-    if unique and isinstance(instance, list):
-        scalars = [(type(element), element) for element in instance if not isinstance(element, list | dict)]
-        if len(set(scalars)) < len(scalars):
-            yield ValidationError("an element is given twice")
+    from jsonschema import ValidationError  # noqa: PLC0415 - as above
+
+    if unique and isinstance(instance, list) and given_twice(instance):
+        yield ValidationError("an element is given twice")
+
+
+def given_twice(elements: Sequence[Any]) -> bool:
+    """Whether a list has an element twice; lists and mappings in it are not compared."""
+    scalars = [(type(element), element) for element in elements if not isinstance(element, list | dict)]
+    return len(set(scalars)) < len(scalars)
