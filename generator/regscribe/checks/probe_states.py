@@ -34,9 +34,9 @@ class Verdict:
 def verdict(conditions: tuple[Condition, ...], scope: RuleScope) -> Verdict:
     """Judge conditions in order; the answer is kept in the scope, since many registers share their cases."""
     key = ("verdict", conditions)
-    if key not in scope.memo:
-        scope.memo[key] = _judge(conditions, scope)
-    found = scope.memo[key]
+    found = scope.memo.get(key)
+    if found is None:
+        found = scope.memo[key] = _judge(conditions, scope)
     if not isinstance(found, Verdict):  # pragma: no cover (the key names what is kept)
         raise TypeError
     return found

@@ -57,10 +57,9 @@ def _without_faults(register: Register, stretches: tuple[CodeRange, ...]) -> tup
     every = forms(register)
     if len(every) != 1 or any(view.factor != 1 or view.type.is_float for view in register.views):
         return stretches
-    ((conversion, factor, _),) = every
-    step = abs(conversion.multiply) / factor
+    step = 1 / abs(every[0].gain)
     for stored in register.faults:
-        value = (conversion.multiply * stored + conversion.add) / factor
+        value = every[0].used(stored)
         stretches = tuple(part for stretch in stretches for part in _cut(stretch, value, step))
     return stretches
 

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from enum import Enum
 from fractions import Fraction
+from functools import cache
 from typing import NamedTuple
 
 from regscribe.model import IDENTITY, Conversion, Decimals, Number, Range, Register, Special, View, show
@@ -23,23 +24,36 @@ class Fit(Enum):
 def factors(decimals: Decimals | None) -> tuple[Fraction, ...]:
     """Every factor that a decimals register can mean: 1, 10, 100 ..."""
     if decimals is None:
-        return (Fraction(1),)
-    most = MOST_DECIMALS if decimals.at_most is None else decimals.at_most
+        return _powers(0)
+    return _powers(MOST_DECIMALS if decimals.at_most is None else decimals.at_most)
+
+
+@cache
+def _powers(most: int) -> tuple[Fraction, ...]:
     return tuple(Fraction(10) ** digits for digits in range(most + 1))
 
 
 class Form(NamedTuple):
-    """One conversion with the decimals settled; `plain` is the identity, which most registers have."""
+    """One conversion with the decimals settled: stored = value of use x `gain` - `offset`."""
 
     conversion: Conversion
     factor: Fraction
-    plain: bool = False
+    gain: Fraction
+    offset: Fraction
+
+    @classmethod
+    def of(cls, conversion: Conversion, factor: Fraction) -> "Form":
+        """Divide once, not for each value."""
+        return cls(conversion, factor, factor / conversion.multiply, conversion.add / conversion.multiply)
 
     def stored(self, value: Fraction) -> Fraction:
         """The stored number of a value of use."""
-        if self.plain:
-            return value
-        return (value * self.factor - self.conversion.add) / self.conversion.multiply
+        scaled = value if self.gain == 1 else value * self.gain
+        return scaled - self.offset if self.offset else scaled
+
+    def used(self, stored: Fraction | int) -> Fraction:
+        """The value of use of a stored number."""
+        return (stored + self.offset if self.offset else stored) / self.gain
 
     def too_fine(self, stored: Fraction) -> bool:
         """Whether a stored number lies between two steps, whatever a register says of them."""
@@ -47,15 +61,15 @@ class Form(NamedTuple):
         return step is not None and bool(stored % (step / factors(self.conversion.places)[-1]))
 
 
-PLAIN = (Form(IDENTITY, Fraction(1), plain=True),)
+PLAIN = (Form.of(IDENTITY, Fraction(1)),)
 
 
 def forms(register: Register) -> tuple[Form, ...]:
     """All conversions of a register that can be inverted."""
-    if len(register.scale) == 1 and register.scale[0].then == IDENTITY:
+    if len(register.scale) == 1 and (register.scale[0].then is IDENTITY or register.scale[0].then == IDENTITY):
         return PLAIN
     return tuple(
-        Form(case.then, factor)
+        Form.of(case.then, factor)
         for case in register.scale
         if case.then.multiply
         for factor in factors(case.then.decimals)
@@ -67,7 +81,11 @@ def fit(form: Form, view: View, value: Fraction) -> Fit:
     stored = form.stored(value)
     wire = stored if view.factor == 1 else stored * view.factor
     lowest, highest = view.type.minimum + view.saturates, view.type.maximum - view.saturates
-    fits = lowest <= wire <= highest if view.type.is_integer else _spelled(view, wire) is not None
+    fits = (
+        lowest * wire.denominator <= wire.numerator <= highest * wire.denominator
+        if view.type.is_integer
+        else _spelled(view, wire) is not None
+    )
     if not fits:
         return Fit.TOO_LARGE
     if form.too_fine(stored) or (view.type.is_integer and wire.denominator != 1):
@@ -91,10 +109,14 @@ def tells_apart(register: Register, value: Fraction) -> bool:
     )
 
 
-def best_fit(register: Register, values: tuple[Fraction, ...]) -> Fit:
-    """The best that any of `values` does in any view under any conversion; EXACT where nothing can be inverted."""
+def best_fit(register: Register, values: tuple[Fraction, ...], every: tuple[Form, ...] | None = None) -> Fit:
+    """The best that any of `values` does in any view under any conversion; EXACT where nothing can be inverted.
+
+    `every` are the register's forms, for a caller with more than one question.
+    """
     found = Fit.TOO_LARGE
-    for form in (every := forms(register)):
+    every = forms(register) if every is None else every
+    for form in every:
         for view in register.views:
             for value in values:
                 now = fit(form, view, value)
@@ -131,7 +153,7 @@ def widest(register: Register) -> tuple[Fraction, Fraction] | None:
     if not every or not all(view.type.is_integer for view in register.views):
         return None
     ends = [
-        (form.conversion.multiply * wire / view.factor + form.conversion.add) / form.factor
+        form.used(wire if view.factor == 1 else wire / view.factor)
         for form in every
         for view in register.views
         if view.factor

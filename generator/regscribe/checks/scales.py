@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from fractions import Fraction
+from itertools import islice
 
 from regscribe.checks.held_values import too_fine, wrong_sort
 from regscribe.checks.representable import Fit, Form, best_fit, end_values, forms, listed, numbers
@@ -29,7 +30,7 @@ def scale_of_zero(register: Register, _: RuleScope) -> Iterator[Finding]:
 def beyond_a_float(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Look for two stored numbers that are two floats, under every scale."""
     for form in forms(register) if register.kind in {Kind.NUMBER, Kind.INTEGER, Kind.RAW} else ():
-        if len({_as_float(form, stored) for stored in (*_ends(register), 0, 1)} - {None}) <= 1:
+        if not _differ(_as_float(form, stored) for stored in (*_ends(register), 0, 1)):
             message = "has a scale that makes one float of all its numbers, or more than a float can hold"
             yield Finding.at(register, message, "correct `multiply` and `add`, or `from` and `to`")
             return
@@ -39,9 +40,15 @@ def _ends(register: Register) -> tuple[int, int]:
     return (register.base.type.minimum, register.base.type.maximum) if register.base.type.is_integer else (-1, 1)
 
 
+def _differ(found: Iterator[float | None]) -> bool:
+    """Whether two of them are different numbers; the ends come first, and mostly are."""
+    known = [one for one in islice(found, 2) if one is not None]
+    return len({*known}) > 1 or len({*known, *found} - {None}) > 1
+
+
 def _as_float(form: Form, stored: int) -> float | None:
     try:
-        return float((form.conversion.multiply * stored + form.conversion.add) / form.factor)
+        return float(form.used(stored))
     except OverflowError:
         return None
 
@@ -60,8 +67,10 @@ def between_steps(register: Register, _scope: RuleScope) -> Iterator[Finding]:
         for _, value in register.beginnings
         if isinstance(value, Fraction) and not wrong_sort(register, value) and too_fine(register, value)
     ]
+    every = forms(register) if register.range else ()
     for case in register.range:
-        fine += [n for n in numbers(case.then) if best_fit(register, end_values(case.then, n)) is Fit.TOO_FINE]
+        ends = [(number, end_values(case.then, number)) for number in numbers(case.then)]
+        fine += [number for number, values in ends if best_fit(register, values, every) is Fit.TOO_FINE]
     if fine:
         message = f"has default or limits that its words cannot spell exactly: {listed(list(dict.fromkeys(fine)))}"
         yield Finding.at(register, message, "correct the number, the scale or the decimals")

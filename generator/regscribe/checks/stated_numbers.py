@@ -183,9 +183,11 @@ def _end(number: Fraction | None) -> str:
 )
 def limit_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Try each numeric limit; ranges that fit nowhere are RS0425's."""
+    every = forms(register) if register.range else ()
     for case in register.range:
-        outside = [n for n in numbers(case.then) if best_fit(register, end_values(case.then, n)) is Fit.TOO_LARGE]
-        if outside and _reachable(register, case.then):
+        ends = [(number, end_values(case.then, number)) for number in numbers(case.then)]
+        outside = [number for number, values in ends if best_fit(register, values, every) is Fit.TOO_LARGE]
+        if outside and _reachable(widest(register), case.then):
             message = f"has limits {listed(outside)}, outside {ends_of(register)} as scaled"
             yield Finding.at(register, message, HELP_TYPE)
 
@@ -195,8 +197,9 @@ def limit_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
 )
 def range_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare each range as a whole with what type and scale reach."""
+    reach = widest(register) if register.range else None
     for case in register.range:
-        if case.then.intervals and not _reachable(register, case.then):
+        if case.then.intervals and not _reachable(reach, case.then):
             found = listed(list(numbers(case.then)))
             message = f"has a range ({found}) that lies wholly outside {ends_of(register)} as scaled"
             yield Finding.at(register, message, HELP_TYPE)
@@ -208,6 +211,8 @@ def range_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
 def _only_faults(register: Register, one: Range) -> bool:
     """Whether whatever the base view spells within a range is a fault, under every scale."""
     faults = {number * register.base.factor for number in register.faults}
+    if not faults:
+        return False
     spelled = [_spelled(register, form, one, interval) for form in forms(register) for interval in one.intervals]
     return all(
         numbers is not None and 0 < numbers.stop - numbers.start <= len(faults) and faults.issuperset(numbers)
@@ -226,9 +231,8 @@ def _spelled(register: Register, form: Form, one: Range, interval: Interval) -> 
     return range(ceil(min(wire)), floor(max(wire)) + 1)
 
 
-def _reachable(register: Register, one: Range) -> bool:
+def _reachable(reach: tuple[Fraction, Fraction] | None, one: Range) -> bool:
     """Whether any value of the range lies where type and scale reach; limits that are no numbers are no limits."""
-    reach = widest(register)
     if reach is None:
         return True
     for interval in one.intervals:
