@@ -3,7 +3,9 @@
 A phase reports all its errors; the next one runs only if there are none. Warnings stop nothing.
 """
 
-from collections.abc import Iterable
+import gc
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -35,13 +37,26 @@ _COMPILED: dict[Path, Compiled] = {}
 
 def compile_map(path: Path) -> Compiled:
     """Read, validate, compose, lower and check the map at `path`; what is wrong is in the diagnostics."""
-    document, found = source.load(path)
-    if document is None or has_errors(found):
-        return Compiled(path, None, _ordered(found))
-    compiled = _compile(document, path, found)
+    with _undisturbed():
+        document, found = source.load(path)
+        if document is None or has_errors(found):
+            return Compiled(path, None, _ordered(found))
+        compiled = _compile(document, path, found)
     if compiled.map is not None and (path in _COMPILED or len(_COMPILED) < _KEPT):
         _COMPILED[path] = compiled
     return compiled
+
+
+@contextmanager
+def _undisturbed() -> Iterator[None]:
+    """Let no search for cycles walk the growing trees again and again: they have none, and nearly all of them stays."""
+    searching = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if searching:
+            gc.enable()
 
 
 def _compile(document: Document, path: Path, found: list[Diagnostic]) -> Compiled:

@@ -43,6 +43,8 @@ def scale_of(entry: TreeNode, wire: WireType, scope: Scope) -> tuple[Scaling, ..
 
 
 def _linear(multiply: Value | None, add: Value | None) -> Conversion:
+    if multiply is None and add is None:
+        return IDENTITY
     return Conversion(multiply.number() if multiply else Fraction(1), add.number() if add else Fraction(0))
 
 
