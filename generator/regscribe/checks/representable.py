@@ -44,7 +44,8 @@ class Form(NamedTuple):
     @classmethod
     def of(cls, conversion: Conversion, factor: Fraction) -> "Form":
         """Divide once, not for each value."""
-        return cls(conversion, factor, factor / conversion.multiply, conversion.add / conversion.multiply)
+        offset = conversion.add / conversion.multiply if conversion.add else conversion.add
+        return cls(conversion, factor, factor / conversion.multiply, offset)
 
     def stored(self, value: Fraction) -> Fraction:
         """The stored number of a value of use."""

@@ -54,7 +54,9 @@ def _contrary(test: Test, other: Test) -> bool:
 
 def _named(node: Value, scope: Scope) -> Condition:
     found = scope.named(node, "conditions", rule=UNKNOWN_CONDITION, what="condition")
-    return Condition(condition(found, scope).tests if found and found.is_mapping else (), name=node.text())
+    if found is None or not found.is_mapping:
+        return Condition((), name=node.text())
+    return scope.once(found.path, lambda: Condition(condition(found, scope).tests, name=node.text()))
 
 
 def _tests(key: str, matcher: Value, scope: Scope) -> list[Test]:

@@ -57,7 +57,7 @@ def _scale(node: Value, wire: WireType, scope: Scope) -> tuple[Scaling, ...]:
 
 def scale_at(node: Value, wire: WireType, scope: Scope) -> tuple[Scaling, ...]:
     """The cases of the scale that stands at `node`, for raw codes of the type `wire`."""
-    return tuple(_case(case, wire, scope) for case in node.elements())
+    return scope.once((node.path, wire), lambda: tuple(_case(case, wire, scope) for case in node.elements()))
 
 
 def _case(node: Value, wire: WireType, scope: Scope) -> Scaling:
@@ -102,7 +102,7 @@ def decimals_rule(node: Value, scope: Scope) -> Cases[Conversion]:
 
 def rule_at(rule: Value, scope: Scope) -> Cases[Conversion]:
     """The cases of the decimals rule that stands at `rule`; where none of its own holds, the identity."""
-    cases = tuple(_decimals_case(node, scope) for node in rule.elements())
+    cases = scope.once(rule.path, lambda: tuple(_decimals_case(node, scope) for node in rule.elements()))
     return cases if any(case.when.always for case in cases) else (*cases, Case(ALWAYS, IDENTITY))
 
 

@@ -1,6 +1,8 @@
 """What the names in a map mean on one model, seen from one register."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from typing import TypeVar, cast
 
 from regscribe.lower.names import unknown
 from regscribe.lower.node import Value
@@ -9,6 +11,8 @@ from regscribe.lower.rules import OTHER_MODELS, UNKNOWN_REGISTER
 from regscribe.lower.tree import TreeNode
 from regscribe.model import Enum, Related
 from regscribe.model.identifiers import opened
+
+Made = TypeVar("Made")
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +34,7 @@ class Scope:
     lenient: bool = False
     folded: bool = False
     enums: dict[str, Enum] = field(default_factory=dict)
+    known: dict[object, object] = field(default_factory=dict)
 
     @property
     def prefixes(self) -> tuple[str, ...]:
@@ -39,6 +44,13 @@ class Scope:
     def at(self, entry: TreeNode) -> "Scope":
         """The same scope, seen from a register."""
         return replace(self, viewer=entry)
+
+    def once(self, key: object, make: Callable[[], Made]) -> Made:
+        """What a thing of the map's tables, named by `key`, means here: the same to all registers of an element."""
+        seen_from = (key, self.prefixes, self.lenient, self.folded)
+        if seen_from not in self.known:
+            self.known[seen_from] = make()
+        return cast("Made", self.known[seen_from])
 
     def find(self, name: str) -> TreeNode | None:
         """The register of this name on this model, None if there is none."""

@@ -32,7 +32,7 @@ def unit_of(node: Value | None, scope: Scope) -> tuple[Cases[str], str]:
 
 def cases_at(node: Value, scope: Scope) -> Cases[str]:
     """The cases of the unit that stands at `node`."""
-    return tuple(_case(case, scope) for case in node.elements())
+    return scope.once(node.path, lambda: tuple(_case(case, scope) for case in node.elements()))
 
 
 def _case(node: Value, scope: Scope) -> Case[str]:
@@ -41,8 +41,8 @@ def _case(node: Value, scope: Scope) -> Case[str]:
 
 
 def _symbol(node: Value, scope: Scope, *, cases: bool = True) -> str:
-    own = own_symbols(scope.map)
-    if node.text() and node.text() not in {*KNOWN, *own}:
+    own = own_symbols(scope.map) if node.text() not in KNOWN else ()
+    if node.text() and node.text() not in (*KNOWN, *own):
         by_case = [name for name, each in items_of(scope.map, "units") if each.is_list] if cases else []
         unknown(node, UNKNOWN_UNIT, "unit", node.text(), [*by_case, *own, *KNOWN])
     return node.text()
