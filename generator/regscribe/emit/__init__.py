@@ -22,11 +22,15 @@ class Emitter(Protocol):
         ...
 
 
+def load_emitters() -> dict[str, Emitter]:
+    """Import what renders maps, by name."""
+    return {name: cast("Emitter", import_module(package)) for name, package in EMITTERS.items()}
+
+
 def render(register_map: RegisterMap) -> dict[str, str]:
     """Return all files of a map by path, relative to the output directory. ValueError if two emitters share a path."""
     files: dict[str, str] = {}
-    for name, package in EMITTERS.items():
-        emitter = cast("Emitter", import_module(package))
+    for name, emitter in load_emitters().items():
         rendered = emitter.render(register_map)
         if shared := files.keys() & rendered.keys():
             message = f"the emitter {name} renders {', '.join(sorted(shared))}, as another emitter does"

@@ -8,8 +8,8 @@ from functools import cache
 from typing import Any
 
 from regscribe.schema.keywords import KEYWORDS
-from regscribe.schema.schemas import MAP, resolved, schema_json
 from regscribe.schema.parts import Check, Schema, all_of
+from regscribe.schema.schemas import MAP, resolved, schema_json
 from regscribe.source import Plain
 
 _ANNOTATIONS = frozenset({"$schema", "$id", "title", "description", "default", "examples"})

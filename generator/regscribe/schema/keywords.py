@@ -11,8 +11,8 @@ from types import NoneType
 from typing import Any
 
 from regscribe.schema import parts
-from regscribe.schema.schemas import exact, given_twice
 from regscribe.schema.parts import Check, Part, Schema
+from regscribe.schema.schemas import exact, given_twice
 from regscribe.source import Plain
 
 TYPES: dict[str, set[type]] = {

@@ -1,7 +1,7 @@
 """`regscribe generate`: compile maps to drivers, docs, vectors and tests."""
 
 import sys
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import perf_counter
@@ -9,13 +9,14 @@ from time import perf_counter
 import click
 
 from regscribe.cli.shared.diagnostic_text import count, findings, tally
+from regscribe.cli.shared.making import Made, make_all
 from regscribe.cli.shared.map_by_id import find_maps
 from regscribe.cli.shared.terminal import show, tell, warn
-from regscribe.emit import build_cache, docs_index, render
-from regscribe.emit.build_cache import BuildRecord, Counts
+from regscribe.emit import build_cache
+from regscribe.emit.build_cache import BuildRecord
 from regscribe.emit.templates import Templates
-from regscribe.emit.write import Report, WriteError, origin_of, with_package_files, write
-from regscribe.model import Diagnostic, RegisterMap
+from regscribe.emit.write import Report, WriteError, origin_of, write
+from regscribe.model import Diagnostic
 from regscribe.visible import safe_lines
 
 
@@ -29,6 +30,17 @@ class Build:
     diagnostics: list[Diagnostic] = field(default_factory=list)
     noisy: set[Path] = field(default_factory=set)
     failed: bool = False
+
+    def take(self, made: Made) -> None:
+        """Add what became of one map."""
+        self.diagnostics += made.diagnostics
+        if made.entry is None:
+            self.failed = True
+            return
+        self.rendered |= made.files
+        self.entries[made.path] = made.entry
+        if made.diagnostics:
+            self.noisy.add(made.path)
 
 
 @click.command(
@@ -86,45 +98,17 @@ def _templates(folder: Path | None) -> Templates | None:
     return templates
 
 
-def _build(paths: Iterable[Path], known: build_cache.Cache, templates: Templates | None) -> Build:
+def _build(paths: Sequence[Path], known: build_cache.Cache, templates: Templates | None) -> Build:
     """Compile and render every map that `known` does not show to be unchanged."""
+    entries = {path: known.unchanged(path) for path in paths}
     build = Build(templates)
-    for path in paths:
-        entry = known.unchanged(path)
+    made = make_all([path for path, entry in entries.items() if entry is None], templates)
+    for path, entry in entries.items():
         if entry is None:
-            _compile(path, build)
+            build.take(next(made))
         else:
             build.entries[path] = entry
     return build
-
-
-def _compile(path: Path, build: Build) -> None:
-    from regscribe.evidence.index_row import card  # noqa: PLC0415 - a build without change needs neither
-    from regscribe.pipeline import compile_map  # noqa: PLC0415 - 150 ms that a build without change does not need
-
-    compiled = compile_map(path)
-    build.diagnostics += compiled.diagnostics
-    build.failed |= compiled.map is None
-    if compiled.map is None or build.failed:
-        return
-    files = render(compiled.map)
-    if build.templates:
-        files |= build.templates.render(compiled.map, {*with_package_files(files), docs_index.PATH})
-    build.rendered |= files
-    hashes = {name: build_cache.digest(text.encode()) for name, text in files.items()}
-    counts = _counts(compiled.map)
-    sources = {build_cache.key(source): known for source, known in compiled.files}
-    sources |= {build_cache.key(source): build_cache.NOTHING for source in compiled.empty}
-    build.entries[path] = BuildRecord(compiled.map.id, sources, hashes, counts, card(compiled.map))
-    if compiled.diagnostics:
-        build.noisy.add(path)
-
-
-def _counts(register_map: RegisterMap) -> Counts:
-    registers = {register.path: register for model in register_map.models for register in model.registers}
-    enums = {register.enum.id for register in registers.values() if register.enum}
-    enums |= {part.enum.id for register in registers.values() for part in register.fields if part.enum}
-    return Counts(len(register_map.models), len(registers), len(enums))
 
 
 def _write(build: Build, out: Path, *, check: bool, whole: bool) -> Report:
@@ -154,7 +138,7 @@ def _index(build: Build, out: Path, *, whole: bool) -> dict[str, str]:
     """Render the index, unless there are references of maps that are not of this run: then theirs is left as it is."""
     pages = () if whole else (out / "docs").rglob("*.md")
     others = {origin_of(page) for page in pages} - {entry.id for entry in build.entries.values()} - {None}
-    return {} if others else docs_index.render_index(entry.card for entry in build.entries.values())
+    return {} if others else render_index(entry.card for entry in build.entries.values())
 
 
 def _remember(build: Build, known: build_cache.Cache, *, whole: bool) -> None:

@@ -1,0 +1,102 @@
+"""What becomes of each map of a build: compiled and rendered, several at once where there are cores for it."""
+
+import os
+import signal
+import sys
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from regscribe.emit import build_cache, docs_index, load_emitters, render
+from regscribe.emit.build_cache import BuildRecord, Counts
+from regscribe.emit.templates import Templates
+from regscribe.emit.write import with_package_files
+from regscribe.model import Diagnostic, RegisterMap
+
+if TYPE_CHECKING:
+    from regscribe.emit.docs_index import Card
+    from regscribe.pipeline import Compiled
+
+
+@dataclass(frozen=True, slots=True)
+class Made:
+    """What one map gave: its diagnostics, and unless there is an error the texts and what the next run must know."""
+
+    path: Path
+    diagnostics: tuple[Diagnostic, ...]
+    entry: BuildRecord | None = None
+    files: dict[str, str] = field(default_factory=dict)
+
+
+def make(path: Path, templates: Templates | None = None) -> Made:
+    """Compile and render the map at `path`, by the user's own templates too. Raises WriteError for these."""
+    compile_map, card = _load()
+    compiled = compile_map(path)
+    if compiled.map is None:
+        return Made(path, compiled.diagnostics)
+    files = render(compiled.map)
+    if templates:
+        files |= templates.render(compiled.map, {*with_package_files(files), docs_index.PATH})
+    hashes = {name: build_cache.digest(text.encode()) for name, text in files.items()}
+    sources = {build_cache.key(source): known for source, known in compiled.files}
+    sources |= {build_cache.key(source): build_cache.NOTHING for source in compiled.empty}
+    entry = BuildRecord(compiled.map.id, sources, hashes, _counts(compiled.map), card(compiled.map))
+    return Made(path, compiled.diagnostics, entry, files)
+
+
+def _load() -> "tuple[Callable[[Path], Compiled], Callable[[RegisterMap], Card]]":
+    """Import what compiles a map and what tells the index of it."""
+    from regscribe.evidence.index_row import card  # noqa: PLC0415 - a build without change needs neither
+    from regscribe.pipeline import compile_map  # noqa: PLC0415 - 100 ms that a build without change does not need
+
+    return compile_map, card
+
+
+def make_all(paths: Sequence[Path], templates: Templates | None = None) -> Iterator[Made]:
+    """Make all maps, in their order; on several cores unless this process has threads, which a fork would cut off."""
+    workers = min(len(paths), _cores())
+    if workers > 1 and threading.active_count() == 1:
+        return _at_once(paths, templates, workers)
+    return (make(path, templates) for path in paths)
+
+
+def _cores() -> int:
+    """How many cores this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def _at_once(paths: Sequence[Path], templates: Templates | None, workers: int) -> Iterator[Made]:
+    """Make the largest maps first, so that none of them is left for the end; give them back in their order."""
+    from concurrent.futures import ProcessPoolExecutor  # noqa: PLC0415 - a build of one map needs neither
+    from multiprocessing import get_context  # noqa: PLC0415 - as above
+
+    context = get_context("fork" if sys.platform == "linux" else "spawn")
+    load_emitters()
+    _load()
+    with ProcessPoolExecutor(workers, context, initializer=_worker) as pool:
+        try:
+            makings = {path: pool.submit(make, path, templates) for path in sorted(paths, key=_size, reverse=True)}
+            for path in paths:
+                yield makings[path].result()
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+
+
+def _worker() -> None:
+    """Let Ctrl-C end a worker at once, without a word: the process that started it speaks for all."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+def _size(path: Path) -> int:
+    """Bytes of a map, as a guess of how long it takes."""
+    return path.stat().st_size if path.is_file() else 0
+
+
+def _counts(register_map: RegisterMap) -> Counts:
+    registers = {register.path: register for model in register_map.models for register in model.registers}
+    enums = {register.enum.id for register in registers.values() if register.enum}
+    enums |= {part.enum.id for register in registers.values() for part in register.fields if part.enum}
+    return Counts(len(register_map.models), len(registers), len(enums))
