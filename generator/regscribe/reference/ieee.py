@@ -22,8 +22,15 @@ class Format(NamedTuple):
 FORMATS = {WireType.FLOAT32: Format(23, 8, 9), WireType.FLOAT64: Format(52, 11, 17)}
 
 
-NEAREST_FIRST = (ROUND_HALF_EVEN, ROUND_UP)
-"""Below a power of two the numbers lie closer together: the nearest decimal may be another's, the next one not."""
+CONTEXTS = tuple(
+    Context(prec=digits, rounding=rounding, Emax=999999, Emin=-999999)
+    for digits in range(1, FORMATS[WireType.FLOAT64].digits + 1)
+    for rounding in (ROUND_HALF_EVEN, ROUND_UP)
+)
+"""From few digits to many, the nearest decimal first.
+
+Below a power of two the numbers lie closer together: the nearest decimal may be another's, the next one not.
+"""
 
 
 def ieee_number(bits: int, wire_type: WireType) -> Fraction:
@@ -59,31 +66,41 @@ def not_a_number(wire_type: WireType) -> int:
 def ieee_bits(number: Fraction, wire_type: WireType) -> int | None:
     """Return the bits of the nearest IEEE number, ties to the even one; None if that is infinity."""
     form = FORMATS[wire_type]
-    size = abs(number)
+    above, below = abs(number.numerator), number.denominator
     bias = (1 << (form.exponent - 1)) - 1
-    power = max(_power_of_two(size), 1 - bias) if size else 1 - bias
-    steps = round(size / Fraction(2) ** (power - form.fraction))  # Python rounds a half to the even neighbour
+    power = max(_power_of_two(above, below), 1 - bias) if above else 1 - bias
+    steps = _nearest(above, below, power - form.fraction)
     exponent = power + bias if steps >= 1 << form.fraction else 0
     bits = (exponent << form.fraction) + steps - ((1 << form.fraction) if exponent else 0)
     if bits >= ((1 << form.exponent) - 1) << form.fraction:
         return None
-    return bits + (1 << (form.fraction + form.exponent)) if number < 0 else bits
+    return bits + (1 << (form.fraction + form.exponent)) if number.numerator < 0 else bits
 
 
-def _power_of_two(size: Fraction) -> int:
-    """Return the largest p with 2^p <= size."""
-    power = size.numerator.bit_length() - size.denominator.bit_length()
-    return power if Fraction(2) ** power <= size else power - 1
+def _power_of_two(above: int, below: int) -> int:
+    """Return the largest p with 2^p <= above/below."""
+    power = above.bit_length() - below.bit_length()
+    fits = below << power <= above if power >= 0 else below <= above << -power
+    return power if fits else power - 1
+
+
+def _nearest(above: int, below: int, power: int) -> int:
+    """Return above/below in steps of 2^power, rounded to the nearest whole number, a half to the even one."""
+    if power >= 0:
+        below <<= power
+    else:
+        above <<= -power
+    whole, rest = divmod(above, below)
+    return whole + (2 * rest > below or (2 * rest == below and whole % 2))
 
 
 def shortest(number: Fraction, wire_type: WireType) -> Fraction:
     """Return the decimal of fewest digits whose nearest IEEE number is `number`: 0x437A6666 is 250.4."""
     bits = ieee_bits(number, wire_type)
-    for digits in range(1, FORMATS[wire_type].digits + 1):
-        for rounding in NEAREST_FIRST:
-            context = Context(prec=digits, rounding=rounding, Emax=999999, Emin=-999999)
-            text = context.divide(Decimal(number.numerator), Decimal(number.denominator))
-            if ieee_bits(Fraction(text), wire_type) == bits:
-                return Fraction(text)
+    above, below = Decimal(number.numerator), Decimal(number.denominator)
+    for context in CONTEXTS[: 2 * FORMATS[wire_type].digits]:
+        decimal = Fraction(context.divide(above, below))
+        if ieee_bits(decimal, wire_type) == bits:
+            return decimal
     message = f"{number} is no {wire_type}"
     raise ValueError(message)
