@@ -37,6 +37,8 @@ class Shared(Generic[T]):
 
     def states(self, fact: Callable[[Model, T], U]) -> tuple[Stated[U], ...]:
         """Return the fact once for all models that agree; no model names where all do."""
+        if len(self.versions) == 1:
+            return (Stated((), fact(*self.versions[0])),)
         found: dict[U, list[str]] = {}
         for model, version in self.versions:
             found.setdefault(fact(model, version), []).append(model.name)

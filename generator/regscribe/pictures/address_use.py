@@ -42,8 +42,8 @@ def places(register_map: RegisterMap) -> tuple[AddressUse, ...]:
 def _places(model: Model) -> Iterator[AddressUse]:
     for register in model.registers:
         yield from (_place(register, view) for view in register.views)
-        base = _place(register, register.base)
         for address in register.aliases:
+            base = _place(register, register.base)
             yield replace(base, first=address, last=address + register.base.words - 1, region=None, alias=True)
 
 

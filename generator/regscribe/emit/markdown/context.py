@@ -159,4 +159,6 @@ def stated(facts: Iterable[Stated[Md]]) -> Md:
 
 def by_model(shared: Shared[T], fact: Callable[[Model, T], Md]) -> Md:
     """Return a fact of something shared, once or by model."""
+    if len(shared.versions) == 1:
+        return fact(*shared.versions[0])
     return stated(shared.states(fact))

@@ -22,6 +22,9 @@ CONTROL = re.compile(r"[\x00-\x08\x0e-\x1f\x7f-\x9f\u061c\u200e\u200f\u202a-\u20
 CODE = re.compile(r"[^`|\n\r\\<>]+")
 """Text that a code span carries unchanged in and outside a table."""
 
+PLAIN = re.compile(r"[A-Za-z0-9]+(?: [A-Za-z0-9]+)*")
+"""Words and whole numbers, which are most of what is escaped, and which nothing takes for mark-up."""
+
 QUOTED = re.compile(r"`([A-Za-z0-9_.\[\] ]+)`")
 """A name in backticks in a description: the one mark-up that prose may use."""
 
@@ -35,6 +38,8 @@ class Md(str):
 @lru_cache(maxsize=4096)  # a page says the same few words of every register
 def escape(text: str) -> Md:
     """Escape text so that it renders as itself on one line; addresses of the net become code, so none is a link."""
+    if PLAIN.fullmatch(text):
+        return Md(text)
     text = CONTROL.sub(lambda found: f"U+{ord(found[0]):04X}", re.sub(r"\s+", " ", text))
     parts: list[str] = []
     end = 0

@@ -57,6 +57,8 @@ def _shape(register: Register) -> Shape:
 
 def view_formula(view: View, base: View) -> str:
     """Return a view's address from the base address n: `n + 1000`, `8000 + 2*n`."""
+    if view is base:
+        return "n"
     step = Fraction(view.stride, base.stride)
     offset = view.address - step * base.address
     slope = "n" if step == 1 else f"{show(step)}*n"

@@ -23,11 +23,12 @@ def vector_sets(register_map: RegisterMap) -> list[Json]:
     for model, register in _registers(register_map):
         tried = tuple(finder.situations(model, register, view) for view in register.views)
         key = (_bare(register), (tried, writable_situations(register_map, model, register)))
-        if key not in worked_out:
+        known = worked_out.get(key)
+        if known is None:
             content = _content(*key)
-            worked_out[key] = json.dumps(content)
-            contents[worked_out[key]] = content
-        places.setdefault(worked_out[key], []).append((register, model.name))
+            known = worked_out[key] = json.dumps(content)
+            contents[known] = content
+        places.setdefault(known, []).append((register, model.name))
     return [{"registers": _placed(places[key]), **content} for key, content in contents.items()]
 
 
@@ -37,13 +38,27 @@ def _registers(register_map: RegisterMap) -> Iterator[tuple[Model, Register]]:
 
 def _bare(register: Register) -> Register:
     """Return the register without what makes no difference to its words and values."""
-    blank = replace(register, id="", path="", name="", symbol="", description="", section="", group="", aliases=())
-    blank = replace(blank, persistence="", rescales="", unlock="", apply="", danger="", inferred=())
-    blank = replace(blank, stays="", governs=None, settle=0)
     return replace(
-        blank,
+        register,
+        id="",
+        path="",
+        name="",
+        symbol="",
+        description="",
+        section="",
+        group="",
+        persistence="",
+        rescales="",
+        unlock="",
+        apply="",
+        danger="",
+        stays="",
         unit_id="",
         array="",
+        aliases=(),
+        inferred=(),
+        governs=None,
+        settle=0,
         index=(),
         unit=always(""),
         endurance=None,
