@@ -1,6 +1,6 @@
 """The views of a register: from a view set and its address formula, or the single one that its type gives."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from regscribe.lower.interval_text import whole_ends
@@ -63,9 +63,11 @@ def _at(entry: TreeNode) -> int:
 
 
 def set_at(node: Value, home: Home, scope: Scope) -> tuple[View, ...]:
-    """The views of the set that stands at `node`, the base view first."""
-    views = [_view(name, each, home, scope) for name, each in node.items()]
-    return tuple(sorted(views, key=lambda view: view.name != "base"))
+    """The views of the set that stands at `node`, the base view first; read once for all that differ in `at` alone."""
+    origin = replace(home, at=0)
+    views = scope.once((node.path, origin), lambda: [_view(name, each, origin, scope) for name, each in node.items()])
+    placed = (replace(view, address=view.address + view.stride * home.at) for view in views)
+    return tuple(sorted(placed, key=lambda view: view.name != "base"))
 
 
 def _single(entry: TreeNode, home: Home, scope: Scope) -> View:
