@@ -4,7 +4,6 @@ from collections.abc import Iterable, Sequence
 
 import click
 
-from regscribe.checks import catalogue
 from regscribe.cli.shared import diagnostic_text
 from regscribe.cli.shared.json_report import as_github, as_json
 from regscribe.cli.shared.map_by_id import find_maps
@@ -45,6 +44,8 @@ def _print(found: Sequence[Diagnostic], *, form: str, maps: int) -> None:
         case "github":
             tell(as_github(found))
         case "sarif":
+            from regscribe.checks import catalogue  # noqa: PLC0415 - 7 ms for the texts of rules, which only SARIF shows
+
             tell(as_sarif(found, {rule.id: rule for rule in catalogue.all_rules()}))
         case _:
             show(
