@@ -1,6 +1,7 @@
 """What is taken as known while a map is judged: the defaults of a model, or what a worked example says."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from fractions import Fraction
 
 from regscribe.model import GivenKind, Model, RegisterMap
@@ -27,9 +28,25 @@ def default_values(model: Model) -> dict[str, Fraction]:
     return {path: number for path, number in found.items() if number is not None}
 
 
-def _sensible(model: Model, values: dict[str, Fraction]) -> dict[str, Fraction]:
-    """The values without absurd numbers of decimals, since 10 to the power of them would be computed."""
-    counts = {
+@dataclass(frozen=True, slots=True)
+class Beginning:
+    """What is looked up once for a model: the defaults by path, and which registers hold numbers of decimals."""
+
+    values: dict[str, Fraction]
+    counts: frozenset[str]
+
+    @classmethod
+    def of(cls, model: Model) -> "Beginning":
+        """Look at all registers."""
+        return cls(default_values(model), frozenset(_counts(model)))
+
+    def sensible(self, values: dict[str, Fraction]) -> dict[str, Fraction]:
+        """The values without absurd numbers of decimals, since 10 to the power of them would be computed."""
+        return {path: value for path, value in values.items() if path not in self.counts or value <= MOST_DECIMALS}
+
+
+def _counts(model: Model) -> Iterator[str]:
+    return (
         told.register
         for register in model.registers
         for told in (
@@ -38,22 +55,23 @@ def _sensible(model: Model, values: dict[str, Fraction]) -> dict[str, Fraction]:
             *(case.then.decimals for case in register.range),
         )
         if told
-    }
-    return {path: value for path, value in values.items() if path not in counts or value <= MOST_DECIMALS}
+    )
 
 
-def all_defaults(model: Model) -> Surroundings:
+def all_defaults(model: Model, beginning: Beginning) -> Surroundings:
     """The state in which every register stands at its default; what has none, and every given, is not known."""
-    return Surroundings(with_fields(model, _sensible(model, default_values(model))))
+    return Surroundings(with_fields(model, beginning.sensible(beginning.values)))
 
 
-def in_example(register_map: RegisterMap, model: Model, said: Iterable[tuple[str, Fraction]]) -> Surroundings:
+def in_example(
+    register_map: RegisterMap, model: Model, beginning: Beginning, said: Iterable[tuple[str, Fraction]]
+) -> Surroundings:
     """The state of a worked example: what it says, else the defaults.
 
     An example may name a given: then it holds that one code (a boolean given: true unless 0). A given that is not
     named holds no code and is not true.
     """
-    values = default_values(model) | dict(said)
+    values = beginning.values | dict(said)
     codes = {
         given.id: frozenset({values.pop(given.id)} if given.id in values else ())
         for given in register_map.givens
@@ -62,4 +80,4 @@ def in_example(register_map: RegisterMap, model: Model, said: Iterable[tuple[str
     facts = {
         given.id: bool(values.pop(given.id, 0)) for given in register_map.givens if given.kind is GivenKind.BOOLEAN
     }
-    return Surroundings(with_fields(model, _sensible(model, values)), codes, facts)
+    return Surroundings(with_fields(model, beginning.sensible(values)), codes, facts)

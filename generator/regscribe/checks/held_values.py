@@ -72,7 +72,7 @@ def is_fault(register: Register, value: Fraction | str) -> bool:
         return False
     if register.kind in PATTERNS:
         return number in {fault % (1 << register.bits) for fault in register.faults}
-    stored = {form.stored(number) for form in forms(register)}
+    stored = {form.stored(number) for form in forms(register)} if register.faults else set()
     return bool(stored) and stored <= set(register.faults)
 
 

@@ -54,7 +54,7 @@ def _stretch(interval: Interval, low: Fraction, high: Fraction) -> CodeRange:
 
 def _without_faults(register: Register, stretches: tuple[CodeRange, ...]) -> tuple[CodeRange, ...]:
     """Cut out the stored numbers that report faults, where they have one value each: no state has them as values."""
-    every = forms(register)
+    every = forms(register) if register.faults else ()
     if len(every) != 1 or any(view.factor != 1 or view.type.is_float for view in register.views):
         return stretches
     step = 1 / abs(every[0].gain)

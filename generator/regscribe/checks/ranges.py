@@ -80,7 +80,7 @@ def sentinels_twice(register: Register, _: RuleScope) -> Iterator[Finding]:
 def special_is_sentinel(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare sentinels with the stored number of each special value, under every scale."""
     faults = {sentinel.stored for sentinel in register.sentinels}
-    every = forms(register)
+    every = forms(register) if register.specials and faults else ()
     for special in register.specials if faults else ():
         stored = {form.stored(value) for value in values_of(register, special) for form in every}
         if stored and stored <= faults:

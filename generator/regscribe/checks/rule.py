@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 
-from regscribe.checks.assumed_values import all_defaults
+from regscribe.checks.assumed_values import Beginning, all_defaults
 from regscribe.model import Model, Register, RegisterMap, Related, Rule, Severity, Span
 from regscribe.reference import Surroundings
 
@@ -21,6 +21,7 @@ class RuleScope:
     register_map: RegisterMap
     model: Model
     registers: dict[str, Register]
+    beginning: Beginning
     defaults: Surroundings
     memo: dict[object, object] = field(default_factory=dict)
 
@@ -28,7 +29,8 @@ class RuleScope:
     def of(cls, register_map: RegisterMap, model: Model) -> "RuleScope":
         """The scope of one model of a map."""
         by_path = {register.path: register for register in model.registers}
-        return cls(register_map, model, by_path, all_defaults(model))
+        beginning = Beginning.of(model)
+        return cls(register_map, model, by_path, beginning, all_defaults(model, beginning))
 
 
 @dataclass(frozen=True, slots=True)

@@ -214,7 +214,8 @@ def frame_values(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
 
 
 def _values(example: FrameExample, frame: Frame, scope: RuleScope) -> Iterator[str]:
-    known = in_example(scope.register_map, scope.model, (*example.state, *example.writes))
+    said = (*example.state, *example.writes)
+    known = in_example(scope.register_map, scope.model, scope.beginning, said)
     for path, value in example.writes:
         register = scope.registers.get(path)
         if register is None:

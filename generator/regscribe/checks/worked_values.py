@@ -90,7 +90,7 @@ def _judge(example: ValueExample, scope: RuleScope) -> str:
     words = unsigned(example.words)
     if len(words) != view.words:
         return f"{len(words)} words, but view {view.name} has {view.words}"
-    known = in_example(scope.register_map, scope.model, example.state)
+    known = in_example(scope.register_map, scope.model, scope.beginning, example.state)
     try:
         return _sent(example, view, known) or _read(example, register, view, known)
     except UnknownValueError as unknown:
