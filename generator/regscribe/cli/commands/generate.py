@@ -14,6 +14,7 @@ from regscribe.cli.shared.map_by_id import find_maps
 from regscribe.cli.shared.terminal import show, tell, warn
 from regscribe.emit import build_cache
 from regscribe.emit.build_cache import BuildRecord
+from regscribe.emit.docs_index import render_index
 from regscribe.emit.templates import Templates
 from regscribe.emit.write import Report, WriteError, origin_of, write
 from regscribe.model import Diagnostic

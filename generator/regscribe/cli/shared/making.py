@@ -1,6 +1,7 @@
 """What becomes of each map of a build: compiled and rendered, several at once where there are cores for it."""
 
 import os
+import re
 import signal
 import sys
 import threading
@@ -18,6 +19,10 @@ from regscribe.model import Diagnostic, RegisterMap
 if TYPE_CHECKING:
     from regscribe.emit.docs_index import Card
     from regscribe.pipeline import Compiled
+
+
+HEAD = 10_000
+"""Bytes of a map in which it has said what it extends."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +73,7 @@ def _cores() -> int:
 
 
 def _at_once(paths: Sequence[Path], templates: Templates | None, workers: int) -> Iterator[Made]:
-    """Make the largest maps first, so that none of them is left for the end; give them back in their order."""
+    """Make the costliest maps first, so that none of them is left for the end; give them back in their order."""
     from concurrent.futures import ProcessPoolExecutor  # noqa: PLC0415 - a build of one map needs neither
     from multiprocessing import get_context  # noqa: PLC0415 - as above
 
@@ -77,7 +82,7 @@ def _at_once(paths: Sequence[Path], templates: Templates | None, workers: int) -
     _load()
     with ProcessPoolExecutor(workers, context, initializer=_worker) as pool:
         try:
-            makings = {path: pool.submit(make, path, templates) for path in sorted(paths, key=_size, reverse=True)}
+            makings = {path: pool.submit(make, path, templates) for path in sorted(paths, key=_cost, reverse=True)}
             for path in paths:
                 yield makings[path].result()
         except BaseException:
@@ -90,9 +95,15 @@ def _worker() -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
-def _size(path: Path) -> int:
-    """Bytes of a map, as a guess of how long it takes."""
-    return path.stat().st_size if path.is_file() else 0
+def _cost(path: Path) -> tuple[bool, int]:
+    """Guess how long a map takes: one that extends another holds all of that one, else its size tells."""
+    try:
+        if path.is_file():
+            with path.open("rb") as file:
+                return re.search(rb"^extends:", file.read(HEAD), re.MULTILINE) is not None, path.stat().st_size
+    except (OSError, ValueError):  # which compiling it will tell
+        pass
+    return False, 0
 
 
 def _counts(register_map: RegisterMap) -> Counts:
