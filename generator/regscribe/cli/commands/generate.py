@@ -9,7 +9,7 @@ from time import perf_counter
 import click
 
 from regscribe.cli.shared.diagnostic_text import count, findings, tally
-from regscribe.cli.shared.making import Made, make_all
+from regscribe.cli.shared.map_builds import Made, make_all
 from regscribe.cli.shared.map_by_id import find_maps
 from regscribe.cli.shared.terminal import show, tell, warn
 from regscribe.emit import build_cache
@@ -102,11 +102,12 @@ def _templates(folder: Path | None) -> Templates | None:
 def _build(paths: Sequence[Path], known: build_cache.Cache, templates: Templates | None) -> Build:
     """Compile and render every map that `known` does not show to be unchanged."""
     entries = {path: known.unchanged(path) for path in paths}
+    changed = [path for path, entry in entries.items() if entry is None]
+    made = dict(zip(changed, make_all(changed, templates), strict=True))
     build = Build(templates)
-    made = make_all([path for path, entry in entries.items() if entry is None], templates)
     for path, entry in entries.items():
         if entry is None:
-            build.take(next(made))
+            build.take(made[path])
         else:
             build.entries[path] = entry
     return build

@@ -10,7 +10,7 @@ SCRIPT = """\
 import os, sys
 from pathlib import Path
 from regscribe import pipeline
-from regscribe.cli.shared import making
+from regscribe.cli.shared import map_builds as making
 from regscribe.cli.app import run
 
 compile_map = pipeline.compile_map
