@@ -110,13 +110,13 @@ def value_for(built: Built, row: Json) -> Any:
     register, _ = register_of(built, row)
     declared = built.module.CaseA.registers[row["register"]]
     if "member" in row:
-        return declared.kind.make(next(one.code for one in register.enum.members if one.id == row["member"]))
+        return declared.value_type.make(next(one.code for one in register.enum.members if one.id == row["member"]))
     if "special" in row:
-        return declared.kind.special[row["special"]]
+        return declared.value_type.special[row["special"]]
     if "flags" in row:
-        return declared.kind.make(sum(1 << one.low for one in register.fields if one.id in row["flags"]))
+        return declared.value_type.make(sum(1 << one.low for one in register.fields if one.id in row["flags"]))
     if "fields" in row:
-        return declared.kind.make(0).replace(**row["fields"])
+        return declared.value_type.make(0).replace(**row["fields"])
     value = row["value"] if "value" in row else row["refuses"]
     if register.kind not in {Kind.STRING, Kind.VERSION} and value in {*NO_NUMBERS, *FAR}:
         return FAR[value] if value in FAR else float(value)

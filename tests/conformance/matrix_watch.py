@@ -148,7 +148,7 @@ def by_driver(module: Any, path: str) -> Iterator[object]:
         return
     subject = Subject(module, path)
     declared = subject.declared
-    yield (type(declared).__name__, declared.kind.name, declared.is_configuration, declared.stays, declared.default)
+    yield (type(declared).__name__, declared.kind, declared.is_configuration, declared.stays, declared.default)
     yield [shown(value) for value in values(declared)]
     for state in STATES:
         for view in declared.views:
@@ -185,8 +185,8 @@ def _together(subject: Subject, state: dict[int, int]) -> Iterator[object]:
 
 def values(declared: Any) -> Iterator[Any]:
     """Values that a program may write: numbers and texts, members, specials and words of bits of its kind."""
-    kind = declared.kind
-    yield from TEXTS if kind.name in {"text", "string", "version"} else NUMBERS
+    kind = declared.value_type
+    yield from TEXTS if kind.kind in {"text", "string", "version"} else NUMBERS
     for number in (0, 1, 3, 5, 7):
         with suppress(Exception):  # a kind makes what it makes
             made = kind.make(number)

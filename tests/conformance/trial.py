@@ -297,10 +297,10 @@ def _given(declared: Any, view: View, value: Value) -> Any:
     if isinstance(value, str):
         return value
     if isinstance(value, Special):
-        return declared.kind.special[value.id]
+        return declared.value_type.special[value.id]
     number = int(value) if value.denominator == 1 else float(value)
     with suppress(Exception):  # a kind refuses as it likes what it cannot be
-        made = declared.kind.make(number)
+        made = declared.value_type.make(number)
         exactly = not isinstance(made, float) or Fraction(repr(made)) == value or view.type is WireType.FLOAT32
         if made == number and exactly:
             return made

@@ -11,8 +11,8 @@ import pytest
 
 from regscribe.evidence import Comparison, compare_table, read
 from regscribe.model import RegisterMap
-from regscribe.model.number import exact
 from regscribe.reference import Surroundings, encode
+from regscribe_runtime.values.numbers import parse
 
 ON_NO_DISPLAY = {("1ZC", "35"), ("1ZC", "4071")}
 """Section 5 gives these to the 1ZC too; section 4 does not, and the 1ZC has no display (an erratum of the map)."""
@@ -67,5 +67,5 @@ def test_the_defaults_encode_to_the_words_of_example_1(
     values = {each.path: each.default for each in model.registers if isinstance(each.default, Fraction)}
     known = Surroundings(values=values, codes={"linear_inputs": linear})
     registers = {register.base.address: register for register in model.registers}
-    words = [encode(registers[at], registers[at].base, exact(downloaded[at]["value"]), known) for at in range(52)]
+    words = [encode(registers[at], registers[at].base, parse(downloaded[at]["value"]), known) for at in range(52)]
     assert words == [(int(row["word"], 16),) for row in downloaded]

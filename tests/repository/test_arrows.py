@@ -18,8 +18,10 @@ import regscribe_runtime
 PACKAGES = {package.__name__: Path(str(package.__file__)).parent for package in (regscribe, regscribe_runtime)}
 
 RUNTIME = "regscribe_runtime"
+VALUES = "values"
 ROOMS = {
-    "regscribe_runtime": set[str](),
+    VALUES: {RUNTIME},
+    RUNTIME: set[str](),
     "model": set[str](),
     "visible": set[str](),
     "shipped": set[str](),
@@ -44,7 +46,7 @@ ROOMS = {
     "cli": {"model", "reference", "source", "schema", "compose", "lower", "checks", "emit", "pictures", "evidence"}
     | {"plugins", "simulate", "pipeline", "files", "tools", "shipped", "visible", RUNTIME},
 }
-"""Which other rooms a room may import."""
+"""Which other rooms a room may import, besides the vocabulary in `regscribe_runtime.values`."""
 
 LIBRARIES = {
     "yaml": {"source", "files"},
@@ -95,7 +97,7 @@ def room_of(module: str) -> str:
     """`regscribe.emit.write` is in the room emit; the package itself, with its version, is in none."""
     top, *inner = module.split(".")
     if top == RUNTIME:
-        return RUNTIME
+        return VALUES if inner[:1] == [VALUES] else RUNTIME
     return inner[0] if top == "regscribe" and inner and inner[0] in ROOMS else ""
 
 
@@ -110,7 +112,7 @@ def test_a_room_imports_only_what_it_may(room: str) -> None:
         for module, names in imports().items()
         if room_of(module) == room
         for name in names
-        if room_of(name) not in ROOMS[room] | {room, ""}
+        if room_of(name) not in ROOMS[room] | {room, VALUES, ""}
     }
     assert wrong == set()
 
@@ -130,7 +132,7 @@ def test_a_library_is_used_in_its_rooms_alone(library: str) -> None:
 def test_no_modules_of_the_compiler_import_each_other_in_a_circle() -> None:
     graph: dict[str, set[str]] = defaultdict(set)
     for module, names in imports().items():
-        if room_of(module) != RUNTIME:
+        if room_of(module) not in {RUNTIME, VALUES}:
             graph[module] = {one for name in names for one in _loaded(name) if not f"{module}.".startswith(f"{one}.")}
     try:
         TopologicalSorter(graph).prepare()

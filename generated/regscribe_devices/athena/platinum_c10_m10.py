@@ -49,7 +49,6 @@ from regscribe_devices.athena.platinum_common import (
     _SetpointRamps,
 )
 from regscribe_runtime import (
-    UINT8,
     AsyncDevice,
     Device,
     Flags,
@@ -57,8 +56,10 @@ from regscribe_runtime import (
     Identity,
     ReadOnly,
     ReadWrite,
+    Space,
     SubPart,
     View,
+    WireType,
     choice,
     flags,
     raw,
@@ -80,24 +81,24 @@ __all__ = [
     "Status",
 ]
 
-_STATUS_UINT8 = (View("base", UINT8, space="status"),)
+_STATUS_UINT8 = (View("base", WireType.UINT8, space=Space.STATUS),)
 # addresses that read as 0
 _UNUSED = (
-    ("coil", 0, 2),
-    ("coil", 8, 8),
-    ("coil", 10, 15),
-    ("holding", 16, 28),
-    ("holding", 31, 31),
-    ("holding", 33, 33),
-    ("holding", 39, 39),
-    ("holding", 41, 41),
-    ("holding", 44, 99),
-    ("holding", 100, 100),
-    ("holding", 110, 110),
-    ("holding", 111, 111),
-    ("holding", 115, 119),
-    ("holding", 126, 126),
-    ("holding", 127, 127),
+    (Space.COIL, 0, 2),
+    (Space.COIL, 8, 8),
+    (Space.COIL, 10, 15),
+    (Space.HOLDING, 16, 28),
+    (Space.HOLDING, 31, 31),
+    (Space.HOLDING, 33, 33),
+    (Space.HOLDING, 39, 39),
+    (Space.HOLDING, 41, 41),
+    (Space.HOLDING, 44, 99),
+    (Space.HOLDING, 100, 100),
+    (Space.HOLDING, 110, 110),
+    (Space.HOLDING, 111, 111),
+    (Space.HOLDING, 115, 119),
+    (Space.HOLDING, 126, 126),
+    (Space.HOLDING, 127, 127),
 )
 
 

@@ -4,21 +4,21 @@
 # format 1, map sha256 d7acee4155075f9d
 
 from regscribe_runtime import (
-    BIT,
-    INT16,
-    UINT16,
     AsyncPart,
     Choice,
     Command,
     Conversion,
     Governs,
     Latency,
+    Order,
     Part,
     Protocol,
     ReadOnly,
     ReadWrite,
     RegisterSet,
+    Space,
     View,
+    WireType,
     choice,
     integer,
     number,
@@ -77,8 +77,8 @@ _PROTOCOL = Protocol(
     },
     broadcast=(5, 6, 15, 16),
 )
-_COIL_BIT = (View("base", BIT, space="coil"),)
-_INT16 = word(INT16)
+_COIL_BIT = (View("base", WireType.BIT, space=Space.COIL),)
+_INT16 = word(WireType.INT16)
 # value of the stored x: x/10
 _SCALE = (((), Conversion(multiply="0.1")),)
 _DANGER = "the controller answers at the new address from now on"
@@ -87,7 +87,7 @@ _GOVERNS = Governs("addressing", codes={0: "modbus", 1: "jbus"})
 _DANGER_3 = "the controller answers at the new speed from now on"
 _GOVERNS_2 = Governs("baud", codes={0: "1200", 1: "2400", 2: "4800", 3: "9600"})
 _DANGER_4 = "reserved for the maker; a wrong value falsifies the retransmitted signal"
-_STRING = (View("base", UINT16, words=2, byte_order="little"),)
+_STRING = (View("base", WireType.STRING, words=2, byte_order=Order.LITTLE),)
 
 
 class OffOn(Choice):

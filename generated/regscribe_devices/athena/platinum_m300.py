@@ -66,7 +66,6 @@ from regscribe_devices.athena.platinum_common import (
     _TimerRemainingTime,
 )
 from regscribe_runtime import (
-    UINT8,
     AsyncDevice,
     Device,
     Flags,
@@ -74,8 +73,10 @@ from regscribe_runtime import (
     Identity,
     ReadOnly,
     ReadWrite,
+    Space,
     SubPart,
     View,
+    WireType,
     choice,
     flags,
     raw,
@@ -99,21 +100,21 @@ __all__ = [
     "TimerMode",
 ]
 
-_STATUS_UINT8 = (View("base", UINT8, space="status"),)
+_STATUS_UINT8 = (View("base", WireType.UINT8, space=Space.STATUS),)
 # addresses that read as 0
 _UNUSED = (
-    ("coil", 1, 1),
-    ("coil", 2, 2),
-    ("coil", 8, 8),
-    ("coil", 12, 15),
-    ("holding", 28, 28),
-    ("holding", 39, 39),
-    ("holding", 41, 41),
-    ("holding", 49, 99),
-    ("holding", 100, 100),
-    ("holding", 117, 119),
-    ("holding", 126, 126),
-    ("holding", 127, 127),
+    (Space.COIL, 1, 1),
+    (Space.COIL, 2, 2),
+    (Space.COIL, 8, 8),
+    (Space.COIL, 12, 15),
+    (Space.HOLDING, 28, 28),
+    (Space.HOLDING, 39, 39),
+    (Space.HOLDING, 41, 41),
+    (Space.HOLDING, 49, 99),
+    (Space.HOLDING, 100, 100),
+    (Space.HOLDING, 117, 119),
+    (Space.HOLDING, 126, 126),
+    (Space.HOLDING, 127, 127),
 )
 
 

@@ -62,7 +62,6 @@ from regscribe_devices.athena.platinum_common import (
     _TimerRemainingTime,
 )
 from regscribe_runtime import (
-    UINT8,
     AsyncDevice,
     Choice,
     Device,
@@ -72,8 +71,10 @@ from regscribe_runtime import (
     Is,
     ReadOnly,
     ReadWrite,
+    Space,
     SubPart,
     View,
+    WireType,
     choice,
     flags,
     raw,
@@ -101,24 +102,24 @@ __all__ = [
     "TimerMode",
 ]
 
-_STATUS_UINT8 = (View("base", UINT8, space="status"),)
+_STATUS_UINT8 = (View("base", WireType.UINT8, space=Space.STATUS),)
 _MANUAL_MODE = (Is("auto_man", ((1, 1),)),)
 _WRITABLE = (_MANUAL_MODE, "the output can be written in manual mode only (and if the Auto/Man option is fitted)")
 # addresses that read as 0
 _UNUSED = (
-    ("coil", 2, 2),
-    ("coil", 8, 8),
-    ("coil", 13, 15),
-    ("holding", 18, 18),
-    ("holding", 28, 28),
-    ("holding", 39, 39),
-    ("holding", 41, 41),
-    ("holding", 49, 99),
-    ("holding", 100, 100),
-    ("holding", 118, 118),
-    ("holding", 119, 119),
-    ("holding", 126, 126),
-    ("holding", 127, 127),
+    (Space.COIL, 2, 2),
+    (Space.COIL, 8, 8),
+    (Space.COIL, 13, 15),
+    (Space.HOLDING, 18, 18),
+    (Space.HOLDING, 28, 28),
+    (Space.HOLDING, 39, 39),
+    (Space.HOLDING, 41, 41),
+    (Space.HOLDING, 49, 99),
+    (Space.HOLDING, 100, 100),
+    (Space.HOLDING, 118, 118),
+    (Space.HOLDING, 119, 119),
+    (Space.HOLDING, 126, 126),
+    (Space.HOLDING, 127, 127),
 )
 
 

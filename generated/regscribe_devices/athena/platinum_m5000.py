@@ -41,7 +41,6 @@ from regscribe_devices.athena.platinum_common import (
     _SetpointRamps,
 )
 from regscribe_runtime import (
-    UINT8,
     Array,
     AsyncDevice,
     AsyncPart,
@@ -62,7 +61,9 @@ from regscribe_runtime import (
     ReadOnly,
     ReadWrite,
     SetpointProgram,
+    Space,
     View,
+    WireType,
     boolean,
     choice,
     flags,
@@ -147,17 +148,17 @@ _PROTOCOL = Protocol(
     },
     broadcast=(5, 6, 15, 16),
 )
-_STATUS_UINT8 = (View("base", UINT8, space="status"),)
+_STATUS_UINT8 = (View("base", WireType.UINT8, space=Space.STATUS),)
 _MANUAL_MODE = (Is("auto_man", ((1, 1),)),)
 _WRITABLE = (_MANUAL_MODE, "the output can be written in manual mode only")
 # addresses that read as 0
 _UNUSED = (
-    ("coil", 8, 8),
-    ("coil", 10, 11),
-    ("coil", 14, 15),
-    ("coil", 18, 19),
-    ("holding", 116, 116),
-    ("holding", 118, 118),
+    (Space.COIL, 8, 8),
+    (Space.COIL, 10, 11),
+    (Space.COIL, 14, 15),
+    (Space.COIL, 18, 19),
+    (Space.HOLDING, 116, 116),
+    (Space.HOLDING, 118, 118),
 )
 # setpoint programs
 _PROGRAMS = (

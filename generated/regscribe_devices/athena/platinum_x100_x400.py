@@ -55,7 +55,6 @@ from regscribe_devices.athena.platinum_common import (
     _TimerRemainingTime,
 )
 from regscribe_runtime import (
-    UINT8,
     Array,
     AsyncDevice,
     AsyncPart,
@@ -73,8 +72,10 @@ from regscribe_runtime import (
     ReadOnly,
     ReadWrite,
     SetpointProgram,
+    Space,
     SubPart,
     View,
+    WireType,
     choice,
     flags,
     integer,
@@ -115,21 +116,21 @@ __all__ = [
     "TimerMode",
 ]
 
-_STATUS_UINT8 = (View("base", UINT8, space="status"),)
+_STATUS_UINT8 = (View("base", WireType.UINT8, space=Space.STATUS),)
 _MANUAL_MODE = (Is("auto_man", ((1, 1),)),)
 _WRITABLE = (_MANUAL_MODE, "the output can be written in manual mode only (and if the Auto/Man option is fitted)")
 # addresses that read as 0
 _UNUSED = (
-    ("coil", 15, 15),
-    ("holding", 18, 18),
-    ("holding", 39, 39),
-    ("holding", 41, 41),
-    ("holding", 52, 52),
-    ("holding", 55, 55),
-    ("holding", 61, 63),
-    ("holding", 93, 99),
-    ("holding", 126, 126),
-    ("holding", 127, 127),
+    (Space.COIL, 15, 15),
+    (Space.HOLDING, 18, 18),
+    (Space.HOLDING, 39, 39),
+    (Space.HOLDING, 41, 41),
+    (Space.HOLDING, 52, 52),
+    (Space.HOLDING, 55, 55),
+    (Space.HOLDING, 61, 63),
+    (Space.HOLDING, 93, 99),
+    (Space.HOLDING, 126, 126),
+    (Space.HOLDING, 127, 127),
 )
 # setpoint programs
 _PROGRAMS = (

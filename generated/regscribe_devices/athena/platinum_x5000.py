@@ -37,7 +37,6 @@ from regscribe_devices.athena.platinum_common import (
     _SetpointLimits,
 )
 from regscribe_runtime import (
-    UINT8,
     Array,
     AsyncDevice,
     AsyncPart,
@@ -56,7 +55,9 @@ from regscribe_runtime import (
     ReadOnly,
     ReadWrite,
     SetpointProgram,
+    Space,
     View,
+    WireType,
     boolean,
     choice,
     flags,
@@ -107,19 +108,19 @@ __all__ = [
     "UnitOfInput",
 ]
 
-_STATUS_UINT8 = (View("base", UINT8, space="status"),)
+_STATUS_UINT8 = (View("base", WireType.UINT8, space=Space.STATUS),)
 _MANUAL_MODE = (Is("auto_manual", ((1, 1),)),)
 _WRITABLE = (_MANUAL_MODE, "the output can be written in manual mode only")
 _DANGER_5 = "the controller may count all addresses one higher (JBUS) or lower (Modbus) from now on"
 # addresses that read as 0
 _UNUSED = (
-    ("coil", 8, 8),
-    ("coil", 10, 11),
-    ("coil", 19, 19),
-    ("holding", 77, 78),
-    ("holding", 80, 99),
-    ("holding", 146, 146),
-    ("holding", 153, 179),
+    (Space.COIL, 8, 8),
+    (Space.COIL, 10, 11),
+    (Space.COIL, 19, 19),
+    (Space.HOLDING, 77, 78),
+    (Space.HOLDING, 80, 99),
+    (Space.HOLDING, 146, 146),
+    (Space.HOLDING, 153, 179),
 )
 # setpoint programs
 _PROGRAMS = (

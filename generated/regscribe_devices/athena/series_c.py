@@ -4,9 +4,6 @@
 # format 1, map sha256 256eee58776e155f
 
 from regscribe_runtime import (
-    FLOAT32,
-    INT16,
-    UINT16,
     Array,
     AsyncDevice,
     AsyncPart,
@@ -22,6 +19,7 @@ from regscribe_runtime import (
     Is,
     Latency,
     Limits,
+    Order,
     OrderFrom,
     Part,
     ProgramAction,
@@ -31,9 +29,11 @@ from regscribe_runtime import (
     ReadOnly,
     ReadWrite,
     Ref,
+    Rounding,
     SetpointProgram,
     SubPart,
     View,
+    WireType,
     choice,
     flags,
     integer,
@@ -127,7 +127,7 @@ _PROTOCOL = Protocol(
     },
     broadcast=(6, 16),
 )
-_INT16 = word(INT16)
+_INT16 = word(WireType.INT16)
 _DANGER = "the controller answers at the new address from now on"
 _DANGER_2 = "the controller answers at the new speed from now on"
 _GOVERNS = Governs("baud", codes={2: "300", 3: "600", 4: "1200", 5: "2400", 6: "4800", 7: "9600"}, since="at_once")
@@ -135,15 +135,15 @@ _DANGER_3 = "the controller answers with the new parity from now on"
 _GOVERNS_2 = Governs("parity", codes={0: "N", 1: "E", 2: "O"}, since="at_once")
 _DANGER_4 = "the controller converts all temperature values that it already holds"
 _VIEWS = (
-    View("base", INT16, rounding="half_up"),
-    View("x10", INT16, offset=1000, factor=10, rounding="half_up", saturates=True),
+    View("base", WireType.INT16, rounding=Rounding.HALF_UP),
+    View("x10", WireType.INT16, offset=1000, factor=10, rounding=Rounding.HALF_UP, saturates=True),
     View(
         "ieee",
-        FLOAT32,
+        WireType.FLOAT32,
         offset=8000,
         stride=2,
         words=2,
-        order=OrderFrom("ieee_register_ordering", {0: "big", 1: "little"}),
+        order=OrderFrom("ieee_register_ordering", {0: Order.BIG, 1: Order.LITTLE}),
         functions=(3, 16),
         preferred=True,
         align=2,
@@ -221,7 +221,7 @@ _RANGE_11 = (
 _DANGER_5 = "a wrong calibration makes every measurement wrong"
 _SENTINELS = ((-32768, "LOW_ERROR", "Low Error"), (32767, "HIGH_ERROR", "High Error"))
 _RANGE_12 = within(Ref("setpoint_low_limit"), Ref("setpoint_high_limit"))
-_UINT16 = word(UINT16)
+_UINT16 = word(WireType.UINT16)
 # linear_input: 1/10^linear_decimal_position to open (span of sensor); otherwise: 1 to open (span of sensor)
 _RANGE_13 = (
     (_LINEAR_INPUT, Limits((Interval(1, None),), decimals="linear_decimal_position")),

@@ -7,7 +7,6 @@ from collections.abc import Collection
 from typing import Self, Unpack
 
 from regscribe_runtime import (
-    UINT16,
     AsyncBareDevice,
     AsyncClient,
     AsyncLink,
@@ -34,6 +33,7 @@ from regscribe_runtime import (
     SubPart,
     SyncClient,
     TcpSettings,
+    WireType,
     Word,
     async_client_link,
     async_serial_link,
@@ -88,7 +88,7 @@ _PROTOCOL = Protocol(
     bauds=(2400, 4800, 9600, 14400, 19200, 28800, 38400),
     formats=("8N1", "8E1", "8O1"),
 )
-_UINT16 = word(UINT16)
+_UINT16 = word(WireType.UINT16)
 _NON_LINEAR = (Is("inpt", given="linear_inputs", negated=True),)
 _SCALE = (
     (_NON_LINEAR, Conversion(multiply="0.1", add="-1999.9")),

@@ -6,7 +6,7 @@ from itertools import combinations
 from operator import attrgetter
 
 from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule, model_rule, register_rule, warning
-from regscribe.model import READ_FUNCTIONS, WRITE_FUNCTIONS, Register, Related, Rule, Space, View
+from regscribe.model import Register, Related, Rule, Space, View
 
 LAST_ADDRESS = 0xFFFF
 FAR = 10_000
@@ -154,12 +154,10 @@ def no_function(register: Register, scope: RuleScope) -> Iterator[Finding]:
     wanted: list[tuple[str, View, tuple[int, ...]]] = []
     if register.access.readable:
         views = (view for view in register.views if view.readable or view is register.read_view)
-        wanted += [("read", view, (READ_FUNCTIONS[view.space],)) for view in views]
+        wanted += [("read", view, (view.space.read_function,)) for view in views]
     if register.access.writable:
         views = (view for view in register.views if view.writable or view is register.write_view)
-        wanted += [
-            ("written", view, WRITE_FUNCTIONS.get(view.space, ())[1 if view.words > 1 else 0 :]) for view in views
-        ]
+        wanted += [("written", view, view.space.write_functions[1 if view.words > 1 else 0 :]) for view in views]
     for verb, view, functions in wanted:
         if not set(functions) & set(has) & set(view.functions or functions):
             need = " or ".join(f"{code:02d}" for code in functions) or "that does not exist"

@@ -6,7 +6,7 @@ from operator import attrgetter
 
 from regscribe.checks.addresses import LAST_ADDRESS, Stretch, stretches
 from regscribe.checks.rule import Finding, RuleScope, model_rule
-from regscribe.model import WRITE_FUNCTIONS, Command, Register, Related, Rule, Space, Step, View
+from regscribe.model import Command, Register, Related, Rule, Space, Step, View
 
 ONE_VALUE = (5, 6)
 LONGEST = 125
@@ -168,7 +168,7 @@ def step_function(scope: RuleScope) -> Iterator[Finding]:
         if step.function not in has:
             message = f"uses function {step.function:02d}, which `protocol.functions` {list(has)} lacks"
             yield _at(command, message, "correct one of them")
-        elif step.function not in (writing := WRITE_FUNCTIONS.get(step.space, ())):
+        elif step.function not in (writing := step.space.write_functions):
             message = f"uses function {step.function:02d}, which does not write space {step.space}"
             help_text = f"use function {' or '.join(map(str, writing))}" if writing else "nothing writes that space"
             yield _at(command, message, help_text)

@@ -5,7 +5,7 @@ from itertools import combinations
 
 from regscribe.checks.addresses import stretches
 from regscribe.checks.rule import Finding, RuleScope, map_rule, model_rule, register_rule
-from regscribe.model import READ_FUNCTIONS, WRITE_FUNCTIONS, Register, Related, Rule, Space, View
+from regscribe.model import Register, Related, Rule, Space, View
 
 Shape = tuple[object, ...]
 Region = tuple[Space, str, int, int]
@@ -128,7 +128,7 @@ _OTHERS = {Space.HOLDING: (22, 23)}
 def function_of_another_space(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare the functions of each view with those of its space."""
     for view in register.views:
-        known = (READ_FUNCTIONS[view.space], *WRITE_FUNCTIONS.get(view.space, ()), *_OTHERS.get(view.space, ()))
+        known = (view.space.read_function, *view.space.write_functions, *_OTHERS.get(view.space, ()))
         strange = [code for code in view.functions if code not in known]
         if strange:
             codes = ", ".join(f"{code:02d}" for code in strange)

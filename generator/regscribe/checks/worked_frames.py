@@ -7,7 +7,7 @@ from fractions import Fraction
 from regscribe.checks.assumed_values import in_example
 from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule
 from regscribe.checks.worked_values import compare, hexadecimal, printed, unsigned
-from regscribe.model import READ_FUNCTIONS, WRITE_FUNCTIONS, FrameExample, Protocol, Register, Rule, Space, View
+from regscribe.model import FrameExample, Protocol, Register, Rule, Space, View
 from regscribe.reference import RefusedError, Surroundings, UnknownValueError
 
 CRC_LENGTH = 2
@@ -260,8 +260,8 @@ def _compared(register: Register, view: View, words: tuple[int, ...], value: Fra
 def _spaces(function: int, protocol: Protocol) -> set[Space]:
     """The spaces that a function reads or writes, those included where another one does the same."""
     same = {function, *(code for codes in protocol.alike if function in codes for code in codes)}
-    reads = {space for space, code in READ_FUNCTIONS.items() if code in same}
-    return reads | {space for space, codes in WRITE_FUNCTIONS.items() if same & set(codes)}
+    reads = {space for space in Space if space.read_function in same}
+    return reads | {space for space in Space if same & set(space.write_functions)}
 
 
 def _places(register: Register, name: str) -> Iterator[tuple[View, int]]:

@@ -9,7 +9,7 @@ from regscribe.lower.node import Value, elements_of, items_of, text_of, whole_of
 from regscribe.lower.presence import present
 from regscribe.lower.rules import UNKNOWN_VIEW
 from regscribe.lower.scope import Scope
-from regscribe.model import WRITE_FUNCTIONS, Command, Protocol, Register, Space, Step, View
+from regscribe.model import Command, Protocol, Register, Space, Step, View
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +51,7 @@ def _step(node: Value, device: CommandScope) -> Step:
     if register is None:
         words = unsigned(wholes_of(node, "words"))
         function = _function(node, len(words), None, device)
-        space = Space.COIL if function in WRITE_FUNCTIONS[Space.COIL] else Space.HOLDING
+        space = Space.COIL if function in Space.COIL.write_functions else Space.HOLDING
         return Step(whole_of(node, "at"), words, function, space=space)
     entry = device.scope.register(register)
     if entry is None:
@@ -67,7 +67,7 @@ def _step(node: Value, device: CommandScope) -> Step:
 def _function(node: Value, count: int, view: View | None, device: CommandScope) -> int:
     if node.child("function"):
         return whole_of(node, "function")
-    single, several = WRITE_FUNCTIONS[Space.COIL if view and view.space is Space.COIL else Space.HOLDING]
+    single, several = (Space.COIL if view and view.space is Space.COIL else Space.HOLDING).write_functions
     allowed = [code for code in device.protocol.functions if not view or view.allows(code)]
     return single if count == 1 and single in allowed else several
 

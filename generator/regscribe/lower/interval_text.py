@@ -5,7 +5,7 @@ from fractions import Fraction
 
 from regscribe.lower.node import Value, brief
 from regscribe.lower.rules import REVERSED, WRONG_SORT
-from regscribe.model import exact, show
+from regscribe.model import parse, show
 
 _NUMBER = r"([+-]?[0-9]{1,30}(?:\.[0-9]{1,30})?(?:[eE][+-]?[0-9]{1,3})?)"
 _ENDS = re.compile(rf"\s*{_NUMBER}\s*\.\.\s*{_NUMBER}\s*")
@@ -28,7 +28,7 @@ def unordered(node: Value) -> tuple[Fraction, Fraction]:
     match = _ENDS.fullmatch(node.value) if node.is_text else None
     if match is not None:
         try:
-            return exact(match[1]), exact(match[2])
+            return parse(match[1]), parse(match[2])
         except ValueError:  # an exponent beyond those of all types
             pass
     shown = f"`{brief(node.text())}`" if node.is_text else "this"

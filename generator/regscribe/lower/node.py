@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any, TypeVar
 
 from regscribe.lower.rules import WRONG_SORT
-from regscribe.model import Diagnostic, Related, Span, exact
+from regscribe.model import Diagnostic, Related, Span, exact, parse
 from regscribe.source import Document
 
 Path = tuple[str | int, ...]
@@ -184,7 +184,7 @@ class Value:
         """The key as an exact number."""
         if len(self.key) <= _LONGEST_NUMBER:
             try:
-                return exact(self.key)
+                return parse(self.key)
             except ValueError:
                 pass
         self.report(WRONG_SORT, f"the key `{brief(self.key)}` is no number", remedy="write a number", at_key=True)

@@ -26,7 +26,6 @@ from regscribe.model.map import (
     ValueExample,
     Waiver,
 )
-from regscribe.model.number import exact, show
 from regscribe.model.process import Alarm, Effect, OnOff, Output, Pid, Process, Ramp, Trip, TripKind
 from regscribe.model.program import (
     ProgramAction,
@@ -41,7 +40,7 @@ from regscribe.model.program import (
     numbered,
 )
 from regscribe.model.protocol import SILENCE, USUAL_PROTOCOL, ExceptionCode, Faults, Latency, Later, Protocol, Serial
-from regscribe.model.register import Access, Array, Group, Inferred, Kind, Register, Writable
+from regscribe.model.register import Array, Group, Inferred, Register, Writable
 from regscribe.model.section import chapters_of, renumbered
 from regscribe.model.value import (
     IDENTITY,
@@ -62,25 +61,17 @@ from regscribe.model.value import (
     Special,
     Units,
 )
-from regscribe.model.wire import (
-    READ_FUNCTIONS,
-    WRITE_FUNCTIONS,
-    Order,
-    OrderFromRegister,
-    Rounding,
-    Space,
-    View,
-    WireType,
-)
+from regscribe.model.wire import OrderFromRegister, View
+from regscribe_runtime.values.kinds import Access, Kind
+from regscribe_runtime.values.numbers import exact, parse, show
+from regscribe_runtime.values.wire_types import Order, Rounding, Space, WireType
 
 __all__ = [
     "ALWAYS",
     "IDENTITY",
     "NAN",
-    "READ_FUNCTIONS",
     "SILENCE",
     "USUAL_PROTOCOL",
-    "WRITE_FUNCTIONS",
     "Access",
     "Alarm",
     "Array",
@@ -168,6 +159,7 @@ __all__ = [
     "chapters_of",
     "exact",
     "numbered",
+    "parse",
     "registers_of",
     "renumbered",
     "show",

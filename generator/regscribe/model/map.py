@@ -12,7 +12,7 @@ from regscribe.model.program import SetpointProgram
 from regscribe.model.protocol import USUAL_PROTOCOL, Protocol
 from regscribe.model.register import Array, Group, Register
 from regscribe.model.value import Enum
-from regscribe.model.wire import Space
+from regscribe_runtime.values.wire_types import Space
 
 
 @dataclass(frozen=True, slots=True)

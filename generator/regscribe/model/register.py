@@ -1,7 +1,6 @@
 """Registers, arrays of registers and groups, as one model has them."""
 
 from dataclasses import dataclass, field
-from enum import StrEnum
 from fractions import Fraction
 
 from regscribe.model.condition import Cases, Condition, always
@@ -9,42 +8,7 @@ from regscribe.model.diagnostic import NOWHERE, Span
 from regscribe.model.governs import Governs
 from regscribe.model.value import IDENTITY, BitField, Conversion, Enum, Range, Sentinel, Special
 from regscribe.model.wire import View
-
-
-class Kind(StrEnum):
-    """What a value is to a program.
-
-    `NUMBER` may have a fraction, `INTEGER` never has, `RAW` is a whole number whose scale the manual does not state;
-    `FLAGS` is a word of single bits, `FIELDS` a word with at least one wider field; `VERSION` packs decimal digits.
-    """
-
-    NUMBER = "number"
-    INTEGER = "integer"
-    RAW = "raw"
-    ENUM = "enum"
-    FLAGS = "flags"
-    FIELDS = "fields"
-    STRING = "string"
-    VERSION = "version"
-    BOOLEAN = "boolean"
-
-
-class Access(StrEnum):
-    """Whether a register can be read and written."""
-
-    READ = "r"
-    READ_WRITE = "rw"
-    WRITE = "w"
-
-    @property
-    def readable(self) -> bool:
-        """Whether it can be read."""
-        return self is not Access.WRITE
-
-    @property
-    def writable(self) -> bool:
-        """Whether it can be written (perhaps under a condition)."""
-        return self is not Access.READ
+from regscribe_runtime.values.kinds import Access, Kind
 
 
 @dataclass(frozen=True, slots=True)

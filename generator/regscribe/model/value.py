@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from regscribe.model.condition import Cases, Condition
 from regscribe.model.diagnostic import NOWHERE, Span
-from regscribe.model.number import show
+from regscribe_runtime.values.numbers import show
 
 
 @dataclass(frozen=True, slots=True)

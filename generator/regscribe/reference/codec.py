@@ -3,14 +3,16 @@
 from fractions import Fraction
 from math import floor
 
-from regscribe.model.number import show
-from regscribe.model.register import Kind, Register
+from regscribe.model.register import Register
 from regscribe.model.value import NAN, Conversion, NotANumber, Sentinel, Special
-from regscribe.model.wire import View, WireType
+from regscribe.model.wire import View
 from regscribe.reference.ieee import ieee_bits
 from regscribe.reference.outcome import NOT_DECODABLE, SATURATED, Meaning, Reading, RefusalReason, RefusedError
 from regscribe.reference.surroundings import NOTHING_KNOWN, Surroundings, choose, decimal_factor, in_range
 from regscribe.reference.words import HALF, carried, spelled, text_of, wire_number, word_order, words_of_text
+from regscribe_runtime.values.kinds import Kind
+from regscribe_runtime.values.numbers import show
+from regscribe_runtime.values.wire_types import WireType
 
 PATTERNS = frozenset({Kind.FLAGS, Kind.FIELDS})
 """Kinds whose value is a pattern of bits: no number, so it has neither sign nor scale."""

@@ -4,7 +4,7 @@ from decimal import ROUND_HALF_EVEN, ROUND_UP, Context, Decimal
 from fractions import Fraction
 from typing import NamedTuple
 
-from regscribe.model.wire import WireType
+from regscribe_runtime.values.wire_types import WireType
 
 
 class NotFiniteError(ValueError):

@@ -3,12 +3,13 @@
 from fractions import Fraction
 from math import floor, trunc
 
-from regscribe.model.number import show
 from regscribe.model.value import NAN, NotANumber
-from regscribe.model.wire import Order, Rounding, View
+from regscribe.model.wire import View
 from regscribe.reference.ieee import NotFiniteError, ieee_bits, ieee_number, is_infinity, not_a_number, shortest
 from regscribe.reference.outcome import RefusalReason, RefusedError
 from regscribe.reference.surroundings import NOTHING_KNOWN, Surroundings
+from regscribe_runtime.values.numbers import show
+from regscribe_runtime.values.wire_types import Order, Rounding
 
 HALF = Fraction(1, 2)
 

@@ -153,7 +153,7 @@ class DriverUnderTest:
         state, givens = known(example)
         if "register" in example:
             register = self.driver.registers[example["register"]]
-            trial = Trial(register, {"kind": register.kind.name}, {"view": example["view"]}, state, givens)
+            trial = Trial(register, {"kind": register.kind}, {"view": example["view"]}, state, givens)
             if set(example) & {"value", "fault", "outcome"}:
                 yield from decoded(trial, example)
             if example.get("encodes"):
@@ -214,7 +214,7 @@ def _hex(words: tuple[int, ...]) -> str:
 def _declaration(register: Register[Any]) -> tuple[object, ...]:
     """Return all that the codec looks at; two registers with equal declarations cannot differ in it."""
     scaling = (register.scale, register.special_scale, register.range, register.sentinels)
-    return (register.views, id(register.kind), register.access, *scaling)
+    return (register.views, id(register.value_type), register.access, *scaling)
 
 
 def _step(step: Json) -> tuple[int, int, tuple[int, ...]]:

@@ -10,6 +10,7 @@ from regscribe_runtime.operations.session import Protocol, Session
 from regscribe_runtime.operations.snapshot import Snapshot
 from regscribe_runtime.planning.read_places import ReadPlace, read_places
 from regscribe_runtime.registers.register import Register
+from regscribe_runtime.values.wire_types import Space
 from regscribe_runtime.wire.requests import READ_SPACES, Reply, Request
 
 Cell = tuple[str, int]
@@ -76,9 +77,9 @@ def wrong_requests(driver: Any, chosen: Sequence[Register[Any]]) -> list[str]:  
     return found + [text for request in requests for text in _too_much(driver.protocol, request)]
 
 
-def unused_of(driver: Any) -> tuple[tuple[str, int, int], ...]:  # noqa: ANN401 (as above)
+def unused_of(driver: Any) -> tuple[tuple[Space, int, int], ...]:  # noqa: ANN401 (as above)
     """Return the addresses of a generated class that read as 0: space, first, last."""
-    found: tuple[tuple[str, int, int], ...] = driver._unused  # noqa: SLF001 (a fact for the runtime and its judges)
+    found: tuple[tuple[Space, int, int], ...] = driver._unused  # noqa: SLF001 (a fact for the runtime and its judges)
     return found
 
 

@@ -58,7 +58,7 @@ def test_bits_without_a_name_survive_a_change(
 ) -> None:
     bound = getattr(device, path)
     bound.write_raw(held)
-    flags = bound.register.kind.make
+    flags = bound.register.value_type.make
 
     written = bound.change(lambda value: (value | flags.ALARM) & ~flags.HEATING)
 
@@ -205,7 +205,7 @@ def test_what_was_never_read_is_left_out_until_that_expires(device: Any, monkeyp
 
 def test_configure_keeps_bits_without_a_name_that_the_device_has_set(device: Any) -> None:
     device.status.write_raw((0x8041,))
-    flags = device.status.register.kind.make
+    flags = device.status.register.value_type.make
 
     report = device.configure({"status": flags(0x8048)})
 

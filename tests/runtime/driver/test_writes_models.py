@@ -64,7 +64,7 @@ def test_a_changed_configuration_is_written_in_fewer_requests_than_values(family
         values = {
             path: value + 1
             for path, value in settings(controller).items()
-            if type(controller).registers[path].kind.name in {"integer", "raw"}
+            if type(controller).registers[path].kind in {"integer", "raw"}
             and not (path.endswith(("segments", "limit")) or type(controller).registers[path].range)
         }
         controller.link.log.clear()

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from regscribe_runtime import FLOAT32, INT16, NoAnswer, Protocol, ReadOnly, View, WriteOnly, integer, number, word
+from regscribe_runtime import NoAnswer, Protocol, ReadOnly, View, WireType, WriteOnly, integer, number, word
 from regscribe_runtime.errors import Absent, ExceptionAnswer, RegscribeError
 from regscribe_runtime.operations.read import read_many
 from regscribe_runtime.operations.session import Session
@@ -59,7 +59,7 @@ def silence(request: Request) -> Reply:
 
 
 def registers(addresses: Sequence[int]) -> list[Register[Any]]:
-    found: list[Register[Any]] = [ReadOnly(address, word(INT16), integer) for address in addresses]
+    found: list[Register[Any]] = [ReadOnly(address, word(WireType.INT16), integer) for address in addresses]
     for register in found:
         register.path = f"r{register.at}"
     return found
@@ -199,7 +199,7 @@ def test_a_register_that_was_only_read_along_is_not_called_absent() -> None:
 
 
 def test_a_register_with_another_place_is_read_there() -> None:
-    twice: list[Register[Any]] = [ReadOnly(3, word(INT16), integer, aliases=(40,))]
+    twice: list[Register[Any]] = [ReadOnly(3, word(WireType.INT16), integer, aliases=(40,))]
     twice[0].path = "twice"
     rest = registers([2])
     unit = Unit({2: 1, 40: 9}, refuse=code(2))
@@ -211,7 +211,7 @@ def test_a_register_with_another_place_is_read_there() -> None:
 
 
 def test_a_register_that_can_only_be_written_cannot_be_read_along() -> None:
-    secret: Register[Any] = WriteOnly(1, word(INT16), integer)
+    secret: Register[Any] = WriteOnly(1, word(WireType.INT16), integer)
     secret.path = "secret"
     known = [*registers([0, 2]), secret]
     unit = Unit({0: 5, 2: 6}, refuse=code(2))
@@ -251,7 +251,7 @@ def test_whatever_is_absent_exactly_that_has_no_value(
 
 
 def test_an_absent_word_of_an_aligned_view_is_found_too() -> None:
-    views = (View("base", FLOAT32, words=2, align=2),)
+    views = (View("base", WireType.FLOAT32, words=2, align=2),)
     floats: list[Register[Any]] = [ReadOnly(at, views, number) for at in (100, 102, 104)]
     for one in floats:
         one.path = f"f{one.at}"

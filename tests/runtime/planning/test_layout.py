@@ -3,19 +3,20 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from regscribe_runtime import INT16, View
+from regscribe_runtime import View, WireType
 from regscribe_runtime.planning.address_ranges import AddressRanges, RegisterSpan
 from regscribe_runtime.planning.cost import Cost, SerialLine
 from regscribe_runtime.planning.plan import RequestLimits, Terms
 from regscribe_runtime.planning.read_order import ReadOrder, lay_out
 from regscribe_runtime.planning.read_places import ReadPlace
+from regscribe_runtime.values.wire_types import Space
 
-VIEW = View("base", INT16)
-TERMS = Terms(RequestLimits(), AddressRanges({"holding": [(0, 10), (100, 110), (200, 210)]}), Cost(SerialLine()))
+VIEW = View("base", WireType.INT16)
+TERMS = Terms(RequestLimits(), AddressRanges({Space.HOLDING: [(0, 10), (100, 110), (200, 210)]}), Cost(SerialLine()))
 
 
 def at(**places: int) -> dict[str, ReadPlace]:
-    return {path: ReadPlace(VIEW, RegisterSpan("holding", address, 1)) for path, address in places.items()}
+    return {path: ReadPlace(VIEW, RegisterSpan(Space.HOLDING, address, 1)) for path, address in places.items()}
 
 
 def witnessed(layout: ReadOrder, needs: dict[str, set[str]]) -> bool:

@@ -10,6 +10,7 @@ from regscribe_runtime.operations.session import Latency
 from regscribe_runtime.planning.address_ranges import AddressRanges, AddressStretch, RegisterSpan
 from regscribe_runtime.planning.cost import Cost, SerialLine
 from regscribe_runtime.planning.plan import Block, RequestLimits, SplitReason, Terms, Uncoverable, blocks, plan
+from regscribe_runtime.values.wire_types import Space
 
 SLOW = {function: Latency(5, 15, 2, 60, 3) for function in (1, 2, 3, 4)}
 LINES = [
@@ -20,7 +21,7 @@ LINES = [
     Cost(round_trip=1),
     Cost(SerialLine(1200), round_trip=1, latencies=SLOW),
 ]
-SPACES = ["holding", "coil"]
+SPACES = [Space.HOLDING, Space.COIL]
 
 items = st.builds(RegisterSpan, st.sampled_from(SPACES), st.integers(0, 40), st.integers(1, 3))
 wants = st.lists(items, max_size=6)
@@ -33,7 +34,7 @@ def whole(space_refused: Sequence[tuple[int, int]] = (), *, align: int = 1) -> A
     """Ground where everything from 0 to 63 may be read but some holes; from 20 on in steps of `align`."""
     gone = {space: [(first, first + count) for first, count in space_refused] for space in SPACES}
     known = {space: [(0, 64)] for space in SPACES}
-    aligned = {"holding": [AddressStretch(20, 64, align)]} if align > 1 else {}
+    aligned = {Space.HOLDING: [AddressStretch(20, 64, align)]} if align > 1 else {}
     return AddressRanges(known, refused=gone, aligned=aligned)
 
 
@@ -125,10 +126,12 @@ overlapping = st.lists(
 @settings(max_examples=150)
 @given(overlapping, limits, costs)
 @example(
-    [RegisterSpan("coil", 0, 1), RegisterSpan("coil", 8, 1), RegisterSpan("coil", 15, 1)], RequestLimits(), LINES[0]
+    [RegisterSpan(Space.COIL, 0, 1), RegisterSpan(Space.COIL, 8, 1), RegisterSpan(Space.COIL, 15, 1)],
+    RequestLimits(),
+    LINES[0],
 )
 @example(
-    [RegisterSpan("holding", 0, 4), RegisterSpan("holding", 1, 1), RegisterSpan("holding", 3, 4)],
+    [RegisterSpan(Space.HOLDING, 0, 4), RegisterSpan(Space.HOLDING, 1, 1), RegisterSpan(Space.HOLDING, 3, 4)],
     RequestLimits(words=5),
     LINES[0],
 )
@@ -142,8 +145,8 @@ def test_long_items_that_overlap_are_read_at_the_least_cost(
 
 def test_ten_thousand_registers_are_planned() -> None:
     """A quadratic planner would need minutes, and be stopped."""
-    terms = Terms(RequestLimits(), AddressRanges({}, holes=True, unreadable={"holding": []}), LINES[0])
-    wanted = [RegisterSpan("holding", 5 * place + place % 3, 1 + place % 2) for place in range(10_000)]
+    terms = Terms(RequestLimits(), AddressRanges({}, holes=True, unreadable={Space.HOLDING: []}), LINES[0])
+    wanted = [RegisterSpan(Space.HOLDING, 5 * place + place % 3, 1 + place % 2) for place in range(10_000)]
 
     made = blocks(wanted, terms)
 
@@ -151,18 +154,24 @@ def test_ten_thousand_registers_are_planned() -> None:
 
 
 def test_the_reasons_of_a_plan_say_why_each_request_is_its_own() -> None:
-    known = {"holding": [(0, 30), (40, 60)], "coil": [(0, 8)]}
+    known = {Space.HOLDING: [(0, 30), (40, 60)], Space.COIL: [(0, 8)]}
     ground = AddressRanges(
         known,
-        unreadable={"holding": [(60, 61)]},
-        refused={"holding": [(8, 9)]},
+        unreadable={Space.HOLDING: [(60, 61)]},
+        refused={Space.HOLDING: [(8, 9)]},
         aligned={
-            "holding": [AddressStretch(50, 60, 2)],
+            Space.HOLDING: [AddressStretch(50, 60, 2)],
         },
     )
     cost = Cost(SerialLine(9600), latencies={3: Latency(0, 0, 5, 100)})
-    at = [("coil", 0, 1), ("holding", 0, 2), ("holding", 2, 6), ("holding", 9, 1), ("holding", 20, 1)]
-    more = [("holding", 40, 2), ("holding", 47, 2), ("holding", 50, 2)]
+    at = [
+        (Space.COIL, 0, 1),
+        (Space.HOLDING, 0, 2),
+        (Space.HOLDING, 2, 6),
+        (Space.HOLDING, 9, 1),
+        (Space.HOLDING, 20, 1),
+    ]
+    more = [(Space.HOLDING, 40, 2), (Space.HOLDING, 47, 2), (Space.HOLDING, 50, 2)]
 
     found = plan([RegisterSpan(*one) for one in at + more], Terms(RequestLimits(words=6), ground, cost))
 
@@ -176,33 +185,35 @@ def test_the_reasons_of_a_plan_say_why_each_request_is_its_own() -> None:
         (47, 2, SplitReason.LIMIT),
         (50, 2, SplitReason.ALIGNMENT),
     ]
-    apart = plan([RegisterSpan("holding", 0, 1), RegisterSpan("holding", 3, 1)], Terms(RequestLimits(), ground, cost))
+    apart = plan(
+        [RegisterSpan(Space.HOLDING, 0, 1), RegisterSpan(Space.HOLDING, 3, 1)], Terms(RequestLimits(), ground, cost)
+    )
     assert apart.requests[1].split.reason is SplitReason.CHEAPER
     assert apart.requests[1].split.detail == "2 between, saves 88.3 ms"  # 2 words of 54.6 ms against 20 characters
 
 
 def test_a_register_that_can_only_be_written_is_never_read_along() -> None:
-    known = {"holding": [(0, 3), (4, 6)]}
-    terms = Terms(RequestLimits(), AddressRanges(known, unreadable={"holding": [(3, 4)]}, holes=True), LINES[0])
+    known = {Space.HOLDING: [(0, 3), (4, 6)]}
+    terms = Terms(RequestLimits(), AddressRanges(known, unreadable={Space.HOLDING: [(3, 4)]}, holes=True), LINES[0])
 
-    found = plan([RegisterSpan("holding", 0, 3), RegisterSpan("holding", 4, 2)], terms)
+    found = plan([RegisterSpan(Space.HOLDING, 0, 3), RegisterSpan(Space.HOLDING, 4, 2)], terms)
 
     assert [(one.block.address, one.carried) for one in found.requests] == [(0, 3), (4, 2)]
     assert found.requests[1].split.reason is SplitReason.UNREADABLE
     with pytest.raises(Uncoverable, match=r"holding 2\.\.4 cannot be read"):
-        plan([RegisterSpan("holding", 2, 3)], terms)
+        plan([RegisterSpan(Space.HOLDING, 2, 3)], terms)
 
 
 def test_an_address_in_an_aligned_view_is_asked_for_with_its_neighbour() -> None:
     terms = Terms(RequestLimits(words=5), whole(align=2), LINES[0])
 
-    made = blocks([RegisterSpan("holding", 23, 1), RegisterSpan("holding", 26, 1)], terms)
+    made = blocks([RegisterSpan(Space.HOLDING, 23, 1), RegisterSpan(Space.HOLDING, 26, 1)], terms)
 
     assert [(block.address, block.quantity) for block in made] == [(22, 2), (26, 2)]
 
 
 def test_a_gap_is_crossed_where_a_second_request_costs_more() -> None:
-    wanted = [RegisterSpan("holding", 0, 1), RegisterSpan("holding", 10, 1)]
+    wanted = [RegisterSpan(Space.HOLDING, 0, 1), RegisterSpan(Space.HOLDING, 10, 1)]
 
     def counts(cost: Cost) -> list[int]:
         return [block.quantity for block in blocks(wanted, Terms(RequestLimits(), whole(), cost))]

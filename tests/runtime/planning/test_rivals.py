@@ -10,6 +10,7 @@ import pytest
 from regscribe_runtime.planning.address_ranges import AddressRanges, RegisterSpan
 from regscribe_runtime.planning.cost import Cost, SerialLine
 from regscribe_runtime.planning.plan import RequestLimits, Terms
+from regscribe_runtime.values.wire_types import Space
 
 BENCH = Path(__file__).parents[2] / "system" / "bench"
 GAPS = (0, 1, 2, 4, 8, 11, 16, 32, 64, 125)
@@ -63,11 +64,11 @@ def test_every_rival_reads_all_that_is_wanted_and_keeps_to_the_device(bench: Any
 
 
 def test_the_rules_of_the_rivals_are_those_of_their_documentation(bench: Any) -> None:
-    everywhere = AddressRanges({"holding": [(0, 200)]}, holes=True)
+    everywhere = AddressRanges({Space.HOLDING: [(0, 200)]}, holes=True)
     terms = Terms(RequestLimits(), everywhere, Cost(SerialLine()))
 
     def at(*addresses: int) -> list[RegisterSpan]:
-        return [RegisterSpan("holding", address, 1) for address in addresses]
+        return [RegisterSpan(Space.HOLDING, address, 1) for address in addresses]
 
     row = bench.Task.of(at(2, 5, 9), at(*range(1, 8), 9), terms)
     wide = bench.Task.of(at(2, 60, 190), at(2, 60, 190), terms)

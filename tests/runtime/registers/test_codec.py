@@ -10,30 +10,27 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from regscribe import reference
-from regscribe.model import WireType
 from regscribe_runtime import (
-    FLOAT32,
-    INT16,
-    INT32,
-    UINT16,
     Conversion,
     NotDecodable,
+    Order,
     ReadWrite,
     ValueRefused,
     View,
+    WireType,
     integer,
     number,
     text,
     within,
     word,
 )
-from regscribe_runtime.values.wire_types import FLOAT64, ROUNDINGS, exact, shortest
+from regscribe_runtime.values.numbers import ROUNDINGS, exact, shortest
 
-tenths = ReadWrite(0, word(UINT16), number, scale=(((), Conversion(multiply="0.1", add="-1999.9")),))
-ieee = ReadWrite(0, (View("base", FLOAT32, words=2),), number)
-swapped = ReadWrite(0, (View("base", INT32, words=2, order="little"),), integer)
-label = ReadWrite(0, (View("base", UINT16, words=3),), text)
-label_low_first = ReadWrite(0, (View("base", UINT16, words=3, byte_order="little"),), text)
+tenths = ReadWrite(0, word(WireType.UINT16), number, scale=(((), Conversion(multiply="0.1", add="-1999.9")),))
+ieee = ReadWrite(0, (View("base", WireType.FLOAT32, words=2),), number)
+swapped = ReadWrite(0, (View("base", WireType.INT32, words=2, order=Order.LITTLE),), integer)
+label = ReadWrite(0, (View("base", WireType.UINT16, words=3),), text)
+label_low_first = ReadWrite(0, (View("base", WireType.UINT16, words=3, byte_order=Order.LITTLE),), text)
 
 
 @pytest.mark.parametrize("value", [2.0**63, 2**63, 2.0**100, -(2.0**63), 1 + 2.0**-23])
@@ -78,9 +75,8 @@ def test_a_float32_reads_as_its_shortest_decimal_and_writes_back(value: float) -
     ("wire_type", "lowest", "beyond"), [(WireType.FLOAT32, -149, 128), (WireType.FLOAT64, -1074, 1024)]
 )
 def test_every_power_of_two_reads_as_the_reference_says(wire_type: WireType, lowest: int, beyond: int) -> None:
-    mine = {WireType.FLOAT32: FLOAT32, WireType.FLOAT64: FLOAT64}[wire_type]
     powers = [2.0**power for power in range(lowest, beyond)]
-    assert [Fraction(shortest(one, mine)) for one in powers] == [
+    assert [Fraction(shortest(one, wire_type)) for one in powers] == [
         reference.shortest(Fraction(one), wire_type) for one in powers
     ]
 
@@ -122,7 +118,7 @@ def test_a_text_that_does_not_fit_is_refused(value: object) -> None:
 
 
 def test_a_negative_number_is_twos_complement() -> None:
-    signed = ReadWrite(0, word(INT16), integer, range=within(-1999, 9999))
+    signed = ReadWrite(0, word(WireType.INT16), integer, range=within(-1999, 9999))
 
     assert signed.encode(-1999) == (0xF831,)
     assert signed.decode((0xF831,)) == -1999

@@ -25,7 +25,7 @@ from regscribe_runtime import RegscribeError
 from regscribe_runtime.link.links import serial
 from regscribe_runtime.planning.address_ranges import RegisterSpan
 from regscribe_runtime.planning.cost import Cost
-from regscribe_runtime.wire.requests import READ_FUNCTIONS, Request
+from regscribe_runtime.wire.requests import Request
 
 BAUD = 9600
 GAP = 10
@@ -88,7 +88,7 @@ def _fixed_gap(subject: Subject, path: str, unit: int) -> float:
     try:
         start = time.perf_counter()
         for one in requests:
-            link.call(unit, Request(READ_FUNCTIONS[one.space], one.address, one.words))
+            link.call(unit, Request(one.space.read_function, one.address, one.words))
         return time.perf_counter() - start
     finally:
         link.close()
@@ -108,7 +108,7 @@ def _one_by_one(subject: Subject, path: str, unit: int) -> float:
 
 
 def _read(instrument: Any, one: RegisterSpan) -> None:
-    function = READ_FUNCTIONS[one.space]
+    function = one.space.read_function
     if one.space == "status":
         return  # minimalmodbus has no function 07: the comparison is in its favour
     if one.space in {"coil", "discrete"}:

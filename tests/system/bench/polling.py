@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 from measure import Row, at_most, milliseconds
 from pymodbus.client import AsyncModbusSerialClient, AsyncModbusTcpClient, ModbusSerialClient, ModbusTcpClient
 
-from regscribe_runtime import INT16, AsyncBus, AsyncDevice, Device, ReadOnly, integer, word
+from regscribe_runtime import AsyncBus, AsyncDevice, Device, ReadOnly, WireType, integer, word
 
 READS = 100
 RUNS = 25
@@ -46,7 +46,7 @@ async def main():
 asyncio.run(main())
 """
 
-_REGISTERS: dict[str, Any] = {f"value_{at}": ReadOnly(at, word(INT16), integer) for at in range(COUNT)}
+_REGISTERS: dict[str, Any] = {f"value_{at}": ReadOnly(at, word(WireType.INT16), integer) for at in range(COUNT)}
 Hundred = type("Hundred", (Device,), dict(_REGISTERS))
 AsyncHundred = type("AsyncHundred", (AsyncDevice,), dict(_REGISTERS))
 

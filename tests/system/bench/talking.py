@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from measure import Row, at_least, at_most, milliseconds, paired
 from pymodbus.client import ModbusTcpClient
 
-from regscribe_runtime import INT16, Conversion, ReadOnly, integer, number, word
+from regscribe_runtime import Conversion, ReadOnly, WireType, integer, number, word
 from regscribe_runtime.operations.prepared_read import make_ready
 from regscribe_runtime.operations.session import Protocol, Session
 
@@ -16,10 +16,10 @@ READS = 100
 
 def decoding() -> Iterator[Row]:
     """1,000 words: half whole numbers, half with one decimal."""
+    plain = word(WireType.INT16)
     tenths = (((), Conversion(multiply="0.1")),)
     registers = [
-        ReadOnly(at, word(INT16), number, scale=tenths) if at % 2 else ReadOnly(at, word(INT16), integer)
-        for at in range(COUNT)
+        ReadOnly(at, plain, number, scale=tenths) if at % 2 else ReadOnly(at, plain, integer) for at in range(COUNT)
     ]
     for register in registers:
         register.path = f"parameter_{register.at}"

@@ -84,9 +84,7 @@ def _show_registers(known: Known, *, as_json: bool) -> None:
             commands={name: {"danger": one.danger} for name, one in commands.items()},
         )
         return
-    rows = [
-        (one.path, ACCESS[one.access], one.kind.name, unit_text(one), one.section) for one in driver.registers.values()
-    ]
+    rows = [(one.path, ACCESS[one.access], one.kind, unit_text(one), one.section) for one in driver.registers.values()]
     show_table(("REGISTER", "ACCESS", "KIND", "UNIT", "SECTION"), rows, title=f"{known.model}: registers")
     show_table(("GROUP", "NAME"), [(name, one.name) for name, one in groups.items()], title="groups")
     show_table(("COMMAND", "DANGER"), [(name, one.danger) for name, one in commands.items()], title="commands")
@@ -104,7 +102,7 @@ def _register(register: Register[Any]) -> dict[str, Any]:
     return {
         "name": register.path,
         "access": ACCESS[register.access],
-        "kind": register.kind.name,
+        "kind": register.kind,
         "unit": unit_text(register),
         "choices": list(choices(register)),
         "address": view.address(register.at),

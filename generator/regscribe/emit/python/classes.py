@@ -13,7 +13,7 @@ from regscribe.emit.python.expressions import Specs
 from regscribe.emit.python.formatting import INDENT, call, group, lay, mapping
 from regscribe.emit.python.groups import groups_body, groups_of, same_groups
 from regscribe.emit.python.keys import Keys, arrays, command_key
-from regscribe.emit.python.literals import camel, docstring, literal
+from regscribe.emit.python.literals import camel, docstring, literal, member
 from regscribe.emit.python.offer import Declared, Groups, Offer, Origin, Part, chosen
 from regscribe.emit.python.programs import programs
 from regscribe.emit.python.register_lines import Declarations, command_call, command_text
@@ -326,7 +326,7 @@ class Classes:
         return self.pool.share("programs", programs(model, Specs(model, self.pool)), "setpoint programs")
 
     def _unused(self, model: Model) -> str:
-        rows = [group([literal(space), str(first), str(last)]) for space, first, last in model.unused]
+        rows = [group([member(space), str(first), str(last)]) for space, first, last in model.unused]
         return self.pool.share("unused", group(rows), "addresses that read as 0")
 
     def _device(self, prefix: str) -> str:

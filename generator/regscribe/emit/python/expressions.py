@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from regscribe.emit.python.constants import Pool
 from regscribe.emit.python.formatting import Call, Expression, call, group, mapping
-from regscribe.emit.python.literals import exact, literal
+from regscribe.emit.python.literals import exact, literal, member
 from regscribe.emit.words import cases_words, conversion_words, range_words
 from regscribe.model import (
     IDENTITY,
@@ -26,7 +26,6 @@ from regscribe.model import (
     Space,
     Test,
     View,
-    WireType,
 )
 
 
@@ -137,7 +136,7 @@ class Specs:
         if len(register.views) > 1:
             return self.pool.share("views", templates)
         if base == _plain(base):
-            return self.pool.share(base.type, call(self.pool.helper("word"), _type_name(base)))
+            return self.pool.share(base.type, call(self.pool.helper("word"), member(base.type)))
         kind = base.type if base.space is Space.HOLDING else f"{base.space}_{base.type}"
         return self.pool.share(kind, templates)
 
@@ -156,30 +155,25 @@ def _plain(view: View) -> View:
     return View("base", Space.HOLDING, view.address, view.type, words=view.type.words, region=view.region)
 
 
-def _type_name(view: View) -> str:
-    """The runtime's name of a type; a text is words."""
-    return "UINT16" if view.type is WireType.STRING else view.type.upper()
-
-
 def _view(view: View, base: View) -> Call:
     # wire address = offset + stride x at, with the base view's own address as `at`
     offset = view.address - view.stride * base.address
     return call(
         "View",
         literal(view.name),
-        _type_name(view),
+        member(view.type),
         offset=str(offset) if offset else None,
         stride=str(view.stride) if view.stride != 1 else None,
         words=str(view.words) if view.words != 1 else None,
         factor=exact(view.factor) if view.factor != 1 else None,
-        rounding=literal(view.rounding) if view.rounding is not Rounding.NONE else None,
+        rounding=member(view.rounding) if view.rounding is not Rounding.NONE else None,
         saturates="True" if view.saturates else None,
         order=_order(view.word_order),
-        byte_order=literal(view.byte_order) if view.byte_order is not Order.BIG else None,
+        byte_order=member(view.byte_order) if view.byte_order is not Order.BIG else None,
         functions=f"({', '.join(map(str, view.functions))}{',' * (len(view.functions) == 1)})"
         if view.functions
         else None,
-        space=literal(view.space) if view.space is not Space.HOLDING else None,
+        space=member(view.space) if view.space is not Space.HOLDING else None,
         preferred="True" if view.preferred else None,
         align=str(view.align) if view.align != 1 else None,
     )
@@ -187,6 +181,6 @@ def _view(view: View, base: View) -> Call:
 
 def _order(order: Order | OrderFromRegister) -> Expression | None:
     if isinstance(order, OrderFromRegister):
-        codes = mapping([(str(code), literal(found)) for code, found in order.codes])
+        codes = mapping([(str(code), member(found)) for code, found in order.codes])
         return call("OrderFrom", literal(order.register), codes)
-    return literal(order) if order is not Order.BIG else None
+    return member(order) if order is not Order.BIG else None

@@ -2,6 +2,7 @@
 
 import re
 import textwrap
+from enum import Enum
 from fractions import Fraction
 
 from regscribe.emit.python.formatting import INDENT, WIDTH, width
@@ -21,6 +22,11 @@ def literal(text: str) -> str:
 def exact(number: Fraction) -> str:
     """A number without loss: an int, or its text for the runtime to read."""
     return str(number.numerator) if number.denominator == 1 else literal(show(number))
+
+
+def member(value: Enum) -> str:
+    """A member of an enum of the runtime."""
+    return f"{type(value).__name__}.{value.name}"
 
 
 def plain(number: Fraction) -> str:

@@ -9,7 +9,6 @@ from regscribe.emit.vectors.candidates import Proposal, wire_bits
 from regscribe.emit.vectors.scale import LARGEST, Scale, scale_now
 from regscribe.emit.vectors.situations import Situation
 from regscribe.model import BitField, Kind, Order, Register, View, WireType, show
-from regscribe.model.number import MOST_DIGITS
 from regscribe.reference import (
     Meaning,
     Reading,
@@ -20,6 +19,7 @@ from regscribe.reference import (
     special_value,
     word_order,
 )
+from regscribe_runtime.values.numbers import MOST_DIGITS
 
 Json = dict[str, Any]
 LARGEST_TRIED = Fraction(10**MOST_DIGITS)

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from regscribe.checks.assumed_values import default_values, with_fields
-from regscribe.model import GivenKind, Model, RegisterMap, exact
+from regscribe.model import GivenKind, Model, RegisterMap, parse
 from regscribe.plugins import OptionError
 from regscribe.reference import Surroundings
 
@@ -51,7 +51,7 @@ def _said(model: Model, text: str) -> tuple[str, Fraction]:
         known = f"a number or one of {', '.join(members)}" if members else "a number"
         message = f"--with {text}: the value of `{path}` is {known}"
         raise OptionError(message)
-    return path, exact(value)
+    return path, parse(value)
 
 
 def _codes(text: str, value: str) -> frozenset[Fraction]:

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from fractions import Fraction
 
-from regscribe.model import NAN, Kind, Model, NotANumber, Register, RegisterMap, Space, exact
+from regscribe.model import NAN, Kind, Model, NotANumber, Register, RegisterMap, Space, parse
 from regscribe.reference import version_text
 from regscribe.simulate.device import codec
 from regscribe.simulate.device.device_plan import Blueprint, Image, PlanCache, Stored, draw
@@ -261,7 +261,7 @@ class DeviceState(PresentMeaning):
             if fault is not None:
                 return fault
             if register.kind is Kind.VERSION:
-                return exact(value.replace(".", ""))
+                return parse(value.replace(".", ""))
         specials = {each.id: self.special(register, each) for each in register.specials}
         return self.from_value(register, number_of(register, None, value, specials))
 

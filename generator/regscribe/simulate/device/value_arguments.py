@@ -6,7 +6,7 @@ from enum import StrEnum
 from fractions import Fraction
 from types import MappingProxyType
 
-from regscribe.model import BitField, NotANumber, Register, exact
+from regscribe.model import BitField, NotANumber, Register, exact, parse
 from regscribe.simulate.errors import SimulatorError
 
 Plain = str | float | Fraction | Decimal | NotANumber
@@ -59,7 +59,7 @@ def number_of(
         if value.lower() in names:
             return names[value.lower()]
     try:
-        number = exact("" if isinstance(value, NotANumber) else value)
+        number = parse(value) if isinstance(value, str) else exact(value)  # type: ignore[arg-type] # refuses NAN
     except ValueError:
         message = f"{value!r} is no value of {register.path!r}: give a number or the id of a value"
         raise SimulatorError(message) from None

@@ -32,7 +32,7 @@ def show(register: Register[Any], value: Any) -> Plain:  # noqa: ANN401 - a valu
         return [*(member.name or "" for member in type(value) if member in value), *_unnamed(value)]
     if isinstance(value, Word):
         return [f"{name}={_shown_part(part)}" for name, part in value] + _rest(value)
-    if register.kind.name == "boolean":
+    if register.kind == "boolean":
         return bool(value)
     return value if isinstance(value, (int, float)) else str(value)
 
@@ -60,7 +60,7 @@ def parse(register: Register[Any], plain: Plain, *, unit: str = "", current_unit
     `unit` is what stands beside the value; a number's text may carry its own (`150.5 °F`). `current_unit` is the unit
     that the device works in now.
     """
-    name = register.kind.name
+    name = register.kind
     if name in {"number", "integer", "raw"}:
         return _number(register, plain, unit, current_unit)
     _same_unit(register, unit, current_unit)
@@ -80,17 +80,17 @@ def parse(register: Register[Any], plain: Plain, *, unit: str = "", current_unit
 def choices(register: Register[Any]) -> tuple[str, ...]:
     """The names that a value of the register may have: of members, special values, flags and parts."""
     kind = register.kind
-    if kind.name == "boolean":
+    if kind == "boolean":
         return ("false", "true")
-    if kind.name in {"enum", "flags"}:
+    if kind in {"enum", "flags"}:
         return tuple(member.name for member in _members_of(register))
-    if kind.name == "fields":
+    if kind == "fields":
         return tuple(f"{name}=" for name in _members_of(register).parts)
-    return tuple(member.name for member in kind.special or ())
+    return tuple(member.name for member in register.value_type.special or ())
 
 
 def _members_of(register: Register[Any]) -> Any:  # noqa: ANN401 - an enum, flags or a word of fields
-    return type(register.kind.make(0)) if register.kind.name == "fields" else register.kind.make
+    return type(register.value_type.make(0)) if register.kind == "fields" else register.value_type.make
 
 
 def _unnamed(value: Flags) -> list[str]:
@@ -119,7 +119,7 @@ def _number(register: Register[Any], plain: Plain, unit: str, current: str) -> A
         _same_unit(register, unit, current)
         return _exactly(register, str(plain))
     text = plain.strip()
-    special = register.kind.special
+    special = register.value_type.special
     if special is not None and not _NUMBER.match(text):
         _same_unit(register, unit, current)
         return _member(register, special, text)
@@ -147,7 +147,7 @@ def _exactly(register: Register[Any], text: str) -> int | float:
     close = float(number)
     if not number.is_finite() or Decimal(repr(close)) != number:
         raise ValueRefused(register.path, f"`{text[:60]}` has more digits than a number of use can carry")
-    return close if close != int(close) or register.kind.name == "number" else int(close)
+    return close if close != int(close) or register.kind == "number" else int(close)
 
 
 def _whole(text: str) -> int:

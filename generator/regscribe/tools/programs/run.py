@@ -111,7 +111,7 @@ def _ready(place: ProgramSlot) -> Task[None]:
             register = place.register(path)
             held = yield from tasks.read(register, None)(session)
             if held != int(code):
-                wanted = register.kind.make(int(code))
+                wanted = register.value_type.make(int(code))
                 advice = f"set it to {_shown(wanted)}, or write the program"
                 raise ValueRefused(register.path, f"it is {_shown(held)}, so the program does not run: {advice}")
         if place.spec.requires:

@@ -18,7 +18,7 @@ NO_UNIT = "the number has no unit"
 
 def is_raw(register: Register[Any]) -> bool:
     """Whether the manual leaves the scale of the register open."""
-    return register.kind.name == "raw"
+    return register.kind == "raw"
 
 
 def needs(register: Register[Any]) -> set[str]:
@@ -89,7 +89,7 @@ def _converted(register: Register[Any], setting: Amount, unit: str) -> str:
         raise ValueRefused(register.path, message)
     number = Fraction(setting.number) * Fraction(SECONDS[setting.unit]) / Fraction(SECONDS[unit])
     decimals = Decimal(number.numerator) / Decimal(number.denominator)
-    if Fraction(decimals) != number or (register.kind.name == "integer" and number.denominator != 1):
+    if Fraction(decimals) != number or (register.kind == "integer" and number.denominator != 1):
         message = f"`{setting}`: the device counts whole {unit}, and this is {float(number):.6g} {unit}"
         raise ValueRefused(register.path, message)
     return f"{decimals:f}"

@@ -9,7 +9,7 @@ from regscribe.tools.live.value_text import show
 from regscribe.tools.settings.backup import Saved
 from regscribe.tools.settings.take import is_number, writable
 from regscribe_runtime import Register
-from regscribe_runtime.values.wire_types import exact
+from regscribe_runtime.values.numbers import exact
 
 TEXTS = frozenset({"string", "version"})
 
@@ -22,16 +22,16 @@ def factory(driver: Driver) -> dict[str, Saved]:
 
 def default_of(register: Register[Any]) -> Any:  # noqa: ANN401 (a value of any register)
     """The default as a driver would read it: a member of the enum, a special value, a number, a text."""
-    kind, default = register.kind, register.default
-    if kind.name in TEXTS or default is None:
+    value_type, default = register.value_type, register.default
+    if register.kind in TEXTS or default is None:
         return default
-    if kind.coded:
-        return kind.make(int(default))
+    if value_type.coded:
+        return value_type.make(int(default))
     number = Fraction(default) if isinstance(default, str) else exact(default)
-    for member in kind.special or ():
+    for member in value_type.special or ():
         if exact(member.value) == number:
             return member
-    return kind.make(number)
+    return value_type.make(number)
 
 
 def _saved(register: Register[Any], value: Any, state: dict[str, Any]) -> Saved:  # noqa: ANN401 (as above)

@@ -25,6 +25,7 @@ from regscribe_runtime.report import Wear, WriteReport
 from regscribe_runtime.values.programs import SetpointProgram
 from regscribe_runtime.values.serial_line import Line
 from regscribe_runtime.values.specs import Identity
+from regscribe_runtime.values.wire_types import Space
 
 T = TypeVar("T")
 What = Group | Register[Any] | _Bound[Any] | _AsyncBound[Any]
@@ -51,7 +52,7 @@ class _Common:
     protocol: ClassVar[Protocol] = Protocol()
     identity: ClassVar[tuple[Identity, ...]] = ()
     setpoint_programs: ClassVar[tuple[SetpointProgram, ...]] = ()
-    _unused: ClassVar[tuple[tuple[str, int, int], ...]] = ()
+    _unused: ClassVar[tuple[tuple[Space, int, int], ...]] = ()
     registers = Catalogue(whole=True)
     session: Session
 

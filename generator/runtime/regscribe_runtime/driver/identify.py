@@ -16,7 +16,7 @@ from regscribe_runtime.operations.session import Operation, Task
 from regscribe_runtime.registers import codec
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.specs import View
-from regscribe_runtime.wire.requests import READ_FUNCTIONS, Request, verify
+from regscribe_runtime.wire.requests import Request, verify
 
 DRIVERS = "regscribe.drivers"
 """The group of entry points by which a package says that it holds generated drivers."""
@@ -127,7 +127,7 @@ def _view(register: Register[Any]) -> View:
 
 def _request(register: Register[Any]) -> Request:
     view = _view(register)
-    return Request(READ_FUNCTIONS[view.space], view.address(register.at), view.words)
+    return Request(view.space.read_function, view.address(register.at), view.words)
 
 
 def _ask(request: Request, unit: int, known: Known) -> Operation[tuple[int, ...] | RegscribeError]:

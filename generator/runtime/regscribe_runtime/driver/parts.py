@@ -76,7 +76,7 @@ def _members_of(owner: type) -> Mapping[str, list[Register[Any]]]:
         found: dict[str, list[Register[Any]]] = {}
         every: Mapping[str, Register[Any]] = getattr(owner, "registers", {})
         for path, register in every.items():
-            if register.access != "w":
+            if register.access.readable:
                 found.setdefault(path.partition("[")[0], []).append(register)
         _MEMBERS[owner] = found
     return _MEMBERS[owner]
@@ -101,7 +101,7 @@ def _placed(part: "Part | AsyncPart") -> dict[str, Register[Any]]:
     return {
         path: every[f"{prefix}.{path}"] if prefix else register
         for path, register in type(part).registers.items()
-        if register.access != "w"
+        if register.access.readable
     }
 
 

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 from regscribe_runtime.errors import RegscribeError, ValueNotDecodable
 from regscribe_runtime.planning.plan import Block
 from regscribe_runtime.registers import codec
+from regscribe_runtime.values.kinds import Kind
 from regscribe_runtime.values.specs import View
-from regscribe_runtime.values.wire_types import BIG, LITTLE
+from regscribe_runtime.values.wire_types import Order
 from regscribe_runtime.wire.requests import Request
 
 if TYPE_CHECKING:
@@ -85,7 +86,7 @@ def _split(placed: Sequence[Placed]) -> tuple[list[Placed], list[Placed]]:
     end = 0
     for one in placed:
         register, view, start = one
-        plain = register.kind.name != "string" and view.space not in codec.BIT_SPACES and view.byte_order == BIG
+        plain = register.kind is not Kind.STRING and view.space.is_words and view.byte_order is Order.BIG
         (together if plain and start >= end else alone).append(one)
         end = max(end, start + view.words)
     return together, alone
@@ -109,7 +110,7 @@ def _order(together: Sequence[Placed], quantity: int, session: "Session") -> lis
 
 def _backward(register: "Register[Any]", view: View, session: "Session") -> bool:
     try:
-        return view.word_order(register.path, session.memory) == LITTLE
+        return view.word_order(register.path, session.memory) is Order.LITTLE
     except (ValueNotDecodable, KeyError):
         return False  # its converter says so, for this register alone
 

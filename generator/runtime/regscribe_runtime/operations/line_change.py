@@ -13,7 +13,8 @@ from regscribe_runtime.operations.read import read_request
 from regscribe_runtime.operations.read_back import Target, differs, is_lost, meaning, same, words_of
 from regscribe_runtime.operations.session import LineChange, Operation, Pause, Session
 from regscribe_runtime.operations.write_request import applied, called, send
-from regscribe_runtime.values.wire_types import brief
+from regscribe_runtime.values.kinds import Kind
+from regscribe_runtime.values.numbers import brief
 from regscribe_runtime.wire.requests import verify
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 
 FORMAT_LENGTH = 3
 PARITIES = ("N", "E", "O")
-MARKS = frozenset({"string", "version"})
+MARKS = frozenset({Kind.STRING, Kind.VERSION})
 """Kinds of registers whose words tell a device: they do not change, and no neighbour holds the same."""
 
 LATER = "restart"
@@ -134,7 +135,7 @@ def _meant_unit(target: Target, words: Words, session: Session) -> int:
 
 
 def _marks(session: Session) -> Operation[dict[str, Words]]:
-    registers = [one for one in session.registers.values() if one.kind.name in MARKS and one.access != "w"]
+    registers = [one for one in session.registers.values() if one.kind in MARKS and one.access.readable]
     return (yield from words_of(session, [(one, one.read_view()) for one in registers]))
 
 

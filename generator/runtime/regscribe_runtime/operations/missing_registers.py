@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from regscribe_runtime.errors import Absent, RegscribeError
 from regscribe_runtime.planning.address_ranges import RegisterSpan
+from regscribe_runtime.values.wire_types import Space
 
 EXPIRY_SECONDS = 600.0
 """How long a refused address is left out."""
@@ -47,7 +48,7 @@ class MissingRegisters:
         """Remember that these addresses were refused now."""
         self._refusals[item] = Refusal(item, answer, self.clock(), alone, passing)
 
-    def heard(self, space: str, address: int, quantity: int) -> bool:
+    def heard(self, space: Space, address: int, quantity: int) -> bool:
         """Forget what was refused and is in a good answer now; whether there was such a thing."""
         good = [
             item

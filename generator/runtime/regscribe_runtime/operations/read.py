@@ -16,7 +16,8 @@ from regscribe_runtime.planning.address_ranges import RegisterSpan
 from regscribe_runtime.planning.plan import RequestLimits, Terms, blocks
 from regscribe_runtime.registers import codec
 from regscribe_runtime.values.specs import View, choose, registers_of
-from regscribe_runtime.wire.requests import READ_FUNCTIONS, Request
+from regscribe_runtime.values.wire_types import Space
+from regscribe_runtime.wire.requests import Request
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -49,7 +50,7 @@ def fetch(session: Session, items: Iterable[RegisterSpan]) -> Operation[dict[Reg
         requests = _planned(wanted, session.terms())
     found = {}
     for asked, held in requests.items():
-        words = yield from session.exchange(Request(READ_FUNCTIONS[asked.space], asked.address, asked.words))
+        words = yield from session.exchange(Request(asked.space.read_function, asked.address, asked.words))
         for item in held:
             start = item.address - asked.address
             found[item] = tuple(words[start : start + item.words])
@@ -68,7 +69,7 @@ def _planned(items: Sequence[RegisterSpan], terms: Terms) -> dict[RegisterSpan, 
 def _joined(items: Sequence[RegisterSpan], limits: RequestLimits) -> dict[RegisterSpan, Sequence[RegisterSpan]]:
     """Sorted items by the span that reads them: those that follow each other without a gap are read together."""
     found: dict[RegisterSpan, Sequence[RegisterSpan]] = {}
-    last = RegisterSpan("", 0, 0)
+    last = RegisterSpan(Space.HOLDING, -1, 0)
     for item in items:
         both = last._replace(words=item.end - last.address)
         if (item.space, item.address) == (last.space, last.end) and both.words <= limits.most(item.space):
@@ -127,7 +128,7 @@ def read(register: Register[T], view_name: str | None) -> Task[T]:
 
 def read_request(register: Register[Any], view: View) -> Request:
     """The request that reads a register in a view."""
-    return Request(READ_FUNCTIONS[view.space], view.address(register.at), view.words)
+    return Request(view.space.read_function, view.address(register.at), view.words)
 
 
 def read_raw(register: Register[Any], view_name: str | None) -> Task[tuple[int, ...]]:

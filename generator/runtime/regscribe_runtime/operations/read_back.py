@@ -21,6 +21,7 @@ from regscribe_runtime.operations.read import fetch, item_of, read_request
 from regscribe_runtime.operations.session import Pause
 from regscribe_runtime.planning.read_places import same_precision
 from regscribe_runtime.registers import codec
+from regscribe_runtime.values.kinds import Access
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -48,7 +49,8 @@ def is_lost(error: Exception) -> bool:
 
 def read_back_needs(register: Register[Any], view: View) -> tuple[str, ...]:
     """What must be known to tell what was written in a view from what another one shows, where it cannot be read."""
-    return () if view.readable or register.access == "w" else (*view.needs(), *register.needs(register.read_view()))
+    seen = view.readable or not register.access.readable
+    return () if seen else (*view.needs(), *register.needs(register.read_view()))
 
 
 def in_view(target: Target, read: Words, state: State) -> Words | None:
@@ -128,7 +130,7 @@ def fate_of_lost(
     """What became of a write of one register whose answer was lost: None if it was carried out, else the error."""
     register, view = target
     open_still = "the answer leaves it open" if isinstance(cause, ExceptionAnswer) else "the answer was lost"
-    if register.access != "rw":
+    if register.access is not Access.READ_WRITE:
         return lost(WriteUnknown, register.path, f"{open_still} ({cause}), and it cannot be read back", cause)
     found = yield from look_back(session, [target], cause)
     if found is None:
@@ -183,4 +185,4 @@ def differs(session: Session, target: Target, sent: Words, read: Words, state: S
 
 def readable(targets: Mapping[str, Target]) -> dict[str, Target]:
     """The targets that can be read."""
-    return {path: target for path, target in targets.items() if target[0].access == "rw"}
+    return {path: target for path, target in targets.items() if target[0].access is Access.READ_WRITE}

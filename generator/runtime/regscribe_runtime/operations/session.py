@@ -13,6 +13,7 @@ from regscribe_runtime.planning.cost import Cost
 from regscribe_runtime.planning.plan import RequestLimits, Terms
 from regscribe_runtime.report import Wear, WriteReport
 from regscribe_runtime.values.serial_line import Line
+from regscribe_runtime.values.wire_types import Space
 from regscribe_runtime.wire.requests import READ_SPACES, Meanings, Reply, Request, verify
 
 if TYPE_CHECKING:
@@ -137,7 +138,7 @@ class Session:
         commands: Mapping[str, Any],
         givens: Mapping[str, Any],
         groups: Mapping[str, Any] = MappingProxyType({}),
-        unused: tuple[tuple[str, int, int], ...] = (),
+        unused: tuple[tuple[Space, int, int], ...] = (),
     ) -> None:
         low, high = protocol.unit_ids
         if not low <= unit <= high:

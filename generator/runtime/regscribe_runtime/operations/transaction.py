@@ -10,6 +10,7 @@ from regscribe_runtime.operations.session import Pause
 from regscribe_runtime.operations.write_order import Batch, RegisterWrite, batches
 from regscribe_runtime.operations.write_request import EEPROM, run
 from regscribe_runtime.report import Change, Fate, Progress, Sent, Teller, WriteReport
+from regscribe_runtime.values.kinds import Access
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -157,7 +158,7 @@ class Transaction:
 
     def settle(self, paths: Sequence[str], after: Exception) -> Operation[None]:
         """Read registers back and give each the fate that this shows; who cannot be read keeps the one it has."""
-        targets = [self.target(path) for path in paths if self.register(path).access == "rw"]
+        targets = [self.target(path) for path in paths if self.register(path).access is Access.READ_WRITE]
         found = (yield from look_back(self.session, targets, after)) if targets else None
         for path, words in (found or {}).items():
             self._shows(path, words)
@@ -190,7 +191,7 @@ class Transaction:
 
     def _can_be_verified(self, path: str) -> bool:
         register = self.register(path)
-        return register.access == "rw" and steady(register)
+        return register.access is Access.READ_WRITE and steady(register)
 
     def shown(self, path: str) -> str:
         """What was sent to a register and what it holds, in words."""

@@ -23,6 +23,7 @@ from regscribe_runtime.operations.write_request import (
 )
 from regscribe_runtime.registers import codec
 from regscribe_runtime.registers.enums import Flags, unnamed_bits
+from regscribe_runtime.values.kinds import Access
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -79,7 +80,7 @@ def write(
 def _held(session: Session, target: Target, words: Words, state: State) -> Operation[bool]:
     """Whether a register in the EEPROM holds these words already, so that a write would only wear it out."""
     register, _ = target
-    if register.persistence not in EEPROM or register.access != "rw":
+    if register.persistence not in EEPROM or register.access is not Access.READ_WRITE:
         return False
     found = yield from words_of(session, [target])
     return in_view(target, found[register.path], state) == words
@@ -117,7 +118,7 @@ def change(register: Register[T], how: Callable[[T], T], *, confirm: bool, verif
         value = how(before)
         kept = 0
         if isinstance(before, Flags) and (kept := unnamed_bits(before)):
-            value = register.kind.make(int(value) | kept)  # type: ignore[call-overload] # flags are whole numbers
+            value = register.value_type.make(int(value) | kept)  # type: ignore[call-overload] # flags are whole numbers
         yield from write(register, value, confirm=confirm, verify=verify, kept=kept)(session)
         return value
 

@@ -7,7 +7,6 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from regscribe_runtime.operations.write_request import condition_needs, write_request
-from regscribe_runtime.registers.codec import BIT_SPACES
 from regscribe_runtime.values.specs import registers_of
 from regscribe_runtime.wire.requests import WRITE_COILS, WRITE_REGISTERS
 
@@ -123,7 +122,7 @@ def batches(session: Session, pieces: Iterable[RegisterWrite]) -> Iterator[Batch
 
 def _together(session: Session, so_far: list[RegisterWrite], one: RegisterWrite, other: RegisterWrite) -> bool:
     view, its = one.view, other.view
-    bits = view.space in BIT_SPACES
+    bits = view.space.is_bits
     function, most = (
         (WRITE_COILS, session.protocol.write_bits) if bits else (WRITE_REGISTERS, session.protocol.write_words)
     )

@@ -15,6 +15,7 @@ from regscribe_runtime.operations.write_request import confirmed, permitted
 from regscribe_runtime.registers import codec
 from regscribe_runtime.registers.enums import unnamed_bits
 from regscribe_runtime.report import Change, Fate
+from regscribe_runtime.values.kinds import Access, Kind
 from regscribe_runtime.values.specs import registers_of
 
 if TYPE_CHECKING:
@@ -82,7 +83,7 @@ def _register(session: Session, key: Any) -> Register[Any]:
         register = session.own(declared or register)
     except ValueError as error:
         raise ValueRefused(path, str(error)) from None
-    if register.access == "r":
+    if not register.access.writable:
         raise ValueRefused(path, "the register is read-only")
     return register
 
@@ -95,7 +96,7 @@ def look(session: Session, targets: Iterable[Assignment]) -> Operation[Present]:
         path for one in chosen for path in (*needs(one.register, one.view), *read_back_needs(one.register, one.view))
     ]
     state = dict((yield from know(session, paths, fresh=True)))
-    held = {one.register.path: (one.register, one.view) for one in chosen if one.register.access == "rw"}
+    held = {one.register.path: (one.register, one.view) for one in chosen if one.register.access is Access.READ_WRITE}
     found = yield from _words(session, tuple(held.values()))
     words = {path: in_view(target, found[path], state) for path, target in held.items()}
     return Present(state, {path: one for path, one in words.items() if one is not None})
@@ -158,7 +159,7 @@ def words_of_wanted(
     """The words of a wanted value; bits without a name may be among it where the device has them set already."""
     register = one.register if limited else _unlimited(one.register)
     kept = 0
-    if register.kind.name == "flags" and isinstance(one.value, int):
+    if register.kind is Kind.FLAGS and isinstance(one.value, int):
         held = meaning(register, one.view, sight.words.get(register.path), sight.state, session)
         kept = int(one.value) & unnamed_bits(held) if held is not None else 0
     return codec.encode(register, one.view, one.value, sight.state, session.givens, rounded=rounded, kept=kept)

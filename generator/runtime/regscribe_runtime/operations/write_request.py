@@ -16,7 +16,7 @@ from regscribe_runtime.errors import lost as failed
 from regscribe_runtime.operations.read_back import is_lost
 from regscribe_runtime.operations.session import Operation, Pause, Session, Task
 from regscribe_runtime.registers.enums import Choice, SpecialNumber
-from regscribe_runtime.wire.requests import WRITE_FUNCTIONS, Request
+from regscribe_runtime.wire.requests import Request
 
 if TYPE_CHECKING:
     from regscribe_runtime.driver.parts import Command
@@ -31,7 +31,7 @@ EEPROM = frozenset({"eeprom", "both"})
 def write_request(session: Session, view: View, address: int, words: Words) -> Request:
     """The request that writes words at an address in a view."""
     allowed = [code for code in session.protocol.functions if view.allows(code)]
-    single, several = WRITE_FUNCTIONS[view.space]
+    single, several = view.space.write_functions
     function = single if len(words) == 1 and single in allowed else several
     return Request(function, address, len(words), words)
 

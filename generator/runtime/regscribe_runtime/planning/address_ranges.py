@@ -11,6 +11,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from regscribe_runtime.values.specs import View
+from regscribe_runtime.values.wire_types import Space
 
 if TYPE_CHECKING:
     from regscribe_runtime.registers.register import Register
@@ -23,7 +24,7 @@ Range = tuple[int, int]
 class RegisterSpan(NamedTuple):
     """Addresses that are wanted together: one view of one register."""
 
-    space: str
+    space: Space
     address: int
     words: int
 
@@ -48,12 +49,12 @@ class AddressRanges:
 
     def __init__(
         self,
-        readable: Mapping[str, list[Range]],
+        readable: Mapping[Space, list[Range]],
         *,
-        unreadable: Mapping[str, list[Range]] | None = None,
-        aligned: Mapping[str, list[AddressStretch]] | None = None,
-        refused: Mapping[str, list[Range]] | None = None,
-        apart: Mapping[str, list[Range]] | None = None,
+        unreadable: Mapping[Space, list[Range]] | None = None,
+        aligned: Mapping[Space, list[AddressStretch]] | None = None,
+        refused: Mapping[Space, list[Range]] | None = None,
+        apart: Mapping[Space, list[Range]] | None = None,
         holes: bool = False,
     ) -> None:
         self.holes, self._aligned = holes, aligned or {}
@@ -80,14 +81,14 @@ class AddressRanges:
             holes=self.holes,
         )
 
-    def _parted(self, space: str, stretches: Iterable[AddressStretch]) -> Iterator[AddressStretch]:
+    def _parted(self, space: Space, stretches: Iterable[AddressStretch]) -> Iterator[AddressStretch]:
         edges = sorted(edge for found in self._apart.get(space, ()) for edge in found)
         for stretch in stretches:
             inside = [edge for edge in edges if stretch.first < edge < stretch.end]
             for first, end in pairwise([stretch.first, *inside, stretch.end]):
                 yield AddressStretch(first, end, stretch.align)
 
-    def _cut(self, space: str, aligned: list[AddressStretch]) -> Iterator[AddressStretch]:
+    def _cut(self, space: Space, aligned: list[AddressStretch]) -> Iterator[AddressStretch]:
         allowed = [(0, ADDRESSES)] if self.holes else self._known.get(space, [])
         barred = merged([*self._unreadable.get(space, ()), *self._refused.get(space, ())])
         for first, end in without(allowed, barred):
@@ -130,8 +131,8 @@ class AddressRanges:
         return "alignment"
 
 
-def _by_space(items: Iterable[RegisterSpan]) -> dict[str, list[Range]]:
-    found: dict[str, list[Range]] = {}
+def _by_space(items: Iterable[RegisterSpan]) -> dict[Space, list[Range]]:
+    found: dict[Space, list[Range]] = {}
     for item in items:
         found.setdefault(item.space, []).append((item.address, item.end))
     return found
@@ -145,16 +146,16 @@ def _aligned(item: RegisterSpan, align: int) -> RegisterSpan:
 def ground_of(
     registers: Iterable["Register[Any]"],
     *,
-    unused: Iterable[tuple[str, int, int]] = (),
+    unused: Iterable[tuple[Space, int, int]] = (),
     holes: bool = False,
 ) -> AddressRanges:
     """The ground of a device with these registers; `unused` are spaces, first and last addresses that read as 0."""
-    readable: dict[str, list[Range]] = {}
-    unreadable: dict[str, list[Range]] = {}
-    aligned: dict[tuple[str, str], AddressStretch] = {}
+    readable: dict[Space, list[Range]] = {}
+    unreadable: dict[Space, list[Range]] = {}
+    aligned: dict[tuple[Space, str], AddressStretch] = {}
     for register in registers:
         for view, address in places(register):
-            may = register.access != "w" and view.readable
+            may = register.access.readable and view.readable
             (readable if may else unreadable).setdefault(view.space, []).append((address, address + view.words))
             if view.align > 1:
                 key = view.space, view.name
@@ -163,7 +164,7 @@ def ground_of(
                 aligned[key] = AddressStretch(first, end, view.align)
     for space, first, last in unused:
         readable.setdefault(space, []).append((first, last + 1))
-    regions: dict[str, list[AddressStretch]] = {}
+    regions: dict[Space, list[AddressStretch]] = {}
     for (space, _), stretch in sorted(aligned.items(), key=lambda one: one[1]):
         regions.setdefault(space, []).append(stretch)
     return AddressRanges(readable, unreadable=unreadable, aligned=regions, holes=holes)

@@ -9,12 +9,13 @@ from typing import NamedTuple
 
 from regscribe_runtime.planning.address_ranges import RegisterSpan
 from regscribe_runtime.planning.cost import Tariff
+from regscribe_runtime.values.wire_types import Space
 
 
 class Lane(NamedTuple):
     """Where a request may run: a stretch of one space, its price list, and the most addresses of one request."""
 
-    space: str
+    space: Space
     first: int
     tariff: Tariff
     most: int

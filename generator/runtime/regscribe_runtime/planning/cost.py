@@ -6,7 +6,7 @@ Costs are whole nanoseconds, so that plans are exact and the same on every machi
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
-from regscribe_runtime.wire.requests import READ_FUNCTIONS, READ_STATUS
+from regscribe_runtime.values.wire_types import Space
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -14,7 +14,6 @@ if TYPE_CHECKING:
     from regscribe_runtime.operations.session import Latency, Protocol
     from regscribe_runtime.values.serial_line import Line
 
-BIT_SPACES = frozenset({"coil", "discrete"})
 BITS_IN_BYTE, BITS_IN_WORD, BYTES_IN_WORD = 8, 16, 2
 NANOSECONDS = 1_000_000
 """Nanoseconds in a millisecond."""
@@ -118,11 +117,11 @@ class Cost(NamedTuple):
         """Over TCP: a price for each request; `line` is the one behind a gateway, if it is known."""
         return cls(line, protocol.gap, round_trip, protocol.latencies)
 
-    def tariff(self, space: str) -> Tariff:
+    def tariff(self, space: Space) -> Tariff:
         """The price list of one space."""
-        function, bits = READ_FUNCTIONS[space], space in BIT_SPACES
+        function, bits = space.read_function, space.is_bits
         latency = self.latencies.get(function)
-        fixed, per_byte = self._frames(1 if function == READ_STATUS else 5, 2)
+        fixed, per_byte = self._frames(1 if space is Space.STATUS else 5, 2)
         per_word = 0.0
         if latency:
             character = self.line.character if self.line else 0
@@ -146,10 +145,10 @@ class Cost(NamedTuple):
     def _bytes(pdu: int) -> int:
         return pdu + 7  # unit, length, protocol, transaction
 
-    def frame_bytes(self, space: str, quantity: int) -> int:
+    def frame_bytes(self, space: Space, quantity: int) -> int:
         """The characters of a request and its answer, as they pass the line (or the bytes, over TCP)."""
-        request = 1 if READ_FUNCTIONS[space] == READ_STATUS else 5
-        values = -(-quantity // BITS_IN_BYTE) if space in BIT_SPACES else BYTES_IN_WORD * quantity
+        request = 1 if space is Space.STATUS else 5
+        values = -(-quantity // BITS_IN_BYTE) if space.is_bits else BYTES_IN_WORD * quantity
         answer = 2 + values
         frame = self.line.frame if self.line else self._bytes
         return frame(request) + frame(answer)

@@ -14,8 +14,8 @@ from typing import NamedTuple
 
 from regscribe_runtime.planning.address_ranges import AddressRanges, RegisterSpan
 from regscribe_runtime.planning.block_cover import Lane, cover
-from regscribe_runtime.planning.cost import BIT_SPACES, Cost, Tariff, milliseconds
-from regscribe_runtime.wire.requests import READ_FUNCTIONS
+from regscribe_runtime.planning.cost import Cost, Tariff, milliseconds
+from regscribe_runtime.values.wire_types import Space
 
 
 class Block(NamedTuple):
@@ -27,7 +27,7 @@ class Block(NamedTuple):
     items: tuple[RegisterSpan, ...]
 
     @property
-    def space(self) -> str:
+    def space(self) -> Space:
         """The space that is read."""
         return self.items[0].space
 
@@ -44,9 +44,9 @@ class RequestLimits(NamedTuple):
     bits: int = 2000
     holes: bool = False
 
-    def most(self, space: str) -> int:
+    def most(self, space: Space) -> int:
         """The most addresses of one read; the status byte is alone."""
-        return 1 if space == "status" else self.bits if space in BIT_SPACES else self.words
+        return 1 if space is Space.STATUS else self.bits if space.is_bits else self.words
 
 
 class Terms(NamedTuple):
@@ -191,12 +191,12 @@ def _widened(item: RegisterSpan, ground: AddressRanges) -> RegisterSpan:
 
 def _lanes(items: Iterable[RegisterSpan], terms: Terms) -> dict[RegisterSpan, Lane]:
     @cache
-    def lane(space: str, first: int, align: int) -> Lane:
+    def lane(space: Space, first: int, align: int) -> Lane:
         most = terms.limits.most(space)
         return Lane(space, first, tariffs(space), most - most % align)
 
     @cache
-    def tariffs(space: str) -> Tariff:
+    def tariffs(space: Space) -> Tariff:
         return terms.cost.tariff(space)
 
     found = {}
@@ -213,7 +213,7 @@ def _filled(requests: Sequence[RegisterSpan], wide: dict[RegisterSpan, RegisterS
     for item, asked in wide.items():
         held[holders[item.space].of(asked)].append(item)
     for request, items in held.items():
-        yield Block(READ_FUNCTIONS[request.space], request.address, request.words, tuple(sorted(items)))
+        yield Block(request.space.read_function, request.address, request.words, tuple(sorted(items)))
 
 
 class _Holders:

@@ -9,14 +9,13 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from regscribe_runtime.errors import NotDecodable, Saturated, SensorFault, ValueNotDecodable, ValueRefused
+from regscribe_runtime.values.kinds import Kind
+from regscribe_runtime.values.numbers import ROUNDINGS, brief, exact, half_up, rough, shortest
 from regscribe_runtime.values.specs import Conversion, Converter, Givens, Limits, Ref, State, Text, View, choose
-from regscribe_runtime.values.wire_types import FLOAT32, LITTLE, ROUNDINGS, brief, carries, exact, shortest, show
+from regscribe_runtime.values.wire_types import Order, WireType
 
 if TYPE_CHECKING:
     from regscribe_runtime.registers.register import Register
-
-BIT_SPACES = frozenset({"coil", "discrete", "status"})
-"""Spaces whose values come as one number, not as words: bits, and the byte of function 07."""
 
 NAN = "nan"
 """How a sentinel says that it is any float that is no number."""
@@ -28,7 +27,7 @@ NOTHING: Unknown = MappingProxyType({})
 
 LARGEST_FLOAT = Fraction(sys.float_info.max)
 
-PATTERNS = frozenset({"flags", "fields"})
+PATTERNS = frozenset({Kind.FLAGS, Kind.FIELDS})
 """Kinds whose words are patterns of bits: never negative, whatever the type of the view."""
 
 MAX_DECIMALS = 9
@@ -58,8 +57,8 @@ Words = Sequence[int]
 
 def arranger(view: View, name: str, state: State) -> Callable[[Words], Words]:
     """What turns words from wire order to most-significant-first under the present `state`; the same step both ways."""
-    backward = view.words > 1 and view.word_order(name, state) == LITTLE
-    if view.byte_order == LITTLE:
+    backward = view.words > 1 and view.word_order(name, state) is Order.LITTLE
+    if view.byte_order is Order.LITTLE:
         return _backward_and_swapped if backward else _swapped
     return _backward if backward else _as_they_are
 
@@ -134,11 +133,11 @@ def same(wire: int) -> int:
 
 
 def _scaled(register: "Register[Any]", view: View, state: State, givens: Givens) -> Converter:
-    if register.kind.name in PATTERNS:
-        make, mask = register.kind.make, view.type.maximum - view.type.minimum
+    if register.kind in PATTERNS:
+        make, mask = register.value_type.make, view.type.maximum - view.type.minimum
         return lambda wire: make(wire & mask)
-    if register.kind.coded:
-        return register.kind.make
+    if register.value_type.coded:
+        return register.value_type.make
     conversion, divisor = _conversion(register, state, givens)
     factor, multiply, add = Fraction(view.factor), Fraction(conversion.multiply), Fraction(conversion.add)
     slope, offset = multiply / factor / divisor, add / divisor
@@ -149,7 +148,7 @@ def _whole(register: "Register[Any]", view: View, slope: Fraction, offset: Fract
     # int / int is correctly rounded in Python, so (a x wire + b) / c is the float nearest to the exact value
     scale = math.lcm(slope.denominator, offset.denominator)
     a, b = int(slope * scale), int(offset * scale)
-    if register.kind.make is float:
+    if register.value_type.make is float:
         if max(abs(slope * end + offset) for end in (view.type.minimum, view.type.maximum)) > LARGEST_FLOAT:
             return lambda wire: _float(register, Fraction(a * wire + b, scale))
         if b:
@@ -162,7 +161,7 @@ def _whole(register: "Register[Any]", view: View, slope: Fraction, offset: Fract
 
 def _no_fraction(register: "Register[Any]", value: Fraction) -> int:
     if value.denominator != 1:
-        raise NotDecodable(register.path, f"{show(value)} is no whole number")
+        raise NotDecodable(register.path, f"{rough(value)} is no whole number")
     return value.numerator
 
 
@@ -170,7 +169,7 @@ def _float(register: "Register[Any]", value: Fraction) -> float:
     try:
         return float(value)
     except OverflowError:
-        raise NotDecodable(register.path, f"{show(value)} is beyond every float of a program") from None
+        raise NotDecodable(register.path, f"{rough(value)} is beyond every float of a program") from None
 
 
 def _ieee(register: "Register[Any]", view: View, slope: Fraction, offset: Fraction) -> Callable[[float], Any]:
@@ -178,7 +177,7 @@ def _ieee(register: "Register[Any]", view: View, slope: Fraction, offset: Fracti
         if not math.isfinite(wire):
             raise NotDecodable(register.path, f"the {view.name} view holds {wire}, which is no number")
         value = Fraction(shortest(wire, view.type)) * slope + offset
-        return _float(register, value) if register.kind.make is float else _no_fraction(register, value)
+        return _float(register, value) if register.value_type.make is float else _no_fraction(register, value)
 
     return scaled
 
@@ -197,7 +196,7 @@ def _on_wire(view: View, stored: Fraction) -> float | None:
 
 def _specials(register: "Register[Any]", state: State, givens: Givens) -> dict[Fraction, tuple[Any, Fraction]]:
     """Of each special value, by its code as a value of use: its member (None where it has none) and its number."""
-    special, means = register.kind.special, register.kind.means
+    special, means = register.value_type.special, register.value_type.means
     if special is None and not means:
         return {}
     chosen: Conversion | None = choose(register.special_scale, state, givens)
@@ -221,7 +220,7 @@ def _with_specials(register: "Register[Any]", view: View, state: State, givens: 
     shown: dict[float | None, Any] = {}
     for code, (member, number) in specials.items():
         wire = _on_wire(view, (code * divisor - add) / multiply)
-        shown[wire] = register.kind.make(number) if member is None or not named else member
+        shown[wire] = register.value_type.make(number) if member is None or not named else member
     shown.pop(None, None)
     return lambda wire: shown[wire] if wire in shown else scaled(wire)
 
@@ -244,7 +243,7 @@ def _fault(faults: Faults, wire: float) -> tuple[str, str] | None:
 
 
 def _guarded(register: "Register[Any]", view: View, scaled: Converter) -> Converter:
-    ends = (view.type.minimum, view.type.maximum) if view.saturates else ()
+    ends = (view.type.minimum, view.type.maximum) if view.saturates and view.type.is_integer else ()
     faults = _faults(register, view)
     if not ends and not faults:
         return scaled
@@ -278,7 +277,7 @@ def decoder(
     arrange = arranger(view, register.path, state)
     convert = (
         _text_reader(register)
-        if register.kind.name == "string"
+        if register.kind is Kind.STRING
         else _number_reader(view, reader(register, view, state, givens, named=named))
     )
 
@@ -332,7 +331,7 @@ def _text_reader(register: "Register[Any]") -> Callable[[Sequence[int]], str]:
 def carried_over(register: "Register[Any]", view: View, other: View, words: Words, state: State) -> tuple[int, ...]:
     """The words by which a device shows in the view `other` what `words` in `view` set; ValueRefused if it cannot."""
     numbers = arranger(view, register.path, state)(words)
-    if register.kind.name == "string":
+    if register.kind is Kind.STRING:
         return tuple(arranger(other, register.path, state)(numbers))
     wire = view.type.unpack(numbers)
     exactly = Fraction(shortest(wire, view.type)) if view.type.is_float else Fraction(wire)
@@ -356,13 +355,13 @@ def encode(
     bits without a name that the device has set and that stay as they are.
     """
     arrange = arranger(view, register.path, state)
-    if register.kind.name == "string":
+    if register.kind is Kind.STRING:
         return tuple(arrange(_from_text(register, view, value)))
-    if isinstance(value, float) and view.type is FLOAT32 and carries(FLOAT32, value):
+    if isinstance(value, float) and view.type is WireType.FLOAT32 and view.type.carries(value):
         value = Fraction(value)  # 2.0**63 is meant, whose shortest decimal is another number
     amount, special = _amount(register, int(value) & ~kept if kept else value, state, givens)  # type: ignore[call-overload] # flags are whole numbers
     amount += kept
-    if not register.kind.coded:
+    if not register.value_type.coded:
         if not special:
             _within_limits(register, amount, state, givens)
         stored = _stored(register, amount, state, givens, rounded=rounded)
@@ -382,13 +381,13 @@ def _amount(register: "Register[Any]", value: object, state: State, givens: Give
     for code, (member, _) in specials.items():
         if value is member and member is not None:
             return code, True
-    amount = register.kind.number(register.path, value)
+    amount = register.value_type.number(register.path, value)
     for code, (member, number) in specials.items():
         if amount == number and member is None:
             return code, True
     if amount in specials and specials[amount][0] is None:  # it would be read back as another number
-        meant = show(specials[amount][1])
-        raise ValueRefused(register.path, f"{show(amount)} is the device's code for {meant}: write {meant}")
+        meant = rough(specials[amount][1])
+        raise ValueRefused(register.path, f"{rough(amount)} is the device's code for {meant}: write {meant}")
     return amount, amount in specials
 
 
@@ -410,10 +409,10 @@ def _within_limits(register: "Register[Any]", amount: Fraction, state: State, gi
     ends = [(_limit(low, divisor, state), _limit(high, divisor, state)) for low, high in limits.intervals]
     if not any((low is None or low <= amount) and (high is None or amount <= high) for low, high in ends):
         allowed = " or ".join(
-            f"{'(open)' if low is None else show(low)} to {'(open)' if high is None else show(high)}"
+            f"{'(open)' if low is None else rough(low)} to {'(open)' if high is None else rough(high)}"
             for low, high in ends
         )
-        raise ValueRefused(register.path, f"{show(amount)} lies outside {allowed}")
+        raise ValueRefused(register.path, f"{rough(amount)} lies outside {allowed}")
 
 
 def _stored(register: "Register[Any]", amount: Fraction, state: State, givens: Givens, *, rounded: bool) -> Fraction:
@@ -426,9 +425,9 @@ def _stored(register: "Register[Any]", amount: Fraction, state: State, givens: G
             step = increment * Fraction(conversion.multiply) / divisor
             if not rounded:
                 of = f" of {conversion.places}" if conversion.places else ""
-                message = f"{show(amount)} is finer than the resolution {show(abs(step))}{of} (rounded=True rounds)"
+                message = f"{rough(amount)} is finer than the resolution {rough(abs(step))}{of} (rounded=True rounds)"
                 raise ValueRefused(register.path, message)
-            stored = ROUNDINGS["half_up"](steps) * increment
+            stored = half_up(steps) * increment
     return stored
 
 
@@ -443,8 +442,8 @@ def _carried(
         (wire / Fraction(view.factor) * Fraction(conversion.multiply) + Fraction(conversion.add)) / divisor
         for wire in (math.floor(exactly), math.ceil(exactly))
     )
-    near = " and ".join(map(show, around))
-    message = f"{show(amount)} is finer than the {view.name} view can carry; nearest are {near} (rounded=True rounds)"
+    near = " and ".join(map(rough, around))
+    message = f"{rough(amount)} is finer than the {view.name} view can carry; nearest are {near} (rounded=True rounds)"
     raise ValueRefused(register.path, message)
 
 
@@ -454,11 +453,11 @@ def _wire_words(register: "Register[Any]", view: View, stored: Fraction, *, roun
         return _float_words(register, view, exactly, rounded=rounded)
     wire = ROUNDINGS[view.rounding](exactly)
     low, high = view.type.minimum + view.saturates, view.type.maximum - view.saturates
-    if register.kind.name in PATTERNS:  # never negative, whatever the type
+    if register.kind in PATTERNS:  # never negative, whatever the type
         low, high = 0, view.type.maximum - view.type.minimum
     if not low <= wire <= high:
         raise ValueRefused(
-            register.path, f"{show(Fraction(wire))} on the wire lies outside {low} to {high} of the {view.name} view"
+            register.path, f"{rough(Fraction(wire))} on the wire lies outside {low} to {high} of the {view.name} view"
         )
     if wire > view.type.maximum:
         wire -= high + 1
@@ -469,12 +468,10 @@ def _float_words(register: "Register[Any]", view: View, exactly: Fraction, *, ro
     try:
         there = view.type.nearest(exactly)
     except OverflowError:
-        raise ValueRefused(register.path, f"{show(exactly)} is too large for {view.type.name}") from None
+        raise ValueRefused(register.path, f"{rough(exactly)} is too large for {view.type}") from None
     back = shortest(there, view.type)
     if exactly not in (Fraction(there), Fraction(back)) and not rounded:
-        raise ValueRefused(
-            register.path, f"finer than {view.type.name} can carry; the nearest number on the wire is {back}"
-        )
+        raise ValueRefused(register.path, f"finer than {view.type} can carry; the nearest number on the wire is {back}")
     return view.type.pack(there)
 
 

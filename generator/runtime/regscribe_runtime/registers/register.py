@@ -16,6 +16,7 @@ from regscribe_runtime.driver.section import renumbered
 from regscribe_runtime.errors import ValueRefused
 from regscribe_runtime.registers import codec, element
 from regscribe_runtime.registers.value_types import ValueType
+from regscribe_runtime.values.kinds import Access
 from regscribe_runtime.values.specs import (
     SAME,
     Cases,
@@ -51,13 +52,13 @@ class Register(Generic[T]):
     `decode` and `encode` need no device: `state` holds the values of the registers in `needs`.
     """
 
-    access = "r"
+    access = Access.READ
 
     def __init__(  # noqa: PLR0913 (a register has this many properties; all but three are keywords)
         self,
         at: int,
         views: tuple[View, ...],
-        kind: ValueType[T],
+        value_type: ValueType[T],
         *,
         scale: Cases = SAME,
         special_scale: Cases = SAME,
@@ -77,7 +78,7 @@ class Register(Generic[T]):
         settle: int = 0,
         rescales: str = "",
     ) -> None:
-        self.at, self.views, self.kind = at, views, kind
+        self.at, self.views, self.value_type, self.kind = at, views, value_type, value_type.kind
         self.scale, self.range, self.sentinels = scale, range, sentinels
         self.special_scale = special_scale
         self.default, self.unit, self.section, self.aliases = default, unit, section, aliases
@@ -95,7 +96,7 @@ class Register(Generic[T]):
         raise AttributeError(message)
 
     def __repr__(self) -> str:
-        return f"<{type(self).__name__} {self.path} at {self.at}: {self.kind.name}>"
+        return f"<{type(self).__name__} {self.path} at {self.at}: {self.kind}>"
 
     def told(self, home: str, *, section: str | None, persistence: str | None) -> Self:
         """The same register in the module `home`, which tells of it what is given here."""
@@ -154,7 +155,8 @@ class Register(Generic[T]):
     @property
     def is_configuration(self) -> bool:
         """Whether it is a setting that the device keeps: no passing operation, no counter, not in RAM alone."""
-        return self.access == "rw" and self.persistence != "ram" and self.stays not in {"operation", "counter"}
+        passing = self.persistence == "ram" or self.stays in {"operation", "counter"}
+        return self.access is Access.READ_WRITE and not passing
 
     @property
     def view_names(self) -> tuple[str, ...]:
@@ -236,7 +238,7 @@ class Register(Generic[T]):
         rounded: bool = False,
     ) -> tuple[int, ...]:
         """The words of `value` in `view`; raises ValueRefused for what may not or cannot be written."""
-        if self.access == "r":
+        if not self.access.writable:
             raise ValueRefused(self.path, "the register is read-only")
         chosen = self.view(view) if view else self.write_view()
         return codec.encode(self, chosen, value, state or {}, givens or {}, rounded=rounded)
@@ -260,7 +262,7 @@ class ReadOnly(Register[T]):
 class ReadWrite(Register[T]):
     """A register that can be read and written."""
 
-    access = "rw"
+    access = Access.READ_WRITE
 
     @overload
     def __get__(self, instance: None, owner: type) -> Self: ...
@@ -279,7 +281,7 @@ class ReadWrite(Register[T]):
 class WriteOnly(Register[T]):
     """A register that can only be written."""
 
-    access = "w"
+    access = Access.WRITE
 
     @overload
     def __get__(self, instance: None, owner: type) -> Self: ...

@@ -7,8 +7,9 @@ from typing import Any, Generic, NoReturn, TypeVar
 
 from regscribe_runtime.errors import NotDecodable, ValueRefused
 from regscribe_runtime.registers.enums import Choice, Flags, SpecialNumber, Word
+from regscribe_runtime.values.kinds import Kind
+from regscribe_runtime.values.numbers import brief, exact, rough
 from regscribe_runtime.values.specs import Text
-from regscribe_runtime.values.wire_types import brief, exact, show
 
 T = TypeVar("T")
 C = TypeVar("C", bound=Choice)
@@ -30,11 +31,11 @@ class ValueType(Generic[T]):
     their code to the number they stand for.
     """
 
-    __slots__ = ("coded", "make", "means", "name", "number", "special")
+    __slots__ = ("coded", "kind", "make", "means", "number", "special")
 
     def __init__(
         self,
-        name: str,
+        kind: Kind,
         make: Callable[[Any], T],
         number: Callable[[str, Any], Fraction],
         *,
@@ -42,7 +43,7 @@ class ValueType(Generic[T]):
         special: type[Enum] | None = None,
         means: dict[Text, Text] | None = None,
     ) -> None:
-        self.name, self.make, self.number, self.coded = name, make, number, coded
+        self.kind, self.make, self.number, self.coded = kind, make, number, coded
         self.special, self.means = special, means or {}
 
 
@@ -56,34 +57,34 @@ def _any_number(register: str, value: Any) -> Fraction:
 def _whole_number(register: str, value: Any) -> Fraction:
     number = _any_number(register, value)
     if number.denominator != 1:
-        raise ValueRefused(register, f"{show(number)} is no whole number; the register holds whole numbers only")
+        raise ValueRefused(register, f"{rough(number)} is no whole number; the register holds whole numbers only")
     return number
 
 
-number: ValueType[float] = ValueType("number", float, _any_number)
-integer: ValueType[int] = ValueType("integer", int, _whole_number)
-raw: ValueType[int] = ValueType("raw", int, _whole_number)
-raw_float: ValueType[float] = ValueType("raw", float, _any_number)
+number: ValueType[float] = ValueType(Kind.NUMBER, float, _any_number)
+integer: ValueType[int] = ValueType(Kind.INTEGER, int, _whole_number)
+raw: ValueType[int] = ValueType(Kind.RAW, int, _whole_number)
+raw_float: ValueType[float] = ValueType(Kind.RAW, float, _any_number)
 
 
 def number_or(special: type[S], means: dict[Text, Text] | None = None) -> "ValueType[float | S]":
     """A number with special values: a code in `means` stands for a number, the others are members of `special`."""
-    return ValueType("number", float, _any_number, special=special, means=means)
+    return ValueType(Kind.NUMBER, float, _any_number, special=special, means=means)
 
 
 def integer_or(special: type[C], means: dict[Text, Text] | None = None) -> "ValueType[int | C]":
     """As `number_or`, of whole numbers."""
-    return ValueType("integer", int, _whole_number, special=special, means=means)
+    return ValueType(Kind.INTEGER, int, _whole_number, special=special, means=means)
 
 
 def number_with(means: dict[Text, Text]) -> ValueType[float]:
     """A number some of whose codes stand for another number (0 for 0.2 s)."""
-    return ValueType("number", float, _any_number, means=means)
+    return ValueType(Kind.NUMBER, float, _any_number, means=means)
 
 
 def integer_with(means: dict[Text, Text]) -> ValueType[int]:
     """As `number_with`, of whole numbers."""
-    return ValueType("integer", int, _whole_number, means=means)
+    return ValueType(Kind.INTEGER, int, _whole_number, means=means)
 
 
 def choice(members: type[C]) -> ValueType[C]:
@@ -99,7 +100,7 @@ def choice(members: type[C]) -> ValueType[C]:
             raise ValueRefused(register, f"code {brief(int(value))} is none of {known}")
         return Fraction(int(value))
 
-    return ValueType("enum", members, code, coded=True)
+    return ValueType(Kind.ENUM, members, code, coded=True)
 
 
 def flags(members: type[F]) -> ValueType[F]:
@@ -113,7 +114,7 @@ def flags(members: type[F]) -> ValueType[F]:
             raise ValueRefused(register, f"bits 0x{unnamed:X} have no meaning in {members.__name__}")
         return Fraction(int(value))
 
-    return ValueType("flags", members, code, coded=True)
+    return ValueType(Kind.FLAGS, members, code, coded=True)
 
 
 def word_of(members: type[W]) -> ValueType[W]:
@@ -124,7 +125,7 @@ def word_of(members: type[W]) -> ValueType[W]:
             raise ValueRefused(register, f"{brief(value)} is no {members.__name__}")
         return _any_number(register, int(value))
 
-    return ValueType("fields", members, code, coded=True)
+    return ValueType(Kind.FIELDS, members, code, coded=True)
 
 
 def _bit(register: str, value: Any) -> Fraction:
@@ -133,7 +134,7 @@ def _bit(register: str, value: Any) -> Fraction:
     return Fraction(int(value))
 
 
-boolean: ValueType[bool] = ValueType("boolean", bool, _bit, coded=True)
+boolean: ValueType[bool] = ValueType(Kind.BOOLEAN, bool, _bit, coded=True)
 
 
 _VERSION = "a version"
@@ -154,7 +155,7 @@ def version(digits: int, group: int) -> ValueType[str]:
             raise ValueRefused(register, f"{brief(value)} is no version of {digits} digits in groups of {group}")
         return Fraction(int(packed))
 
-    return ValueType("version", make, code, coded=True)
+    return ValueType(Kind.VERSION, make, code, coded=True)
 
 
 def _no_number(register: str, value: Any) -> Fraction:
@@ -163,4 +164,4 @@ def _no_number(register: str, value: Any) -> Fraction:
     _refuse(value)  # texts are encoded from their characters, never through a number
 
 
-text: ValueType[str] = ValueType("string", str, _no_number, coded=True)
+text: ValueType[str] = ValueType(Kind.STRING, str, _no_number, coded=True)

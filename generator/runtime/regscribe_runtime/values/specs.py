@@ -7,8 +7,8 @@ from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from regscribe_runtime.errors import NotDecodable
-from regscribe_runtime.values.wire_types import BIG, WireType, exact
-from regscribe_runtime.wire.requests import READ_FUNCTIONS, WRITE_FUNCTIONS
+from regscribe_runtime.values.numbers import exact
+from regscribe_runtime.values.wire_types import Order, Rounding, Space, WireType
 
 State = Mapping[str, Any]
 """Known values of use by register path: numbers; an enum or a word of bits as its code."""
@@ -137,16 +137,16 @@ def registers_of(cases: Cases) -> tuple[str, ...]:
 
 
 class OrderFrom(NamedTuple):
-    """The word order stands in a register: `codes` maps its value to "big" or "little"."""
+    """The word order stands in a register: `codes` maps its value to an order."""
 
     register: str
-    codes: Mapping[int, str]
+    codes: Mapping[int, Order]
 
 
 class View(NamedTuple):
     """One way to transmit a value: wire address = `offset` + `stride` x at; wire number = stored x `factor`.
 
-    `space` is holding, input, coil, discrete or status; `functions` limits the function codes (empty: no limit);
+    `functions` limits the function codes (empty: no limit);
     addresses and counts of requests where the view stands must be multiples of `align`.
     """
 
@@ -156,12 +156,12 @@ class View(NamedTuple):
     stride: int = 1
     words: int = 1
     factor: Text = 1
-    rounding: str = "none"
+    rounding: Rounding = Rounding.NONE
     saturates: bool = False
-    order: str | OrderFrom = BIG
-    byte_order: str = BIG
+    order: Order | OrderFrom = Order.BIG
+    byte_order: Order = Order.BIG
     functions: tuple[int, ...] = ()
-    space: str = "holding"
+    space: Space = Space.HOLDING
     preferred: bool = False
     align: int = 1
 
@@ -176,21 +176,21 @@ class View(NamedTuple):
     @property
     def readable(self) -> bool:
         """Whether the read function of its space may address it."""
-        return self.allows(READ_FUNCTIONS[self.space])
+        return self.allows(self.space.read_function)
 
     @property
     def writable(self) -> bool:
         """Whether a write function of its space may address it, all words of a value at once."""
-        single, several = WRITE_FUNCTIONS.get(self.space, (0, 0))
+        single, several = self.space.write_functions or (0, 0)
         return self.allows(several) or (self.words == 1 and self.allows(single))
 
     def needs(self) -> tuple[str, ...]:
         """The register that sets the word order, if one does."""
         return (self.order.register,) if isinstance(self.order, OrderFrom) else ()
 
-    def word_order(self, register: str, state: State) -> str:
-        """Tell "big" or "little" as things stand; NotDecodable for a code that the manual does not list."""
-        if isinstance(self.order, str):
+    def word_order(self, register: str, state: State) -> Order:
+        """The order of the words as things stand; NotDecodable for a code that the manual does not list."""
+        if isinstance(self.order, Order):
             return self.order
         code = int(state[self.order.register])
         if code not in self.order.codes:

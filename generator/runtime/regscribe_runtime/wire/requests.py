@@ -8,20 +8,12 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from regscribe_runtime.errors import ExceptionAnswer, PartialWrite, WrongAnswer
+from regscribe_runtime.values.wire_types import Space
 
 READ_COILS, READ_DISCRETE_INPUTS, READ_HOLDING, READ_INPUT = 1, 2, 3, 4
 WRITE_COIL, WRITE_REGISTER, READ_STATUS, LOOPBACK, WRITE_COILS, WRITE_REGISTERS = 5, 6, 7, 8, 15, 16
-READ_FUNCTIONS = {
-    "coil": READ_COILS,
-    "discrete": READ_DISCRETE_INPUTS,
-    "holding": READ_HOLDING,
-    "input": READ_INPUT,
-    "status": READ_STATUS,
-}
-READ_SPACES = {function: space for space, function in READ_FUNCTIONS.items()}
-WRITE_FUNCTIONS = {"coil": (WRITE_COIL, WRITE_COILS), "holding": (WRITE_REGISTER, WRITE_REGISTERS)}
-"""By space: the function that writes one address, and the one that writes several."""
-READS = frozenset(READ_FUNCTIONS.values())
+READ_SPACES = {space.read_function: space for space in Space}
+READS = frozenset(READ_SPACES)
 
 
 class Request(NamedTuple):

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from regscribe.tools.live import catalogue, value_text
-from regscribe_runtime import INT16, Choice, Flags, ReadWrite, Register, ValueRefused, Word, choice, word
+from regscribe_runtime import Choice, Flags, ReadWrite, Register, ValueRefused, WireType, Word, choice, word
 from regscribe_runtime.driver.identify import Known
 
 OVEN = catalogue.find("16C").driver.registers
@@ -16,10 +16,10 @@ NAMED = {"enum", "flags", "fields", "boolean"}
 
 
 def possible(register: Register[Any]) -> list[Any]:
-    kind = register.kind
-    if kind.name == "boolean":
+    kind = register.value_type
+    if kind.kind == "boolean":
         return [False, True]
-    if kind.name == "fields":
+    if kind.kind == "fields":
         return [kind.make(code) for code in (0, 0x0101, 0x0303, 0xFFFF)]
     members: Any = kind.special or kind.make
     return [*members, *([members(0), members(0xFFFF)] if issubclass(members, Flags) else [])]
@@ -27,7 +27,7 @@ def possible(register: Register[Any]) -> list[Any]:
 
 @pytest.mark.parametrize("known", catalogue.models(), ids=catalogue.full_name)
 def test_what_is_shown_is_read_back_as_the_same_value(known: Known) -> None:
-    named = [one for one in known.driver.registers.values() if one.kind.name in NAMED or one.kind.special]
+    named = [one for one in known.driver.registers.values() if one.kind in NAMED or one.value_type.special]
     for register in named:
         for value in possible(register):
             shown = value_text.show(register, value)
@@ -91,7 +91,7 @@ class Range(Choice):
 
 
 def test_a_text_that_is_the_code_of_one_member_and_the_label_of_another_is_not_guessed() -> None:
-    register = ReadWrite(0, word(INT16), choice(Range))
+    register = ReadWrite(0, word(WireType.INT16), choice(Range))
     with pytest.raises(ValueRefused, match=r"LOW \(0 1\) or HIGH \(1 10\): write the name"):
         value_text.parse(register, "1")
     assert value_text.parse(register, "10") is Range.HIGH
@@ -99,7 +99,7 @@ def test_a_text_that_is_the_code_of_one_member_and_the_label_of_another_is_not_g
 
 def test_a_code_that_the_manual_does_not_list_is_shown_and_not_taken() -> None:
     register = OVEN["input_type"]
-    assert value_text.show(register, register.kind.make(99)) == "UNKNOWN_99"
+    assert value_text.show(register, register.value_type.make(99)) == "UNKNOWN_99"
     with pytest.raises(ValueRefused):
         value_text.parse(register, "UNKNOWN_99")
 
@@ -121,7 +121,7 @@ def test_flags_are_names_with_commas_and_a_wrong_one_says_which_was_meant() -> N
 
 def test_bits_without_a_name_are_shown() -> None:
     register = TIMER["status"]
-    assert value_text.show(register, register.kind.make(0x81 | 1 << 9)) == [
+    assert value_text.show(register, register.value_type.make(0x81 | 1 << 9)) == [
         "TIMER_FUNCTION_STATUS",
         "AUTO_TUNE",
         "bit_9",
@@ -130,7 +130,7 @@ def test_bits_without_a_name_are_shown() -> None:
 
 def test_fields_are_parts_with_their_values() -> None:
     register = PRESS["mode"]
-    shown = value_text.show(register, register.kind.make(0x0301))
+    shown = value_text.show(register, register.value_type.make(0x0301))
     assert "operation=MANUAL_CONTROL_MODE" in shown  # type: ignore[operator]  # a list of parts
     with pytest.raises(ValueRefused, match="did you mean `operation`"):
         value_text.parse(register, "operatoin=3")
@@ -147,7 +147,7 @@ def test_for_people_numbers_are_short_and_nothing_set_is_said() -> None:
     assert value_text.as_text(OVEN["setpoint_ram"], 1099511627777.0) == "1099511627777"
     assert value_text.as_text(OVEN["setpoint_ram"], 1234567890123.4) == "1234567890123.4"
     assert value_text.as_text(OVEN["setpoint_ram"], 1e300) == "1e+300"
-    assert value_text.as_text(TIMER["status"], TIMER["status"].kind.make(0)) == "none"
+    assert value_text.as_text(TIMER["status"], TIMER["status"].value_type.make(0)) == "none"
 
 
 @given(

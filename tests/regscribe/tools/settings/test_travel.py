@@ -54,7 +54,7 @@ def moved(driver: Any, backup: Backup) -> Backup:
     """The backup with another value wherever the next number or name is one."""
     found = {}
     for path, saved in backup.settings():
-        members = list(getattr(driver.registers[path].kind.make, "__members__", ()))
+        members = list(getattr(driver.registers[path].value_type.make, "__members__", ()))
         if saved.stays or saved.value is None or isinstance(saved.value, list) or path == "display_unit_of_measure":
             continue
         if members:

@@ -8,8 +8,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from regscribe.model import Kind, Model, Register, RegisterMap, Space, WireType, registers_of
-from regscribe.model.wire import OrderFromRegister
+from regscribe.model import Kind, Model, OrderFromRegister, Register, RegisterMap, Space, WireType, registers_of
 from regscribe.pipeline import compile_map
 from regscribe.simulate import SimulatedDevice
 

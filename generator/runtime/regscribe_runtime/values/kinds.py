@@ -1,0 +1,39 @@
+"""What the value of a register is to a program, and whether it can be read and written."""
+
+from enum import StrEnum
+
+
+class Kind(StrEnum):
+    """What a value is to a program.
+
+    `NUMBER` may have a fraction, `INTEGER` never has, `RAW` is a whole number whose scale the manual does not state;
+    `FLAGS` is a word of single bits, `FIELDS` a word with at least one wider field; `VERSION` packs decimal digits.
+    """
+
+    NUMBER = "number"
+    INTEGER = "integer"
+    RAW = "raw"
+    ENUM = "enum"
+    FLAGS = "flags"
+    FIELDS = "fields"
+    STRING = "string"
+    VERSION = "version"
+    BOOLEAN = "boolean"
+
+
+class Access(StrEnum):
+    """Whether a register can be read and written."""
+
+    READ = "r"
+    READ_WRITE = "rw"
+    WRITE = "w"
+
+    @property
+    def readable(self) -> bool:
+        """Whether it can be read."""
+        return self is not Access.WRITE
+
+    @property
+    def writable(self) -> bool:
+        """Whether it can be written (perhaps under a condition)."""
+        return self is not Access.READ
