@@ -1,6 +1,9 @@
-"""Model values as expressions over `regscribe_runtime.values.specs`: conditions, scales, ranges, views, units."""
+"""Model values as expressions over `regscribe_runtime.values`: any of its types, and what a module names and shares."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from enum import Enum
+from fractions import Fraction
 
 from regscribe.emit.python.constants import Pool
 from regscribe.emit.python.formatting import Call, Expression, call, group, mapping
@@ -26,7 +29,48 @@ from regscribe.model import (
     Space,
     Test,
     View,
+    show,
 )
+
+Known = Callable[[object], Expression | None]
+"""How a module writes a value by other means than its content, such as the name of a constant; None: it does not."""
+
+
+def expression(value: object, known: Known = lambda _: None) -> Expression:
+    """The expression that makes `value`: a named tuple, tuple, enum member, text, exact number, True, False or None.
+
+    `known` is asked first about the value and about everything in it. TypeError for a value of any other type.
+    """
+    found = known(value)
+    if found is not None:
+        return found
+    match value:
+        case None | bool():
+            return str(value)
+        case Enum():
+            return f"{type(value).__name__}.{value.name}"
+        case str():
+            return literal(value)
+        case int() | Fraction():
+            return _number(value)
+        case tuple():
+            return _record(value, known) if hasattr(value, "_fields") else group([expression(i, known) for i in value])
+    message = f"a declaration cannot hold {value!r}, a {type(value).__name__}"
+    raise TypeError(message)
+
+
+def _number(value: int | Fraction) -> str:
+    return str(value.numerator) if value.denominator == 1 else f"Fraction({literal(show(Fraction(value)))})"
+
+
+def _record(value: tuple[object, ...], known: Known) -> Call:
+    """A call with the required fields by position and those that are not at their default by name."""
+    names: tuple[str, ...] = getattr(value, "_fields")  # noqa: B009 - a plain tuple has none
+    defaults: dict[str, object] = getattr(value, "_field_defaults")  # noqa: B009 - as above
+    every = dict(zip(names, value, strict=True))
+    required = [expression(every[name], known) for name in names if name not in defaults]
+    stated = {name: every[name] for name in names if name in defaults and every[name] != defaults[name]}
+    return call(type(value).__name__, *required, **{name: expression(one, known) for name, one in stated.items()})
 
 
 @dataclass(frozen=True, slots=True)
