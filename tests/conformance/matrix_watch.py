@@ -15,7 +15,7 @@ from regscribe_runtime import RegscribeError, ValueRefused
 from regscribe_runtime.driver import executor
 from regscribe_runtime.link.locks import Turns
 from regscribe_runtime.link.retry import NEVER
-from regscribe_runtime.values.serial_line import Line
+from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.wire import pdu
 
 from . import judges
@@ -65,7 +65,7 @@ class Wire:
         self.answer = answer
         self.epoch, self.timeout, self.retry = 1, 1.0, NEVER
         self.lock: Any = Turns()
-        self.line: Any = Line("", 9600)
+        self.line: Any = SerialLine("", 9600)
         self.addressing = "modbus"
         self.log: list[object] = []
 

@@ -2,12 +2,12 @@
 
 from collections.abc import Iterator
 from fractions import Fraction
-from itertools import product
 
 from regscribe.checks.probe_values import domain
 from regscribe.checks.representable import Fit, best_fit
 from regscribe.checks.rule import Finding, RuleScope, register_rule
 from regscribe.model import Governs, Kind, Register, Rule, Serial, Setting
+from regscribe_runtime.values.serial_line import ADDRESSINGS, DATA_BITS, FORMATS, PARITIES, STOP_BITS
 
 ADDRESSES = frozenset({Kind.INTEGER, Kind.RAW})
 """What a unit id can be: a whole number."""
@@ -18,12 +18,6 @@ CODES = ADDRESSES | {Kind.NUMBER, Kind.ENUM, Kind.BOOLEAN}
 MOST_BAUD = 10_000_000
 """The fastest speed that the language lets a line have."""
 
-ADDRESSINGS = ("modbus", "jbus")
-PARITIES = ("N", "E", "O")
-DATA_BITS = ("5", "6", "7", "8")
-STOP_BITS = ("1", "2")
-FORMATS = tuple("".join(parts) for parts in product(DATA_BITS, PARITIES, STOP_BITS))
-
 
 def _possible(setting: Setting, serial: Serial | None) -> tuple[str, ...]:
     """What the line can be set to, as far as the map says it; nothing: whatever is given."""
@@ -32,10 +26,10 @@ def _possible(setting: Setting, serial: Serial | None) -> tuple[str, ...]:
     return {
         Setting.BAUD: bauds,
         Setting.PARITY: PARITIES,
-        Setting.DATA_BITS: DATA_BITS,
-        Setting.STOP_BITS: STOP_BITS,
+        Setting.DATA_BITS: tuple(map(str, DATA_BITS)),
+        Setting.STOP_BITS: tuple(map(str, STOP_BITS)),
         Setting.FORMAT: formats,
-        Setting.ADDRESSING: ADDRESSINGS,
+        Setting.ADDRESSING: tuple(ADDRESSINGS),
         Setting.ADDRESS: (),
     }[setting]
 

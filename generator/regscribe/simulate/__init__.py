@@ -8,12 +8,12 @@ from regscribe.simulate.in_process import Running, in_thread, simulate
 from regscribe.simulate.line.connection import Arrival, Chunk, Delivery, Exchange, Patience
 from regscribe.simulate.line.framing import Framing, Request
 from regscribe.simulate.line.line_faults import LineFault, LineFaults
-from regscribe.simulate.line.serial_ports import Line
 from regscribe.simulate.line.server_context import Foreign
 from regscribe.simulate.line.servers import Server
 from regscribe.simulate.line.service import Service, Transport, serve, start
 from regscribe.simulate.map_search import find_map
 from regscribe.simulate.process.thermal_process import ThermalProcess
+from regscribe_runtime.values.serial_line import SerialLine
 
 __all__ = [
     "HIGH_FAULT",
@@ -25,12 +25,12 @@ __all__ = [
     "Fault",
     "Foreign",
     "Framing",
-    "Line",
     "LineFault",
     "LineFaults",
     "Patience",
     "Request",
     "Running",
+    "SerialLine",
     "Server",
     "Service",
     "SimulatedDevice",

@@ -15,12 +15,12 @@ from regscribe.simulate.device.value_arguments import Fault, Plain
 from regscribe.simulate.givens import GivenValue
 from regscribe.simulate.line.connection import Arrival, Delivery, Patience, Watcher
 from regscribe.simulate.line.framing import Request
-from regscribe.simulate.line.serial_ports import Line
 from regscribe.simulate.line.server_context import Foreign
 from regscribe.simulate.line.servers import Server
 from regscribe.simulate.line.service import Service, Transport, start
 from regscribe.simulate.map_search import find_map
 from regscribe.simulate.process.thermal_process import ThermalProcess
+from regscribe_runtime.values.serial_line import SerialLine
 
 
 class SimulatorOptions(TypedDict, total=False):
@@ -28,7 +28,7 @@ class SimulatorOptions(TypedDict, total=False):
 
     host: str
     port: int
-    line: Line | None
+    line: SerialLine | None
     latency: float | str
     paced: bool
     strict_gaps: bool

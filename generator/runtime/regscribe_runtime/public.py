@@ -83,7 +83,7 @@ from regscribe_runtime.values.programs import (
     ProgramStates,
     SetpointProgram,
 )
-from regscribe_runtime.values.serial_line import Line
+from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.values.specs import (
     Conversion,
     Governs,
@@ -132,7 +132,6 @@ __all__ = [
     "Latency",
     "LeftAt",
     "Limits",
-    "Line",
     "Link",
     "LinkLost",
     "LinkSettings",
@@ -163,6 +162,7 @@ __all__ = [
     "Saturated",
     "SensorFault",
     "Sent",
+    "SerialLine",
     "SerialSettings",
     "SetpointProgram",
     "Snapshot",

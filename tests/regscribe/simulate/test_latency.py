@@ -14,13 +14,13 @@ from fractions import Fraction
 import pytest
 
 from regscribe.model import Latency, RegisterMap, Serial
-from regscribe.simulate import Line, Running, SimulatedDevice, SimulatorError, find_map, simulate
+from regscribe.simulate import Running, SerialLine, SimulatedDevice, SimulatorError, find_map, simulate
 from regscribe.simulate.line.framing import Request, RtuFramer
 from regscribe.simulate.line.response_delay import Pace, factor_of
 
 READ_ONE = struct.pack(">BHH", 3, 2, 1)
 READ_FOUR = struct.pack(">BHH", 3, 2, 4)
-SLOW = Line(1200, "8N1")
+SLOW = SerialLine.of("", 1200, "8N1")
 
 
 def timed(found: RegisterMap, *latencies: Latency, gap: Fraction = Fraction(7, 2)) -> RegisterMap:
@@ -28,7 +28,7 @@ def timed(found: RegisterMap, *latencies: Latency, gap: Fraction = Fraction(7, 2
     return replace(found, protocol=protocol)
 
 
-def thought(found: RegisterMap, pdu: bytes, line: Line = SLOW, *, factor: float = 1.0, seed: int = 0) -> float:
+def thought(found: RegisterMap, pdu: bytes, line: SerialLine = SLOW, *, factor: float = 1.0, seed: int = 0) -> float:
     device = SimulatedDevice(found, "16C", seed=seed)
     return Pace([device], line, factor=factor).seconds(Request(1, pdu))
 
@@ -47,8 +47,8 @@ def test_a_latency_has_a_part_for_each_word(controller: RegisterMap, pdu: bytes,
 
 def test_characters_take_their_time_at_the_speed_of_the_line(controller: RegisterMap) -> None:
     found = timed(controller, Latency(3, characters=Fraction(3)))
-    assert thought(found, READ_ONE, Line(1200, "8N1")) == pytest.approx(3 * 10 / 1200)
-    assert thought(found, READ_ONE, Line(9600, "8E1")) == pytest.approx(3 * 11 / 9600)
+    assert thought(found, READ_ONE, SerialLine.of("", 1200, "8N1")) == pytest.approx(3 * 10 / 1200)
+    assert thought(found, READ_ONE, SerialLine.of("", 9600, "8E1")) == pytest.approx(3 * 11 / 9600)
 
 
 def test_a_factor_scales_and_functions_without_latency_take_none(controller: RegisterMap) -> None:
@@ -142,7 +142,7 @@ def test_bytes_on_a_paced_pty_take_their_time(controller: RegisterMap) -> None:
 
 
 def test_requests_without_silence_between_them_are_lost_on_a_paced_pty(controller: RegisterMap) -> None:
-    line = Line(19200)
+    line = SerialLine(baud=19200)
     with simulate(controller, "16C", transport="pty", paced=True, line=line) as running, _opened(running.path) as fd:
         os.write(fd, _rtu(READ_ONE) * 2)
         assert _read(fd, 1, 0.1) == b""
@@ -153,7 +153,7 @@ def test_requests_without_silence_between_them_are_lost_on_a_paced_pty(controlle
 @pytest.mark.parametrize("strict", [False, True])
 def test_a_request_too_soon_after_an_answer_is_lost_with_strict_gaps(controller: RegisterMap, *, strict: bool) -> None:
     found = timed(controller, gap=Fraction(100))
-    options = {"transport": "pty", "paced": True, "line": Line(9600), "strict_gaps": strict}
+    options = {"transport": "pty", "paced": True, "line": SerialLine(baud=9600), "strict_gaps": strict}
     with simulate(found, "16C", **options) as running, _opened(running.path) as fd:  # type: ignore[arg-type]  # keywords
         os.write(fd, _rtu(READ_ONE))
         assert len(_read(fd, 7, 2)) == 7
@@ -167,11 +167,6 @@ def test_only_a_pty_can_be_paced(controller: RegisterMap) -> None:
         simulate(controller, "16C", paced=True),
     ):
         pass
-
-
-@pytest.mark.parametrize(("form", "bits"), [("8N1", 10), ("8E1", 11), ("7O2", 11), ("8N2", 11)])
-def test_a_character_has_a_start_bit_data_parity_and_stop_bits(form: str, bits: int) -> None:
-    assert Line(1200, form).character == pytest.approx(bits / 1200)
 
 
 def test_a_client_that_sends_and_hangs_up_gets_its_slow_answer(controller: RegisterMap) -> None:

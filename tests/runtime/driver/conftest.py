@@ -18,7 +18,7 @@ from regscribe.model import RegisterMap, Severity
 from regscribe_runtime import LinkLost, NoAnswer, WrongAnswer
 from regscribe_runtime.link.locks import AsyncTurns, Turns
 from regscribe_runtime.link.retry import NEVER
-from regscribe_runtime.values.serial_line import Line
+from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.wire import pdu
 from regscribe_runtime.wire.requests import Request
 
@@ -105,7 +105,7 @@ class DirectLink:
         self.device, self.fate, self.writes_only = device, fate or {}, writes_only
         self.epoch, self.timeout, self.retry = 1, 1.0, NEVER
         self.lock: Any = Turns()
-        self.line: Any = Line("", 9600)
+        self.line: Any = SerialLine("", 9600)
         self.addressing = "modbus"
         self.count, self.log = 0, list[Request]()
         self.answered = True

@@ -12,7 +12,7 @@ from regscribe.model import GivenKind, RegisterMap
 from regscribe.pipeline import compile_map
 from regscribe.shipped import shipped
 from regscribe.tools.live import catalogue
-from regscribe_runtime.values.serial_line import Line
+from regscribe_runtime.values.serial_line import SerialLine
 
 Requests = list[tuple[int, int, int]]
 SERIAL = ("--baud", "9600", "--format", "8N1")
@@ -104,7 +104,7 @@ def test_the_plan_of_a_shipped_model_is_what_its_driver_sends(
 ) -> None:
     register_map = compile_map(path).map
     assert register_map is not None
-    lines = [(Line("", 9600), SERIAL), (None, ("--tcp",))]
+    lines = [(SerialLine("", 9600), SERIAL), (None, ("--tcp",))]
     for number, (name, driver) in enumerate(devices(register_map)):
         line, settings = lines[number % 2]
         link = direct(words({}))

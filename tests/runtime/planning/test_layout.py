@@ -5,10 +5,11 @@ from hypothesis import strategies as st
 
 from regscribe_runtime import View, WireType
 from regscribe_runtime.planning.address_ranges import AddressRanges, RegisterSpan
-from regscribe_runtime.planning.cost import Cost, SerialLine
+from regscribe_runtime.planning.cost import Cost
 from regscribe_runtime.planning.plan import RequestLimits, Terms
 from regscribe_runtime.planning.read_order import ReadOrder, lay_out
 from regscribe_runtime.planning.read_places import ReadPlace
+from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.values.wire_types import Space
 
 VIEW = View("base", WireType.INT16)

@@ -8,18 +8,19 @@ from hypothesis import strategies as st
 
 from regscribe_runtime.operations.session import Latency
 from regscribe_runtime.planning.address_ranges import AddressRanges, AddressStretch, RegisterSpan
-from regscribe_runtime.planning.cost import Cost, SerialLine
+from regscribe_runtime.planning.cost import Cost
 from regscribe_runtime.planning.plan import Block, RequestLimits, SplitReason, Terms, Uncoverable, blocks, plan
+from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.values.wire_types import Space
 
 SLOW = {function: Latency(5, 15, 2, 60, 3) for function in (1, 2, 3, 4)}
 LINES = [
-    Cost(SerialLine(9600)),
-    Cost(SerialLine(300)),
-    Cost(SerialLine(19_200, 11), latencies=SLOW),
-    Cost(SerialLine(9600, 10, "ascii")),
+    Cost(SerialLine()),
+    Cost(SerialLine(baud=300)),
+    Cost(SerialLine.of("", 19_200, "8E1"), latencies=SLOW),
+    Cost(SerialLine(), framing="ascii"),
     Cost(round_trip=1),
-    Cost(SerialLine(1200), round_trip=1, latencies=SLOW),
+    Cost(SerialLine(baud=1200), round_trip=1, latencies=SLOW),
 ]
 SPACES = [Space.HOLDING, Space.COIL]
 
@@ -163,7 +164,7 @@ def test_the_reasons_of_a_plan_say_why_each_request_is_its_own() -> None:
             Space.HOLDING: [AddressStretch(50, 60, 2)],
         },
     )
-    cost = Cost(SerialLine(9600), latencies={3: Latency(0, 0, 5, 100)})
+    cost = Cost(SerialLine(), latencies={3: Latency(0, 0, 5, 100)})
     at = [
         (Space.COIL, 0, 1),
         (Space.HOLDING, 0, 2),
@@ -218,7 +219,7 @@ def test_a_gap_is_crossed_where_a_second_request_costs_more() -> None:
     def counts(cost: Cost) -> list[int]:
         return [block.quantity for block in blocks(wanted, Terms(RequestLimits(), whole(), cost))]
 
-    assert counts(Cost(SerialLine(9600))) == [11]  # 9 words: 18 characters; a request: 13, and 7 of silence
-    assert counts(Cost(SerialLine(9600), gap=2)) == [1, 1]  # 13 and 4 of silence
-    assert counts(Cost(SerialLine(9600), latencies={3: Latency(0, 0, 0, 1)})) == [1, 1]
+    assert counts(Cost(SerialLine())) == [11]  # 9 words: 18 characters; a request: 13, and 7 of silence
+    assert counts(Cost(SerialLine(), gap=2)) == [1, 1]  # 13 and 4 of silence
+    assert counts(Cost(SerialLine(), latencies={3: Latency(0, 0, 0, 1)})) == [1, 1]
     assert counts(Cost(round_trip=1)) == [11]

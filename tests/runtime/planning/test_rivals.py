@@ -8,8 +8,9 @@ from typing import Any
 import pytest
 
 from regscribe_runtime.planning.address_ranges import AddressRanges, RegisterSpan
-from regscribe_runtime.planning.cost import Cost, SerialLine
+from regscribe_runtime.planning.cost import Cost
 from regscribe_runtime.planning.plan import RequestLimits, Terms
+from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.values.wire_types import Space
 
 BENCH = Path(__file__).parents[2] / "system" / "bench"

@@ -19,7 +19,7 @@ from regscribe.cli.shared.map_by_id import find_map
 from regscribe.cli.shared.planning import Subject
 from regscribe.model import GivenKind
 from regscribe.pipeline import compile_map
-from regscribe.simulate import Line, simulate
+from regscribe.simulate import SerialLine, simulate
 from regscribe.tools.live import catalogue
 from regscribe_runtime import RegscribeError
 from regscribe_runtime.link.links import serial
@@ -52,7 +52,7 @@ def _model(name: str, known: Any, subject: Subject) -> Iterator[Row]:
         one.id: frozenset({4}) if one.kind is GivenKind.CODES else True for one in register_map.givens
     }
     with simulate(
-        register_map, known.model, givens=givens, transport="pty", line=Line(baud=BAUD, format="8N1"), paced=True
+        register_map, known.model, givens=givens, transport="pty", line=SerialLine(baud=BAUD), paced=True
     ) as running:
         unit = running.device.unit
         ours = _driver(known.driver, running.path, unit, givens)

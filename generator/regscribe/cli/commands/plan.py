@@ -1,6 +1,5 @@
 """`regscribe plan`: which requests read registers at the least cost, and why."""
 
-import re
 import sys
 from collections.abc import Sequence
 
@@ -15,9 +14,10 @@ from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map
 from regscribe.tools.live.errors import unknown
 from regscribe_runtime.planning import plan
-from regscribe_runtime.planning.cost import Cost, SerialLine, milliseconds
+from regscribe_runtime.planning.cost import Cost, milliseconds
 from regscribe_runtime.planning.plan import Planned, SplitReason, Terms
 from regscribe_runtime.planning.read_order import ReadOrder
+from regscribe_runtime.values.serial_line import FORMATS, SerialLine
 
 COLUMNS = ("FC", "ADDRESSES", "WANTED", "CARRIED", "BYTES", "MS", "APART BECAUSE", "REGISTERS")
 MOST_NAMED = 3
@@ -124,7 +124,7 @@ def _refuse(subject: Subject, name: str) -> None:
 
 def _cost(subject: Subject, baud: int | None, form: str | None, framing: str, *, tcp: bool) -> Cost:
     protocol = subject.protocol
-    if form is not None and not re.fullmatch(r"[78][NEO][12]", form):
+    if form is not None and form not in FORMATS:
         message = f"--format {form}: write data bits (7, 8), parity (N, E, O) and stop bits (1, 2), for example 8E1"
         raise click.UsageError(message)
     for what, value, listed in (("baud", baud, protocol.bauds), ("characters", form, protocol.formats)):
@@ -132,8 +132,8 @@ def _cost(subject: Subject, baud: int | None, form: str | None, framing: str, *,
             remark(f"the manual does not list {value} {what}: {', '.join(map(str, listed))}")
     if not tcp:
         return Cost.serial(protocol, baud=baud or 0, form=form or "", framing=framing)
-    behind = SerialLine.of(baud or protocol.baud, form or protocol.format, framing) if baud or form else None
-    return Cost.tcp(protocol, line=behind)
+    behind = SerialLine.of("", baud or protocol.baud, form or protocol.format) if baud or form else None
+    return Cost.tcp(protocol, line=behind, framing=framing)
 
 
 class _Told:
@@ -177,15 +177,17 @@ class _Told:
         )
 
     def _line(self) -> str:
-        line, way = self.terms.cost.line, "TCP" if self.terms.cost.round_trip else ""
-        serial = f"{line.baud} baud, {line.bits} bits a character, {line.framing.upper()}" if line else ""
+        cost = self.terms.cost
+        line, way = cost.line, "TCP" if cost.round_trip else ""
+        serial = f"{line.baud} baud, {line.bits} bits a character, {cost.framing.upper()}" if line else ""
         return " to ".join(filter(None, (way, serial)))
 
     def plain(self) -> dict[str, object]:
         """The same for programs; times in milliseconds."""
-        found, line = self.found, self.terms.cost.line
+        found, cost = self.found, self.terms.cost
+        line = {"baud": cost.line.baud, "bits": cost.line.bits, "framing": cost.framing} if cost.line else {}
         return {
-            "line": {"tcp": bool(self.terms.cost.round_trip), **(line._asdict() if line else {})},
+            "line": {"tcp": bool(cost.round_trip), **line},
             "requests": [
                 {
                     "function": one.block.function,

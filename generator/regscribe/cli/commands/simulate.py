@@ -11,7 +11,6 @@ import click
 
 from regscribe.cli.shared.request_log import Requests, lines, table
 from regscribe.cli.shared.simulated_devices import (
-    ADDRESSINGS,
     Wish,
     device_of,
     found_maps,
@@ -22,8 +21,8 @@ from regscribe.cli.shared.simulated_devices import (
 from regscribe.cli.shared.terminal import tell
 from regscribe.simulate import (
     Foreign,
-    Line,
     Patience,
+    SerialLine,
     Server,
     Service,
     SimulatedDevice,
@@ -34,6 +33,7 @@ from regscribe.simulate import (
 from regscribe.simulate.line.response_delay import factor_of
 from regscribe.simulate.line.service import line_of
 from regscribe.visible import safe
+from regscribe_runtime.values.serial_line import ADDRESSINGS
 
 PTY = "pty"
 """In place of a serial device: make a pseudo terminal and print its path."""
@@ -184,8 +184,8 @@ def _check(options: Options) -> None:
     """Refuse what no service can be: UsageError."""
     try:
         factor_of(options["latency"])
-        Line(format=options["character"] or Line().format).character  # noqa: B018 - it refuses an impossible format
-    except SimulatorError as error:
+        SerialLine.of("", options["baud"] or SerialLine().baud, options["character"] or SerialLine().format)
+    except (SimulatorError, ValueError) as error:
         raise click.UsageError(str(error)) from None
     if options["paced"] and options["rtu"] != PTY:
         message = f"--paced goes with --rtu {PTY} only: a serial device has its own speed, TCP has none"
@@ -196,7 +196,7 @@ def _check(options: Options) -> None:
 
 def _service(options: Options, devices: list[SimulatedDevice]) -> Service:
     usual = line_of(devices)
-    line = Line(baud=options["baud"] or usual.baud, format=options["character"] or usual.format)
+    line = SerialLine.of("", options["baud"] or usual.baud, options["character"] or usual.format)
     patience = None if options["idle"] is None else Patience(idle=options["idle"])
     foreign = None if options["foreign"] is None else Foreign(options["foreign"])
     if options["tcp"] is not None:

@@ -17,11 +17,11 @@ from regscribe.cli.shared.terminal import show, warn
 from regscribe.model import GivenKind, RegisterMap
 from regscribe.pipeline import compile_map
 from regscribe.simulate import SimulatedDevice, SimulatorError, ThermalProcess
+from regscribe_runtime.values.serial_line import ADDRESSINGS, MODBUS
 
 MOST_CODES = 0x10000
 """A register has no more codes than this, so a longer range is a slip."""
 
-ADDRESSINGS = ("modbus", "jbus")
 KEYS = ("map", "model", "unit", "given", "state", "process", "seed", "addressing")
 
 
@@ -152,7 +152,7 @@ def device_of(wish: Wish, register_map: RegisterMap) -> SimulatedDevice:
             unit=wish.unit,
             givens=values,
             seed=wish.seed or 0,
-            addressing=wish.addressing or ADDRESSINGS[0],
+            addressing=wish.addressing or MODBUS,
             process=wish.process or False,
         )
     except SimulatorError as error:

@@ -4,8 +4,8 @@ import struct
 from typing import overload
 
 from regscribe.simulate.errors import SimulatorError
+from regscribe_runtime.values.serial_line import first_address
 
-FIRST_ADDRESSES = {"modbus": 0, "jbus": 1}
 ADDRESSED = frozenset({1, 2, 3, 4, 5, 6, 15, 16, 22, 23})
 """Function codes whose request names an address in its first two bytes of data."""
 
@@ -17,12 +17,12 @@ class AddressError(Exception):
     """An address below the first one."""
 
 
-def first_address(addressing: str) -> int:
+def counted_from(addressing: str) -> int:
     """Return the number of the first address; SimulatorError for an unknown way to count."""
-    if addressing not in FIRST_ADDRESSES:
-        message = f"addressing {addressing!r} is none of {', '.join(FIRST_ADDRESSES)}"
-        raise SimulatorError(message)
-    return FIRST_ADDRESSES[addressing]
+    try:
+        return first_address(addressing)
+    except ValueError as problem:
+        raise SimulatorError(str(problem)) from None
 
 
 @overload

@@ -4,7 +4,8 @@ from fractions import Fraction
 
 from regscribe.model import Governs, Register, Setting
 from regscribe.simulate.device.state import DeviceState
-from regscribe.simulate.line.addressing import FIRST_ADDRESSES, first_address
+from regscribe.simulate.line.addressing import counted_from
+from regscribe_runtime.values.serial_line import ADDRESSINGS
 
 AT_ONCE, RESTART = "at_once", "restart"
 
@@ -19,7 +20,7 @@ class Tuning:
     __slots__ = ("_governing", "_known", "_state", "first", "unit")
 
     def __init__(self, state: DeviceState, *, unit: int, addressing: str) -> None:
-        self._state, self.unit, self.first = state, unit, first_address(addressing)
+        self._state, self.unit, self.first = state, unit, counted_from(addressing)
         registers = state.blueprint.model.registers
         self._governing = tuple((each, each.governs) for each in registers if each.governs is not None)
         self._known: dict[str, object] = {}
@@ -27,7 +28,7 @@ class Tuning:
 
     def keep(self) -> None:
         """Talk on as now, whatever was put into the registers: they show it."""
-        addressing = next(name for name, first in FIRST_ADDRESSES.items() if first == self.first)
+        addressing = next(name for name, first in ADDRESSINGS.items() if first == self.first)
         for register, governs in self._governing:
             self._show(register, governs, addressing)
         self._known.update((each.path, self._state.stored(each.path)) for each, _ in self._governing)
@@ -58,4 +59,4 @@ class Tuning:
             self.unit = int(value)
         elif governs.setting is Setting.ADDRESSING:
             name = next((name for code, name in governs.codes if code == value), "")
-            self.first = FIRST_ADDRESSES.get(name, self.first)
+            self.first = ADDRESSINGS.get(name, self.first)

@@ -5,7 +5,7 @@ import os
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from regscribe.simulate.line.serial_ports import Line
+from regscribe_runtime.values.serial_line import SerialLine
 
 CHUNK = 4096
 MOST_BUFFERED = 1 << 16
@@ -123,7 +123,7 @@ class PacedTransport(LineTransport):
     end of the answer before it.
     """
 
-    def __init__(self, fd: int, events: Events, line: Line, *, gap: float, strict: bool) -> None:
+    def __init__(self, fd: int, events: Events, line: SerialLine, *, gap: float, strict: bool) -> None:
         self._character = line.character
         self._gap = gap
         self._strict = strict

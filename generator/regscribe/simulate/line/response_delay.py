@@ -9,7 +9,7 @@ from regscribe.model import Latency, Protocol
 from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.simulate.errors import SimulatorError
 from regscribe.simulate.line.framing import Request
-from regscribe.simulate.line.serial_ports import Line
+from regscribe_runtime.values.serial_line import SerialLine
 
 NAMED = {"off": 0.0, "real": 1.0}
 WORDS_COUNTED = frozenset({3, 4, 16})
@@ -43,7 +43,7 @@ class Thought:
 
     __slots__ = ("_character", "_factor", "_latencies", "_random")
 
-    def __init__(self, protocol: Protocol, line: Line, factor: float, seed: str) -> None:
+    def __init__(self, protocol: Protocol, line: SerialLine, factor: float, seed: str) -> None:
         self._latencies: Mapping[int, Latency] = {each.function: each for each in protocol.latencies}
         self._character = line.character
         self._factor = factor
@@ -69,7 +69,9 @@ class Pace:
 
     __slots__ = ("_devices", "_gap")
 
-    def __init__(self, devices: Sequence[SimulatedDevice], line: Line, *, factor: float, gap: float = 0.0) -> None:
+    def __init__(
+        self, devices: Sequence[SimulatedDevice], line: SerialLine, *, factor: float, gap: float = 0.0
+    ) -> None:
         self._gap = gap
         self._devices = [
             (device, Thought(device.register_map.protocol, line, factor, f"{device.seed} {device.unit}"))

@@ -1,31 +1,16 @@
-"""Serial lines: a serial device with its speed and format, or a pseudo terminal made here."""
+"""Serial ports: a serial device with its speed and format, or a pseudo terminal made here."""
 
 import os
 import termios
 import tty
-from dataclasses import dataclass
 
 import serial  # type: ignore[import-untyped]  # pyserial ships no types
 
 from regscribe.simulate.errors import SimulatorError
+from regscribe_runtime.values.serial_line import SerialLine
 
-_FORMAT_LENGTH = 3
 LOCAL_FLAGS = 3
 """Where they stand in what `termios.tcgetattr` gives."""
-
-
-@dataclass(frozen=True, slots=True)
-class Line:
-    """Speed in baud, and data bits, parity and stop bits as one text: 8N1, 8E1, 7E2."""
-
-    baud: int = 9600
-    format: str = "8N1"
-
-    @property
-    def character(self) -> float:
-        """Seconds that one character takes: a start bit, the data bits, perhaps a parity bit, the stop bits."""
-        data, parity, stop = _characters(self.format)
-        return (1 + data + (parity != "N") + stop) / self.baud
 
 
 class OpenLine:
@@ -63,11 +48,10 @@ class OpenLine:
             os.close(self._held)
 
 
-def open_serial(path: str, line: Line) -> OpenLine:
+def open_serial(path: str, line: SerialLine) -> OpenLine:
     """Open a serial device; SimulatorError if it is absent, busy, not ours, or cannot be set to `line`."""
-    bits, parity, stop_bits = _characters(line.format)
     try:
-        port = serial.Serial(path, line.baud, bits, parity, stop_bits, timeout=0, write_timeout=0, exclusive=True)
+        port = serial.Serial(path, timeout=0, write_timeout=0, exclusive=True, **line.checked().settings())
     except (OSError, ValueError) as problem:
         message = f"cannot open serial device {path!r} with {line.baud} baud {line.format}: {problem}"
         raise SimulatorError(message) from problem
@@ -80,12 +64,3 @@ def open_pseudo_terminal() -> OpenLine:
     tty.setraw(theirs)
     os.set_blocking(ours, False)
     return OpenLine(os.ttyname(theirs), ours, held=theirs)
-
-
-def _characters(text: str) -> tuple[int, str, int]:
-    """Return data bits, parity and stop bits of a character format."""
-    form = text.upper()
-    if len(form) != _FORMAT_LENGTH or form[0] not in "5678" or form[1] not in "NEOMS" or form[2] not in "12":
-        message = f"character format is data bits, parity and stop bits such as 8N1, 8E1 or 7O2, not {text!r}"
-        raise SimulatorError(message)
-    return int(form[0]), form[1], int(form[2])

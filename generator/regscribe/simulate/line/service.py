@@ -12,10 +12,11 @@ from regscribe.simulate.line.connection import Arrival, ConnectionPolicy, Delive
 from regscribe.simulate.line.framing import Framing, RtuFramer, SilenceFramer
 from regscribe.simulate.line.paced_line import PacedTransport
 from regscribe.simulate.line.response_delay import Pace, factor_of
-from regscribe.simulate.line.serial_ports import Line, OpenLine, open_pseudo_terminal, open_serial
+from regscribe.simulate.line.serial_ports import OpenLine, open_pseudo_terminal, open_serial
 from regscribe.simulate.line.server_context import Foreign, ServerContext
 from regscribe.simulate.line.servers import LineServer, Server, TcpServer
 from regscribe.simulate.process.clock import speed_of, tick
+from regscribe_runtime.values.serial_line import SerialLine
 
 LOOPBACK = "127.0.0.1"
 MOST_CONNECTIONS = 64
@@ -59,7 +60,7 @@ class Service:
     host: str = LOOPBACK
     port: int = 0
     path: str = ""
-    line: Line | None = None
+    line: SerialLine | None = None
     latency: float | str = "off"
     paced: bool = False
     strict_gaps: bool = False
@@ -114,13 +115,13 @@ def _begin(server: LineServer, devices: Sequence[SimulatedDevice], service: Serv
     server.begin(partial(PacedTransport, line=line, gap=gap, strict=service.strict_gaps), framer=SilenceFramer)
 
 
-def line_of(devices: Sequence[SimulatedDevice]) -> Line:
+def line_of(devices: Sequence[SimulatedDevice]) -> SerialLine:
     """The line that the first device has as delivered, as far as its map says."""
     serial = devices[0].register_map.protocol.serial if devices else Serial()
-    return Line(baud=serial.default_baud or Line().baud, format=serial.default_format or Line().format)
+    return SerialLine.of("", serial.default_baud or SerialLine().baud, serial.default_format or SerialLine().format)
 
 
-def _gap(devices: Sequence[SimulatedDevice], line: Line) -> float:
+def _gap(devices: Sequence[SimulatedDevice], line: SerialLine) -> float:
     """Seconds of silence that separate frames: what the most demanding device here needs."""
     characters = (device.register_map.protocol.serial.gap_characters for device in devices)
     return float(max(characters, default=Serial().gap_characters)) * line.character

@@ -8,24 +8,20 @@ from urllib.parse import parse_qsl, urlencode
 
 from regscribe.tools.live.errors import TargetError, meant, unknown
 from regscribe_runtime.link.links import MODBUS_TCP_PORT
+from regscribe_runtime.values.serial_line import ADDRESSINGS, DATA_BITS, FRAMINGS, MODBUS, PARITIES, STOP_BITS
 
-SCHEMES = ("tcp", "rtu", "ascii")
-FRAMINGS = ("tcp", "rtu", "ascii")
-ADDRESSINGS = ("modbus", "jbus")
-PARITIES = ("N", "E", "O")
+SCHEMES = FRAMINGS
 BAUDS = range(50, 10_000_001)
-DATA_BITS = (7, 8)
-STOP_BITS = (1, 2)
 LAST_PORT = 0xFFFF
 LONGEST_TIMEOUT = 3600.0
 KEYS = ("baud", "parity", "data_bits", "stop_bits", "framing", "addressing", "timeout")
 """What may stand behind the `?`, besides the keys of the device (see `target`)."""
 _WHOLE: dict[str, tuple[Container[int], str]] = {
     "baud": (BAUDS, f"{BAUDS[0]} to {BAUDS[-1]}"),
-    "data_bits": (DATA_BITS, "7 or 8"),
-    "stop_bits": (STOP_BITS, "1 or 2"),
+    "data_bits": (DATA_BITS, " or ".join(map(str, DATA_BITS))),
+    "stop_bits": (STOP_BITS, " or ".join(map(str, STOP_BITS))),
 }
-_WORDS = {"parity": PARITIES, "addressing": ADDRESSINGS, "framing": FRAMINGS}
+_WORDS = {"parity": PARITIES, "addressing": tuple(ADDRESSINGS), "framing": FRAMINGS}
 SERIAL_KEYS = frozenset({"baud", "parity", "data_bits", "stop_bits"})
 
 
@@ -45,7 +41,7 @@ class LinkName:
     data_bits: int | None = None
     parity: str = ""
     stop_bits: int | None = None
-    addressing: str = "modbus"
+    addressing: str = MODBUS
     timeout: float | None = None
 
     @property
@@ -73,7 +69,7 @@ class LinkName:
             "parity": self.parity,
             "stop_bits": self.stop_bits,
             "framing": "" if self.serial or self.framing == "tcp" else self.framing,
-            "addressing": "" if self.addressing == "modbus" else self.addressing,
+            "addressing": "" if self.addressing == MODBUS else self.addressing,
             "timeout": None if self.timeout is None else f"{self.timeout:g}",
         }
         query = urlencode({key: value for key, value in given.items() if value not in (None, "")})

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 from regscribe_runtime.errors import ValueRefused
 from regscribe_runtime.link.timing import broadcast_seconds
 from regscribe_runtime.operations.write_request import condition_needs, confirmed, permitted
-from regscribe_runtime.values.serial_line import Line
+from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.wire.requests import Request
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ def _function(register: "Register[Any]", view: "View", words: int, protocols: "I
     raise ValueRefused(register.path, f"it cannot be broadcast: {reason}")
 
 
-def timed(request: Request, drivers: Mapping[str, Driver], line: Line | None) -> Request:
+def timed(request: Request, drivers: Mapping[str, Driver], line: SerialLine | None) -> Request:
     """The request with the time that the slowest unit needs; ValueRefused if a manual does not allow it."""
     for name, driver in drivers.items():
         if request.function not in driver.protocol.broadcast:

@@ -25,7 +25,7 @@ from regscribe_runtime.link.links import (
     SyncClient,
 )
 from regscribe_runtime.registers.register import Register
-from regscribe_runtime.values.serial_line import Line
+from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.wire.requests import Request
 
 ALL_UNITS = 0
@@ -61,7 +61,7 @@ class _Common(Generic[D]):
         """The ids of the devices, in ascending order: that of taking their locks."""
         return tuple(sorted(device.session.unit for device in self._devices))
 
-    def _added(self, device: D, line: Line | None) -> None:
+    def _added(self, device: D, line: SerialLine | None) -> None:
         unit, protocol = device.session.unit, device.protocol
         if unit in self.units:
             message = f"unit {unit} of this bus is {self[unit]!r} already: give each device an id of its own"

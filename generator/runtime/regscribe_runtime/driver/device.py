@@ -23,7 +23,7 @@ from regscribe_runtime.operations.snapshot import Snapshot
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.report import Wear, WriteReport
 from regscribe_runtime.values.programs import SetpointProgram
-from regscribe_runtime.values.serial_line import Line
+from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.values.specs import Identity
 from regscribe_runtime.values.wire_types import Space
 
@@ -240,7 +240,7 @@ class AsyncDevice(AsyncBareDevice):
 
 
 def _usual(protocol: Protocol, line: SerialSettings) -> dict[str, Any]:
-    usual = Line.of("", protocol.baud, protocol.format)
+    usual = SerialLine.of("", protocol.baud, protocol.format)
     return {**usual._asdict(), "gap": protocol.gap, **line}
 
 

@@ -6,7 +6,8 @@ from typing import TypeVar, cast
 
 from regscribe_runtime.errors import NoAnswer, RegscribeError
 from regscribe_runtime.link.links import AsyncLink, Link
-from regscribe_runtime.operations.session import LineChange, Operation, Pause, Session, Task
+from regscribe_runtime.operations.session import Operation, Pause, Session, Task
+from regscribe_runtime.values.serial_line import LineChange
 from regscribe_runtime.wire.requests import Request
 
 T = TypeVar("T")

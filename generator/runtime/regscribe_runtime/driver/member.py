@@ -2,8 +2,7 @@
 
 from regscribe_runtime.link.links import AsyncLink, Link
 from regscribe_runtime.link.retry import Retry
-from regscribe_runtime.operations.session import LineChange
-from regscribe_runtime.values.serial_line import Line
+from regscribe_runtime.values.serial_line import LineChange, SerialLine
 from regscribe_runtime.wire.requests import Reply, Request
 
 
@@ -19,7 +18,7 @@ class _Common:
         return self._link.epoch
 
     @property
-    def line(self) -> Line | None:
+    def line(self) -> SerialLine | None:
         """See `Link.line`."""
         return self._link.line
 

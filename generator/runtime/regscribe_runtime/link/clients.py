@@ -17,14 +17,12 @@ from pymodbus.framer import FramerAscii, FramerRTU
 from pymodbus.pdu import ModbusPDU
 
 from regscribe_runtime.errors import LinkLost, NoAnswer, WrongAnswer
-from regscribe_runtime.link.exchange import ADDRESSINGS, BROADCAST, UNADDRESSED
+from regscribe_runtime.link.exchange import BROADCAST, UNADDRESSED
 from regscribe_runtime.link.links import ClientSettings
 from regscribe_runtime.link.locks import AsyncTurns, Turns
 from regscribe_runtime.link.retry import Retry
 from regscribe_runtime.link.stale_replies import StaleReplies
-from regscribe_runtime.link.timing import silence
-from regscribe_runtime.operations.session import LineChange
-from regscribe_runtime.values.serial_line import Line
+from regscribe_runtime.values.serial_line import MODBUS, LineChange, SerialLine, first_address
 from regscribe_runtime.wire import pdu
 from regscribe_runtime.wire.requests import Reply, Request
 
@@ -76,7 +74,7 @@ class _Base:
     def __init__(self, client: Any, settings: ClientSettings) -> None:
         self._client, self._gap = client, settings.get("gap", 0.0)
         self.retry = settings.get("retry") or Retry()
-        self.addressing = settings.get("addressing", "modbus")
+        self.addressing = settings.get("addressing", MODBUS)
         self.retune(LineChange(addressing=self.addressing))
         self._late, self._silent_from = StaleReplies(), 0.0
         self._opened, self._last = 0, None
@@ -87,12 +85,12 @@ class _Base:
         return float(self._client.comm_params.timeout_connect)
 
     @property
-    def line(self) -> Line | None:
+    def line(self) -> SerialLine | None:
         """The serial line of a serial client."""
         line = self._client.comm_params
         if not line.baudrate or line.baudrate < 0:
             return None
-        return Line(line.host, line.baudrate, line.bytesize, line.parity, line.stopbits)
+        return SerialLine(line.host, line.baudrate, line.bytesize, line.parity, line.stopbits)
 
     @property
     def epoch(self) -> int:
@@ -116,12 +114,9 @@ class _Base:
 
     def retune(self, change: LineChange) -> None:
         """Count addresses otherwise from now on; the client's speed and format stay, as those of a gateway do."""
-        if change.addressing is None:
-            return
-        if change.addressing not in ADDRESSINGS:
-            message = f"addressing {change.addressing!r} is none of {', '.join(ADDRESSINGS)}"
-            raise ValueError(message)
-        self.addressing = change.addressing
+        if change.addressing is not None:
+            first_address(change.addressing)  # ValueError for another name
+            self.addressing = change.addressing
 
     def _check(self) -> None:
         if not self._client.connected:
@@ -129,13 +124,13 @@ class _Base:
             raise LinkLost(message)
 
     def _sent(self, unit: int, request: Request) -> _Sent:
-        first = 0 if request.function in UNADDRESSED else ADDRESSINGS[self.addressing]
+        first = 0 if request.function in UNADDRESSED else first_address(self.addressing)
         return _Sent(unit, request, request._replace(address=request.address + first), self._connection())
 
     def _pause(self, sent: _Sent) -> float:
         """How long to wait for a silent line, and until no late answer could be taken for this one's, in seconds."""
         now, line = time.monotonic(), self.line
-        quiet = self._silent_from + (silence(line, self._gap) if line else 0.0)
+        quiet = self._silent_from + (line.silence(self._gap) if line else 0.0)
         until = max(quiet, self._late.busy, self._late.until(sent.unit, sent.wire, now))
         return max(until - now, 0.0)
 

@@ -7,13 +7,11 @@ from regscribe_runtime.link.line_discipline import LineDiscipline, taken
 from regscribe_runtime.link.pending import CHECK, PendingRequest, Steps
 from regscribe_runtime.link.streams import Stream
 from regscribe_runtime.link.trace import RECEIVED, SENT, Trace, Tracer
-from regscribe_runtime.values.serial_line import Line
+from regscribe_runtime.values.serial_line import SerialLine, first_address
 from regscribe_runtime.wire import pdu
 from regscribe_runtime.wire.framing import FoundFrame, framing_for
 from regscribe_runtime.wire.requests import LOOPBACK, READ_STATUS, Reply, Request, fits
 
-ADDRESSINGS = {"modbus": 0, "jbus": 1}
-"""The number of a device's first address: JBUS counts from 1 what Modbus counts from 0."""
 UNADDRESSED = frozenset({READ_STATUS, LOOPBACK})
 BROADCAST = 0
 """A write to this unit is for all, and nobody answers."""
@@ -30,7 +28,9 @@ class Conversation:
     `tainted` tells that more came than was asked for: a connection is better opened anew then.
     """
 
-    def __init__(self, framing: str, *, addressing: str, line: Line | None, gap: float, echo: bool | None) -> None:
+    def __init__(
+        self, framing: str, *, addressing: str, line: SerialLine | None, gap: float, echo: bool | None
+    ) -> None:
         self.framing = framing_for(framing)
         self.number_from(addressing)
         self.trace: Tracer | None = None
@@ -42,10 +42,7 @@ class Conversation:
 
     def number_from(self, addressing: str) -> None:
         """Count addresses as the units do: modbus from 0, jbus from 1; ValueError for another name."""
-        if addressing not in ADDRESSINGS:
-            message = f"addressing {addressing!r} is none of {', '.join(ADDRESSINGS)}"
-            raise ValueError(message)
-        self.first = ADDRESSINGS[addressing]
+        self.first = first_address(addressing)
 
     def exchange(self, wire: Stream, unit: int, request: Request) -> Steps[Reply]:
         """Send `request` once and return its answer; NoAnswer, WrongAnswer, or OSError for a broken wire."""

@@ -5,14 +5,13 @@ from typing import TYPE_CHECKING
 
 from regscribe_runtime.errors import WrongAnswer
 from regscribe_runtime.link.stale_replies import StaleReplies
-from regscribe_runtime.link.timing import silence
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from regscribe_runtime.link.pending import PendingRequest, Steps
     from regscribe_runtime.link.streams import Stream
-    from regscribe_runtime.values.serial_line import Line
+    from regscribe_runtime.values.serial_line import SerialLine
     from regscribe_runtime.wire.framing import Framing
 
 NOISE_SECONDS = 2.0
@@ -32,7 +31,7 @@ class LineDiscipline:
 
     def __init__(
         self,
-        line: "Line | None",
+        line: "SerialLine | None",
         gap: float,
         *,
         echo: bool | None,
@@ -44,7 +43,7 @@ class LineDiscipline:
         self._framing, self._told = framing, told
         self._silent_from = 0.0
 
-    def tune(self, line: "Line", *, echo: bool | None) -> None:
+    def tune(self, line: "SerialLine", *, echo: bool | None) -> None:
         """The port was opened, perhaps with another speed or format."""
         self.line, self.echo = line, echo
         self.heard()
@@ -69,7 +68,7 @@ class LineDiscipline:
             yield from self._ask_echo(wire, asked.unit)
 
     def _silence(self, wire: "Stream", unit: int) -> "Steps[None]":
-        gap = silence(self.line, self.gap) if self.line else 0.0
+        gap = self.line.silence(self.gap) if self.line else 0.0
         until = max(self._silent_from + gap, self.late.busy)
         patience = max(until, time.monotonic()) + NOISE_SECONDS
         stray = wire.read()

@@ -1,15 +1,12 @@
 """Links: what carries requests to a unit and answers back. The drivers know these protocols, not pymodbus."""
 
-from typing import TYPE_CHECKING, Protocol, TypedDict, Unpack
+from typing import Protocol, TypedDict, Unpack
 
 from regscribe_runtime.link.locks import AsyncTurns, Turns
 from regscribe_runtime.link.retry import Retry
 from regscribe_runtime.link.trace import Tracer
-from regscribe_runtime.values.serial_line import Line
+from regscribe_runtime.values.serial_line import PARITY_NONE, LineChange, SerialLine
 from regscribe_runtime.wire.requests import Reply, Request
-
-if TYPE_CHECKING:
-    from regscribe_runtime.operations.session import LineChange
 
 MODBUS_TCP_PORT = 502
 
@@ -85,7 +82,7 @@ class Link(Protocol):
         raise NotImplementedError
 
     @property
-    def line(self) -> Line | None:
+    def line(self) -> SerialLine | None:
         """The serial line, None over TCP."""
 
     @property
@@ -102,7 +99,7 @@ class Link(Protocol):
         """How units count their addresses: modbus from 0, jbus from 1."""
         raise NotImplementedError
 
-    def retune(self, change: "LineChange") -> None:
+    def retune(self, change: LineChange) -> None:
         """Talk at another speed, in another format or with other addresses from the next request on."""
 
     def open(self) -> None:
@@ -134,7 +131,7 @@ class AsyncLink(Protocol):
         raise NotImplementedError
 
     @property
-    def line(self) -> Line | None:
+    def line(self) -> SerialLine | None:
         """The serial line, None over TCP."""
 
     @property
@@ -151,7 +148,7 @@ class AsyncLink(Protocol):
         """How units count their addresses: modbus from 0, jbus from 1."""
         raise NotImplementedError
 
-    def retune(self, change: "LineChange") -> None:
+    def retune(self, change: LineChange) -> None:
         """Talk at another speed, in another format or with other addresses from the next request on."""
 
     async def open(self) -> None:
@@ -178,9 +175,9 @@ def _serial_settings(settings: LineSettings) -> LinkSettings:
     return {**kept, "framing": framing}  # type: ignore[typeddict-item] # the keys are those of LinkSettings
 
 
-def _line(port: str, baud: int, settings: LineSettings) -> Line:
+def _line(port: str, baud: int, settings: LineSettings) -> SerialLine:
     data_bits, stop_bits = settings.get("data_bits", 8), settings.get("stop_bits", 1)
-    return Line(port, baud, data_bits, settings.get("parity", "N"), stop_bits)
+    return SerialLine(port, baud, data_bits, settings.get("parity", PARITY_NONE), stop_bits)
 
 
 def tcp(host: str, *, port: int = MODBUS_TCP_PORT, **settings: Unpack[LinkSettings]) -> Link:

@@ -15,7 +15,7 @@ import serial  # type: ignore[import-untyped]  # pyserial ships no types
 from serial.tools import list_ports  # type: ignore[import-untyped]  # as above
 
 from regscribe_runtime.errors import LinkLost
-from regscribe_runtime.values.serial_line import Line
+from regscribe_runtime.values.serial_line import SerialLine
 
 CONNECT_SECONDS = 3.0
 """How long a host may take to accept a connection."""
@@ -111,7 +111,7 @@ class SerialWire:
             self._port.close()
 
 
-def open_serial(line: Line) -> SerialWire:
+def open_serial(line: SerialLine) -> SerialWire:
     """Open a serial port for this process alone; LinkLost with what to do."""
     try:
         port = serial.serial_for_url(line.port, timeout=0, write_timeout=0, exclusive=True, **line.settings())
@@ -124,7 +124,7 @@ def open_serial(line: Line) -> SerialWire:
     return SerialWire(port)
 
 
-def _why_not(line: Line, error: OSError | ValueError) -> str:
+def _why_not(line: SerialLine, error: OSError | ValueError) -> str:
     code = getattr(error, "errno", None)
     if code in {errno.ENOENT, errno.ENODEV, errno.ENXIO}:
         ports = sorted(one.device for one in list_ports.comports())[:PORTS_NAMED]

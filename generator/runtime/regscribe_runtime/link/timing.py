@@ -6,7 +6,7 @@ and the answer's characters. Over TCP nobody knows the line behind a gateway: th
 
 from typing import TYPE_CHECKING
 
-from regscribe_runtime.values.serial_line import Line
+from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.wire import requests as functions
 
 if TYPE_CHECKING:
@@ -18,9 +18,6 @@ MARGIN_SECONDS = 0.3
 
 GATEWAY_SECONDS = 0.5
 """For a gateway and the network before it."""
-
-FAST_BAUD, FAST_SILENCE = 19200, 0.00175
-"""Above this speed the silence between frames is a fixed time (Modbus over Serial Line V1.02, 2.5.1.1)."""
 
 ASCII_MARKS = 2
 """An ASCII frame has twice the characters of RTU and one more (colon and line end, a check of one byte): two frames."""
@@ -49,46 +46,38 @@ def characters(request: "Request") -> tuple[int, int]:
             return RTU_FRAME + 4, RTU_FRAME + 4
 
 
-def silence(line: Line, gap: float) -> float:
-    """Seconds of silence between frames: `gap` characters, above 19200 baud at least the fixed 1.75 ms; none for 0."""
-    if not gap:
-        return 0.0
-    spaced = gap * line.character
-    return max(spaced, FAST_SILENCE) if line.baud > FAST_BAUD else spaced
-
-
-def longest_latency(latency: "Latency", words: int, line: Line) -> float:
+def longest_latency(latency: "Latency", words: int, line: SerialLine) -> float:
     """Seconds from the end of a request to the start of its answer, at most."""
     return (latency.maximum + latency.maximum_per_word * words) / 1000 + latency.characters * line.character
 
 
-def on_line(protocol: "Protocol", request: "Request", line: Line) -> float:
+def on_line(protocol: "Protocol", request: "Request", line: SerialLine) -> float:
     """Seconds from the first character of a request to the last of its answer, at most; without a margin.
 
     For a function whose latency the manual does not give, `protocol.timeout` stands in.
     """
     latency = protocol.latencies.get(request.function)
     device = protocol.timeout if latency is None else longest_latency(latency, request.quantity, line)
-    return sum(characters(request)) * line.character + silence(line, protocol.gap) + device
+    return sum(characters(request)) * line.character + line.silence(protocol.gap) + device
 
 
-def slowest(protocol: "Protocol") -> Line:
+def slowest(protocol: "Protocol") -> SerialLine:
     """The slowest line that the manual allows."""
-    return Line.of("", min((*protocol.bauds, protocol.baud)), protocol.format)
+    return SerialLine.of("", min((*protocol.bauds, protocol.baud)), protocol.format)
 
 
-def response_seconds(protocol: "Protocol", request: "Request", line: Line | None) -> float:
+def response_seconds(protocol: "Protocol", request: "Request", line: SerialLine | None) -> float:
     """The response timeout of a request: in RTU frames on `line`, or over TCP without one."""
     if line is None:
         return on_line(protocol, request, slowest(protocol)) + MARGIN_SECONDS + GATEWAY_SECONDS
     return on_line(protocol, request, line) + MARGIN_SECONDS
 
 
-def more_in_ascii(request: "Request", line: Line) -> float:
+def more_in_ascii(request: "Request", line: SerialLine) -> float:
     """What ASCII frames take longer than RTU ones: two characters for each, colon and line end."""
     return (sum(characters(request)) + ASCII_MARKS) * line.character
 
 
-def broadcast_seconds(protocol: "Protocol", request: "Request", line: Line | None) -> float:
+def broadcast_seconds(protocol: "Protocol", request: "Request", line: SerialLine | None) -> float:
     """How long all units need for a broadcast, counted from its first character: as for an answer, at most."""
     return on_line(protocol, request, line or slowest(protocol))

@@ -17,8 +17,7 @@ from regscribe_runtime.link.retry import Retry
 from regscribe_runtime.link.streams import Stream, open_serial, open_tcp, open_tcp_async, wait, wait_async
 from regscribe_runtime.link.timing import more_in_ascii
 from regscribe_runtime.link.trace import Tracer
-from regscribe_runtime.operations.session import LineChange
-from regscribe_runtime.values.serial_line import Line
+from regscribe_runtime.values.serial_line import LineChange, SerialLine
 from regscribe_runtime.wire.requests import Reply, Request
 
 USUAL_GAP = 3.5
@@ -27,7 +26,7 @@ USUAL_GAP = 3.5
 TRUST_SECONDS = 0.01
 """So long after an answer a connection is not looked at before a read: servers close idle ones."""
 
-Place = tuple[str, int] | Line
+Place = tuple[str, int] | SerialLine
 """Host and port, or a serial line."""
 
 
@@ -43,7 +42,7 @@ class _Base:
         self.framing = settings.get("framing", "tcp")
         self.epoch = 0
         self.opened = False
-        line = place.checked() if isinstance(place, Line) else None
+        line = place.checked() if isinstance(place, SerialLine) else None
         self._place, self._tuned = place, line
         self._echo, gap = settings.get("echo"), settings.get("gap", USUAL_GAP)
         self.addressing = settings.get("addressing", "modbus")
@@ -56,16 +55,16 @@ class _Base:
     @property
     def name(self) -> str:
         """The port, or host and port as tcp://host:port."""
-        return self._place.port if isinstance(self._place, Line) else f"tcp://{self._place[0]}:{self._place[1]}"
+        return self._place.port if isinstance(self._place, SerialLine) else f"tcp://{self._place[0]}:{self._place[1]}"
 
     @property
-    def line(self) -> Line | None:
+    def line(self) -> SerialLine | None:
         """The serial line; None over TCP. Setting it makes the next request use the other speed or format."""
-        return self._place if isinstance(self._place, Line) else None
+        return self._place if isinstance(self._place, SerialLine) else None
 
     @line.setter
-    def line(self, line: Line) -> None:
-        if not isinstance(self._place, Line):
+    def line(self, line: SerialLine) -> None:
+        if not isinstance(self._place, SerialLine):
             message = f"{self.name} has no serial line whose settings could change"
             raise ValueError(message)  # noqa: TRY004 (a value that this link cannot have)
         self._place = line.checked()
@@ -76,7 +75,7 @@ class _Base:
             self._talk.number_from(change.addressing)
             self.addressing = change.addressing
         if change.line and self.line is not None:
-            self.line = self.line._replace(**change.line)  # type: ignore[arg-type] # the fields of a line
+            self.line = self.line._replace(**change.line)
 
     @property
     def trace(self) -> Tracer | None:
@@ -166,7 +165,7 @@ class SyncTransport(_Base):
 
     def _connect(self) -> Stream:
         place = self._place
-        return self._opened(open_serial(place) if isinstance(place, Line) else open_tcp(*place))
+        return self._opened(open_serial(place) if isinstance(place, SerialLine) else open_tcp(*place))
 
     def close(self) -> None:
         """Close it, after the request that is under way; harmless if it is closed."""
@@ -216,7 +215,7 @@ class AsyncTransport(_Base):
 
     async def _connect(self) -> Stream:
         place = self._place
-        return self._opened(open_serial(place) if isinstance(place, Line) else await open_tcp_async(*place))
+        return self._opened(open_serial(place) if isinstance(place, SerialLine) else await open_tcp_async(*place))
 
     async def close(self) -> None:
         """Close it, after the request that is under way; harmless if it is closed."""

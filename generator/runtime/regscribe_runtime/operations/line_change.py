@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from regscribe_runtime.errors import LeftAt, NotWritten, RegscribeError, ValueRefused, lost
 from regscribe_runtime.operations.read import read_request
 from regscribe_runtime.operations.read_back import Target, differs, is_lost, meaning, same, words_of
-from regscribe_runtime.operations.session import LineChange, Operation, Pause, Session
+from regscribe_runtime.operations.session import Operation, Pause, Session
 from regscribe_runtime.operations.write_request import applied, called, send
 from regscribe_runtime.values.kinds import Kind
 from regscribe_runtime.values.numbers import brief
+from regscribe_runtime.values.serial_line import ADDRESSINGS, PARITIES, LineChange
 from regscribe_runtime.wire.requests import verify
 
 if TYPE_CHECKING:
@@ -24,8 +25,6 @@ if TYPE_CHECKING:
     from regscribe_runtime.report import Words
     from regscribe_runtime.values.specs import Governs, State
 
-FORMAT_LENGTH = 3
-PARITIES = ("N", "E", "O")
 MARKS = frozenset({Kind.STRING, Kind.VERSION})
 """Kinds of registers whose words tell a device: they do not change, and no neighbour holds the same."""
 
@@ -93,7 +92,7 @@ def _meant(governs: Governs, code: Any) -> Iterator[LineChange]:
 
 
 def _tuned(setting: str, text: str) -> LineChange:
-    if setting == "format" and len(text) == FORMAT_LENGTH:
+    if setting == "format":
         return LineChange(data_bits=int(text[0]), parity=text[1], stop_bits=int(text[2]))
     value: Any = text if setting in {"parity", "addressing"} else int(text)
     return LineChange(**{setting: value})
@@ -106,7 +105,7 @@ def _guesses(session: Session, governs: Governs) -> Iterator[LineChange]:
         "baud": tuple(map(str, protocol.bauds)),
         "parity": PARITIES,
         "format": protocol.formats,
-        "addressing": ("modbus", "jbus"),
+        "addressing": tuple(ADDRESSINGS),
     }
     if session.line is not None or governs.setting == "addressing":
         yield from (_tuned(governs.setting, text) for text in others.get(governs.setting, ()))

@@ -12,7 +12,7 @@ from regscribe_runtime.planning.address_ranges import AddressRanges, ground_of
 from regscribe_runtime.planning.cost import Cost
 from regscribe_runtime.planning.plan import RequestLimits, Terms
 from regscribe_runtime.report import Wear, WriteReport
-from regscribe_runtime.values.serial_line import Line
+from regscribe_runtime.values.serial_line import MODBUS, LineChange, SerialLine
 from regscribe_runtime.values.wire_types import Space
 from regscribe_runtime.wire.requests import READ_SPACES, Meanings, Reply, Request, verify
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
-Operation = Generator["Request | Pause | LineChange", "Reply | None", T]
+Operation = Generator["Request | Pause | LineChange", Reply | None, T]
 """Protocol logic without I/O: yields requests (or pauses, or how to talk on), receives replies, returns a value."""
 
 
@@ -34,26 +34,6 @@ class Pause(NamedTuple):
     """Time that the device needs, in seconds."""
 
     seconds: float
-
-
-class LineChange(NamedTuple):
-    """How the device talks from now on, so that the session and its link follow; None: as before.
-
-    Over TCP speed and format are those of a gateway, which a link cannot set: they stay as they are.
-    """
-
-    unit: int | None = None
-    baud: int | None = None
-    data_bits: int | None = None
-    parity: str | None = None
-    stop_bits: int | None = None
-    addressing: str | None = None
-
-    @property
-    def line(self) -> dict[str, int | str]:
-        """What changes of the serial line."""
-        found = {"baud": self.baud, "data_bits": self.data_bits, "parity": self.parity, "stop_bits": self.stop_bits}
-        return {name: value for name, value in found.items() if value is not None}
 
 
 class Latency(NamedTuple):
@@ -151,8 +131,8 @@ class Session:
         self.prepared: dict[Any, Any] = {}
         self.wear = Wear()
         self.epoch = 0
-        self.line: Line | None = None
-        self.addressing = "modbus"
+        self.line: SerialLine | None = None
+        self.addressing = MODBUS
         self.retry: Retry | None = None
         self.wrote = False
         self.broken_off: WriteReport | None = None
@@ -223,7 +203,7 @@ class Session:
             self.prepared.clear()
             self._timed.clear()
 
-    def retuned(self, change: LineChange, *, line: Line | None, addressing: str) -> None:
+    def retuned(self, change: LineChange, *, line: SerialLine | None, addressing: str) -> None:
         """The device talks otherwise from now on: another unit id, line or addressing. Nothing remembered counts."""
         self.unit = self.unit if change.unit is None else change.unit
         self.line, self.addressing = line, addressing

@@ -6,56 +6,23 @@ Costs are whole nanoseconds, so that plans are exact and the same on every machi
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
+from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.values.wire_types import Space
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from regscribe_runtime.operations.session import Latency, Protocol
-    from regscribe_runtime.values.serial_line import Line
 
 BITS_IN_BYTE, BITS_IN_WORD, BYTES_IN_WORD = 8, 16, 2
 NANOSECONDS = 1_000_000
 """Nanoseconds in a millisecond."""
-
-FASTEST_BY_CHARACTERS = 19_200
-LEAST_GAP = 1.75
-"""Above 19,200 baud the silence of 3.5 characters is a fixed time in ms (Modbus over Serial Line V1.02, 2.5.1.1)."""
 
 TCP_ROUND_TRIP = 1.0
 """Milliseconds that a request and its answer are assumed to travel: a local network, and the stacks at both ends."""
 
 TCP_BYTE = 80
 """Nanoseconds of a byte at 100 Mbit/s."""
-
-
-class SerialLine(NamedTuple):
-    """What of a serial line costs time: speed in baud, bits of a character (start and stop ones included), framing."""
-
-    baud: int = 9600
-    bits: int = 10
-    framing: str = "rtu"
-
-    @classmethod
-    def of(cls, baud: int, form: str, framing: str = "rtu") -> "SerialLine":
-        """A line of the character format `form` (8N1)."""
-        return cls(baud, 1 + int(form[0]) + (form[1] != "N") + int(form[2:]), framing)
-
-    @property
-    def character(self) -> float:
-        """Milliseconds of one character."""
-        return 1000 * self.bits / self.baud
-
-    def silence(self, characters: float) -> float:
-        """Milliseconds of the silence around a frame; ASCII needs none."""
-        if self.framing == "ascii":
-            return 0
-        least = LEAST_GAP if self.baud > FASTEST_BY_CHARACTERS else 0
-        return max(least, characters * self.character)
-
-    def frame(self, bytes_of_pdu: int) -> int:
-        """Characters of the frame around a function code and its data: with unit and CRC, or the ASCII one with LRC."""
-        return 3 + 2 * (bytes_of_pdu + 2) if self.framing == "ascii" else bytes_of_pdu + 3
 
 
 class Tariff(NamedTuple):
@@ -93,29 +60,30 @@ class Cost(NamedTuple):
     """The price list of one device behind one line: `line` is None where no serial line is known to be in between.
 
     `round_trip` is what a network adds to every request, in ms; `latencies` are those of the device, whose expected
-    time is the mean of its shortest and longest. What the map does not state costs nothing.
+    time is the mean of its shortest and longest. What the map does not state costs nothing. `framing` is rtu or ascii.
     """
 
     line: SerialLine | None = None
     gap: float = 3.5
     round_trip: float = 0.0
     latencies: "Mapping[int, Latency]" = MappingProxyType({})
+    framing: str = "rtu"
 
     @classmethod
-    def of(cls, protocol: "Protocol", line: "Line | None") -> "Cost":
+    def of(cls, protocol: "Protocol", line: SerialLine | None) -> "Cost":
         """Of the line that a link has; over TCP without one."""
-        return cls.serial(protocol, baud=line.baud, form=line.format) if line else cls.tcp(protocol)
+        return cls(line, protocol.gap, 0, protocol.latencies) if line else cls.tcp(protocol)
 
     @classmethod
     def serial(cls, protocol: "Protocol", *, baud: int = 0, form: str = "", framing: str = "rtu") -> "Cost":
         """Over a serial line, by default with the device's own speed and format."""
-        line = SerialLine.of(baud or protocol.baud, form or protocol.format, framing)
-        return cls(line, protocol.gap, 0, protocol.latencies)
+        line = SerialLine.of("", baud or protocol.baud, form or protocol.format)
+        return cls(line, protocol.gap, 0, protocol.latencies, framing)
 
     @classmethod
-    def tcp(cls, protocol: "Protocol", *, line: SerialLine | None = None, round_trip: float = TCP_ROUND_TRIP) -> "Cost":
+    def tcp(cls, protocol: "Protocol", *, line: SerialLine | None = None, framing: str = "rtu") -> "Cost":
         """Over TCP: a price for each request; `line` is the one behind a gateway, if it is known."""
-        return cls(line, protocol.gap, round_trip, protocol.latencies)
+        return cls(line, protocol.gap, TCP_ROUND_TRIP, protocol.latencies, framing)
 
     def tariff(self, space: Space) -> Tariff:
         """The price list of one space."""
@@ -124,7 +92,7 @@ class Cost(NamedTuple):
         fixed, per_byte = self._frames(1 if space is Space.STATUS else 5, 2)
         per_word = 0.0
         if latency:
-            character = self.line.character if self.line else 0
+            character = 1000 * self.line.character if self.line else 0
             fixed += (latency.minimum + latency.maximum) / 2 + latency.characters * character
             per_word = (latency.minimum_per_word + latency.maximum_per_word) / 2
         if not bits:
@@ -137,20 +105,25 @@ class Cost(NamedTuple):
         fixed = self.round_trip + (self._bytes(request) + self._bytes(answer)) * byte if self.round_trip else 0.0
         if self.line is None:
             return fixed, byte
-        characters = self.line.frame(request) + self.line.frame(answer)
-        fixed += characters * self.line.character + 2 * self.line.silence(self.gap)
-        return fixed, self.line.character * (2 if self.line.framing == "ascii" else 1)
+        ascii_frames = self.framing == "ascii"
+        silences = 0 if ascii_frames else 2 * self.line.silence(self.gap)
+        fixed += 1000 * ((self._characters(request) + self._characters(answer)) * self.line.character + silences)
+        return fixed, 1000 * self.line.character * (2 if ascii_frames else 1)
 
     @staticmethod
     def _bytes(pdu: int) -> int:
         return pdu + 7  # unit, length, protocol, transaction
+
+    def _characters(self, pdu: int) -> int:
+        """Of the frame around a function code and its data: with unit and CRC, or the ASCII one with LRC."""
+        return 3 + 2 * (pdu + 2) if self.framing == "ascii" else pdu + 3
 
     def frame_bytes(self, space: Space, quantity: int) -> int:
         """The characters of a request and its answer, as they pass the line (or the bytes, over TCP)."""
         request = 1 if space is Space.STATUS else 5
         values = -(-quantity // BITS_IN_BYTE) if space.is_bits else BYTES_IN_WORD * quantity
         answer = 2 + values
-        frame = self.line.frame if self.line else self._bytes
+        frame = self._characters if self.line else self._bytes
         return frame(request) + frame(answer)
 
 

@@ -12,6 +12,8 @@ from typing import NamedTuple, Protocol
 from pymodbus.framer import FramerAscii, FramerRTU
 from pymodbus.pdu import DecodePDU
 
+from regscribe_runtime.values.serial_line import FRAMINGS
+
 EXCEPTION_BIT = 0x80
 LONGEST = 520
 """No frame is longer (ASCII: 2 x 255 characters, colon, line end); what does not become one by then is noise."""
@@ -159,7 +161,7 @@ class Ascii:
         return FoundFrame(line, unit, pdu) if pdu else None
 
 
-FRAMINGS: dict[str, type[Mbap] | type[Rtu] | type[Ascii]] = {"tcp": Mbap, "rtu": Rtu, "ascii": Ascii}
+_FRAMERS: dict[str, type[Mbap] | type[Rtu] | type[Ascii]] = dict(zip(FRAMINGS, (Mbap, Rtu, Ascii), strict=True))
 
 
 def framing_for(name: str) -> Framing:
@@ -167,4 +169,4 @@ def framing_for(name: str) -> Framing:
     if name not in FRAMINGS:
         message = f"framing {name!r} is none of {', '.join(FRAMINGS)}"
         raise ValueError(message)
-    return FRAMINGS[name]()
+    return _FRAMERS[name]()

@@ -8,15 +8,16 @@ from hypothesis import strategies as st
 from regscribe.tools.live import link_names
 from regscribe.tools.live.errors import TargetError
 from regscribe.tools.live.link_names import LinkName
+from regscribe_runtime.values.serial_line import ADDRESSINGS, FRAMINGS
 
 hosts = st.one_of(st.text(string.ascii_lowercase + string.digits + ".-", min_size=1), st.just("::1"))
 seconds = st.none() | st.integers(1, 60).map(float)
-addressings = st.sampled_from(link_names.ADDRESSINGS)
+addressings = st.sampled_from(list(ADDRESSINGS))
 tcp = st.builds(
     LinkName,
     host=hosts,
     port=st.integers(1, 65535),
-    framing=st.sampled_from(link_names.FRAMINGS),
+    framing=st.sampled_from(FRAMINGS),
     addressing=addressings,
     timeout=seconds,
 )
