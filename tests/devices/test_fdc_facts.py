@@ -48,7 +48,7 @@ def test_no_request_that_the_manual_prints_is_refused(fdc: RegisterMap, model: s
 
 def test_a_driver_asks_for_79_words_at_most_as_7_1_says(fdc: RegisterMap) -> None:
     assert (fdc.protocol.read_words, fdc.protocol.write_words) == (79, 79)
-    assert fdc.protocol.accepted("write_words") == 79
+    assert fdc.accepted("write_words") == 79
     assert _device("C91").handle(struct.pack(">BHHB", 16, 0, 80, 160) + bytes(160)) == bytes.fromhex("9003")
 
 

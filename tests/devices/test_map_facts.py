@@ -87,8 +87,9 @@ def test_the_span_of_100_mv_is_calibrated_on_the_1zc_only(athena: RegisterMap) -
 def test_the_controller_is_silent_to_long_requests_and_unknown_functions(athena: RegisterMap) -> None:
     protocol = athena.protocol
     assert (protocol.read_words, protocol.write_words) == (24, 24)
-    assert protocol.faults.quantity == protocol.faults.function == protocol.faults.misaligned_count == SILENCE
-    assert (protocol.faults.later_read, protocol.faults.later_write) == (Later.GARBAGE, Later.STOP)
+    faults = athena.faults
+    assert faults.quantity == faults.function == faults.misaligned_count == SILENCE
+    assert (faults.later_read, faults.later_write) == (Later.GARBAGE, Later.STOP)
 
 
 def test_the_unit_of_measure_is_written_before_the_input_type(athena: RegisterMap) -> None:

@@ -46,6 +46,7 @@ from regscribe_runtime import (
     AsyncPart,
     Choice,
     Device,
+    ExceptionCode,
     Flags,
     Governs,
     Group,
@@ -60,6 +61,7 @@ from regscribe_runtime import (
     Protocol,
     ReadOnly,
     ReadWrite,
+    SerialDefaults,
     SetpointProgram,
     Space,
     View,
@@ -117,36 +119,30 @@ __all__ = [
 
 _PROTOCOL = Protocol(
     functions=(1, 2, 3, 4, 5, 6, 7, 15, 16),
-    read_words=125,
     write_words=8,
-    read_bits=2000,
-    read_holes=False,
-    unit_ids=(1, 247),
-    exceptions={
-        1: ("illegal function", "the controller does not have this function code"),
-        2: ("illegal data address", "the controller does not have this address"),
-        3: ("illegal data value", "the value is not allowed at this address"),
-        7: (
+    broadcast=(5, 6, 15, 16),
+    exceptions=(
+        ExceptionCode(1, "illegal function", "the controller does not have this function code"),
+        ExceptionCode(2, "illegal data address", "the controller does not have this address"),
+        ExceptionCode(3, "illegal data value", "the value is not allowed at this address"),
+        ExceptionCode(
+            7,
             "negative acknowledgment (NAK)",
             "not possible in the present state of the controller or a write to a read-only address",
         ),
-    },
-    timeout=6.76,
-    modes=("rtu",),
-    bauds=(1200, 2400, 4800, 9600, 19200),
-    formats=("8N1",),
-    latencies={
-        1: Latency(maximum=10, characters=3),
-        2: Latency(maximum=10, characters=3),
-        3: Latency(maximum=10, characters=3),
-        4: Latency(maximum=10, characters=3),
-        5: Latency(maximum=110, characters=3),
-        6: Latency(maximum=10, maximum_per_word=50, characters=3),
-        7: Latency(maximum=10, characters=3),
-        15: Latency(maximum=110, characters=3),
-        16: Latency(maximum=10, maximum_per_word=50, characters=3),
-    },
-    broadcast=(5, 6, 15, 16),
+    ),
+    latencies=(
+        Latency(1, maximum=10, characters=3),
+        Latency(2, maximum=10, characters=3),
+        Latency(3, maximum=10, characters=3),
+        Latency(4, maximum=10, characters=3),
+        Latency(5, maximum=110, characters=3),
+        Latency(6, maximum=10, maximum_per_word=50, characters=3),
+        Latency(7, maximum=10, characters=3),
+        Latency(15, maximum=110, characters=3),
+        Latency(16, maximum=10, maximum_per_word=50, characters=3),
+    ),
+    serial=SerialDefaults(bauds=(1200, 2400, 4800, 9600, 19200), formats=("8N1",)),
 )
 _STATUS_UINT8 = (View("base", WireType.UINT8, space=Space.STATUS),)
 _MANUAL_MODE = (Is("auto_man", ((1, 1),)),)

@@ -11,6 +11,7 @@ from regscribe_runtime import (
     Command,
     Conversion,
     Device,
+    ExceptionCode,
     Flags,
     Governs,
     Group,
@@ -30,6 +31,7 @@ from regscribe_runtime import (
     ReadWrite,
     Ref,
     Rounding,
+    SerialDefaults,
     SetpointProgram,
     SubPart,
     View,
@@ -102,30 +104,25 @@ _PROTOCOL = Protocol(
     functions=(3, 6, 8, 16),
     read_words=24,
     write_words=24,
-    read_bits=2000,
     read_holes=True,
-    unit_ids=(1, 247),
-    exceptions={
-        2: (
+    broadcast=(6, 16),
+    exceptions=(
+        ExceptionCode(
+            2,
             "invalid address",
             "the (first) register does not exist, or is odd or written by function 06 in the IEEE region",
         ),
-        3: ("invalid data", "the (first) value is not valid for its register or the register is read-only"),
-    },
-    timeout=4.82,
-    baud=9600,
-    format="8N1",
-    modes=("rtu",),
-    bauds=(300, 600, 1200, 2400, 4800, 9600),
-    formats=("8N1", "8E1", "8O1"),
-    gap=4,
-    latencies={
-        3: Latency(minimum_per_word=5, maximum_per_word=100),
-        6: Latency(minimum=25, maximum=180),
-        8: Latency(maximum=100),
-        16: Latency(minimum_per_word=25, maximum_per_word=180),
-    },
-    broadcast=(6, 16),
+        ExceptionCode(
+            3, "invalid data", "the (first) value is not valid for its register or the register is read-only"
+        ),
+    ),
+    latencies=(
+        Latency(3, minimum_per_word=5, maximum_per_word=100),
+        Latency(6, minimum=25, maximum=180),
+        Latency(8, maximum=100),
+        Latency(16, minimum_per_word=25, maximum_per_word=180),
+    ),
+    serial=SerialDefaults(bauds=(300, 600, 1200, 2400, 4800, 9600), formats=("8N1", "8E1", "8O1"), gap=4),
 )
 _INT16 = word(WireType.INT16)
 _DANGER = "the controller answers at the new address from now on"

@@ -17,6 +17,7 @@ from regscribe_runtime import (
     ClientSettings,
     Command,
     Conversion,
+    ExceptionCode,
     Field,
     Governs,
     Group,
@@ -29,6 +30,7 @@ from regscribe_runtime import (
     Protocol,
     ReadOnly,
     ReadWrite,
+    SerialDefaults,
     SerialSettings,
     SubPart,
     SyncClient,
@@ -70,23 +72,19 @@ __all__ = [
 ]
 
 _PROTOCOL = Protocol(
-    functions=(3, 6, 16),
+    unit_ids=(1, 255),
     read_words=79,
     write_words=79,
-    read_bits=2000,
-    read_holes=False,
-    unit_ids=(1, 255),
-    exceptions={
-        1: ("bad function code", "the controller does not support this function code"),
-        2: ("illegal data address", "the register address is out of range"),
-        3: ("illegal data value", "the value is out of range or the register is read-only or protected at present"),
-    },
-    timeout=1.0,
-    baud=9600,
-    format="8E1",
-    modes=("rtu",),
-    bauds=(2400, 4800, 9600, 14400, 19200, 28800, 38400),
-    formats=("8N1", "8E1", "8O1"),
+    exceptions=(
+        ExceptionCode(1, "bad function code", "the controller does not support this function code"),
+        ExceptionCode(2, "illegal data address", "the register address is out of range"),
+        ExceptionCode(
+            3, "illegal data value", "the value is out of range or the register is read-only or protected at present"
+        ),
+    ),
+    serial=SerialDefaults(
+        bauds=(2400, 4800, 9600, 14400, 19200, 28800, 38400), formats=("8N1", "8E1", "8O1"), format="8E1"
+    ),
 )
 _UINT16 = word(WireType.UINT16)
 _NON_LINEAR = (Is("inpt", given="linear_inputs", negated=True),)

@@ -6,7 +6,7 @@ from fractions import Fraction
 from regscribe.checks.probe_values import domain
 from regscribe.checks.representable import Fit, best_fit
 from regscribe.checks.rule import Finding, RuleScope, register_rule
-from regscribe.model import Governs, Kind, Register, Rule, Serial, Setting
+from regscribe.model import Governs, Kind, Register, Rule, SerialDefaults, Setting
 from regscribe_runtime.values.serial_line import ADDRESSINGS, DATA_BITS, FORMATS, PARITIES, STOP_BITS
 
 ADDRESSES = frozenset({Kind.INTEGER, Kind.RAW})
@@ -19,10 +19,10 @@ MOST_BAUD = 10_000_000
 """The fastest speed that the language lets a line have."""
 
 
-def _possible(setting: Setting, serial: Serial | None) -> tuple[str, ...]:
+def _possible(setting: Setting, serial: SerialDefaults) -> tuple[str, ...]:
     """What the line can be set to, as far as the map says it; nothing: whatever is given."""
-    bauds = tuple(str(baud) for baud in serial.baud_rates) if serial else ()
-    formats = serial.formats if serial and serial.formats else FORMATS
+    bauds = tuple(str(baud) for baud in serial.bauds)
+    formats = serial.formats or FORMATS
     return {
         Setting.BAUD: bauds,
         Setting.PARITY: PARITIES,

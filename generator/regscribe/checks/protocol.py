@@ -27,8 +27,8 @@ def fault_without_meaning(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Compare the codes of the faults with the exceptions, if the map lists any."""
     register_map, protocol = _the_map(scopes)
     known = {exception.code for exception in protocol.exceptions} | {SILENCE}
-    for fault in fields(protocol.faults) if protocol.exceptions else ():
-        code = getattr(protocol.faults, fault.name)
+    for fault in fields(register_map.faults) if protocol.exceptions else ():
+        code = getattr(register_map.faults, fault.name)
         if isinstance(code, int) and code not in known:
             message = f"fault `{fault.name}` is answered by exception {code:02d}, which `protocol.exceptions` lacks"
             yield Finding(MAP, register_map.span, message, "list the code with its name, or correct the fault")
@@ -40,7 +40,7 @@ def fault_without_meaning(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
 def accepts(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Compare `protocol.accepts` with `protocol.limits`."""
     register_map, protocol = _the_map(scopes)
-    for limit, most in protocol.accepts:
+    for limit, most in register_map.accepts:
         if most <= getattr(protocol, limit):
             message = f"`protocol.accepts` has {most} {limit}, and the limit is {getattr(protocol, limit)} already"
             yield Finding(MAP, register_map.span, message, "leave it out, or lower the limit that a driver keeps to")
@@ -56,8 +56,8 @@ def unit_ids(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     if not 0 < low <= high <= LAST_UNIT:
         message = f"unit ids {low}..{high} are not within 1..{LAST_UNIT}"
         yield Finding(MAP, register_map.span, message, "correct `protocol.unit_ids`")
-    elif protocol.default_unit is not None and not low <= protocol.default_unit <= high:
-        message = f"the default unit id {protocol.default_unit} is outside {low}..{high}"
+    elif register_map.default_unit is not None and not low <= register_map.default_unit <= high:
+        message = f"the default unit id {register_map.default_unit} is outside {low}..{high}"
         yield Finding(MAP, register_map.span, message, "correct `protocol.default_unit` or `unit_ids`")
 
 
@@ -96,7 +96,7 @@ def broadcast(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
 def alike(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Look for functions that the device lacks, and for those that stand in two lists."""
     register_map, protocol = _the_map(scopes)
-    every = [code for codes in protocol.alike for code in codes]
+    every = [code for codes in register_map.alike for code in codes]
     for code in dict.fromkeys(every):
         if code not in protocol.functions or every.count(code) > 1:
             why = "stands in two lists" if every.count(code) > 1 else "is not among `protocol.functions`"
@@ -111,12 +111,9 @@ def serial_default(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Compare the default speed and format with the lists."""
     register_map, protocol = _the_map(scopes)
     line = protocol.serial
-    pairs = (
-        ("baud", line.default_baud, line.baud_rates),
-        ("format", line.default_format or None, line.formats),
-    )
-    for what, default, offered in pairs:
-        if default is not None and offered and default not in offered:
+    pairs = (("baud", line.baud, line.bauds), ("format", line.format, line.formats))
+    for what, default, offered in pairs if "default" in register_map.protocol_notes.stated else ():
+        if offered and default not in offered:
             message = f"the default {what} {default} is not among {', '.join(map(str, offered))}"
             yield Finding(MAP, register_map.span, message, f"correct `serial.default`, or list the {what}")
 
@@ -132,7 +129,7 @@ def too_short_for_rtu(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Look for formats of 7 data bits where the line has no other mode than RTU."""
     register_map, protocol = _the_map(scopes)
     line = protocol.serial
-    short = dict.fromkeys(one for one in (*line.formats, line.default_format) if one.startswith("7"))
+    short = dict.fromkeys(one for one in (*line.formats, line.format) if one.startswith("7"))
     if short and ASCII not in line.modes:
         message = f"the serial line has {', '.join(short)} and the modes {', '.join(line.modes)}: RTU needs 8 data bits"
         yield Finding(MAP, register_map.span, message, "correct `serial.formats`, or list `ascii` under `serial.modes`")

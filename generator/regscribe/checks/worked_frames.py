@@ -7,7 +7,7 @@ from fractions import Fraction
 from regscribe.checks.assumed_values import in_example
 from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule
 from regscribe.checks.worked_values import compare, hexadecimal, printed, unsigned
-from regscribe.model import FrameExample, Protocol, Register, Rule, Space, View
+from regscribe.model import FrameExample, Register, Rule, Space, View
 from regscribe.reference import RefusedError, Surroundings, UnknownValueError
 
 CRC_LENGTH = 2
@@ -147,6 +147,10 @@ ANSWERS: dict[int, Callable[[Frame, bytes], Frame]] = {
 """Functions whose fields are compared (application protocol V1.1b3, 6); of others unit and function only."""
 
 
+Alike = tuple[tuple[int, ...], ...]
+"""Functions that do the same, as the map has them."""
+
+
 def _frames(scopes: tuple[RuleScope, ...]) -> Iterator[FrameExample]:
     for example in scopes[0].register_map.examples:
         if isinstance(example, FrameExample):
@@ -220,12 +224,12 @@ def _values(example: FrameExample, frame: Frame, scope: RuleScope) -> Iterator[s
         register = scope.registers.get(path)
         if register is None:
             yield f"model {scope.model.name} has no `{path}`"
-        elif problem := _value(example, frame, register, value, known, scope.register_map.protocol):
+        elif problem := _value(example, frame, register, value, known, scope.register_map.alike):
             yield f"`{path}`: {problem}"
 
 
 def _value(
-    example: FrameExample, frame: Frame, register: Register, value: Fraction, known: Surroundings, protocol: Protocol
+    example: FrameExample, frame: Frame, register: Register, value: Fraction, known: Surroundings, alike: Alike
 ) -> str:
     start = frame.address if frame.address is not None else example.address
     if start is None:
@@ -235,13 +239,13 @@ def _value(
         offset = address - start
         if 0 <= offset <= len(words) - view.words:
             there = words[offset : offset + view.words]
-            return _unaddressed(view, frame.function, protocol) or _compared(register, view, there, value, known)
+            return _unaddressed(view, frame.function, alike) or _compared(register, view, there, value, known)
     return f"it is not among the addresses {start}..{start + len(words) - 1} of the frame"
 
 
-def _unaddressed(view: View, function: int, protocol: Protocol) -> str:
+def _unaddressed(view: View, function: int, alike: Alike) -> str:
     """Why a function does not address a view; empty if it does."""
-    if view.space not in _spaces(function, protocol):
+    if view.space not in _spaces(function, alike):
         return f"it stands in space {view.space}, which function {function:02d} does not address"
     if not view.allows(function):
         return f"its {view.name} view is by functions {list(view.functions)}, not {function:02d}"
@@ -257,9 +261,9 @@ def _compared(register: Register, view: View, words: tuple[int, ...], value: Fra
         return str(refused)
 
 
-def _spaces(function: int, protocol: Protocol) -> set[Space]:
+def _spaces(function: int, alike: Alike) -> set[Space]:
     """The spaces that a function reads or writes, those included where another one does the same."""
-    same = {function, *(code for codes in protocol.alike if function in codes for code in codes)}
+    same = {function, *(code for codes in alike if function in codes for code in codes)}
     reads = {space for space in Space if space.read_function in same}
     return reads | {space for space in Space if same & set(space.write_functions)}
 

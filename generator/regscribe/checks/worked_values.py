@@ -178,8 +178,8 @@ def timing_examples(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
 
 def _times(example: TimingExample, protocol: Protocol) -> Iterator[str]:
     character = Fraction(bits_per_character(example.format) * 1000, example.baud)
-    gap = protocol.serial.gap_characters * character
-    latency = next((one for one in protocol.latencies if one.function == example.function), None)
+    gap = protocol.serial.gap * character
+    latency = protocol.latency(example.function)
     if latency is None:
         yield f"no latency of function {example.function:02d} is stated"
         return

@@ -50,7 +50,7 @@ def _touched(register_map: RegisterMap, frame: FrameExample) -> Iterator[str]:
     """Yield the registers whose words a frame carries; a request without words counts if it is for one register."""
     if frame.address is None or frame.function not in SPACES or not register_map.has(frame.model):
         return
-    alike = next((codes for codes in register_map.protocol.alike if frame.function in codes), (frame.function,))
+    alike = next((codes for codes in register_map.alike if frame.function in codes), (frame.function,))
     spaces = {SPACES[code] for code in alike if code in SPACES}
     end = frame.address + (frame.count or len(frame.words or ()) or 1)
     found = [

@@ -71,8 +71,9 @@ def _tree(member: Register | Array) -> Json:
     return _fields(member) | {"members": [_tree(inner) for inner in member.members]}
 
 
-def _fields(record: Any) -> dict[str, Json]:  # noqa: ANN401 (any dataclass of the model)
-    return {item.name: _plain(getattr(record, item.name)) for item in fields(record) if item.name not in PLACES}
+def _fields(record: Any) -> dict[str, Json]:  # noqa: ANN401 (any dataclass or named tuple of the model)
+    names = getattr(record, "_fields", None) or [item.name for item in fields(record)]
+    return {name: _plain(getattr(record, name)) for name in names if name not in PLACES}
 
 
 def _example(example: Any) -> Json:  # noqa: ANN401 (one of the types in EXAMPLES)

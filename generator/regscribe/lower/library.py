@@ -11,7 +11,7 @@ from regscribe.lower.node import Collector, Value, items_of, text_of
 from regscribe.lower.protocol import protocol_of
 from regscribe.lower.scope import Scope
 from regscribe.lower.tree import TreePosition, entries_of, items_in
-from regscribe.model import USUAL_PROTOCOL, Library, Model, Protocol, Severity
+from regscribe.model import Library, Model, Protocol, Severity
 from regscribe.source import Document
 
 T = TypeVar("T")
@@ -32,7 +32,7 @@ def library_of(document: Document) -> Library:
         content_hash=document.content_hash,
         enums=tuple(enum_at(table, scope, name) for name, table in items_of(root, "enums")),
         sets=tuple(found for found in sets if found is not None),
-        commands=_alone(document, lambda root: commands_of(root, CommandScope(scope, {}, protocol or USUAL_PROTOCOL)))
+        commands=_alone(document, lambda root: commands_of(root, CommandScope(scope, {}, protocol or Protocol())))
         or (),
         protocol=protocol,
     )

@@ -22,7 +22,7 @@ from regscribe.lower.node import Value, elements_of, items_of, text_of, texts_of
 from regscribe.lower.presence import Models, named_models
 from regscribe.lower.process import process_of
 from regscribe.lower.programs import programs_of
-from regscribe.lower.protocol import protocol_of
+from regscribe.lower.protocol import device_facts, protocol_of
 from regscribe.lower.scope import Scope, path_of
 from regscribe.lower.subject import subject_of
 from regscribe.lower.units import own_symbols
@@ -49,6 +49,7 @@ def map_of(root: Value) -> RegisterMap:
         manual=manual_of(root.child("manual")),
         models=tuple(model for model, _ in products),
         protocol=protocol,
+        **device_facts(root.child("protocol")),
         description=text_of(root, "description"),
         notations=notations_of(root),
         givens=givens_of(root, scopes[0].homes if scopes else {}),

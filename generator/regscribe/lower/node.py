@@ -207,6 +207,11 @@ def text_of(node: Value, key: str, otherwise: str = "") -> str:
     return child.text().strip() if child else otherwise
 
 
+def line_of(node: Value, key: str) -> str:
+    """The text of a key on one line, empty where it is absent."""
+    return " ".join(text_of(node, key).split())
+
+
 def whole_of(node: Value, key: str, otherwise: int = 0) -> int:
     """The whole number of a key, or `otherwise` where it is absent."""
     child = node.child(key)

@@ -3,11 +3,12 @@
 from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
+from typing import TypedDict
 
 from regscribe.lower.interval_text import ends, whole_ends
-from regscribe.lower.node import Value, elements_of, items_of, text_of, texts_of, truth_of, whole_of, wholes_of
+from regscribe.lower.node import Value, elements_of, items_of, line_of, text_of, texts_of, truth_of, whole_of, wholes_of
 from regscribe.lower.rules import WRONG_SORT
-from regscribe.model import SILENCE, ExceptionCode, Faults, Latency, Later, Protocol, Serial
+from regscribe.model import SILENCE, ExceptionCode, Faults, Latency, Later, Protocol, ProtocolNotes, SerialDefaults
 
 _LATER = ("later_read", "later_write")
 _CODES = (
@@ -17,7 +18,7 @@ _CODES = (
 
 
 def protocol_of(node: Value | None) -> Protocol:
-    """The protocol of a map; what the map does not tell is as the Modbus specification has it."""
+    """What a driver knows of the device; what the map does not tell is as the Modbus specification has it."""
     plain = Protocol()
     if node is None:
         return plain
@@ -25,22 +26,51 @@ def protocol_of(node: Value | None) -> Protocol:
     unit_ids = node.child("unit_ids")
     return Protocol(
         functions=wholes_of(node, "functions", plain.functions),
-        broadcast=wholes_of(node, "broadcast"),
         unit_ids=whole_ends(unit_ids) if unit_ids else plain.unit_ids,
-        default_unit=whole_of(node, "default_unit") if node.child("default_unit") else None,
         read_words=whole_of(limits, "read_words", plain.read_words),
         write_words=whole_of(limits, "write_words", plain.write_words),
         read_bits=whole_of(limits, "read_bits", plain.read_bits),
         write_bits=whole_of(limits, "write_bits", plain.write_bits),
         read_holes=truth_of(node, "read_holes"),
-        spares_memory=truth_of(node, "spares_memory"),
-        faults=_faults(node.child("faults")),
+        broadcast=wholes_of(node, "broadcast"),
         exceptions=tuple(_exception(each) for _, each in items_of(node, "exceptions")),
         latencies=tuple(_latency(each) for _, each in items_of(node, "latency")),
         serial=_serial(node.child("serial")),
+        absent=faults_of(node).address,
+    )
+
+
+class DeviceFacts(TypedDict, total=False):
+    """What the map says of the protocol besides: fields of `RegisterMap`."""
+
+    faults: Faults
+    default_unit: int | None
+    spares_memory: bool
+    alike: tuple[tuple[int, ...], ...]
+    accepts: tuple[tuple[str, int], ...]
+    protocol_notes: ProtocolNotes
+
+
+def device_facts(node: Value | None) -> DeviceFacts:
+    """What no driver needs of the protocol."""
+    if node is None:
+        return {}
+    return {
+        "faults": faults_of(node),
+        "default_unit": whole_of(node, "default_unit") if node.child("default_unit") else None,
+        "spares_memory": truth_of(node, "spares_memory"),
+        "alike": tuple(tuple(each.whole() for each in one.elements()) for one in elements_of(node, "alike")),
+        "accepts": tuple((key, each.whole()) for key, each in items_of(node, "accepts")),
+        "protocol_notes": _notes(node),
+    }
+
+
+def _notes(node: Value) -> ProtocolNotes:
+    serial = node.child("serial")
+    return ProtocolNotes(
         section=text_of(node, "source"),
-        alike=tuple(tuple(each.whole() for each in one.elements()) for one in elements_of(node, "alike")),
-        accepts=tuple((key, each.whole()) for key, each in items_of(node, "accepts")),
+        serial=text_of(serial, "description") if serial else "",
+        latencies=tuple((each.key_whole(), text_of(each, "note")) for _, each in items_of(node, "latency")),
         stated=tuple(sorted({key for part in (node, *_parts(node)) for key, _ in part.items()})),
     )
 
@@ -53,8 +83,9 @@ def _parts(node: Value) -> Iterator[Value]:
             yield part
 
 
-def _faults(node: Value | None) -> Faults:
-    faults = Faults()
+def faults_of(protocol: Value) -> Faults:
+    """The answers to bad requests."""
+    faults, node = Faults(), protocol.child("faults")
     if node is None:
         return faults
     read, write = node.child("later_read"), node.child("later_write")
@@ -73,41 +104,40 @@ def _code(node: Value) -> int:
 
 
 def _exception(node: Value) -> ExceptionCode:
-    return ExceptionCode(node.key_whole(), text_of(node, "name"), text_of(node, "meaning"))
+    return ExceptionCode(node.key_whole(), line_of(node, "name"), line_of(node, "meaning"))
 
 
 def _latency(node: Value) -> Latency:
     fixed, each = _times(node.child("fixed")), _times(node.child("per_word"))
     told = node.child("characters")
     characters = told.number() if told else Fraction(0)
-    return Latency(node.key_whole(), *fixed, *each, characters, text_of(node, "note"))
+    return Latency(node.key_whole(), *fixed, *each, characters)
 
 
 def _times(node: Value | None) -> tuple[Fraction, Fraction]:
     return ends(node) if node else (Fraction(0), Fraction(0))
 
 
-def _serial(node: Value | None) -> Serial:
-    plain = Serial()
+def _serial(node: Value | None) -> SerialDefaults:
+    plain = SerialDefaults()
     if node is None:
         return plain
-    baud, form = _default(node.child("default"))
+    baud, form = _default(node.child("default"), plain)
     gap = node.child("gap_characters")
-    return Serial(
+    return SerialDefaults(
         modes=texts_of(node, "modes", plain.modes),
-        baud_rates=wholes_of(node, "baud"),
+        bauds=wholes_of(node, "baud"),
         formats=texts_of(node, "formats"),
-        default_baud=baud,
-        default_format=form,
-        gap_characters=gap.number() if gap else plain.gap_characters,
-        description=text_of(node, "description"),
+        baud=baud,
+        format=form,
+        gap=gap.number() if gap else plain.gap,
     )
 
 
-def _default(node: Value | None) -> tuple[int | None, str]:
+def _default(node: Value | None, plain: SerialDefaults) -> tuple[int, str]:
     words = node.text().split() if node else []
     if node is None or (len(words) == 2 and words[0].isdecimal()):  # noqa: PLR2004 - the speed and the format
-        return (int(words[0]), words[1]) if words else (None, "")
+        return (int(words[0]), words[1]) if words else (plain.baud, plain.format)
     message = f"`{node.text()}` is no setting of a serial line"
     node.report(WRONG_SORT, message, remedy="write the speed and the character format, as 9600 8N1")
-    return None, ""
+    return plain.baud, plain.format

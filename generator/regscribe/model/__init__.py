@@ -5,6 +5,7 @@ Nothing here knows YAML, templates or a device; every number that scales is a `F
 
 from regscribe.model.condition import ALWAYS, Case, Cases, CodeRange, Condition, Lookup, Test, always, registers_of
 from regscribe.model.diagnostic import Diagnostic, Related, Rule, Severity, Span
+from regscribe.model.faults import SILENCE, Faults, Later, ProtocolNotes
 from regscribe.model.governs import Governs, Setting
 from regscribe.model.map import (
     Command,
@@ -39,7 +40,6 @@ from regscribe.model.program import (
     WhileRunning,
     numbered,
 )
-from regscribe.model.protocol import SILENCE, USUAL_PROTOCOL, ExceptionCode, Faults, Latency, Later, Protocol, Serial
 from regscribe.model.register import Array, Group, Inferred, Register, Writable
 from regscribe.model.section import chapters_of, renumbered
 from regscribe.model.value import (
@@ -64,6 +64,7 @@ from regscribe.model.value import (
 from regscribe.model.wire import OrderFromRegister, View
 from regscribe_runtime.values.kinds import Access, Kind
 from regscribe_runtime.values.numbers import exact, parse, show
+from regscribe_runtime.values.protocol import ExceptionCode, Latency, Protocol, SerialDefaults
 from regscribe_runtime.values.wire_types import Order, Rounding, Space, WireType
 
 __all__ = [
@@ -71,7 +72,6 @@ __all__ = [
     "IDENTITY",
     "NAN",
     "SILENCE",
-    "USUAL_PROTOCOL",
     "Access",
     "Alarm",
     "Array",
@@ -127,6 +127,7 @@ __all__ = [
     "ProgramStatus",
     "ProgramTimeUnit",
     "Protocol",
+    "ProtocolNotes",
     "Ramp",
     "Range",
     "Reference",
@@ -136,7 +137,7 @@ __all__ = [
     "Rounding",
     "Rule",
     "Sentinel",
-    "Serial",
+    "SerialDefaults",
     "SetpointProgram",
     "Setting",
     "Severity",

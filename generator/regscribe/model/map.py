@@ -6,12 +6,13 @@ from fractions import Fraction
 
 from regscribe.model.condition import Condition
 from regscribe.model.diagnostic import NOWHERE, Span
+from regscribe.model.faults import Faults, ProtocolNotes
 from regscribe.model.identifiers import ways_to_say
 from regscribe.model.process import Effect, Process
 from regscribe.model.program import SetpointProgram
-from regscribe.model.protocol import USUAL_PROTOCOL, Protocol
 from regscribe.model.register import Array, Group, Register
 from regscribe.model.value import Enum
+from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.wire_types import Space
 
 
@@ -255,6 +256,10 @@ class Library:
 class RegisterMap:
     """A device family, read from a YAML file and those that it builds on (`extends` one map, `uses` libraries).
 
+    `spares_memory`: whether a write of what lasting memory holds already leaves the memory alone.
+    `alike`: function codes that do the same (2 reads coils as 1 does); registers stand in the space of one of them.
+    `accepts`: limits of the protocol that the device goes beyond, by another passage of its manual; a driver keeps to
+    the limits.
     `content_hash` is the SHA-256 in hex of the file's bytes, or of the hashes of all files where there are several.
     `base` is the map that it extends as that map stands alone, None if it extends none (or one with errors of its own);
     `renumber` has the chapters of the base's manual that have another number here; `libraries` are those of `uses`.
@@ -270,7 +275,13 @@ class RegisterMap:
     content_hash: str
     manual: Manual
     models: tuple[Model, ...]
-    protocol: Protocol = USUAL_PROTOCOL
+    protocol: Protocol = field(default_factory=Protocol)
+    faults: Faults = field(default_factory=Faults)
+    default_unit: int | None = None
+    spares_memory: bool = False
+    alike: tuple[tuple[int, ...], ...] = ()
+    accepts: tuple[tuple[str, int], ...] = ()
+    protocol_notes: ProtocolNotes = field(default_factory=ProtocolNotes)
     description: str = ""
     notations: tuple[Notation, ...] = ()
     givens: tuple[Given, ...] = ()
@@ -297,6 +308,10 @@ class RegisterMap:
     def has(self, name: str) -> bool:
         """Whether the map covers a model of this name."""
         return any(model.name == name for model in self.models)
+
+    def accepted(self, limit: str) -> int:
+        """Return the most that the device answers: `limit` (`read_words` and so on), or what it accepts beyond it."""
+        return dict(self.accepts).get(limit, int(getattr(self.protocol, limit)))
 
     def _no_model(self, name: str) -> Model:
         raise KeyError(name)

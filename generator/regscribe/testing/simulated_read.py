@@ -6,10 +6,11 @@ from typing import Any, NamedTuple
 
 from regscribe_runtime import ValueNotDecodable
 from regscribe_runtime.operations import tasks
-from regscribe_runtime.operations.session import Protocol, Session
+from regscribe_runtime.operations.session import Session
 from regscribe_runtime.operations.snapshot import Snapshot
 from regscribe_runtime.planning.read_places import ReadPlace, read_places
 from regscribe_runtime.registers.register import Register
+from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.wire_types import Space
 from regscribe_runtime.wire.requests import READ_SPACES, Reply, Request
 

@@ -55,7 +55,6 @@ from regscribe_runtime.link.links import (
 )
 from regscribe_runtime.link.retry import Retry
 from regscribe_runtime.link.trace import Trace, Tracer
-from regscribe_runtime.operations.session import Latency, Protocol
 from regscribe_runtime.operations.snapshot import Snapshot
 from regscribe_runtime.registers.enums import Bit, Choice, Field, Flags, SpecialNumber, Word
 from regscribe_runtime.registers.register import ReadOnly, ReadWrite, Register, WriteOnly
@@ -83,6 +82,7 @@ from regscribe_runtime.values.programs import (
     ProgramStates,
     SetpointProgram,
 )
+from regscribe_runtime.values.protocol import ExceptionCode, Latency, Protocol, SerialDefaults
 from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.values.specs import (
     Conversion,
@@ -120,6 +120,7 @@ __all__ = [
     "Count",
     "Device",
     "ExceptionAnswer",
+    "ExceptionCode",
     "Fate",
     "Field",
     "Flags",
@@ -162,6 +163,7 @@ __all__ = [
     "Saturated",
     "SensorFault",
     "Sent",
+    "SerialDefaults",
     "SerialLine",
     "SerialSettings",
     "SetpointProgram",

@@ -66,7 +66,7 @@ def test_sections_are_renumbered_by_their_first_number(extension: Extension, fou
     assert (model.groups[0].section, model.commands[0].section) == ("5.7.2", "8.4")
     assert [example.source for example in map_.examples] == ["4.1", "4.3"]
     assert [erratum.where for erratum in map_.errata] == ["5.7", "9.1"]
-    assert map_.protocol.section == "2.1"
+    assert map_.protocol_notes.section == "2.1"
 
 
 def test_what_is_dropped_is_gone_with_its_reason_on_record(extension: Extension, found: Found) -> None:
@@ -146,7 +146,8 @@ def test_protocol_is_merged_key_by_key_and_lists_are_added_to(extension: Extensi
         """)
     )
     protocol = map_.protocol
-    assert (protocol.read_words, protocol.write_words, protocol.broadcast, protocol.section) == (20, 24, (6,), "2.1")
+    assert (protocol.read_words, protocol.write_words, protocol.broadcast) == (20, 24, (6,))
+    assert map_.protocol_notes.section == "2.1"
     assert {one.function: (one.maximum, one.maximum_per_word) for one in protocol.latencies} == {3: (2, 0), 6: (180, 0)}
     assert [erratum.where for erratum in map_.errata] == ["4.7", "9.1", "1.1"]
     assert (map_.notes, map_.manual.title) == (("the first note", "the second note"), "X Manual")

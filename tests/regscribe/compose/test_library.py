@@ -84,10 +84,11 @@ def test_each_element_is_named_with_its_index_or_where_the_mark_stands(user: Use
 
 def test_protocol_is_merged_key_by_key_and_the_map_wins(user: User, found: Found) -> None:
     top = "protocol: {limits: {read_words: 20}, faults: {read_only: 4}, source: '2', functions: [3, 4, 6, 16, 8]}"
-    protocol = found(user(ALL, top=top)).protocol
-    assert (protocol.read_words, protocol.write_words, protocol.section) == (20, 8, "2")
-    assert (protocol.faults.read_only, protocol.faults.value) == (4, 3)
-    assert (protocol.functions, protocol.alike) == ((3, 4, 6, 16, 8), ((3, 4),))
+    map_ = found(user(ALL, top=top))
+    protocol = map_.protocol
+    assert (protocol.read_words, protocol.write_words, map_.protocol_notes.section) == (20, 8, "2")
+    assert (map_.faults.read_only, map_.faults.value) == (4, 3)
+    assert (protocol.functions, map_.alike) == ((3, 4, 6, 16, 8), ((3, 4),))
 
 
 def test_commands_errata_notes_and_notations_come_along(user: User, found: Found) -> None:

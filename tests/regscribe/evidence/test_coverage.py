@@ -75,5 +75,5 @@ def test_a_frame_checks_the_registers_whose_words_it_carries(
 
 
 def test_functions_that_do_the_same_read_the_same_registers(kiln: RegisterMap) -> None:
-    alike = replace(kiln, protocol=replace(kiln.protocol, alike=((3, 4),)))
+    alike = replace(kiln, alike=((3, 4),))
     assert coverage(frame(alike, function=4, address=2, count=1)).models[0].examples == 1

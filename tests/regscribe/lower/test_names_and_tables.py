@@ -96,16 +96,17 @@ def test_unused_addresses_are_those_of_each_model(lowered: Lowered) -> None:
 def test_the_answer_to_writing_an_unused_address_is_that_of_any_bad_one(
     lowered: Lowered, faults: str, code: int
 ) -> None:
-    assert lowered(f"protocol: {{faults: {{{faults}}}}}\n{GROUP}").protocol.faults.unused_write == code
+    assert lowered(f"protocol: {{faults: {{{faults}}}}}\n{GROUP}").faults.unused_write == code
 
 
 def test_functions_alike_come_in_groups(lowered: Lowered) -> None:
-    assert lowered(f"protocol: {{functions: [1, 2, 3, 4], alike: [[1, 2], [3, 4]]}}\n{GROUP}").protocol.alike == (
+    assert lowered(f"protocol: {{functions: [1, 2, 3, 4], alike: [[1, 2], [3, 4]]}}\n{GROUP}").alike == (
         (1, 2),
         (3, 4),
     )
 
 
 def test_a_latency_may_have_characters_and_a_note(lowered: Lowered) -> None:
-    found = lowered(f"protocol: {{latency: {{3: {{fixed: 5..6, characters: 3.5, note: so}}}}}}\n{GROUP}").protocol
-    assert found.latencies == (Latency(3, Fraction(5), Fraction(6), characters=Fraction(7, 2), note="so"),)
+    found = lowered(f"protocol: {{latency: {{3: {{fixed: 5..6, characters: 3.5, note: so}}}}}}\n{GROUP}")
+    assert found.protocol.latencies == (Latency(3, 5, 6, characters=Fraction(7, 2)),)
+    assert found.protocol_notes.latencies == ((3, "so"),)

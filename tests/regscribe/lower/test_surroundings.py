@@ -14,7 +14,7 @@ from regscribe.model import (
     Notation,
     Outcome,
     RegisterMap,
-    Serial,
+    SerialDefaults,
     Space,
     Step,
     TimingExample,
@@ -52,7 +52,7 @@ def test_the_map_tells_its_models_in_their_order_and_their_classes(lowered: Lowe
 
 
 def test_the_protocol_is_as_told_and_as_modbus_has_it_where_not(lowered: Lowered) -> None:
-    found = lowered(
+    told = lowered(
         """
         protocol:
           source: 7-1
@@ -67,18 +67,18 @@ def test_the_protocol_is_as_told_and_as_modbus_has_it_where_not(lowered: Lowered
           serial: {modes: [rtu], baud: [2400, 9600], formats: [8N1], default: 9600 8N1, gap_characters: 4}
     """
         + MAIN
-    ).protocol
-    assert (found.functions, found.broadcast, found.unit_ids, found.section) == ((3, 6), (6,), (1, 31), "7-1")
-    assert (found.read_words, found.write_words, found.read_holes, found.default_unit) == (24, 123, True, None)
-    assert found.faults == Faults(quantity=SILENCE, value=9, later_read=Later.GARBAGE, later_write=Later.STOP)
+    )
+    assert (told.protocol_notes.section, told.default_unit, told.protocol.absent) == ("7-1", None, 2)
+    assert told.faults == Faults(quantity=SILENCE, value=9, later_read=Later.GARBAGE, later_write=Later.STOP)
+    found = told.protocol
+    assert (found.functions, found.broadcast, found.unit_ids) == ((3, 6), (6,), (1, 31))
+    assert (found.read_words, found.write_words, found.read_holes) == (24, 123, True)
     assert found.exceptions == (ExceptionCode(9, "bad value", "The value is out of range."),)
     assert found.latencies == (
         Latency(3, minimum_per_word=Fraction(5), maximum_per_word=Fraction(100)),
         Latency(6, Fraction(25), Fraction(361, 2), Fraction(1), Fraction(2)),
     )
-    assert found.serial == Serial(
-        baud_rates=(2400, 9600), formats=("8N1",), default_baud=9600, default_format="8N1", gap_characters=Fraction(4)
-    )
+    assert found.serial == SerialDefaults(bauds=(2400, 9600), formats=("8N1",), baud=9600, format="8N1", gap=4)
 
 
 def test_the_tables_about_the_manual_are_carried_over(lowered: Lowered) -> None:

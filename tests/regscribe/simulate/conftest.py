@@ -183,15 +183,13 @@ def controller() -> RegisterMap:
         read_words=24,
         write_words=24,
         read_holes=True,
-        default_unit=1,
-        faults=faults,
     )
     models = (
         Model(name="16C", class_name="A16C", registers=registers, commands=commands),
         Model(name="25C", class_name="A25C", registers=registers, commands=commands),
     )
     identity = tuple(Identity(when("controller_type", code), (name,)) for code, name in ((2, "16C"), (3, "25C")))
-    return family(models, protocol, identity=identity)
+    return family(models, protocol, identity=identity, default_unit=1, faults=faults)
 
 
 def _manual_only() -> Writable:
@@ -228,7 +226,8 @@ def affine_controller() -> RegisterMap:
     )
     return family(
         (Model(name="C21", class_name="C21", registers=registers),),
-        Protocol(functions=(3, 6, 16), read_words=79, write_words=79, faults=Faults(read_only=3)),
+        Protocol(functions=(3, 6, 16), read_words=79, write_words=79),
+        faults=Faults(read_only=3),
         givens=(Given("linear_inputs", GivenKind.CODES, "codes of linear inputs", "in the other manual", "inpt"),),
         reserved=((Space.HOLDING, 77, 79),),
     )

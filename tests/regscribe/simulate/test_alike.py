@@ -14,10 +14,11 @@ def changed(found: RegisterMap, *, code: int = 2) -> SimulatedDevice:
     own = {Space.DISCRETE, Space.INPUT}
     model = found.model("IO")
     registers = tuple(register for register in model.registers if register.base.space not in own)
-    protocol = replace(found.protocol, alike=((1, 2), (3, 4)), faults=Faults(unused_write=code))
     unused = ((Space.HOLDING, 50, 59), (Space.COIL, 90, 91))
     model = replace(model, registers=registers, members=registers, unused=unused, by_path={})
-    return SimulatedDevice(replace(found, models=(model,), protocol=protocol), "IO")
+    return SimulatedDevice(
+        replace(found, models=(model,), alike=((1, 2), (3, 4)), faults=Faults(unused_write=code)), "IO"
+    )
 
 
 @pytest.fixture
@@ -51,8 +52,7 @@ def test_without_a_pair_an_input_register_is_none_of_the_holding_registers(bit_d
 
 
 def test_a_space_of_its_own_comes_before_that_of_its_pair(bit_device: RegisterMap) -> None:
-    protocol = replace(bit_device.protocol, alike=((3, 4),))
-    device = SimulatedDevice(replace(bit_device, protocol=protocol), "IO")
+    device = SimulatedDevice(replace(bit_device, alike=((3, 4),)), "IO")
     device.poke("measured", 5)
     device.poke("plain", 6)
     assert (ask(device, 4, 0, 1)[2:], ask(device, 4, 40, 1)[2:]) == (b"\x00\x05", b"\x00\x06")

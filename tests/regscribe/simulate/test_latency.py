@@ -13,7 +13,7 @@ from fractions import Fraction
 
 import pytest
 
-from regscribe.model import Latency, RegisterMap, Serial
+from regscribe.model import Latency, RegisterMap, SerialDefaults
 from regscribe.simulate import Running, SerialLine, SimulatedDevice, SimulatorError, find_map, simulate
 from regscribe.simulate.line.framing import Request, RtuFramer
 from regscribe.simulate.line.response_delay import Pace, factor_of
@@ -24,8 +24,7 @@ SLOW = SerialLine.of("", 1200, "8N1")
 
 
 def timed(found: RegisterMap, *latencies: Latency, gap: Fraction = Fraction(7, 2)) -> RegisterMap:
-    protocol = replace(found.protocol, latencies=latencies, serial=Serial(gap_characters=gap))
-    return replace(found, protocol=protocol)
+    return replace(found, protocol=found.protocol._replace(latencies=latencies, serial=SerialDefaults(gap=gap)))
 
 
 def thought(found: RegisterMap, pdu: bytes, line: SerialLine = SLOW, *, factor: float = 1.0, seed: int = 0) -> float:

@@ -10,6 +10,7 @@ from regscribe import checks, lower, source
 from regscribe.simulate.device.device import SimulatedDevice
 from regscribe_runtime import ExceptionAnswer, NotDecodable, ValueRefused
 from regscribe_runtime.link.locks import AsyncTurns
+from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.wire import pdu
 from regscribe_runtime.wire.requests import Request, verify
 
@@ -140,7 +141,7 @@ def test_an_exception_is_reported_with_the_code_that_came(code: int) -> None:
     request = Request(3, 0, 1)
 
     with pytest.raises(ExceptionAnswer) as caught:
-        verify(request, pdu.decode(request, bytes([0x83, code])), unit=1, meanings={})
+        verify(request, pdu.decode(request, bytes([0x83, code])), unit=1, protocol=Protocol())
 
     assert caught.value.code == code
     assert f"exception {code:02d}" in str(caught.value)

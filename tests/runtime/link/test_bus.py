@@ -189,7 +189,9 @@ def test_after_a_broadcast_the_line_is_left_alone_until_all_units_are_done(units
         device = bus.device(Athena16C, unit=1)
         bus.broadcast_raw(Request(6, 30, 1, (7,)))
         device.loopback()
-    longest = Athena16C.protocol.latencies[6].maximum / 1000
+    latency = Athena16C.protocol.latency(6)
+    assert latency is not None
+    longest = latency.maximum / 1000
     assert sent[1] - sent[0] >= longest + 8 * 10 / 9600
 
 

@@ -19,6 +19,7 @@ from regscribe_devices.athena.series_c import AsyncAthena16C, Athena16C, OutputA
 from regscribe_devices.fdc.series_100 import FdcBTC9100
 from regscribe_runtime import AsyncBus, Bus, ExceptionAnswer, LinkLost, NoAnswer, NotWritten, Retry, WrongAnswer
 from regscribe_runtime.link import links
+from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.wire.requests import Request, verify
 
 from .conftest import FarEnd, serving, sound
@@ -286,7 +287,7 @@ def test_an_answer_that_does_not_fit_is_wrong(owning: Any, request_: Request, an
         owner = owning(far.port)
         reply = owner.run(owner.link().call(1, request_))
         with pytest.raises(WrongAnswer):
-            verify(request_, reply, unit=1, meanings={})
+            verify(request_, reply, unit=1, protocol=Protocol())
 
 
 def test_an_answer_that_nobody_can_read_is_an_error_of_ours(owning: Any) -> None:

@@ -13,6 +13,7 @@ from regscribe_runtime import NoAnswer, Retry, WrongAnswer, tcp
 from regscribe_runtime.link import links
 from regscribe_runtime.link.links import Link
 from regscribe_runtime.link.stale_replies import LATE_SECONDS, StaleReplies
+from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.wire.requests import Request, verify
 
 from .conftest import FarEnd, frame, words
@@ -199,7 +200,7 @@ def test_an_answer_of_another_length_that_stays_alone_is_a_wrong_answer(far: Far
     link = serial(far, timeout=0.25)
     reply = link.call(1, READ)
     with pytest.raises(WrongAnswer, match="3 values came where 1 were asked for"):
-        verify(READ, reply, unit=1, meanings={})
+        verify(READ, reply, unit=1, protocol=Protocol())
     link.close()
 
 

@@ -1,5 +1,7 @@
 """Timeouts follow from what the manuals say, and from the line."""
 
+from fractions import Fraction
+
 import pytest
 
 from regscribe_devices.athena.platinum_m5000 import AthenaM5000
@@ -12,7 +14,9 @@ from regscribe_runtime.link.timing import (
     more_in_ascii,
     on_line,
     response_seconds,
+    unknown_latency,
 )
+from regscribe_runtime.values.protocol import Latency, Protocol
 from regscribe_runtime.wire.requests import LOOPBACK, Request
 
 AT_9600 = SerialLine("", 9600)
@@ -27,9 +31,29 @@ def test_two_registers_of_series_c_begin_to_come_within_the_204_milliseconds_of_
 
 def test_platinum_takes_three_characters_and_ten_milliseconds_to_a_read_and_fifty_more_to_each_word_written() -> None:
     read, write = Request(3, 0, 4), Request(16, 0, 4, (0,) * 4)
-    frames = {one: sum(characters(one)) * CHARACTER + AT_9600.silence(PLATINUM.gap) for one in (read, write)}
+    frames = {
+        one: sum(characters(one)) * CHARACTER + AT_9600.silence(float(PLATINUM.serial.gap)) for one in (read, write)
+    }
     assert on_line(PLATINUM, read, AT_9600) - frames[read] == pytest.approx(3 * CHARACTER + 0.010)
     assert on_line(PLATINUM, write, AT_9600) - frames[write] == pytest.approx(3 * CHARACTER + 0.010 + 4 * 0.050)
+
+
+@pytest.mark.parametrize(
+    ("latencies", "seconds"),
+    [
+        ((), 1.0),  # the manual says nothing at all
+        ((Latency(3, maximum=400),), 1.0),
+        ((Latency(3, maximum=600), Latency(16, 0, 20, 0, Fraction("97.5"))), (20 + 10 * 97.5) / 1000 + 0.5),
+    ],
+)
+def test_a_function_of_unknown_latency_may_take_as_long_as_a_full_request_of_the_slowest_and_a_margin(
+    latencies: tuple[Latency, ...], seconds: float
+) -> None:
+    protocol = Protocol(read_words=8, write_words=10, latencies=latencies)
+    assert unknown_latency(protocol) == pytest.approx(seconds)
+    assert on_line(protocol, Request(4, 0), AT_9600) - sum(characters(Request(4, 0))) * CHARACTER == pytest.approx(
+        unknown_latency(protocol) + 3.5 * CHARACTER
+    )
 
 
 @pytest.mark.parametrize(

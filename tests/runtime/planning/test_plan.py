@@ -6,14 +6,14 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from regscribe_runtime.operations.session import Latency
 from regscribe_runtime.planning.address_ranges import AddressRanges, AddressStretch, RegisterSpan
 from regscribe_runtime.planning.cost import Cost
 from regscribe_runtime.planning.plan import Block, RequestLimits, SplitReason, Terms, Uncoverable, blocks, plan
+from regscribe_runtime.values.protocol import Latency
 from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.values.wire_types import Space
 
-SLOW = {function: Latency(5, 15, 2, 60, 3) for function in (1, 2, 3, 4)}
+SLOW = tuple(Latency(function, 5, 15, 2, 60, 3) for function in (1, 2, 3, 4))
 LINES = [
     Cost(SerialLine()),
     Cost(SerialLine(baud=300)),
@@ -164,7 +164,7 @@ def test_the_reasons_of_a_plan_say_why_each_request_is_its_own() -> None:
             Space.HOLDING: [AddressStretch(50, 60, 2)],
         },
     )
-    cost = Cost(SerialLine(), latencies={3: Latency(0, 0, 5, 100)})
+    cost = Cost(SerialLine(), latencies=(Latency(3, 0, 0, 5, 100),))
     at = [
         (Space.COIL, 0, 1),
         (Space.HOLDING, 0, 2),
@@ -221,5 +221,5 @@ def test_a_gap_is_crossed_where_a_second_request_costs_more() -> None:
 
     assert counts(Cost(SerialLine())) == [11]  # 9 words: 18 characters; a request: 13, and 7 of silence
     assert counts(Cost(SerialLine(), gap=2)) == [1, 1]  # 13 and 4 of silence
-    assert counts(Cost(SerialLine(), latencies={3: Latency(0, 0, 0, 1)})) == [1, 1]
+    assert counts(Cost(SerialLine(), latencies=(Latency(3, 0, 0, 0, 1),))) == [1, 1]
     assert counts(Cost(round_trip=1)) == [11]

@@ -3,6 +3,7 @@
 import pytest
 
 from regscribe_runtime import ExceptionAnswer, PartialWrite, WrongAnswer
+from regscribe_runtime.values.protocol import ExceptionCode, Protocol
 from regscribe_runtime.wire.requests import Reply, Request, verify
 
 READ = Request(3, 100, 2)
@@ -11,7 +12,9 @@ WRITES = Request(16, 100, 3, (1, 2, 3))
 
 
 def check(request: Request, reply: Reply) -> tuple[int, ...]:
-    return verify(request, reply, unit=5, meanings={2: ("nowhere", "no such address")})
+    return verify(
+        request, reply, unit=5, protocol=Protocol(exceptions=(ExceptionCode(2, "nowhere", "no such address"),))
+    )
 
 
 def test_the_words_of_a_fitting_answer_are_returned() -> None:

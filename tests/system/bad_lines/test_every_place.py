@@ -16,6 +16,7 @@ from regscribe.simulate.line.line_faults import USUAL, LineFault
 from regscribe_runtime import LinkLost, NoAnswer, NotWritten, RegscribeError, Retry, WrongAnswer
 from regscribe_runtime.link import links
 from regscribe_runtime.link.exchange import Conversation
+from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.wire.framing import framing_for
 from regscribe_runtime.wire.requests import Reply, Request, verify
 
@@ -71,7 +72,7 @@ def heard(framing: str, request: Request, answer: bytes) -> tuple[int, ...] | Re
     except RegscribeError as error:
         return error
     try:
-        return verify(request, reply, unit=UNIT, meanings={})
+        return verify(request, reply, unit=UNIT, protocol=Protocol())
     except RegscribeError as error:
         return error
 

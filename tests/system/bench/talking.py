@@ -8,7 +8,8 @@ from pymodbus.client import ModbusTcpClient
 
 from regscribe_runtime import Conversion, ReadOnly, WireType, integer, number, word
 from regscribe_runtime.operations.prepared_read import make_ready
-from regscribe_runtime.operations.session import Protocol, Session
+from regscribe_runtime.operations.session import Session
+from regscribe_runtime.values.protocol import Protocol
 
 COUNT = 1000
 READS = 100

@@ -30,6 +30,7 @@ from regscribe.tools.settings.compare import differences, side
 from regscribe.tools.settings.compatibility import fit
 from regscribe_runtime import RegscribeError
 from regscribe_runtime.link.exchange import Conversation
+from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.wire.requests import Request as Asked
 from regscribe_runtime.wire.requests import verify
 
@@ -201,7 +202,7 @@ def test_a_driver_takes_any_bytes_for_an_answer_and_says_what_is_wrong(
     except RegscribeError:
         return
     try:
-        verify(request_, reply, unit=1, meanings={})
+        verify(request_, reply, unit=1, protocol=Protocol())
     except RegscribeError:
         return
 

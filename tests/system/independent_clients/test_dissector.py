@@ -41,7 +41,7 @@ class Said(NamedTuple):
 def conversation(family: Family, device: SimulatedDevice) -> Iterator[tuple[Request, str]]:
     """Yield requests that cover the family: everything is read, some is written, what is refused is tried."""
     for stretch in stretches(device):
-        for function in reading_functions(device.register_map.protocol, stretch.first.view.space):
+        for function in reading_functions(device.register_map, stretch.first.view.space):
             yield Request(function, stretch.first.address, stretch.words), f"{stretch.first.column} r"
     for case in written(family):
         yield Request(case.function, case.address, len(case.words), case.words), f"{case.column} w"

@@ -35,7 +35,7 @@ def seen(client: Client, device: SimulatedDevice, stretch: Stretch) -> Sequence[
         case WireType.STRING:
             return [client.text(unit, first.address, stretch.words)]
         case _:
-            return words(client, device, stretch, reading_functions(device.register_map.protocol, first.view.space)[0])
+            return words(client, device, stretch, reading_functions(device.register_map, first.view.space)[0])
 
 
 def words(client: Client, device: SimulatedDevice, stretch: Stretch, function: int) -> tuple[int, ...] | None:
@@ -89,7 +89,7 @@ def is_held(device: SimulatedDevice, each: Shown, number: float | str, fine: flo
 
 def assert_functions_alike(client: Client, device: SimulatedDevice, stretch: Stretch) -> None:
     """Where the manual says that another function does the same, it does."""
-    functions = reading_functions(device.register_map.protocol, stretch.first.view.space)
+    functions = reading_functions(device.register_map, stretch.first.view.space)
     found = {words(client, device, stretch, function) for function in functions}
     assert len(found) == 1, found
 

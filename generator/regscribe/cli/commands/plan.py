@@ -123,16 +123,16 @@ def _refuse(subject: Subject, name: str) -> None:
 
 
 def _cost(subject: Subject, baud: int | None, form: str | None, framing: str, *, tcp: bool) -> Cost:
-    protocol = subject.protocol
+    protocol, serial = subject.protocol, subject.protocol.serial
     if form is not None and form not in FORMATS:
         message = f"--format {form}: write data bits (7, 8), parity (N, E, O) and stop bits (1, 2), for example 8E1"
         raise click.UsageError(message)
-    for what, value, listed in (("baud", baud, protocol.bauds), ("characters", form, protocol.formats)):
+    for what, value, listed in (("baud", baud, serial.bauds), ("characters", form, serial.formats)):
         if value is not None and listed and value not in listed:
             remark(f"the manual does not list {value} {what}: {', '.join(map(str, listed))}")
     if not tcp:
         return Cost.serial(protocol, baud=baud or 0, form=form or "", framing=framing)
-    behind = SerialLine.of("", baud or protocol.baud, form or protocol.format) if baud or form else None
+    behind = SerialLine.of("", baud or serial.baud, form or serial.format) if baud or form else None
     return Cost.tcp(protocol, line=behind, framing=framing)
 
 

@@ -1,12 +1,14 @@
 """How to talk to the device: functions, limits, serial line, latency, and its answers to bad requests."""
 
 from collections.abc import Iterable
+from fractions import Fraction
 
 from regscribe.emit.markdown.context import PageContext
 from regscribe.emit.markdown.escape import Md, escape, join, md, prose
 from regscribe.emit.markdown.page_values import PageTable, table
 from regscribe.emit.words import listed, one_line
-from regscribe.model import SILENCE, Latency, Later, Protocol, RegisterMap, View, show
+from regscribe.model import SILENCE, Latency, Later, RegisterMap, View, show
+from regscribe_runtime.values.protocol import Number
 
 FUNCTIONS = {
     1: "read coils",
@@ -42,42 +44,45 @@ LATER_WRITE = {
 
 def line(context: PageContext) -> PageTable:
     """Return functions, limits and the serial line as a table of two columns."""
-    protocol = context.map.protocol
-    rows = [*_requests(protocol), *_serial(protocol), ("Section", escape(one_line(protocol.section)))]
+    register_map = context.map
+    section = escape(one_line(register_map.protocol_notes.section))
+    rows = [*_requests(register_map), *_serial(register_map), ("Section", section)]
     return table(("Property", "Value"), [row for row in rows if row[1]])
 
 
-def _requests(protocol: Protocol) -> Iterable[tuple[str, Md]]:
+def _requests(register_map: RegisterMap) -> Iterable[tuple[str, Md]]:
+    protocol = register_map.protocol
     first, last = protocol.unit_ids
-    default = f", {protocol.default_unit} unless set" if protocol.default_unit is not None else ""
+    default = f", {register_map.default_unit} unless set" if register_map.default_unit is not None else ""
     broadcast = "; ".join(_function(code) for code in protocol.broadcast)
     yield "Functions", md("; ".join(_function(code) for code in protocol.functions))
     yield (
         "Functions that do the same",
-        md("; ".join(listed([f"{code:02d}" for code in same], last="and") for same in protocol.alike)),
+        md("; ".join(listed([f"{code:02d}" for code in same], last="and") for same in register_map.alike)),
     )
-    yield "Broadcast (unit 0)", md(broadcast or ("not supported" if "broadcast" in protocol.stated else "not stated"))
-    yield "Unit ids", md(f"{first} to {last}{_usual(protocol, 'unit_ids')}{default}")
-    yield "Most words in a request", md(_most(protocol, "words"))
+    told = "broadcast" in register_map.protocol_notes.stated
+    yield "Broadcast (unit 0)", md(broadcast or ("not supported" if told else "not stated"))
+    yield "Unit ids", md(f"{first} to {last}{_usual(register_map, 'unit_ids')}{default}")
+    yield "Most words in a request", md(_most(register_map, "words"))
     if BIT_FUNCTIONS & set(protocol.functions):
-        yield "Most bits in a request", md(_most(protocol, "bits"))
+        yield "Most bits in a request", md(_most(register_map, "bits"))
     yield "Reading over unused addresses", md("allowed" if protocol.read_holes else "not relied upon")
-    yield "Writing what is there already", md("spares the lasting memory" if protocol.spares_memory else "")
+    yield "Writing what is there already", md("spares the lasting memory" if register_map.spares_memory else "")
 
 
-def _most(protocol: Protocol, what: str) -> str:
+def _most(register_map: RegisterMap, what: str) -> str:
     """Return how much one request may carry, and what the device is known to answer beyond that."""
     found = []
     for verb in ("read", "write"):
         limit = f"{verb}_{what}"
-        most, accepted = getattr(protocol, limit), protocol.accepted(limit)
+        most, accepted = getattr(register_map.protocol, limit), register_map.accepted(limit)
         beyond = f" (a device also answers {accepted})" if accepted != most else ""
-        found.append(f"{most} to {verb}{_usual(protocol, limit)}{beyond}")
+        found.append(f"{most} to {verb}{_usual(register_map, limit)}{beyond}")
     return ", ".join(found)
 
 
-def _usual(protocol: Protocol, key: str) -> str:
-    return "" if key in protocol.stated else USUAL
+def _usual(register_map: RegisterMap, key: str) -> str:
+    return "" if key in register_map.protocol_notes.stated else USUAL
 
 
 def _function(code: int) -> str:
@@ -85,37 +90,42 @@ def _function(code: int) -> str:
     return f"{code:02d} {name}" if name else f"{code:02d}"
 
 
-def _serial(protocol: Protocol) -> Iterable[tuple[str, Md]]:
-    serial = protocol.serial
-    default = [f"{serial.default_baud} baud"] if serial.default_baud else []
-    default += [serial.default_format] if serial.default_format else []
+def _serial(register_map: RegisterMap) -> Iterable[tuple[str, Md]]:
+    serial, notes = register_map.protocol.serial, register_map.protocol_notes
     yield "Transmission", md(listed([one_line(mode).upper() for mode in serial.modes]))
-    yield "Baud rates", md(", ".join(map(str, serial.baud_rates)))
+    yield "Baud rates", md(", ".join(map(str, serial.bauds)))
     yield "Character formats", md(", ".join(map(one_line, serial.formats)))
-    yield "Default", md(", ".join(default))
-    yield (
-        "Silence between messages",
-        md(f"{show(serial.gap_characters)} characters{_usual(protocol, 'gap_characters')}"),
-    )
-    yield "Remark", prose(serial.description)
+    yield "Default", md(f"{serial.baud} baud, {serial.format}" if "default" in notes.stated else "")
+    usual = _usual(register_map, "gap_characters")
+    yield "Silence between messages", md(f"{_shown(serial.gap)} characters{usual}")
+    yield "Remark", prose(notes.serial)
+
+
+def _shown(number: Number) -> str:
+    return show(Fraction(number))
 
 
 def latency(context: PageContext) -> PageTable:
     """Return the time from the end of a request to the start of the answer by function."""
     headers = ("Function", "Fixed", "For each word", "Characters at the speed of the line", "Remark")
-    return table(headers, (_latency(item) for item in context.map.protocol.latencies))
+    notes = dict(context.map.protocol_notes.latencies)
+    return table(headers, (_latency(item, notes.get(item.function, "")) for item in context.map.protocol.latencies))
 
 
-def _latency(item: Latency) -> tuple[str, ...]:
-    fixed = f"{show(item.minimum)} to {show(item.maximum)} ms" if item.maximum else ""
-    words = f"{show(item.minimum_per_word)} to {show(item.maximum_per_word)} ms" if item.maximum_per_word else ""
-    characters = show(item.characters) if item.characters else ""
-    return (_function(item.function), fixed, words, characters, prose(item.note))
+def _latency(item: Latency, note: str) -> tuple[str, ...]:
+    fixed = _span(item.minimum, item.maximum)
+    words = _span(item.minimum_per_word, item.maximum_per_word)
+    characters = _shown(item.characters) if item.characters else ""
+    return (_function(item.function), fixed, words, characters, prose(note))
+
+
+def _span(low: Number, high: Number) -> str:
+    return f"{_shown(low)} to {_shown(high)} ms" if high else ""
 
 
 def faults(context: PageContext) -> PageTable:
     """Return the device's answer to each kind of bad request that it can get."""
-    protocol = context.map.protocol
+    register_map = context.map
     views = list(_views(context.map))
     rows = [
         ("function code that the device does not have", "function"),
@@ -126,7 +136,8 @@ def faults(context: PageContext) -> PageTable:
     if any(register.writable for model in context.map.models for register in model.registers):
         rows.append(("write under a condition that forbids it", "condition"))
     if any(model.unused for model in context.map.models):
-        key = "unused_write" if "unused_write" in protocol.stated else "address"  # which counts for both then
+        own = "unused_write" in register_map.protocol_notes.stated
+        key = "unused_write" if own else "address"  # which counts for both then
         rows.append(("write to an address listed as unused", key))
     rows.append(("more words than a request may have", "quantity"))
     if any(view.align > 1 for view in views):
@@ -135,23 +146,22 @@ def faults(context: PageContext) -> PageTable:
     if any(view.functions for view in views):
         rows.append(("function that the view does not allow", "view_function"))
     answers = [
-        (words, join("", (_answer(context, getattr(protocol.faults, key)), md(_usual(protocol, key)))))
+        (words, join("", (_answer(context, getattr(register_map.faults, key)), md(_usual(register_map, key)))))
         for words, key in rows
     ]
     return table(("Bad request", "Answer"), [*answers, *_later(context)])
 
 
 def _later(context: PageContext) -> Iterable[tuple[str, Md]]:
-    protocol = context.map.protocol
-    found = protocol.faults
+    register_map, found = context.map, context.map.faults
     refused = md("refused as a whole: ", _answer(context, found.address))
     read = LATER_READ[found.later_read]
     yield (
         "read that starts well and runs onto an address of no register",
-        join("", (md(read) if read else refused, md(_usual(protocol, "later_read")))),
+        join("", (md(read) if read else refused, md(_usual(register_map, "later_read")))),
     )
     write = LATER_WRITE.get(found.later_write, LATER_WRITE[Later.EXCEPTION])
-    yield "write of several words with a bad one after good ones", md(write, _usual(protocol, "later_write"))
+    yield "write of several words with a bad one after good ones", md(write, _usual(register_map, "later_write"))
 
 
 def _views(register_map: RegisterMap) -> Iterable[View]:
@@ -161,12 +171,12 @@ def _views(register_map: RegisterMap) -> Iterable[View]:
 def _answer(context: PageContext, code: int) -> Md:
     if code == SILENCE:
         return Md("**no answer**")
-    names = {item.code: one_line(item.name) for item in context.map.protocol.exceptions}
-    return join(" ", (md(f"exception {code:02d}"), md(f"({names[code]})" if code in names else "")))
+    name = context.map.protocol.exception(code).name
+    return join(" ", (md(f"exception {code:02d}"), md(f"({name})" if name else "")))
 
 
 def exceptions(context: PageContext) -> PageTable:
     """Return what the device means by its exception codes."""
     found = context.map.protocol.exceptions
-    rows = ((f"{item.code:02d}", one_line(item.name), prose(item.meaning)) for item in found)
+    rows = ((f"{item.code:02d}", item.name, prose(item.meaning)) for item in found)
     return table(("Code", "Name", "Meaning"), rows)

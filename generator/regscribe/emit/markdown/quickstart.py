@@ -38,8 +38,8 @@ def quick_start(context: PageContext) -> QuickStart:
 
 
 def _unit(context: PageContext) -> int:
-    protocol = context.map.protocol
-    return protocol.default_unit if protocol.default_unit is not None else protocol.unit_ids[0]
+    default = context.map.default_unit
+    return default if default is not None else context.map.protocol.unit_ids[0]
 
 
 def _code(*lines: str) -> tuple[Md, ...]:

@@ -11,14 +11,21 @@ from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 
 from regscribe.emit.header import header_of
 from regscribe.emit.python.classes import Classes, givens_key
+from regscribe.emit.python.expressions import PROTOCOL, expression
 from regscribe.emit.python.formatting import WIDTH, flat, lay, width
 from regscribe.emit.python.literals import docstring, literal
 from regscribe.emit.python.offer import Origin
-from regscribe.emit.python.protocol import PROTOCOL, protocol_call, timeout
 from regscribe.emit.python.reserved_names import RUNTIME
 from regscribe.emit.python.siblings import build, build_library, libraries, module_path
 from regscribe.emit.words import one_line
 from regscribe.model import GivenKind, Library, RegisterMap
+
+STANDARD = (
+    "from collections.abc import Collection",
+    "from fractions import Fraction",
+    "from typing import Self, Unpack",
+)
+"""What a module imports of the standard library, as far as it uses it."""
 
 NOT_CODE = re.compile(r'"""[\s\S]*?"""|"(?:[^"\\\n]|\\.)*"|\'(?:[^\'\\\n]|\\.)*\'|#[^\n]*')
 
@@ -54,7 +61,7 @@ def _module(classes: Classes, about: str, source: str, *, protocol: bool = True)
     register_map = classes.register_map
     named = classes.named.lines()
     own = [match[1] for line in named if (match := re.match(r"class (\w+)\(", line))]
-    line = protocol_call(register_map.protocol)
+    line = expression(register_map.protocol)
     offered = classes.offer.constants.get(flat(line))
     givens_elsewhere = givens_key(register_map) in classes.offer.devices
     body = _template().render(
@@ -75,15 +82,15 @@ def _module(classes: Classes, about: str, source: str, *, protocol: bool = True)
         *([offered] if offered else []),
     }
     used = set(re.findall(r"\w+", NOT_CODE.sub("", body)))
+    standard = [line for line in STANDARD if used & set(re.findall(r"[A-Z]\w+", line))]
     public = {*own, *classes.named.imported, *classes.public}
     head = [
         *docstring(about, 0, classes.cited(origin.module for origin in classes.imports)),
         "",
         header_of(source, register_map.content_hash, prefix="# ", separator="\n# "),
         "",
-        *(["from collections.abc import Collection"] if "Collection" in used else []),
-        *(["from typing import Self, Unpack"] if "Self" in used else []),
-        *([""] if "Collection" in used or "Self" in used else []),
+        *standard,
+        *([""] if standard else []),
         *_siblings(origin for origin in imports if origin.name in used | public),
         *_import(used, classes.pool.hidden),
         "",
@@ -141,6 +148,3 @@ def _template() -> Template:
         autoescape=False,  # noqa: S701 (Python, not HTML: every text of a map went through `literals`)
     )
     return environment.get_template("driver.py.j2")
-
-
-__all__ = ["path_of", "render", "timeout"]

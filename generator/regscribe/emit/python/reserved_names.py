@@ -8,11 +8,12 @@ from regscribe.model import Array, Register, RegisterMap
 RUNTIME = tuple(
     """
     Array AsyncBareDevice AsyncClient AsyncDevice AsyncLink AsyncPart BareDevice Bit Choice ClientSettings Command
-    Conversion Device Field Flags Governs Group Identity Interval Is Latency Limits Link Order OrderFrom Part
-    ProgramAction ProgramFinal ProgramSegments ProgramStates Protocol ReadOnly ReadWrite Ref RegisterSet Rounding
-    SerialSettings SetpointProgram Space SpecialNumber SubPart SyncClient TcpSettings View WireType Word WriteOnly
-    async_client_link async_serial_link async_tcp boolean choice client_link flags integer integer_or integer_with
-    number number_or number_with raw raw_float serial_link tcp text version within word word_of
+    Conversion Device ExceptionCode Field Flags Governs Group Identity Interval Is Latency Limits Link Order
+    OrderFrom Part ProgramAction ProgramFinal ProgramSegments ProgramStates Protocol ReadOnly ReadWrite Ref
+    RegisterSet Rounding SerialDefaults SerialSettings SetpointProgram Space SpecialNumber SubPart SyncClient
+    TcpSettings View WireType Word WriteOnly async_client_link async_serial_link async_tcp boolean choice
+    client_link flags integer integer_or integer_with number number_or number_with raw raw_float serial_link tcp
+    text version within word word_of
     """.split()  # noqa: SIM905 (a column of quoted words is harder to keep in order)
 )
 """What a generated module may import from `regscribe_runtime`, in import order."""
@@ -20,7 +21,7 @@ RUNTIME = tuple(
 HELPERS = frozenset(name for name in RUNTIME if name.islower())
 """Functions that declarations call: in a class body a register of such a name would stand in their place."""
 
-OTHERS = frozenset({"Collection", "Self", "Unpack"})
+OTHERS = frozenset({"Collection", "Fraction", "Self", "Unpack"})
 
 
 def taken(register_map: RegisterMap) -> frozenset[str]:

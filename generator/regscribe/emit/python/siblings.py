@@ -5,13 +5,13 @@ from dataclasses import replace
 from regscribe.emit.python.classes import COMMANDS, Classes, givens_key
 from regscribe.emit.python.constants import Pool
 from regscribe.emit.python.enum_classes import NamedClasses
+from regscribe.emit.python.expressions import PROTOCOL, expression
 from regscribe.emit.python.formatting import flat
 from regscribe.emit.python.keys import command_key
 from regscribe.emit.python.literals import camel
 from regscribe.emit.python.offer import Offer, Origin, Part
-from regscribe.emit.python.protocol import PROTOCOL, protocol_call
 from regscribe.emit.python.reserved_names import hidden
-from regscribe.model import USUAL_PROTOCOL, Array, Library, Manual, Model, Register, RegisterMap
+from regscribe.model import Array, Library, Manual, Model, Protocol, Register, RegisterMap
 
 
 def module_path(map_id: str) -> str:
@@ -61,7 +61,7 @@ def _as_map(library: Library) -> RegisterMap:
         content_hash=library.content_hash,
         manual=Manual(""),
         models=(commands, *map(_set, library.sets)),
-        protocol=library.protocol or USUAL_PROTOCOL,
+        protocol=library.protocol or Protocol(),
     )
 
 
@@ -136,7 +136,7 @@ def offer_of(classes: Classes) -> Offer:
         for content in variants
     }
     imported = {origin.name: origin for origin in pool.imports}
-    protocol = flat(protocol_call(register_map.protocol))
+    protocol = flat(expression(register_map.protocol))
     devices = {givens_key(register_map): Origin(module, f"_{classes.stem}Device")} if register_map.givens else {}
     return Offer(
         named=own_named,

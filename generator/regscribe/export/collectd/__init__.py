@@ -4,7 +4,7 @@ import re
 from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
 
-from regscribe.export.collectd.configuration import BAUD, EVERY, Poll, collectd_text
+from regscribe.export.collectd.configuration import EVERY, Poll, collectd_text
 from regscribe.export.collectd.state import surroundings
 from regscribe.model import Model, RegisterMap
 from regscribe.plugins import Option, OptionError
@@ -55,7 +55,7 @@ def _model(register_map: RegisterMap, wanted: str) -> Model:
 
 def _poll(register_map: RegisterMap, model: Model, options: Mapping[str, str]) -> Poll:
     protocol, place = register_map.protocol, options["at"]
-    usual = protocol.default_unit or max(FIRST_UNIT, protocol.unit_ids[0])
+    usual = register_map.default_unit or max(FIRST_UNIT, protocol.unit_ids[0])
     unit = _whole("unit", options["unit"] or str(usual), LAST_UNIT)
     every = _whole("every", options["every"], LONGEST_INTERVAL)
     called = options["name"] or f"{model.class_name}-{unit}"
@@ -63,7 +63,7 @@ def _poll(register_map: RegisterMap, model: Model, options: Mapping[str, str]) -
         message = f"--name {called}: at most 40 letters, digits, points, hyphens and underscores"
         raise OptionError(message)
     if place.startswith("/"):
-        baud = protocol.serial.default_baud or BAUD
+        baud = protocol.serial.baud
         return Poll(name=called, unit=unit, every=every, device=place, baud=baud)
     found = re.fullmatch(r"([^:\s]+):([0-9]{1,5})", place)
     if not found or not 1 <= int(found[2]) <= LAST_PORT:

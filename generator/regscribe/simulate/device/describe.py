@@ -53,8 +53,7 @@ def _outcome(device: SimulatedDevice | None, exchange: Exchange) -> tuple[bool, 
     if answer is None:
         return exchange.request.unit == BROADCAST, "broadcast" if exchange.request.unit == BROADCAST else "no answer"
     if answer[0] & EXCEPTION_BIT and len(answer) > 1:
-        known = device.register_map.protocol.exceptions if device is not None else ()
-        name = next((each.name for each in known if each.code == answer[1]), "")
+        name = device.register_map.protocol.exception(answer[1]).name if device is not None else ""
         return False, f"exception {answer[1]}{f': {name}' if name else ''}"
     return True, "ok"
 
@@ -101,7 +100,7 @@ def _named(device: SimulatedDevice, space: Space, address: int, number: int, wor
 
 def _values(device: SimulatedDevice, space: Space, address: int, number: int, words: tuple[int, ...]) -> Iterator[str]:
     layout = device.state.blueprint.layout
-    spaces = [space, *(READS[code] for codes in device.register_map.protocol.alike for code in codes if code in READS)]
+    spaces = [space, *(READS[code] for codes in device.register_map.alike for code in codes if code in READS)]
     at = address
     while at < address + number:
         place = next((found for each in spaces if (found := layout.place(each, at))), None)

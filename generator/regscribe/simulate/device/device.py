@@ -7,7 +7,7 @@ from pathlib import Path
 from threading import RLock
 from typing import Any
 
-from regscribe.model import Model, Protocol, RegisterMap, Space
+from regscribe.model import Model, RegisterMap, Space
 from regscribe.simulate.device import state_files
 from regscribe.simulate.device.answers import EXCEPTION_BIT, Refusal, exception_answer, pack_bits, unpack_bits
 from regscribe.simulate.device.commands import Commands
@@ -54,13 +54,13 @@ class SimulatedDevice:
         self.model = _model(register_map, model)
         self.seed = seed
         self.state = DeviceState.of(register_map, self.model, givens or {})
-        self._tuning = Tuning(self.state, unit=_unit(register_map.protocol, unit), addressing=addressing)
+        self._tuning = Tuning(self.state, unit=_unit(register_map, unit), addressing=addressing)
         self._protocol = register_map.protocol
         self._commands = Commands(self.model.commands)
         self._layout = layout = self.state.blueprint.layout
-        self._reader = Reader(self._protocol, layout, self.state, seed, self.unit)
+        self._reader = Reader(register_map, layout, self.state, seed, self.unit)
         self._conduct = Conduct(self.state, self._commands, controller_of(self.state, process=process, seed=seed))
-        self._writer = Writer(self._protocol, layout, self.state, self._commands, self._conduct)
+        self._writer = Writer(register_map, layout, self.state, self._commands, self._conduct)
         self.moves = bool(process)
         self._lock = RLock()
         self._functions: dict[int, Callable[[bytes], bytes]] = {
@@ -165,7 +165,7 @@ class SimulatedDevice:
             try:
                 answer = shifted(self._act(shifted(pdu, -first)), first, echoes=True)
             except AddressError:
-                answer = exception_answer(pdu[0], self._protocol.faults.address)
+                answer = exception_answer(pdu[0], self.register_map.faults.address)
             except Refusal as refusal:
                 answer = exception_answer(pdu[0], refusal.code)
             lost = pdu[0] not in READS and self._tuning.follow()
@@ -174,26 +174,26 @@ class SimulatedDevice:
     def _act(self, pdu: bytes) -> bytes | None:
         act = self._functions.get(pdu[0]) if pdu[0] in self._protocol.functions else None
         if act is None:
-            raise Refusal(self._protocol.faults.function)
+            raise Refusal(self.register_map.faults.function)
         return act(pdu)
 
     def _fields(self, form: str, pdu: bytes) -> tuple[int, ...]:
         """Unpack the numbers of a request; one that is too short or too long has the wrong quantity."""
         if len(pdu) != 1 + struct.calcsize(form):
-            raise Refusal(self._protocol.faults.quantity)
+            raise Refusal(self.register_map.faults.quantity)
         return struct.unpack(form, pdu[1:])
 
     def _block(self, pdu: bytes, start: int) -> tuple[int, int, bytes]:
         """Unpack address, count and data of a write of several, whose byte count must fit its length."""
         head, data = pdu[start : start + 5], pdu[start + 5 :]
         if len(head) != struct.calcsize(">HHB") or head[4] != len(data):
-            raise Refusal(self._protocol.faults.quantity)
+            raise Refusal(self.register_map.faults.quantity)
         address, count = struct.unpack(">HH", head[:4])
         return address, count, data
 
     def _words(self, count: int, data: bytes) -> tuple[int, ...]:
         if len(data) != 2 * count:
-            raise Refusal(self._protocol.faults.quantity)
+            raise Refusal(self.register_map.faults.quantity)
         return struct.unpack(f">{count}H", data)
 
     def _read(self, pdu: bytes) -> bytes:
@@ -204,13 +204,13 @@ class SimulatedDevice:
 
     def _reading(self, function: int, address: int) -> int:
         """The function that reads what stands at `address`: this one, or one that does the same in another space."""
-        others = (code for codes in self._protocol.alike if function in codes for code in codes if code in READS)
+        others = (code for codes in self.register_map.alike if function in codes for code in codes if code in READS)
         return next((code for code in (function, *others) if self._layout.documents(READS[code], address)), function)
 
     def _write_bit(self, pdu: bytes) -> bytes:
         address, word = self._fields(">HH", pdu)
         if word not in BIT_WORDS:
-            raise Refusal(self._protocol.faults.value)
+            raise Refusal(self.register_map.faults.value)
         self._writer.write(Space.COIL, pdu[0], address, (BIT_WORDS[word],))
         return pdu
 
@@ -222,7 +222,7 @@ class SimulatedDevice:
     def _write_bits(self, pdu: bytes) -> bytes:
         address, count, data = self._block(pdu, 1)
         if len(data) != (count + 7) // 8:
-            raise Refusal(self._protocol.faults.quantity)
+            raise Refusal(self.register_map.faults.quantity)
         done = self._writer.write(Space.COIL, pdu[0], address, unpack_bits(data, count))
         return struct.pack(">BHH", pdu[0], address, done)
 
@@ -247,12 +247,12 @@ class SimulatedDevice:
         self._fields(">", pdu)
         (status,) = self.state.words(Space.STATUS, 0, 1)
         if status is None:
-            raise Refusal(self._protocol.faults.function)
+            raise Refusal(self.register_map.faults.function)
         return bytes((pdu[0], status))
 
     def _loopback(self, pdu: bytes) -> bytes:
         if pdu[1:3] != b"\0\0":
-            raise Refusal(self._protocol.faults.function)
+            raise Refusal(self.register_map.faults.function)
         return pdu
 
 
@@ -269,10 +269,10 @@ def _model(register_map: RegisterMap, name: str) -> Model:
     return register_map.model(name)
 
 
-def _unit(protocol: Protocol, unit: int | None) -> int:
-    low, high = protocol.unit_ids
+def _unit(register_map: RegisterMap, unit: int | None) -> int:
+    low, high = register_map.protocol.unit_ids
     if unit is None:
-        return protocol.default_unit or max(1, low)
+        return register_map.default_unit or max(1, low)
     if not max(1, low) <= unit <= high:
         message = f"unit {unit} is outside {max(1, low)}..{high}, the unit ids of this device (0 is the broadcast)"
         raise SimulatorError(message)

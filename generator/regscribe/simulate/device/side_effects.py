@@ -33,7 +33,7 @@ class Conduct:
         """A write was taken: it wears memory, may wait for a command, and may change other registers."""
         path, state = register.path, self._state
         after = state.stored(path)
-        spared = after == before and state.blueprint.register_map.protocol.spares_memory
+        spared = after == before and state.blueprint.register_map.spares_memory
         if register.persistence in LASTING and not spared:
             self.wear[path] += 1
         if register.apply and after != before:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from regscribe.model import Later, Protocol, Register, Space
+from regscribe.model import Later, Register, RegisterMap, Space
 from regscribe.simulate.device import codec
 from regscribe.simulate.device.accepted_values import accepts
 from regscribe.simulate.device.address_index import AddressIndex, AddressSpan
@@ -29,7 +29,7 @@ class _Written:
 class Writer:
     """Writes words (or bits) of one device through any view; half of a value is refused as misaligned."""
 
-    protocol: Protocol
+    register_map: RegisterMap
     layout: AddressIndex
     state: DeviceState
     commands: Commands
@@ -41,8 +41,8 @@ class Writer:
         Where the protocol says that a later bad word stops the write, fewer than all may be written; otherwise a
         refused request leaves the state as it was. A command counts as run once its words are written.
         """
-        most = self.protocol.accepted("write_bits" if space.is_bits else "write_words")
-        check_request(self.protocol, self.layout, space, function, address, len(words), most=most)
+        most = self.register_map.accepted("write_bits" if space.is_bits else "write_words")
+        check_request(self.register_map.faults, self.layout, space, function, address, len(words), most=most)
         place = self.layout.place(space, address)
         holds = place is not None and place.register.access.writable  # a read-only register may still take a command
         if not holds and self.commands.is_step(space, function, address, words):
@@ -61,7 +61,7 @@ class Writer:
                 written.append(self._write_value(place, value, limited=not commanded))
                 done += place.words
         except Refusal:
-            if not done or self.protocol.faults.later_write is not Later.STOP:
+            if not done or self.register_map.faults.later_write is not Later.STOP:
                 self._undo(written)
                 raise
         for each in written:
@@ -83,7 +83,7 @@ class Writer:
         return _Written(place, words, before)
 
     def _place(self, space: Space, function: int, address: int, left: int) -> AddressSpan:
-        faults = self.protocol.faults
+        faults = self.register_map.faults
         place = self.layout.place(space, address)
         if place is None:
             if (space, address) in self.layout.reserved:
@@ -101,11 +101,11 @@ class Writer:
 
     def _check_access(self, register: Register) -> None:
         if not register.access.writable:
-            raise Refusal(self.protocol.faults.read_only)
+            raise Refusal(self.register_map.faults.read_only)
         if register.writable is not None and not self.state.holds(register.writable.when):
-            raise Refusal(self.protocol.faults.condition)
+            raise Refusal(self.register_map.faults.condition)
         if register.unlock and register.unlock not in self.commands.since_power:
-            raise Refusal(self.protocol.faults.condition)
+            raise Refusal(self.register_map.faults.condition)
 
     def _accepted(self, place: AddressSpan, words: tuple[int, ...], *, limited: bool) -> Stored:
         register, view = place.register, place.view
@@ -113,11 +113,11 @@ class Writer:
         if isinstance(stored, str):
             return stored
         if stored is None:
-            raise Refusal(self.protocol.faults.value)
+            raise Refusal(self.register_map.faults.value)
         held = self.state.kept(register, stored)
         limited = limited and not self.commands.sets_registers(view.space, place.start, words)
         if limited and not self._fits(register, held):
-            raise Refusal(self.protocol.faults.value)
+            raise Refusal(self.register_map.faults.value)
         return held
 
     def _fits(self, register: Register, stored: Fraction) -> bool:

@@ -2,10 +2,10 @@
 
 import math
 import struct
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from random import Random
 
-from regscribe.model import Latency, Protocol
+from regscribe.model import Protocol
 from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.simulate.errors import SimulatorError
 from regscribe.simulate.line.framing import Request
@@ -41,22 +41,22 @@ def words_of(pdu: bytes) -> int:
 class Thought:
     """The latencies of one device: between minimum and maximum, as a generator with a seed of its own picks."""
 
-    __slots__ = ("_character", "_factor", "_latencies", "_random")
+    __slots__ = ("_character", "_factor", "_protocol", "_random")
 
     def __init__(self, protocol: Protocol, line: SerialLine, factor: float, seed: str) -> None:
-        self._latencies: Mapping[int, Latency] = {each.function: each for each in protocol.latencies}
+        self._protocol = protocol
         self._character = line.character
         self._factor = factor
         self._random = Random(seed)  # noqa: S311 - repeatable, and no secret
 
     def seconds(self, pdu: bytes) -> float:
         """Return how long this request takes; 0 where the map says nothing of its function."""
-        latency = self._latencies.get(REPEATED.get(pdu[0], pdu[0]))
+        latency = self._protocol.latency(REPEATED.get(pdu[0], pdu[0]))
         if latency is None:
             return 0.0
         words = words_of(pdu)
         low = float(latency.minimum + words * latency.minimum_per_word)
-        high = float(latency.maximum + words * latency.maximum_per_word)
+        high = float(latency.longest(words))
         milliseconds = self._random.uniform(low, high)
         return self._factor * (milliseconds / 1000 + float(latency.characters) * self._character)
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from functools import partial
 
-from regscribe.model import Serial
+from regscribe.model import SerialDefaults
 from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.simulate.errors import SimulatorError
 from regscribe.simulate.line.connection import Arrival, ConnectionPolicy, Delivery, Patience, Recorder, Watcher
@@ -117,14 +117,13 @@ def _begin(server: LineServer, devices: Sequence[SimulatedDevice], service: Serv
 
 def line_of(devices: Sequence[SimulatedDevice]) -> SerialLine:
     """The line that the first device has as delivered, as far as its map says."""
-    serial = devices[0].register_map.protocol.serial if devices else Serial()
-    return SerialLine.of("", serial.default_baud or SerialLine().baud, serial.default_format or SerialLine().format)
+    return devices[0].register_map.protocol.serial.line if devices else SerialLine()
 
 
 def _gap(devices: Sequence[SimulatedDevice], line: SerialLine) -> float:
     """Seconds of silence that separate frames: what the most demanding device here needs."""
-    characters = (device.register_map.protocol.serial.gap_characters for device in devices)
-    return float(max(characters, default=Serial().gap_characters)) * line.character
+    characters = (device.register_map.protocol.serial.gap for device in devices)
+    return float(max(characters, default=SerialDefaults().gap)) * line.character
 
 
 async def serve(

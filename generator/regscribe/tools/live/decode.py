@@ -142,8 +142,8 @@ class Decoder:
 
     def _exception(self, frame: CapturedFrame, asked: DecodedRequest | None) -> Decoded:
         code = frame.pdu[1] if len(frame.pdu) > 1 else 0
-        name, meaning = self.driver.protocol.exceptions.get(code, (STANDARD.get(code, "unknown"), ""))
-        said = f"exception {code:02d} ({name}{f': {meaning}' if meaning else ''})"
+        _, name, meaning = self.driver.protocol.exception(code)
+        said = f"exception {code:02d} ({name or STANDARD.get(code, 'unknown')}{f': {meaning}' if meaning else ''})"
         address = asked.address if asked else None
         items = tuple(self._items(asked, None)) if asked else ()
         return Decoded("response", frame.unit, frame.function, said, address, items, code, frame.complaint)

@@ -11,8 +11,8 @@ from regscribe_runtime.wire.requests import Request
 
 if TYPE_CHECKING:
     from regscribe_runtime.driver.device import AsyncBareDevice, BareDevice
-    from regscribe_runtime.operations.session import Protocol
     from regscribe_runtime.registers.register import Register
+    from regscribe_runtime.values.protocol import Protocol
     from regscribe_runtime.values.specs import View
 
 SINGLE, SEVERAL = {"coil": 5}, {"coil": 15}

@@ -66,8 +66,9 @@ class _Common(Generic[D]):
         if unit in self.units:
             message = f"unit {unit} of this bus is {self[unit]!r} already: give each device an id of its own"
             raise ValueError(message)
-        if line is not None and protocol.gap > self._gap:
-            message = f"{device!r} needs {protocol.gap:g} characters of silence: open the bus with gap={protocol.gap:g}"
+        gap = float(protocol.serial.gap)
+        if line is not None and gap > self._gap:
+            message = f"{device!r} needs {gap:g} characters of silence: open the bus with gap={gap:g}"
             raise ValueError(message)
         self._devices.append(device)
 

@@ -18,12 +18,12 @@ from regscribe_runtime.link.links import (
 )
 from regscribe_runtime.operations import tasks
 from regscribe_runtime.operations.configure import ConfigureOptions
-from regscribe_runtime.operations.session import Protocol, Session
+from regscribe_runtime.operations.session import Session
 from regscribe_runtime.operations.snapshot import Snapshot
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.report import Wear, WriteReport
 from regscribe_runtime.values.programs import SetpointProgram
-from regscribe_runtime.values.serial_line import SerialLine
+from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.specs import Identity
 from regscribe_runtime.values.wire_types import Space
 
@@ -240,8 +240,7 @@ class AsyncDevice(AsyncBareDevice):
 
 
 def _usual(protocol: Protocol, line: SerialSettings) -> dict[str, Any]:
-    usual = SerialLine.of("", protocol.baud, protocol.format)
-    return {**usual._asdict(), "gap": protocol.gap, **line}
+    return {**protocol.serial.line._asdict(), "gap": float(protocol.serial.gap), **line}
 
 
 def serial_link(protocol: Protocol, port: str, **line: Unpack[SerialSettings]) -> Link:
@@ -258,11 +257,11 @@ def async_serial_link(protocol: Protocol, port: str, **line: Unpack[SerialSettin
 
 def client_link(protocol: Protocol, client: SyncClient, **settings: Unpack[ClientSettings]) -> Link:
     """A link over a client of one's own, with the silence between frames that the manual asks for."""
-    settings.setdefault("gap", protocol.gap)
+    settings.setdefault("gap", float(protocol.serial.gap))
     return links.over(client, **settings)
 
 
 def async_client_link(protocol: Protocol, client: AsyncClient, **settings: Unpack[ClientSettings]) -> AsyncLink:
     """As `client_link`, for asyncio."""
-    settings.setdefault("gap", protocol.gap)
+    settings.setdefault("gap", float(protocol.serial.gap))
     return links.async_over(client, **settings)

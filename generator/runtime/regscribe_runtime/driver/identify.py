@@ -133,7 +133,7 @@ def _request(register: Register[Any]) -> Request:
 def _ask(request: Request, unit: int, known: Known) -> Operation[tuple[int, ...] | RegscribeError]:
     try:
         reply = yield request
-        return verify(request, reply, unit=unit, meanings=known.driver.protocol.exceptions) if reply else ()
+        return verify(request, reply, unit=unit, protocol=known.driver.protocol) if reply else ()
     except LinkLost:
         raise  # there is nobody left to ask
     except RegscribeError as error:

@@ -4,20 +4,19 @@ On a serial line an answer is complete after the request's characters, the silen
 and the answer's characters. Over TCP nobody knows the line behind a gateway: the slowest of the manual is assumed.
 """
 
-from typing import TYPE_CHECKING
-
+from regscribe_runtime.values.protocol import Latency, Protocol
 from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.wire import requests as functions
-
-if TYPE_CHECKING:
-    from regscribe_runtime.operations.session import Latency, Protocol
-    from regscribe_runtime.wire.requests import Request
+from regscribe_runtime.wire.requests import Request
 
 MARGIN_SECONDS = 0.3
 """For the operating system and the buffers of a USB adapter (16 ms each way), on a busy machine."""
 
 GATEWAY_SECONDS = 0.5
 """For a gateway and the network before it."""
+
+SHORTEST_UNKNOWN, UNKNOWN_MARGIN = 1.0, 0.5
+"""In seconds, where a manual says nothing of a function: the least latency, and what is added to the longest known."""
 
 ASCII_MARKS = 2
 """An ASCII frame has twice the characters of RTU and one more (colon and line end, a check of one byte): two frames."""
@@ -27,7 +26,7 @@ RTU_FRAME = 4
 BITS_IN_BYTE, BYTES_IN_WORD = 8, 2
 
 
-def characters(request: "Request") -> tuple[int, int]:
+def characters(request: Request) -> tuple[int, int]:
     """Characters of an RTU request and of its longest good answer."""
     count, function = request.quantity, request.function
     packed = -(-count // BITS_IN_BYTE)
@@ -46,38 +45,45 @@ def characters(request: "Request") -> tuple[int, int]:
             return RTU_FRAME + 4, RTU_FRAME + 4
 
 
-def longest_latency(latency: "Latency", words: int, line: SerialLine) -> float:
+def longest_latency(latency: Latency, words: int, line: SerialLine) -> float:
     """Seconds from the end of a request to the start of its answer, at most."""
-    return (latency.maximum + latency.maximum_per_word * words) / 1000 + latency.characters * line.character
+    return float(latency.longest(words)) / 1000 + float(latency.characters) * line.character
 
 
-def on_line(protocol: "Protocol", request: "Request", line: SerialLine) -> float:
+def unknown_latency(protocol: Protocol) -> float:
+    """Seconds for a function whose latency the manual does not give: the longest of all others and a margin."""
+    words = max(protocol.read_words, protocol.write_words)
+    longest = max((float(one.longest(words)) for one in protocol.latencies), default=0.0)
+    return max(SHORTEST_UNKNOWN, longest / 1000 + UNKNOWN_MARGIN)
+
+
+def on_line(protocol: Protocol, request: Request, line: SerialLine) -> float:
     """Seconds from the first character of a request to the last of its answer, at most; without a margin.
 
-    For a function whose latency the manual does not give, `protocol.timeout` stands in.
+    For a function whose latency the manual does not give, `unknown_latency` stands in.
     """
-    latency = protocol.latencies.get(request.function)
-    device = protocol.timeout if latency is None else longest_latency(latency, request.quantity, line)
-    return sum(characters(request)) * line.character + line.silence(protocol.gap) + device
+    latency = protocol.latency(request.function)
+    device = unknown_latency(protocol) if latency is None else longest_latency(latency, request.quantity, line)
+    return sum(characters(request)) * line.character + line.silence(float(protocol.serial.gap)) + device
 
 
-def slowest(protocol: "Protocol") -> SerialLine:
+def slowest(protocol: Protocol) -> SerialLine:
     """The slowest line that the manual allows."""
-    return SerialLine.of("", min((*protocol.bauds, protocol.baud)), protocol.format)
+    return protocol.serial.line._replace(baud=min((*protocol.serial.bauds, protocol.serial.baud)))
 
 
-def response_seconds(protocol: "Protocol", request: "Request", line: SerialLine | None) -> float:
+def response_seconds(protocol: Protocol, request: Request, line: SerialLine | None) -> float:
     """The response timeout of a request: in RTU frames on `line`, or over TCP without one."""
     if line is None:
         return on_line(protocol, request, slowest(protocol)) + MARGIN_SECONDS + GATEWAY_SECONDS
     return on_line(protocol, request, line) + MARGIN_SECONDS
 
 
-def more_in_ascii(request: "Request", line: SerialLine) -> float:
+def more_in_ascii(request: Request, line: SerialLine) -> float:
     """What ASCII frames take longer than RTU ones: two characters for each, colon and line end."""
     return (sum(characters(request)) + ASCII_MARKS) * line.character
 
 
-def broadcast_seconds(protocol: "Protocol", request: "Request", line: SerialLine | None) -> float:
+def broadcast_seconds(protocol: Protocol, request: Request, line: SerialLine | None) -> float:
     """How long all units need for a broadcast, counted from its first character: as for an answer, at most."""
     return on_line(protocol, request, line or slowest(protocol))

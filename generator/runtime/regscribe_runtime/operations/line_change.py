@@ -102,9 +102,9 @@ def _guesses(session: Session, governs: Governs) -> Iterator[LineChange]:
     """All that a setting may become where the manual does not print its codes."""
     protocol = session.protocol
     others = {
-        "baud": tuple(map(str, protocol.bauds)),
+        "baud": tuple(map(str, protocol.serial.bauds)),
         "parity": PARITIES,
-        "format": protocol.formats,
+        "format": protocol.serial.formats,
         "addressing": tuple(ADDRESSINGS),
     }
     if session.line is not None or governs.setting == "addressing":
@@ -121,7 +121,7 @@ def _free(session: Session, target: Target, governs: Governs, words: Words, old:
     yield LineChange(unit=unit)
     try:
         reply = yield request  # once: nobody is expected there
-        found = verify(request, reply, unit=unit, meanings=session.protocol.exceptions) if reply else ()
+        found = verify(request, reply, unit=unit, protocol=session.protocol) if reply else ()
     except RegscribeError:
         found = ()  # nobody there, or nobody that knows this register
     yield old

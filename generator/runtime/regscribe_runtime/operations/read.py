@@ -45,7 +45,7 @@ def item_of(register: Register[Any], view: View) -> RegisterSpan:
 def fetch(session: Session, items: Iterable[RegisterSpan]) -> Operation[dict[RegisterSpan, tuple[int, ...]]]:
     """The present words of items: a few without a plan of the whole device, more in the requests of least cost."""
     wanted = sorted(set(items))
-    requests = _joined(wanted, session.protocol.read_limits)
+    requests = _joined(wanted, RequestLimits.of(session.protocol))
     if len(requests) > FEW or session.absences:
         requests = _planned(wanted, session.terms())
     found = {}

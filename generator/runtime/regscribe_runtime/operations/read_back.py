@@ -93,8 +93,8 @@ def rest(session: Session, targets: Iterable[Target], after: Exception | None = 
     seconds = max((register.settle for register in registers), default=0) / 1000
     if isinstance(after, LinkLost):
         words = sum(view.words for _, view in targets)
-        latencies = [session.protocol.latencies.get(code) for code in (6, 16)]
-        needed = [one.maximum + one.maximum_per_word * words for one in latencies if one]
+        latencies = [session.protocol.latency(code) for code in (6, 16)]
+        needed = [float(one.longest(words)) for one in latencies if one]
         seconds = max([seconds, *(milliseconds / 1000 for milliseconds in needed)])
     return seconds
 

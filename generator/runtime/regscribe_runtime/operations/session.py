@@ -12,9 +12,10 @@ from regscribe_runtime.planning.address_ranges import AddressRanges, ground_of
 from regscribe_runtime.planning.cost import Cost
 from regscribe_runtime.planning.plan import RequestLimits, Terms
 from regscribe_runtime.report import Wear, WriteReport
+from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.serial_line import MODBUS, LineChange, SerialLine
 from regscribe_runtime.values.wire_types import Space
-from regscribe_runtime.wire.requests import READ_SPACES, Meanings, Reply, Request, verify
+from regscribe_runtime.wire.requests import READ_SPACES, Reply, Request, verify
 
 if TYPE_CHECKING:
     from regscribe_runtime.link.links import AsyncLink, Link
@@ -34,53 +35,6 @@ class Pause(NamedTuple):
     """Time that the device needs, in seconds."""
 
     seconds: float
-
-
-class Latency(NamedTuple):
-    """Milliseconds from the end of a request to the start of its answer: a part that is fixed, and one for each word.
-
-    `characters` character times at the speed of the line come on top.
-    """
-
-    minimum: float = 0
-    maximum: float = 0
-    minimum_per_word: float = 0
-    maximum_per_word: float = 0
-    characters: float = 0
-
-
-class Protocol(NamedTuple):
-    """What the device accepts: function codes, limits, unit ids, its meanings of exception codes, and its times.
-
-    `timeout` is the longest time in seconds that a good answer may take at any speed, from the manual's latencies,
-    which `latencies` has by function code; `gap` is the silence between frames in characters. `broadcast` are the
-    functions that may be sent to all units at once, `bauds` and `formats` (8N1) what the serial line can be set to.
-    `absent` is the exception code by which the device refuses an address that it does not have; 0: it keeps silent.
-    """
-
-    functions: tuple[int, ...] = (3, 6, 16)
-    read_words: int = 125
-    write_words: int = 123
-    read_bits: int = 2000
-    write_bits: int = 1968
-    read_holes: bool = False
-    unit_ids: tuple[int, int] = (1, 247)
-    exceptions: Meanings = MappingProxyType({})
-    timeout: float = 1.0
-    baud: int = 9600
-    format: str = "8N1"
-    modes: tuple[str, ...] = ("rtu",)
-    bauds: tuple[int, ...] = ()
-    formats: tuple[str, ...] = ()
-    gap: float = 3.5
-    latencies: Mapping[int, Latency] = MappingProxyType({})
-    broadcast: tuple[int, ...] = ()
-    absent: int = 2
-
-    @property
-    def read_limits(self) -> RequestLimits:
-        """What a read plan must keep to."""
-        return RequestLimits(words=self.read_words, bits=self.read_bits, holes=self.read_holes)
 
 
 MOST_TIMED = 2000
@@ -186,7 +140,7 @@ class Session:
             ground = self._ground
             if self.absences:
                 ground = ground.refusing(self.absences.items(alone=True), apart=self.absences.items(alone=False))
-            self.prepared[TERMS] = Terms(self.protocol.read_limits, ground, Cost.of(self.protocol, self.line))
+            self.prepared[TERMS] = Terms(RequestLimits.of(self.protocol), ground, Cost.of(self.protocol, self.line))
         found: Terms = self.prepared[TERMS]
         return found
 
@@ -237,7 +191,7 @@ class Session:
             try:
                 reply = yield request
                 assert reply is not None, "an executor answers a request with a reply"  # noqa: S101 (their contract)
-                words = verify(request, reply, unit=self.unit, meanings=self.protocol.exceptions)
+                words = verify(request, reply, unit=self.unit, protocol=self.protocol)
             except (NoAnswer, WrongAnswer, LinkLost, ExceptionAnswer) as error:
                 if not left or not _passing(error):
                     raise

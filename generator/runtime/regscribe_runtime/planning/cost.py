@@ -3,16 +3,11 @@
 Costs are whole nanoseconds, so that plans are exact and the same on every machine; people read them in milliseconds.
 """
 
-from types import MappingProxyType
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
+from regscribe_runtime.values.protocol import Latency, Number, Protocol, SerialDefaults
 from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.values.wire_types import Space
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from regscribe_runtime.operations.session import Latency, Protocol
 
 BITS_IN_BYTE, BITS_IN_WORD, BYTES_IN_WORD = 8, 16, 2
 NANOSECONDS = 1_000_000
@@ -64,37 +59,37 @@ class Cost(NamedTuple):
     """
 
     line: SerialLine | None = None
-    gap: float = 3.5
+    gap: Number = SerialDefaults().gap
     round_trip: float = 0.0
-    latencies: "Mapping[int, Latency]" = MappingProxyType({})
+    latencies: tuple[Latency, ...] = ()
     framing: str = "rtu"
 
     @classmethod
-    def of(cls, protocol: "Protocol", line: SerialLine | None) -> "Cost":
+    def of(cls, protocol: Protocol, line: SerialLine | None) -> "Cost":
         """Of the line that a link has; over TCP without one."""
-        return cls(line, protocol.gap, 0, protocol.latencies) if line else cls.tcp(protocol)
+        return cls(line, protocol.serial.gap, 0, protocol.latencies) if line else cls.tcp(protocol)
 
     @classmethod
-    def serial(cls, protocol: "Protocol", *, baud: int = 0, form: str = "", framing: str = "rtu") -> "Cost":
+    def serial(cls, protocol: Protocol, *, baud: int = 0, form: str = "", framing: str = "rtu") -> "Cost":
         """Over a serial line, by default with the device's own speed and format."""
-        line = SerialLine.of("", baud or protocol.baud, form or protocol.format)
-        return cls(line, protocol.gap, 0, protocol.latencies, framing)
+        line = SerialLine.of("", baud or protocol.serial.baud, form or protocol.serial.format)
+        return cls(line, protocol.serial.gap, 0, protocol.latencies, framing)
 
     @classmethod
-    def tcp(cls, protocol: "Protocol", *, line: SerialLine | None = None, framing: str = "rtu") -> "Cost":
+    def tcp(cls, protocol: Protocol, *, line: SerialLine | None = None, framing: str = "rtu") -> "Cost":
         """Over TCP: a price for each request; `line` is the one behind a gateway, if it is known."""
-        return cls(line, protocol.gap, TCP_ROUND_TRIP, protocol.latencies, framing)
+        return cls(line, protocol.serial.gap, TCP_ROUND_TRIP, protocol.latencies, framing)
 
     def tariff(self, space: Space) -> Tariff:
         """The price list of one space."""
         function, bits = space.read_function, space.is_bits
-        latency = self.latencies.get(function)
+        latency = next((one for one in self.latencies if one.function == function), None)
         fixed, per_byte = self._frames(1 if space is Space.STATUS else 5, 2)
         per_word = 0.0
         if latency:
             character = 1000 * self.line.character if self.line else 0
-            fixed += (latency.minimum + latency.maximum) / 2 + latency.characters * character
-            per_word = (latency.minimum_per_word + latency.maximum_per_word) / 2
+            fixed += float(latency.minimum + latency.maximum) / 2 + float(latency.characters) * character
+            per_word = float(latency.minimum_per_word + latency.maximum_per_word) / 2
         if not bits:
             per_word, per_byte = per_word + BYTES_IN_WORD * per_byte, 0
         return Tariff(_nanoseconds(fixed), _nanoseconds(per_word), _nanoseconds(per_byte), bits)
@@ -106,7 +101,7 @@ class Cost(NamedTuple):
         if self.line is None:
             return fixed, byte
         ascii_frames = self.framing == "ascii"
-        silences = 0 if ascii_frames else 2 * self.line.silence(self.gap)
+        silences = 0 if ascii_frames else 2 * self.line.silence(float(self.gap))
         fixed += 1000 * ((self._characters(request) + self._characters(answer)) * self.line.character + silences)
         return fixed, 1000 * self.line.character * (2 if ascii_frames else 1)
 

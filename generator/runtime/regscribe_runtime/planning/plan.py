@@ -15,6 +15,7 @@ from typing import NamedTuple
 from regscribe_runtime.planning.address_ranges import AddressRanges, RegisterSpan
 from regscribe_runtime.planning.block_cover import Lane, cover
 from regscribe_runtime.planning.cost import Cost, Tariff, milliseconds
+from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.wire_types import Space
 
 
@@ -43,6 +44,11 @@ class RequestLimits(NamedTuple):
     words: int = 125
     bits: int = 2000
     holes: bool = False
+
+    @classmethod
+    def of(cls, protocol: Protocol) -> "RequestLimits":
+        """What reads of a device must keep to."""
+        return cls(protocol.read_words, protocol.read_bits, protocol.read_holes)
 
     def most(self, space: Space) -> int:
         """The most addresses of one read; the status byte is alone."""

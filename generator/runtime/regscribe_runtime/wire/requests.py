@@ -4,10 +4,10 @@ pymodbus matches unit and transaction only; a wrong function or length would pas
 compared with its request here (Modbus Application Protocol V1.1b3, section 6).
 """
 
-from collections.abc import Mapping
 from typing import NamedTuple
 
 from regscribe_runtime.errors import ExceptionAnswer, PartialWrite, WrongAnswer
+from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.wire_types import Space
 
 READ_COILS, READ_DISCRETE_INPUTS, READ_HOLDING, READ_INPUT = 1, 2, 3, 4
@@ -44,10 +44,6 @@ class Reply(NamedTuple):
     exception: int | None = None
 
 
-Meanings = Mapping[int, tuple[str, str]]
-"""Exception code -> (name, meaning), as the device's manual has them."""
-
-
 def fits(request: Request, reply: Reply) -> bool:
     """Whether an answer may be the one to a request, as far as its function, length and address tell."""
     if reply.function != request.function:
@@ -57,17 +53,17 @@ def fits(request: Request, reply: Reply) -> bool:
     return len(reply.words) == request.quantity if request.reads else reply.address == request.address
 
 
-def verify(request: Request, reply: Reply, *, unit: int, meanings: Meanings) -> tuple[int, ...]:
+def verify(request: Request, reply: Reply, *, unit: int, protocol: Protocol) -> tuple[int, ...]:
     """The words of a reply that fits; ExceptionAnswer, PartialWrite or WrongAnswer otherwise."""
     if reply.exception is not None:
-        name, meaning = meanings.get(reply.exception, ("", ""))
+        found = protocol.exception(reply.exception)
         raise ExceptionAnswer(
             unit=unit,
             function=request.function,
             address=request.address,
             code=reply.exception,
-            name=name,
-            meaning=meaning,
+            name=found.name,
+            meaning=found.meaning,
         )
     if reply.function == request.function and request.function in READS and len(reply.words) == request.quantity:
         return reply.words

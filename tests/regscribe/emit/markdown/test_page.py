@@ -28,7 +28,7 @@ HOSTILE = (
 )
 FREE_TEXT = {
     "title", "maker", "description", "number", "date", "publisher", "name", "label", "reason", "meaning", "danger",
-    "why", "what", "printed", "read", "where", "text", "section", "symbol", "persistence", "source", "notes",
+    "why", "what", "printed", "read", "where", "text", "section", "symbol", "persistence", "source", "notes", "serial",
 }  # fmt: skip
 TAGS = {
     "h1", "h2", "h3", "h4", "h5", "p", "a", "table", "thead", "tbody", "tr", "th", "td", "ul", "li", "code", "pre",
@@ -38,8 +38,12 @@ TAGS = {
 
 def hostile(value: Any) -> Any:
     """Replace every free text of a map; ids, paths, model names and orders of registers stay."""
-    if isinstance(value, tuple):
+    if isinstance(value, tuple) and not hasattr(value, "_fields"):
         return tuple(hostile(item) for item in value)
+    if isinstance(value, tuple):
+        plain = {name: hostile(item) for name, item in zip(value._fields, value, strict=True)}
+        texts = {name: HOSTILE for name in FREE_TEXT & plain.keys() if isinstance(plain[name], str)}
+        return type(value)(**plain | texts)
     if not is_dataclass(value) or isinstance(value, type | Enum):
         return value
     changed: dict[str, Any] = {}

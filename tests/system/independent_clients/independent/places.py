@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from itertools import groupby
 
 from independent.families import column
-from regscribe.model import Model, Order, Protocol, Register, Space, View, WireType
+from regscribe.model import Model, Order, Protocol, Register, RegisterMap, Space, View, WireType
 from regscribe.simulate import SimulatedDevice
 
 
@@ -72,10 +72,10 @@ def _fits(together: list[Shown], each: Shown, protocol: Protocol) -> bool:
     return each.view.type is not WireType.STRING and each.address == last.address + last.view.words and words <= most
 
 
-def reading_functions(protocol: Protocol, space: Space) -> tuple[int, ...]:
+def reading_functions(register_map: RegisterMap, space: Space) -> tuple[int, ...]:
     """Return the functions that read a space of this device: the usual one, and those that do the same."""
     usual = {Space.COIL: 1, Space.DISCRETE: 2, Space.HOLDING: 3, Space.INPUT: 4, Space.STATUS: 7}[space]
-    return next((codes for codes in protocol.alike if usual in codes), (usual,))
+    return next((codes for codes in register_map.alike if usual in codes), (usual,))
 
 
 def readable(model: Model) -> int:

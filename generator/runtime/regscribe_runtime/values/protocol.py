@@ -1,0 +1,84 @@
+"""What a device accepts and how it answers: function codes, limits of requests, exceptions, times and serial line."""
+
+from fractions import Fraction
+from typing import NamedTuple
+
+from regscribe_runtime.values.serial_line import SerialLine
+
+Number = int | Fraction
+"""An exact number."""
+
+
+class ExceptionCode(NamedTuple):
+    """An exception code of this device: its name and meaning in its manual, empty if there are none."""
+
+    code: int
+    name: str
+    meaning: str
+
+
+class Latency(NamedTuple):
+    """Milliseconds from the end of a request to the start of its answer: a part that is fixed, and one for each word.
+
+    `characters` character times at the speed of the line come on top.
+    """
+
+    function: int
+    minimum: Number = 0
+    maximum: Number = 0
+    minimum_per_word: Number = 0
+    maximum_per_word: Number = 0
+    characters: Number = 0
+
+    def longest(self, words: int) -> Number:
+        """Milliseconds for so many words at most, without the characters."""
+        return self.maximum + self.maximum_per_word * words
+
+
+class SerialDefaults(NamedTuple):
+    """The serial line: speeds in baud and character formats (8N1) that it can be set to, and how it is delivered.
+
+    `modes` are the framings rtu and ascii, `gap` is the silence between frames in characters.
+    """
+
+    modes: tuple[str, ...] = ("rtu",)
+    bauds: tuple[int, ...] = ()
+    formats: tuple[str, ...] = ()
+    baud: int = SerialLine().baud
+    format: str = SerialLine().format
+    gap: Number = Fraction(7, 2)
+
+    @property
+    def line(self) -> SerialLine:
+        """The line as it is delivered."""
+        return SerialLine.of("", self.baud, self.format)
+
+
+class Protocol(NamedTuple):
+    """What the device accepts: function codes, unit ids, most words or bits in a request, and what it answers when.
+
+    `read_holes`: whether a read may run over addresses of no register (a planner may then bridge gaps). `broadcast` are
+    the functions that may be sent to all units at once. `absent` is the exception code by which the device refuses an
+    address that it does not have; 0: it keeps silent.
+    """
+
+    functions: tuple[int, ...] = (3, 6, 16)
+    unit_ids: tuple[int, int] = (1, 247)
+    read_words: int = 125
+    write_words: int = 123
+    read_bits: int = 2000
+    write_bits: int = 1968
+    read_holes: bool = False
+    broadcast: tuple[int, ...] = ()
+    exceptions: tuple[ExceptionCode, ...] = ()
+    latencies: tuple[Latency, ...] = ()
+    serial: SerialDefaults = SerialDefaults()
+    absent: int = 2
+
+    def exception(self, code: int) -> ExceptionCode:
+        """What this device means by an exception code."""
+        return next((one for one in self.exceptions if one.code == code), ExceptionCode(code, "", ""))
+
+    def latency(self, function: int) -> Latency | None:
+        """How long a function takes; None where the manual does not say."""
+        return next((one for one in self.latencies if one.function == function), None)
