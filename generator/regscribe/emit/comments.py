@@ -2,8 +2,7 @@
 
 from pathlib import PurePosixPath
 
-from regscribe.emit.header import header
-from regscribe.emit.write import HEAD
+from regscribe.emit.header import HEAD, header
 from regscribe.model import RegisterMap
 
 _HASH = ("# ", "", "\n# ")

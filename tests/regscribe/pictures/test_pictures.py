@@ -13,7 +13,7 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from regscribe.emit import markdown, picture_paths
-from regscribe.emit.write import origin_of
+from regscribe.emit.header import origin_of
 from regscribe.model import (
     Access,
     Array,

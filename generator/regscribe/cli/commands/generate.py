@@ -15,8 +15,9 @@ from regscribe.cli.shared.terminal import show, tell, warn
 from regscribe.emit import build_cache
 from regscribe.emit.build_cache import BuildRecord
 from regscribe.emit.docs_index import render_index
+from regscribe.emit.header import origin_of
 from regscribe.emit.templates import Templates
-from regscribe.emit.write import Report, WriteError, origin_of, write
+from regscribe.emit.write import Report, WriteError, write
 from regscribe.model import Diagnostic
 from regscribe.visible import safe_lines
 
