@@ -2,9 +2,10 @@
 
 from fractions import Fraction
 
-from regscribe.checks.representable import Fit, best_fit, ends_of, forms, is_meant, tells_apart
+from regscribe.checks.representable import Fit, best_fit, ends_of, is_meant, tells_apart
 from regscribe.model import BitField, Kind, Register, show
 from regscribe.reference import RefusedError, number_of, version_number
+from regscribe.reference.settled_scales import forms
 
 TEXTS = frozenset({Kind.STRING, Kind.VERSION})
 PATTERNS = frozenset({Kind.FLAGS, Kind.FIELDS})

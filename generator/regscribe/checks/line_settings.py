@@ -3,10 +3,10 @@
 from collections.abc import Iterator
 from fractions import Fraction
 
-from regscribe.checks.probe_values import domain
 from regscribe.checks.representable import Fit, best_fit
 from regscribe.checks.rule import Finding, RuleScope, register_rule
 from regscribe.model import Governs, Kind, Register, Rule, SerialDefaults, Setting
+from regscribe.reference.states import domain
 from regscribe_runtime.values.serial_line import ADDRESSINGS, DATA_BITS, FORMATS, PARITIES, STOP_BITS
 
 ADDRESSES = frozenset({Kind.INTEGER, Kind.RAW})

@@ -3,10 +3,11 @@
 from collections.abc import Iterator
 from itertools import pairwise
 
-from regscribe.checks.representable import forms, values_of
+from regscribe.checks.representable import values_of
 from regscribe.checks.rule import Finding, RuleScope, register_rule
 from regscribe.model import Number, Register, Rule, Sentinel, Special, show
 from regscribe.reference import RefusedError, UnknownValueError, choose, limits
+from regscribe.reference.settled_scales import forms
 
 
 @register_rule(

@@ -3,9 +3,9 @@
 from collections.abc import Iterator
 from fractions import Fraction
 
-from regscribe.checks.probe_values import domain
 from regscribe.checks.rule import Finding, RuleScope, model_rule, register_rule
 from regscribe.model import Kind, Order, OrderFromRegister, Reference, Register, Related, Rule, registers_of, show
+from regscribe.reference.states import domain
 
 WHOLE = {Kind.INTEGER, Kind.RAW, Kind.ENUM, Kind.BOOLEAN}
 CODES_LISTED = 64

@@ -3,14 +3,10 @@
 from collections.abc import Iterator
 from enum import Enum
 from fractions import Fraction
-from functools import cache
-from typing import NamedTuple
 
-from regscribe.model import IDENTITY, Conversion, Decimals, Number, Range, Register, Special, View, show
+from regscribe.model import Number, Range, Register, Special, View, show
 from regscribe.reference import ieee_bits, ieee_number, shortest
-
-MOST_DECIMALS = 4
-"""Decimals tried where a register holds their number and the map does not limit it (16 bits have five digits)."""
+from regscribe.reference.settled_scales import Form, factors, forms
 
 
 class Fit(Enum):
@@ -19,62 +15,6 @@ class Fit(Enum):
     EXACT = 0
     TOO_FINE = 1
     TOO_LARGE = 2
-
-
-def factors(decimals: Decimals | None) -> tuple[Fraction, ...]:
-    """Every factor that a decimals register can mean: 1, 10, 100 ..."""
-    if decimals is None:
-        return _powers(0)
-    return _powers(MOST_DECIMALS if decimals.at_most is None else decimals.at_most)
-
-
-@cache
-def _powers(most: int) -> tuple[Fraction, ...]:
-    return tuple(Fraction(10) ** digits for digits in range(most + 1))
-
-
-class Form(NamedTuple):
-    """One conversion with the decimals settled: stored = value of use x `gain` - `offset`."""
-
-    conversion: Conversion
-    factor: Fraction
-    gain: Fraction
-    offset: Fraction
-
-    @classmethod
-    def of(cls, conversion: Conversion, factor: Fraction) -> "Form":
-        """Divide once, not for each value."""
-        offset = conversion.add / conversion.multiply if conversion.add else conversion.add
-        return cls(conversion, factor, factor / conversion.multiply, offset)
-
-    def stored(self, value: Fraction) -> Fraction:
-        """The stored number of a value of use."""
-        scaled = value if self.gain == 1 else value * self.gain
-        return scaled - self.offset if self.offset else scaled
-
-    def used(self, stored: Fraction | int) -> Fraction:
-        """The value of use of a stored number."""
-        return (stored + self.offset if self.offset else stored) / self.gain
-
-    def too_fine(self, stored: Fraction) -> bool:
-        """Whether a stored number lies between two steps, whatever a register says of them."""
-        step = self.conversion.step
-        return step is not None and bool(stored % (step / factors(self.conversion.places)[-1]))
-
-
-PLAIN = (Form.of(IDENTITY, Fraction(1)),)
-
-
-def forms(register: Register) -> tuple[Form, ...]:
-    """All conversions of a register that can be inverted."""
-    if len(register.scale) == 1 and (register.scale[0].then is IDENTITY or register.scale[0].then == IDENTITY):
-        return PLAIN
-    return tuple(
-        Form.of(case.then, factor)
-        for case in register.scale
-        if case.then.multiply
-        for factor in factors(case.then.decimals)
-    )
 
 
 def fit(form: Form, view: View, value: Fraction) -> Fit:
@@ -146,21 +86,6 @@ def numbers(limits: Range) -> Iterator[Fraction]:
     """The limits that are numbers, as printed."""
     for interval in limits.intervals:
         yield from (limit.value for limit in (interval.low, interval.high) if isinstance(limit, Number))
-
-
-def widest(register: Register) -> tuple[Fraction, Fraction] | None:
-    """The lowest and the highest value of use of all integer views and conversions; None if a float has no such end."""
-    every = forms(register)
-    if not every or not all(view.type.is_integer for view in register.views):
-        return None
-    ends = [
-        form.used(wire if view.factor == 1 else wire / view.factor)
-        for form in every
-        for view in register.views
-        if view.factor
-        for wire in (view.type.minimum, view.type.maximum)
-    ]
-    return (min(ends), max(ends)) if ends else None
 
 
 def ends_of(register: Register) -> str:

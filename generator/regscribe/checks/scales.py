@@ -5,9 +5,10 @@ from fractions import Fraction
 from itertools import islice
 
 from regscribe.checks.held_values import too_fine, wrong_sort
-from regscribe.checks.representable import Fit, Form, best_fit, end_values, forms, listed, numbers
+from regscribe.checks.representable import Fit, best_fit, end_values, listed, numbers
 from regscribe.checks.rule import Finding, RuleScope, register_rule
 from regscribe.model import Kind, Register, Rule
+from regscribe.reference.settled_scales import Form, forms
 
 
 @register_rule(Rule("RS0430", "Scale of zero", "A factor of 0 makes every value the same and can never be undone."))

@@ -7,16 +7,13 @@ from math import ceil, floor
 from regscribe.checks.held_values import is_fault, outside_type, shown, wrong_sort
 from regscribe.checks.representable import (
     Fit,
-    Form,
     best_fit,
     end_values,
     ends_of,
-    forms,
     listed,
     numbers,
     tells_apart,
     values_of,
-    widest,
 )
 from regscribe.checks.rule import Finding, RuleScope, register_rule, warning
 from regscribe.model import (
@@ -36,6 +33,7 @@ from regscribe.model import (
     show,
 )
 from regscribe.reference import RefusedError, UnknownValueError, choose, limits, number_of, sentinel_number
+from regscribe.reference.settled_scales import Form, forms, widest
 
 WORDS_OF_BITS = {Kind.FLAGS, Kind.FIELDS}
 UNSCALED = {Kind.ENUM, Kind.FLAGS, Kind.FIELDS, Kind.STRING, Kind.VERSION, Kind.BOOLEAN}

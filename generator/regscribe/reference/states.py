@@ -1,10 +1,18 @@
-"""Which values a register (or a bit field) can have, as stretches from low to high."""
+"""Representative states of a device: which values of a register stand for all, and how they are combined."""
 
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from itertools import groupby, product
+from typing import TypeVar
 
-from regscribe.checks.representable import forms, widest
 from regscribe.model import BitField, CodeRange, Enum, Interval, Kind, Number, Register, WireType
+from regscribe.reference.settled_scales import forms, widest
+
+K = TypeVar("K", bound=Hashable)
+V = TypeVar("V")
+
+MOST_LISTED = 32
+"""A domain of up to as many whole numbers is taken as the list of its values."""
 
 ANYTHING = (CodeRange(Fraction(-(10**30)), Fraction(10**30)),)
 """For floats and for texts: no end that matters."""
@@ -71,3 +79,27 @@ def _cut(stretch: CodeRange, value: Fraction, step: Fraction) -> Iterator[CodeRa
         return
     sides = (CodeRange(stretch.low, value - step), CodeRange(value + step, stretch.high))
     yield from (side for side in sides if side.low <= side.high)
+
+
+def listed(stretches: Sequence[CodeRange]) -> tuple[Fraction, ...]:
+    """Return every value of a domain in order, if it is a few whole numbers; nothing if they are too many to list."""
+    if any(end.denominator != 1 for stretch in stretches for end in (stretch.low, stretch.high)):
+        return ()
+    if sum(stretch.high - stretch.low + 1 for stretch in stretches) > MOST_LISTED:
+        return ()
+    return tuple(sorted({Fraction(code) for one in stretches for code in range(int(one.low), int(one.high) + 1)}))
+
+
+def representatives(stretches: Sequence[CodeRange], codes: Sequence[CodeRange]) -> tuple[Fraction, ...]:
+    """Return values of a domain that stand for all: the ends of each run of values that lie in the same of `codes`."""
+    ends = {end for one in stretches for end in (one.low, one.high)}
+    ends |= {near for one in codes for near in (one.low - 1, one.low, one.high, one.high + 1)}
+    values = {*listed(stretches), *(end for end in ends if any(one.holds(end) for one in stretches))}
+    runs = [list(run) for _, run in groupby(sorted(values), lambda value: [one.holds(value) for one in codes])]
+    return tuple(dict.fromkeys(end for run in runs for end in (run[0], run[-1])))
+
+
+def combinations(choices: Mapping[K, Sequence[V]]) -> Iterator[dict[K, V]]:
+    """Yield every combination of one value of each choice, those of the last one first."""
+    for values in product(*choices.values()):
+        yield dict(zip(choices, values, strict=True))
