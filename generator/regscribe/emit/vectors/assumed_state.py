@@ -1,9 +1,10 @@
 """What holds in a worked example: what it says, else the defaults; and which of these it really depends on."""
 
+from collections.abc import Iterable
 from fractions import Fraction
 from typing import Any
 
-from regscribe.model import GivenKind, RegisterMap, show
+from regscribe.model import BitField, GivenKind, Register, RegisterMap, show
 from regscribe.reference import Surroundings, number_of
 
 Json = dict[str, Any]
@@ -31,20 +32,12 @@ class Assumed:
     def __init__(self, register_map: RegisterMap, model: str, said: Pairs, writes: Pairs = ()) -> None:
         registers = register_map.model(model).registers
         self._said, self._writes = dict(said), dict(writes)
-        defaults = {one.path: number_of(one, one.default) for one in registers}
-        values = {path: number for path, number in defaults.items() if number is not None}
-        values |= self._said | self._writes
-        self._parts: dict[str, str] = {}
-        for register in registers:
-            for bits in register.fields if register.path in values else ():
-                self._parts[f"{register.path}.{bits.id}"] = register.path
-                part = int(values[register.path]) >> bits.low & ((1 << bits.width) - 1)
-                values.setdefault(f"{register.path}.{bits.id}", Fraction(part))
-        self._values = _Asked(values)
-        codes = [given.id for given in register_map.givens if given.kind is GivenKind.CODES]
+        values = _defaults(registers) | self._said | self._writes
+        self._parts = {_part(register, bits): register.path for register in registers for bits in register.fields}
+        self._values = _Asked(_fields(registers, values) | values)
+        codes = _ids(register_map, GivenKind.CODES)
         self._codes = {name: frozenset({values[name]} if name in values else ()) for name in codes}
-        facts = [given.id for given in register_map.givens if given.kind is GivenKind.BOOLEAN]
-        self._facts = {name: bool(values.get(name, 0)) for name in facts}
+        self._facts = {name: bool(values.get(name, 0)) for name in _ids(register_map, GivenKind.BOOLEAN)}
         self.surroundings = Surroundings(self._values, self._codes, self._facts)
 
     def told(self) -> Json:
@@ -57,3 +50,26 @@ class Assumed:
         assumed = {name: show(dict.get(self._values, name, Fraction(0))) for name in asked if name not in known}
         found = {"state": state, "assumed": assumed, "givens": givens}
         return {key: value for key, value in found.items() if value}
+
+
+def _defaults(registers: Iterable[Register]) -> dict[str, Fraction]:
+    defaults = ((one.path, number_of(one, one.default)) for one in registers)
+    return {path: number for path, number in defaults if number is not None}
+
+
+def _fields(registers: Iterable[Register], values: dict[str, Fraction]) -> dict[str, Fraction]:
+    """Return the fields of all registers that have a value."""
+    return {
+        _part(register, bits): Fraction(int(values[register.path]) >> bits.low & ((1 << bits.width) - 1))
+        for register in registers
+        if register.path in values
+        for bits in register.fields
+    }
+
+
+def _part(register: Register, bits: BitField) -> str:
+    return f"{register.path}.{bits.id}"
+
+
+def _ids(register_map: RegisterMap, kind: GivenKind) -> list[str]:
+    return [given.id for given in register_map.givens if given.kind is kind]

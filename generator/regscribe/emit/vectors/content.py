@@ -6,9 +6,10 @@ from typing import Any
 
 from regscribe.emit.vectors import offered_values
 from regscribe.emit.vectors.candidates import Proposal, wire_bits
-from regscribe.emit.vectors.scale import LARGEST, Scale, scale_now
+from regscribe.emit.vectors.domain import CODED, domain
+from regscribe.emit.vectors.scale import Scale, scale_now
 from regscribe.emit.vectors.situations import Situation
-from regscribe.model import BitField, Kind, Order, Register, View, WireType, show
+from regscribe.model import BitField, Kind, Order, Register, Special, View, WireType, show
 from regscribe.reference import (
     Meaning,
     Reading,
@@ -23,7 +24,6 @@ from regscribe_runtime.values.numbers import MOST_DIGITS
 
 Json = dict[str, Any]
 LARGEST_TRIED = Fraction(10**MOST_DIGITS)
-CODED = frozenset({Kind.ENUM, Kind.FLAGS, Kind.FIELDS, Kind.BOOLEAN})
 
 
 def case_of(register: Register, view: View, situation: Situation) -> Json:
@@ -99,13 +99,20 @@ def _outcome(register: Register, reading: Reading, known: Surroundings) -> Json:
 def _named(register: Register, value: Fraction, known: Surroundings) -> Json:
     if register.enum is not None:
         return {"member": next(member.id for member in register.enum.members if member.code == value)}
-    for special in register.specials:
-        if special.means is None and special_value(register, special, known) == value:
-            return {"special": special.id}
+    special = next((one.id for one, code in _specials(register, known) if code == value), None)
+    return {"special": special} if special is not None else _bits_set(register, int(value))
+
+
+def _specials(register: Register, known: Surroundings) -> Iterator[tuple[Special, Fraction | None]]:
+    """Yield the special values that stand for no number, with their codes as values of use."""
+    return ((one, special_value(register, one, known)) for one in register.specials if one.means is None)
+
+
+def _bits_set(register: Register, word: int) -> Json:
     if register.kind is Kind.FLAGS:
-        return {"flags": [bits.id for bits in register.fields if int(value) >> bits.low & 1]}
+        return {"flags": [bits.id for bits in register.fields if word >> bits.low & 1]}
     if register.kind is Kind.FIELDS:
-        return {"fields": {bits.id: str(_part(bits, int(value))) for bits in register.fields}}
+        return {"fields": {bits.id: str(_part(bits, word)) for bits in register.fields}}
     return {}
 
 
@@ -125,7 +132,7 @@ def _writes(register: Register, view: View, scale: Scale | None, situation: Situ
         encodes += _rounded(register, view, scale, known)
     found: Json = {"encode": encodes, "refuse": refuses}
     if situation.full and word_order(view, known) is not None:
-        found["domain"] = list(_domain(register, view, scale, known))
+        found["domain"] = list(domain(register, view, scale, known))
     return found
 
 
@@ -155,34 +162,3 @@ def _rounded(register: Register, view: View, scale: Scale, known: Surroundings) 
         except RefusedError:
             continue
         yield {"value": show(value), "rounded": True, "words": list(words), "note": note}
-
-
-def _domain(register: Register, view: View, scale: Scale | None, known: Surroundings) -> Iterator[Json]:
-    if register.kind is Kind.ENUM and register.enum is not None:
-        yield from ({"low": str(member.code), "high": str(member.code)} for member in register.enum.members)
-    if scale is None or register.kind in CODED or register.kind in {Kind.STRING, Kind.VERSION}:
-        return
-    line = _line(scale, view) if view.type.is_float else {}
-    if line and not register.fractional:
-        return  # which whole numbers an IEEE number can carry there has no form here
-    step, stretches = (scale.size, scale.domain()) if register.fractional else scale.whole_domain()
-    widest = LARGEST[WireType.FLOAT64]  # what a program reads as a float
-    for lowest, highest in stretches:
-        low, high = (max(lowest, -widest), min(highest, widest)) if register.fractional else (lowest, highest)
-        holes = [show(value) for value in _holes(register, scale, known) if low <= value <= high]
-        stretch = {"low": show(low), "high": show(high), "step": show(step) if step else "", **line, "except": holes}
-        yield {key: value for key, value in stretch.items() if value}
-
-
-def _line(scale: Scale, view: View) -> dict[str, str]:
-    """How a value follows from an IEEE number; nothing where both have the same digits."""
-    slope = scale.slope / view.factor
-    if scale.offset == 0 and show(slope).replace(".", "").strip("-0") == "1":
-        return {}
-    return {"slope": show(slope), "offset": show(scale.offset)}
-
-
-def _holes(register: Register, scale: Scale, known: Surroundings) -> list[Fraction]:
-    """Values inside the domain that do not come back: faults, and codes that stand for another number."""
-    meant = (special_value(register, special, known) for special in register.specials if special.means is not None)
-    return [*map(scale.value, register.faults), *(value for value in meant if value is not None)]

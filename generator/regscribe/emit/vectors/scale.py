@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import ceil, floor, gcd, lcm
 
-from regscribe.model import Register, View, WireType
+from regscribe.model import Range, Register, View, WireType
 from regscribe.reference import Surroundings, choose, decimal_factor, ieee_number, limits, shortest
 
 LARGEST = {
@@ -93,24 +93,26 @@ class Scale:
         )
 
 
+def range_now(register: Register, known: Surroundings) -> Range | None:
+    """Return the range that counts for writing in this situation; None if nothing can be written or no case holds."""
+    return choose(register.range, known) if register.access.writable else None
+
+
 def scale_now(register: Register, view: View, known: Surroundings) -> Scale | None:
     """Return the scale in this situation; None if no case holds or the decimals are no number of decimals."""
     conversion = choose(register.scale, known)
-    factor = None if conversion is None else decimal_factor(conversion.decimals, known)
-    if conversion is None or factor is None:
+    if conversion is None:
+        return None
+    limits_now = range_now(register, known)
+    factor = decimal_factor(conversion.decimals, known)
+    places = decimal_factor(conversion.places if register.access.writable else None, known)
+    if factor is None or places is None or (limits_now and decimal_factor(limits_now.decimals, known) is None):
         return None
     lowest, highest = _carried(view)
-    limits_now = choose(register.range, known) if register.access.writable else None
-    if limits_now is not None and decimal_factor(limits_now.decimals, known) is None:
-        return None
-    places = decimal_factor(conversion.places, known) if register.access.writable else Fraction(1)
-    if places is None:
-        return None
-    increment = None if conversion.step is None else conversion.step / places
     return Scale(
         slope=conversion.multiply / factor,
         offset=conversion.add / factor,
-        wire_step=_common(Fraction(0) if view.type.is_float else 1 / view.factor, increment),
+        wire_step=_wire_step(view, conversion.step and conversion.step / places),
         lowest=lowest / view.factor,
         highest=highest / view.factor,
         limits=limits(limits_now, known) if limits_now else (),
@@ -123,8 +125,9 @@ def _carried(view: View) -> tuple[Fraction, Fraction]:
     return Fraction(view.type.minimum + view.saturates), Fraction(view.type.maximum - view.saturates)
 
 
-def _common(wire: Fraction, step: Fraction | None) -> Fraction:
-    """Return the smallest number that both steps divide; 0 means no step."""
+def _wire_step(view: View, step: Fraction | None) -> Fraction:
+    """Return the smallest number that the step of the view and that of writing divide; 0 means no step."""
+    wire = Fraction(0) if view.type.is_float else 1 / view.factor
     if step is None or wire == 0:
         return step or wire
     return Fraction(lcm(wire.numerator, step.numerator), gcd(wire.denominator, step.denominator))

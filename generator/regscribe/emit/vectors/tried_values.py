@@ -1,0 +1,115 @@
+"""Which values of other registers are worth trying: both ends of each code range, what lies beside, each order."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+
+from regscribe.model import (
+    CodeRange,
+    Condition,
+    Decimals,
+    GivenKind,
+    Model,
+    OrderFromRegister,
+    Register,
+    RegisterMap,
+    Test,
+    View,
+)
+from regscribe.reference.states import domain, listed, representatives
+
+GivenTry = frozenset[Fraction] | bool
+Values = dict[str, tuple[Fraction, ...]]
+Domain = tuple[CodeRange, ...]
+MOST_DECIMALS = 3
+"""Decimals tried where the map sets no limit."""
+
+
+@dataclass(frozen=True, slots=True)
+class Tries:
+    """Values to try by `register` or `register.field`, and what the givens may be, by id.
+
+    `parts` tells of a `register.field` which register it is a part of and at which bit it begins.
+    """
+
+    values: Values
+    givens: dict[str, tuple[GivenTry, ...]]
+    parts: dict[str, tuple[str, int]]
+
+
+@dataclass(frozen=True, slots=True)
+class Questions:
+    """What the meaning of a register depends on: conditions, numbers of decimals and perhaps the word order."""
+
+    conditions: tuple[Condition, ...]
+    decimals: tuple[Decimals, ...] = ()
+    order: OrderFromRegister | None = None
+
+    @property
+    def tests(self) -> tuple[Test, ...]:
+        """The tests of all conditions."""
+        return tuple(test for condition in self.conditions for test in condition.tests)
+
+
+def questions_of(register: Register, view: View) -> Questions:
+    """Return what must be known to read `view`, and to write it if it can be written."""
+    conditions = [case.when for case in (*register.scale, *register.special_scale)]
+    decimals = [case.then.decimals for case in (*register.scale, *register.special_scale)]
+    if register.access.writable:
+        conditions += [case.when for case in register.range]
+        decimals += [case.then.decimals for case in register.range]
+        decimals += [case.then.places for case in register.scale]
+    order = view.word_order if isinstance(view.word_order, OrderFromRegister) and view.words > 1 else None
+    return Questions(tuple(conditions), tuple(filter(None, decimals)), order)
+
+
+def tries_of(register_map: RegisterMap, model: Model, questions: Questions) -> Tries:
+    """Return the values to try for everything that `questions` ask."""
+    sets = {given.id for given in register_map.givens if given.kind is GivenKind.CODES}
+    values: dict[str, set[Fraction]] = {}
+    for subject, found in _values(model, questions, sets):
+        values.setdefault(subject, set()).update(found)
+    return Tries(
+        {subject: tuple(sorted(found)) for subject, found in values.items()},
+        {test.given: _given(model, test, sets) for test in questions.tests if test.given},
+        {test.subject: _part(model, test) for test in questions.tests if test.field},
+    )
+
+
+def _values(model: Model, questions: Questions, sets: set[str]) -> Iterator[tuple[str, Iterable[Fraction]]]:
+    for test in questions.tests:
+        if test.given in sets:
+            yield test.subject, _first_two(_domain(model, test))
+        elif not test.given:
+            codes = [code for other in questions.tests if other.subject == test.subject for code in other.codes]
+            yield test.subject, representatives(_domain(model, test), codes)
+    for decimals in questions.decimals:
+        yield decimals.register, _places(decimals, domain(model.register(decimals.register)))
+    if questions.order is not None:
+        known = [Fraction(code) for code, _ in questions.order.codes]
+        yield questions.order.register, (*known, max(known) + 1)
+
+
+def _given(model: Model, test: Test, sets: set[str]) -> tuple[GivenTry, ...]:
+    """Return what a given may be: true or false, or of the first two values of its register the second."""
+    return (frozenset({_first_two(_domain(model, test))[1]}),) if test.given in sets else (False, True)
+
+
+def _domain(model: Model, test: Test) -> Domain:
+    return domain(model.register(test.register), test.field)
+
+
+def _part(model: Model, test: Test) -> tuple[str, int]:
+    """Return the register of a field and the field's lowest bit."""
+    fields = model.register(test.register).fields
+    return test.register, next(bits.low for bits in fields if bits.id == test.field)
+
+
+def _first_two(stretches: Domain) -> tuple[Fraction, Fraction]:
+    found = listed(stretches)
+    return (found[0], found[1]) if len(found) > 1 else (Fraction(0), Fraction(1))
+
+
+def _places(decimals: Decimals, stretches: Domain) -> Iterable[Fraction]:
+    most = MOST_DECIMALS if decimals.at_most is None else decimals.at_most + 1
+    return listed(stretches) or map(Fraction, range(most + 1))
