@@ -24,11 +24,11 @@ ROOMS = {
     RUNTIME: set[str](),
     "model": set[str](),
     "visible": set[str](),
-    "shipped": set[str](),
+    "map_files": set[str](),
     "reference": {"model"},
     "source": {"model"},
     "schema": {"model", "source"},
-    "compose": {"model", "source", "schema", "shipped"},
+    "compose": {"model", "source", "schema", "map_files"},
     "lower": {"model", "reference", "source", "schema"},
     "checks": {"model", "reference", "source", "schema", "compose", "lower"},
     "emit": {"model", "reference", "schema", "visible", RUNTIME},
@@ -39,12 +39,12 @@ ROOMS = {
     "import_csv": {"model", "emit", "evidence", "files"},
     "files": {"model", "source", "schema", "visible"},
     "pipeline": {"model", "source", "schema", "compose", "lower", "checks"},
-    "simulate": {"model", "reference", "source", "files", "shipped", "pipeline"},
+    "simulate": {"model", "reference", "source", "files", "map_files", "pipeline"},
     "pytest_plugin": {"model", "simulate"},
     "testing": {RUNTIME},
     "tools": {"model", "source", "schema", "files", "visible", "emit", "pictures", RUNTIME},
     "cli": {"model", "reference", "source", "schema", "compose", "lower", "checks", "emit", "pictures", "evidence"}
-    | {"plugins", "simulate", "pipeline", "files", "tools", "shipped", "visible", RUNTIME},
+    | {"plugins", "simulate", "pipeline", "files", "tools", "map_files", "visible", RUNTIME},
 }
 """Which other rooms a room may import, besides the vocabulary in `regscribe_runtime.values`."""
 

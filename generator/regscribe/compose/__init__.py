@@ -8,11 +8,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from regscribe.compose.extend import extended
-from regscribe.compose.file_loader import ENDINGS, LIBRARY, MAP, FileLoader, LoadedFile, folder_of
+from regscribe.compose.file_loader import FileLoader, LoadedFile
 from regscribe.compose.findings import ComposeFindings
 from regscribe.compose.libraries import as_map, with_libraries
 from regscribe.compose.rules import CYCLE, OTHER_ID, RULES
 from regscribe.compose.tree import cut, elements, in_file, members, text
+from regscribe.map_files import ENDINGS, LIBRARY, MAP, folder_of
 from regscribe.model import Diagnostic, Override
 from regscribe.source import Document, SourceNode
 

@@ -1,7 +1,6 @@
 """The other files of a map: found by id in its `maps` folder or among those shipped, read once, checked in shape."""
 
 import hashlib
-import os
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -9,12 +8,8 @@ from regscribe import schema, source
 from regscribe.compose.findings import ComposeFindings, meant
 from regscribe.compose.rules import NO_FILE, OTHER_ID, WRONG_FILE
 from regscribe.compose.tree import in_file, key_place, text
-from regscribe.shipped import shipped
+from regscribe.map_files import ENDINGS, LIBRARY, ids_in, is_file, shipped
 from regscribe.source import Document, SourceNode
-
-MAP, LIBRARY = "map", "library"
-ENDINGS = {MAP: ".yaml", LIBRARY: ".library.yaml"}
-"""How the files of both kinds end; the kind is also the top-level key that tells them apart."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,12 +41,12 @@ class FileLoader:
         """The map or library whose id stands at `node`; None, with the reason among the findings, if there is none."""
         places = [self.shipped] if asker.shipped else [self.folder, self.shipped]
         paths = [folder / f"{node.value}{ENDINGS[kind]}" for folder in places]
-        found = [path for path in paths if os.path.isfile(path)]  # noqa: PTH113 - Path.is_file raises where a folder may not be read
+        found = list(filter(is_file, paths))
         self.empty.update(paths[: paths.index(found[0])] if found else paths)
         if not found:
             where = source.display_name(paths[0])
             message = f"there is no {kind} `{node.value}`: no file {where}, and none comes with regscribe"
-            self.findings.add(NO_FILE, message, node.place, meant(str(node.value), self._ids(kind, places)))
+            self.findings.add(NO_FILE, message, node.place, meant(str(node.value), ids_in(places, kind)))
             return None
         path = found[0]
         if path not in self.known:
@@ -88,27 +83,6 @@ class FileLoader:
     def _is_shipped(self, path: Path) -> bool:
         return path.is_relative_to(self.shipped) and self.folder.resolve() != self.shipped.resolve()
 
-    def _ids(self, kind: str, places: list[Path]) -> list[str]:
-        """The ids of all files of a kind in these folders."""
-        names = [
-            path.relative_to(folder).as_posix()
-            for folder in places
-            for path in sorted(folder.glob(f"*/*{ENDINGS[kind]}"))
-        ]
-        return [
-            name.removesuffix(ENDINGS[kind]) for name in names if kind == LIBRARY or not name.endswith(ENDINGS[LIBRARY])
-        ]
-
     def content_hash(self, own: str) -> str:
         """One hash for a file and all others that were read for it."""
         return hashlib.sha256("\n".join((own, *self.hashes.values())).encode()).hexdigest()
-
-
-def folder_of(path: Path, map_id: str) -> Path:
-    """The folder that ids count from: the one above maker/family.yaml, else the folder of the file itself."""
-    parts = Path(map_id).parts
-    for place in (path, path.absolute()):
-        named = (*place.parts[:-1], place.name.removesuffix(ENDINGS[MAP]))
-        if named[-len(parts) :] == parts and len(place.parents) >= len(parts):
-            return place.parents[len(parts) - 1]
-    return path.parent

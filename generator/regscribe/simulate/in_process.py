@@ -18,7 +18,7 @@ from regscribe.simulate.line.framing import Request
 from regscribe.simulate.line.server_context import Foreign
 from regscribe.simulate.line.servers import Server
 from regscribe.simulate.line.service import Service, Transport, start
-from regscribe.simulate.map_search import find_map
+from regscribe.simulate.map_cache import find_map
 from regscribe.simulate.process.thermal_process import ThermalProcess
 from regscribe_runtime.values.serial_line import SerialLine
 

@@ -16,7 +16,7 @@ import pytest
 from regscribe.cli.app import run
 from regscribe.emit import build_cache
 from regscribe.simulate import simulate as simulated
-from regscribe.simulate.map_search import find_map
+from regscribe.simulate.map_cache import find_map
 from regscribe.visible import INVISIBLE, cell, json_text, safe, safe_lines
 
 from .labelled import MAP, put_map

@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 
 from regscribe.cli.app import run
+from regscribe.map_files import shipped
 from regscribe.model import GivenKind, RegisterMap
 from regscribe.pipeline import compile_map
-from regscribe.shipped import shipped
 from regscribe.tools.live import catalogue
 from regscribe_runtime.values.serial_line import SerialLine
 

@@ -15,7 +15,7 @@ from measure import Row, at_least
 from planning import subjects
 from rivals import Task, fixed_gap
 
-from regscribe.cli.shared.map_by_id import find_map
+from regscribe.cli.shared.map_arguments import find_map
 from regscribe.cli.shared.planning import Subject
 from regscribe.model import GivenKind
 from regscribe.pipeline import compile_map

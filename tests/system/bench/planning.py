@@ -14,7 +14,7 @@ from rich.console import Console
 from rich.table import Table
 from rivals import GAPS, MODES, Task, fixed_gap
 
-from regscribe.cli.shared.map_by_id import find_maps
+from regscribe.cli.shared.map_arguments import find_maps
 from regscribe.cli.shared.planning import Subject
 from regscribe.pipeline import compile_map
 from regscribe_runtime.planning.cost import Cost, milliseconds

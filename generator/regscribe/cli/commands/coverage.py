@@ -7,7 +7,7 @@ from dataclasses import asdict
 import click
 
 from regscribe.cli.shared.diagnostic_text import count, findings, tally
-from regscribe.cli.shared.map_by_id import find_maps
+from regscribe.cli.shared.map_arguments import find_maps
 from regscribe.cli.shared.terminal import Piece, show, tell, warn
 from regscribe.emit.docs_index import ADDRESSES, FACTS, coverage_text
 from regscribe.evidence import MapCoverage, Remark, card, coverage

@@ -8,7 +8,7 @@ import click
 
 from regscribe import plugins
 from regscribe.cli.shared.diagnostic_text import findings, tally
-from regscribe.cli.shared.map_by_id import find_maps
+from regscribe.cli.shared.map_arguments import find_maps
 from regscribe.cli.shared.terminal import show, tell, warn
 from regscribe.emit.write import WriteError, write
 from regscribe.pipeline import compile_map

@@ -13,9 +13,9 @@ import click
 from regscribe import plugins
 from regscribe.cli.shared.diagnostic_text import findings, tally
 from regscribe.cli.shared.terminal import show, tell, warn
+from regscribe.map_files import shipped
 from regscribe.model import Severity
 from regscribe.plugins import IMPORTERS, PluginError
-from regscribe.shipped import shipped
 from regscribe.visible import safe
 
 WORD = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")

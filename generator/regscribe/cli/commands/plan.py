@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import click
 
 from regscribe.cli.shared.diagnostic_text import count, findings, tally
-from regscribe.cli.shared.map_by_id import find_map
+from regscribe.cli.shared.map_arguments import find_map
 from regscribe.cli.shared.output import print_json, remark, show_table
 from regscribe.cli.shared.planning import Subject
 from regscribe.cli.shared.terminal import show, tell

@@ -12,7 +12,7 @@ import click
 
 from regscribe import source
 from regscribe.cli.shared.diagnostic_text import findings, tally
-from regscribe.cli.shared.map_by_id import find_map
+from regscribe.cli.shared.map_arguments import find_map
 from regscribe.cli.shared.terminal import show, warn
 from regscribe.model import GivenKind, RegisterMap
 from regscribe.pipeline import compile_map

@@ -1,17 +1,13 @@
-"""Maps by id: a file, one of a folder maps/ here, or one that comes with regscribe; compiled once in a process."""
+"""Maps to simulate, by file or id: compiled once in a process, and anew when their files change."""
 
-import os
-import re
 from difflib import get_close_matches
 from pathlib import Path
 from threading import Lock
 
+from regscribe.map_files import LOCAL, file_of, ids_in, is_file, shipped
 from regscribe.model import RegisterMap
-from regscribe.shipped import shipped
 from regscribe.simulate.errors import SimulatorError
 
-LOCAL = Path("maps")
-ID = re.compile(r"[\w-]+(/[\w-]+)+")
 SHOWN = 3
 """Mistakes of a map that a message tells."""
 
@@ -63,19 +59,11 @@ def _stamp(files: list[Path]) -> Stamp:
 
 
 def _path(name: str) -> Path:
-    if os.path.isfile(name):  # noqa: PTH113 - Path.is_file raises for names that are too long
-        return Path(name)
-    folders = (LOCAL, shipped())
-    for folder in folders if ID.fullmatch(name) else ():
-        file = folder / f"{name}.yaml"
-        if os.path.isfile(file):  # noqa: PTH113 - as above
-            return file
-    known = sorted({_id(file, folder) for folder in folders for file in folder.glob("*/*.yaml")})
-    near = get_close_matches(name, known, n=1)
-    meant = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
-    message = f"there is no map {name[:200]!r}: neither a file nor a map id; {meant}"
-    raise SimulatorError(message)
-
-
-def _id(file: Path, folder: Path) -> str:
-    return file.relative_to(folder).with_suffix("").as_posix().removesuffix(".library")
+    found = Path(name) if is_file(name) else file_of(name)
+    if found is None:
+        known = sorted(set(ids_in((LOCAL, shipped()))))
+        near = get_close_matches(name, known, n=1)
+        meant = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
+        message = f"there is no map {name[:200]!r}: neither a file nor a map id; {meant}"
+        raise SimulatorError(message)
+    return found
