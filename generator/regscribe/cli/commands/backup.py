@@ -4,10 +4,10 @@ from pathlib import Path
 
 import click
 
-from regscribe.cli.commands.read import heading
 from regscribe.cli.shared.error_report import REFUSED, USAGE, Failure
+from regscribe.cli.shared.live_json import heading
 from regscribe.cli.shared.output import print_json, remark
-from regscribe.cli.shared.settings_common import taken, told
+from regscribe.cli.shared.settings_common import settings_reported, taken
 from regscribe.cli.shared.target_options import HELP, checked_identity, opened, target_options
 from regscribe.cli.shared.terminal import tell
 from regscribe.tools import settings
@@ -27,24 +27,33 @@ in readable YAML; without FILE on standard output.\n\n{HELP}""",
 @checked_identity
 def command(*, target: Target, as_json: bool, path: Path | None, force: bool, identity: bool) -> int:
     """Keep all settings of a device in a file."""
-    if path is not None and path.exists() and not force:
-        message = f"{path} is there already: choose another name, or --force to replace it"
-        raise Failure(message, kind="file", code=USAGE)
-    with opened(target, identity=identity) as device, told():
+    if not force:
+        _refuse_existing(path)
+    with opened(target, identity=identity) as device:
         found = taken(device, str(target.link))
-    with told():
-        text = settings.to_text(found)
-    if path is None and not as_json:
-        tell(text)
-    elif path is not None:
-        with told():
-            settings.save(path, text)
-    failed = [name for name, saved in found.settings() if saved.value is None]
+    _keep(found, path, shown=not as_json)
+    failed = {name: saved.error for name, saved in found.settings() if saved.value is None}
     count = sum(1 for _ in found.settings())
     if as_json:
-        print_json(**heading(device, target), file=str(path or ""), settings=count, without_value=failed)
+        print_json(**heading(device, target), file=str(path or ""), settings=count, without_value=list(failed))
     elif path is not None:
         remark(f"{count} settings of {target} kept in {path}")
-    for name in failed:
-        remark(f"{name} holds no value: {dict(found.settings())[name].error}")
-    return REFUSED if failed and len(failed) == count else 0
+    for name, error in failed.items():
+        remark(f"{name} holds no value: {error}")
+    return REFUSED if 0 < len(failed) == count else 0
+
+
+def _refuse_existing(path: Path | None) -> None:
+    if path is not None and path.exists():
+        message = f"{path} is there already: choose another name, or --force to replace it"
+        raise Failure(message, kind="file", code=USAGE)
+
+
+def _keep(found: settings.Backup, path: Path | None, *, shown: bool) -> None:
+    """Write a backup to a file, or without one to standard output if it is to be shown."""
+    with settings_reported():
+        text = settings.to_text(found)
+        if path is not None:
+            settings.save(path, text)
+        elif shown:
+            tell(text)

@@ -1,33 +1,21 @@
 """`regscribe clone`: copy the settings of one device, or of a backup, to others."""
 
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import click
 
-from regscribe.cli.commands.restore import said, tell_rest
 from regscribe.cli.shared.completion_values import complete_target
-from regscribe.cli.shared.error_report import REFUSED, UNKNOWN_STATE, Failure
-from regscribe.cli.shared.error_report import told as target_told
+from regscribe.cli.shared.error_report import REFUSED, UNKNOWN_STATE, Failure, reported
 from regscribe.cli.shared.output import print_json, remark
-from regscribe.cli.shared.settings_common import (
-    confirm_option,
-    include_option,
-    is_file,
-    loaded,
-    show_changes,
-    taken,
-    telling,
-    told,
-)
+from regscribe.cli.shared.settings_common import backup_of, include_option, plain_restored, restoring, show_restored
 from regscribe.cli.shared.sigint import Shield, shielded
-from regscribe.cli.shared.target_options import CONFIG, JSON, PACKAGE, opened, understood
+from regscribe.cli.shared.target_options import CONFIG, JSON, PACKAGE, confirm_option, opened, understood
 from regscribe.tools import settings
 from regscribe.tools.live.target import Target
 from regscribe.tools.settings import Backup
 
 
-class Options(NamedTuple):
+class CloneOptions(NamedTuple):
     """How a clone writes."""
 
     include: tuple[str, ...]
@@ -70,10 +58,10 @@ def command(  # noqa: PLR0913 - the options of the command
     Never the address, line, calibration and the like, unless included. A device that fails does not stop the others;
     Ctrl-C does.
     """
-    with target_told():
+    with reported():
         wanted = [understood(text, config=config, packages=packages) for text in targets]
-    backup = _source(source, packages, config)
-    options = Options(include, partial, dry_run, confirm)
+    backup, _ = backup_of(source, packages, config)
+    options = CloneOptions(include, partial, dry_run, confirm)
     with shielded() as shield:
         results = _results(wanted, backup, options, shield, stop=stop, quiet=as_json)
     if as_json:
@@ -81,17 +69,8 @@ def command(  # noqa: PLR0913 - the options of the command
     return _code(results, shield)
 
 
-def _source(text: str, packages: tuple[str, ...], config: str | None) -> Backup:
-    if is_file(text):
-        return loaded(Path(text))
-    with target_told():
-        target = understood(text, config=config, packages=packages)
-    with opened(target, identity=True) as device, told():
-        return taken(device, str(target.link))
-
-
 def _results(
-    targets: list[Target], backup: Backup, options: Options, shield: Shield, *, stop: bool, quiet: bool
+    targets: list[Target], backup: Backup, options: CloneOptions, shield: Shield, *, stop: bool, quiet: bool
 ) -> list[dict[str, Any]]:
     """What became of each device; after Ctrl-C, or with `stop` after a failure, the rest is not begun."""
     results: list[dict[str, Any]] = []
@@ -122,21 +101,10 @@ def _code(results: list[dict[str, Any]], shield: Shield) -> int:
     return shield.code or (REFUSED if codes else 0)
 
 
-def _onto(target: Target, backup: Backup, options: Options, shield: Shield, *, quiet: bool) -> dict[str, Any]:
-    with opened(target, identity=True) as device, told(), telling(f"cloning to {target}", backup, shield) as tell:
-        done = device.run(
-            settings.restore(
-                type(device),
-                backup,
-                include=options.include,
-                partial=options.partial,
-                dry_run=options.dry_run,
-                confirm=options.confirm,
-                tell=tell,
-            )
-        )
+def _onto(target: Target, backup: Backup, options: CloneOptions, shield: Shield, *, quiet: bool) -> dict[str, Any]:
+    with opened(target, identity=True) as device, restoring(f"cloning to {target}", backup, shield) as tell:
+        done = device.run(settings.restore(type(device), backup, tell=tell, **options._asdict()))
         if not quiet:
             remark(f"{target}:")
-            show_changes(device, done.report.changes)
-            tell_rest(done, dry_run=options.dry_run)
-        return said(device, done)
+            show_restored(device, done, dry_run=options.dry_run)
+        return plain_restored(device, done)

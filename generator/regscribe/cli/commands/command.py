@@ -2,9 +2,9 @@
 
 import click
 
-from regscribe.cli.commands.read import heading
 from regscribe.cli.shared.completion_values import complete_command
-from regscribe.cli.shared.error_report import told
+from regscribe.cli.shared.error_report import reported
+from regscribe.cli.shared.live_json import heading
 from regscribe.cli.shared.output import print_json, remark, show_table
 from regscribe.cli.shared.sigint import shielded
 from regscribe.cli.shared.target_options import HELP, checked_identity, opened, target_options
@@ -32,7 +32,7 @@ from regscribe_runtime.operations import tasks
 def command(*, target: Target, as_json: bool, name: str | None, confirm: bool, dry_run: bool, identity: bool) -> int:
     """Send a command of the map, or list them."""
     if name is None:
-        with told():
+        with reported():
             _list(targets.identified(target), as_json=as_json)
         return 0
 

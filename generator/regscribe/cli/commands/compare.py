@@ -46,25 +46,41 @@ def command(
     MAP is a map file or the id of a map (fdc/series-100). The table has columns of `regscribe export`, any number of
     them; docs/evidence.md tells more.
     """
-    if columns is not None and not columns.strip(" ,"):
-        message = "--columns names no column: leave it out to compare all that the table has"
-        raise click.UsageError(message)
-    wanted = [item.strip() for item in (columns or "").split(",") if item.strip()]
+    wanted = _columns(columns)
     table = None if _is_map(other) else _table(other)
     _refuse_foreign(table, model=model, pairs=pairs, partial=partial)
     names = [map_name] if table else [map_name, other]
     maps = [compiled for name in names if (compiled := _compiled(name))]
     if len(maps) < len(names):
         return 1
-    try:
-        if table:
-            found = compare_table(maps[0], table, columns=wanted, model=model, loose=loose, partial=partial)
-        else:
-            found = compare_maps(maps[0], maps[1], pairs=_pairs(pairs, maps), columns=wanted, loose=loose)
-    except TableError as error:
-        raise click.UsageError(str(error)) from None
+    found = _compared(maps, table, pairs=pairs, columns=wanted, model=model, loose=loose, partial=partial)
     _print(found, form)
     return int(not found.equal)
+
+
+def _columns(text: str | None) -> list[str]:
+    if text is not None and not text.strip(" ,"):
+        message = "--columns names no column: leave it out to compare all that the table has"
+        raise click.UsageError(message)
+    return [item.strip() for item in (text or "").split(",") if item.strip()]
+
+
+def _compared(
+    maps: list[RegisterMap],
+    table: Table | None,
+    *,
+    pairs: tuple[str, ...],
+    columns: list[str],
+    loose: bool,
+    model: str,
+    partial: bool,
+) -> Comparison:
+    try:
+        if table:
+            return compare_table(maps[0], table, columns=columns, model=model, loose=loose, partial=partial)
+        return compare_maps(maps[0], maps[1], pairs=_pairs(pairs, maps), columns=columns, loose=loose)
+    except TableError as error:
+        raise click.UsageError(str(error)) from None
 
 
 def _print(found: Comparison, form: str) -> None:

@@ -8,15 +8,17 @@ import click
 
 from regscribe.cli.shared.completion_values import complete_model
 from regscribe.cli.shared.diagnostic_text import count
-from regscribe.cli.shared.error_report import REFUSED, told
+from regscribe.cli.shared.error_report import REFUSED, reported
 from regscribe.cli.shared.output import print_json, remark
 from regscribe.cli.shared.target_options import CONFIG, JSON, PACKAGE
 from regscribe.cli.shared.terminal import tell
-from regscribe.tools.live import catalogue, config, givens, names, value_text
+from regscribe.tools.live import catalogue, givens, names, value_text
+from regscribe.tools.live import config as configuration
 from regscribe.tools.live.capture import Captured, captured
 from regscribe.tools.live.captured_frames import FRAMINGS
 from regscribe.tools.live.decode import Decoded, DecodedItem, Decoder
 from regscribe.tools.live.errors import TargetError
+from regscribe.tools.live.link_names import ADDRESSINGS
 from regscribe.tools.live.target import given_texts
 from regscribe.visible import safe
 from regscribe_runtime import BareDevice
@@ -34,7 +36,7 @@ PAIR = 2
 @click.argument("digits", nargs=-1, metavar="[HEX]...")
 @click.option("--log", type=click.File(encoding="utf-8", errors="replace"), help="A captured log; - is standard input.")
 @click.option("--framing", type=click.Choice(FRAMINGS), help="Take all frames for this kind, whatever they look like.")
-@click.option("--addressing", type=click.Choice(["modbus", "jbus"]), default="modbus", help="jbus: counted from 1.")
+@click.option("--addressing", type=click.Choice(ADDRESSINGS), default="modbus", help="jbus: counted from 1.")
 @click.option("--with", "state", multiple=True, metavar="NAME=VALUE", help="What a register holds that others need.")
 @click.option("--given", "given", multiple=True, metavar="ID=VALUE", help="A fact that the manual leaves to another.")
 @PACKAGE
@@ -59,8 +61,8 @@ def command(  # noqa: PLR0913 - the options of the command
     line is searched for a frame; answers are held against the requests before them. Without HEX and --log, standard
     input is read.
     """
-    with told():
-        driver = catalogue.find(model, (*packages, *_packages(config))).driver
+    with reported():
+        driver = catalogue.find(model, (*packages, *configuration.load(config).packages)).driver
         decoder = _decoder(driver, state, given, first=int(addressing == "jbus"))
     lines = _lines(digits) if digits else log or sys.stdin
     found = list(_decoded(decoder, captured(lines, framing or "")))
@@ -68,13 +70,14 @@ def command(  # noqa: PLR0913 - the options of the command
         print_json(model=driver.model, map=driver.map_id, frames=[_plain(line, one) for line, one in found])
     else:
         _show(one for _, one in found)
+    return _code([one for _, one in found])
+
+
+def _code(found: Sequence[Decoded]) -> int:
+    """The exit code; a remark where there is no frame."""
     if not found:
         remark("there is no frame in it: write pairs of hexadecimal digits")
-    return REFUSED if not found or any(one.complaint for _, one in found) else 0
-
-
-def _packages(path: str | None) -> tuple[str, ...]:
-    return config.load(path).packages
+    return REFUSED if not found or any(one.complaint for one in found) else 0
 
 
 def _decoder(driver: type[BareDevice], state: Sequence[str], given: Sequence[str], *, first: int) -> Decoder:
@@ -103,12 +106,12 @@ def _decoded(decoder: Decoder, lines: Iterable[Captured]) -> Iterator[tuple[int,
 def _show(found: Iterable[Decoded]) -> None:
     for one in found:
         held = [item for item in one.items if item.words]
-        tell(f"{safe(told_line(one))}\n")
+        tell(f"{safe(line_of(one))}\n")
         if len(held) > 1:
             tell("".join(f"    {safe(item.spelled)}\n" for item in held))
 
 
-def told_line(one: Decoded) -> str:
+def line_of(one: Decoded) -> str:
     """A frame in one line: `unit 1 -> read holding 4000: controller_type`; several values stand below it."""
     held = [item for item in one.items if item.words]
     names = ", ".join(item.name for item in one.items) if not held else ""

@@ -1,14 +1,16 @@
 """`regscribe devices`: the models that drivers exist for, and what one of them has."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import click
 
 from regscribe.cli.shared.completion_values import complete_model
-from regscribe.cli.shared.error_report import REFUSED, told
+from regscribe.cli.shared.error_report import REFUSED, reported
 from regscribe.cli.shared.output import print_json, remark, show_table
 from regscribe.cli.shared.target_options import CONFIG, JSON, PACKAGE
-from regscribe.tools.live import catalogue, config, givens, names
+from regscribe.tools.live import catalogue, givens, names
+from regscribe.tools.live import config as configuration
 from regscribe.tools.live.value_text import choices
 from regscribe_runtime import Register
 from regscribe_runtime.driver.identify import Known
@@ -32,24 +34,24 @@ def command(
 
     A word fits a part of the model's name, its map, its maker or its description.
     """
-    with told():
-        everywhere = (*packages, *_config(config))
+    with reported():
+        everywhere = (*packages, *configuration.load(config).packages)
         found = [known for known in catalogue.models(everywhere) if _fits(known, search)]
         if registers and len(found) != 1:
             found = [catalogue.find(" ".join(search), everywhere)]
+    _show(found, registers=registers, as_json=as_json)
+    if not found:
+        remark(f"no model fits `{' '.join(search)}`")
+    return 0 if found else REFUSED
+
+
+def _show(found: Sequence[Known], *, registers: bool, as_json: bool) -> None:
     if registers:
         _show_registers(found[0], as_json=as_json)
     elif as_json:
         print_json(devices=[_plain(known) for known in found])
     else:
         show_table(("MODEL", "MAP", "WHAT IT IS"), [_row(known) for known in found])
-    if not found:
-        remark(f"no model fits `{' '.join(search)}`")
-    return 0 if found else REFUSED
-
-
-def _config(path: str | None) -> tuple[str, ...]:
-    return config.load(path).packages
 
 
 def _fits(known: Known, search: tuple[str, ...]) -> bool:

@@ -1,15 +1,12 @@
 """`regscribe diff`: what differs between devices, backups and the manual's defaults."""
 
-from pathlib import Path
-
 import click
 
 from regscribe.cli.shared.completion_values import complete_target
-from regscribe.cli.shared.error_report import REFUSED, USAGE, Failure
-from regscribe.cli.shared.error_report import told as target_told
+from regscribe.cli.shared.error_report import REFUSED, USAGE, Failure, reported
 from regscribe.cli.shared.output import print_json, remark, show_table
-from regscribe.cli.shared.settings_common import is_file, loaded, taken, told
-from regscribe.cli.shared.target_options import CONFIG, JSON, PACKAGE, opened, understood
+from regscribe.cli.shared.settings_common import backup_of
+from regscribe.cli.shared.target_options import CONFIG, JSON, PACKAGE
 from regscribe.tools import settings
 from regscribe.tools.live import catalogue
 from regscribe.tools.settings import Saved, SettingDifference, Side
@@ -38,10 +35,10 @@ def command(*, left: str, right: str, stays: bool, packages: tuple[str, ...], co
     if left == right == FACTORY:
         message = "compare the factory's defaults with a device or a file"
         raise Failure(message, kind="usage", code=USAGE)
-    first = _side(right if left == FACTORY else left, packages, config)
-    second = _factory(first, packages) if FACTORY in (left, right) else _side(right, packages, config)
-    one, other = (second, first) if left == FACTORY else (first, second)
     factory = FACTORY in (left, right)
+    first = settings.side(*backup_of(right if left == FACTORY else left, packages, config))
+    second = _factory(first, packages) if factory else settings.side(*backup_of(right, packages, config))
+    one, other = (second, first) if left == FACTORY else (first, second)
     found = settings.differences(one, other, stays=stays, missing=not factory)
     blind = _without_default(first, second, stays=stays) if factory else []
     if as_json:
@@ -53,17 +50,8 @@ def command(*, left: str, right: str, stays: bool, packages: tuple[str, ...], co
     return REFUSED if found else 0
 
 
-def _side(text: str, packages: tuple[str, ...], config: str | None) -> Side:
-    if is_file(text):
-        return settings.side(loaded(Path(text)), text)
-    with target_told():
-        target = understood(text, config=config, packages=packages)
-    with opened(target, identity=True) as device, told():
-        return settings.side(taken(device, str(target.link)), str(target))
-
-
 def _factory(side: Side, packages: tuple[str, ...]) -> Side:
-    with target_told():
+    with reported():
         driver = catalogue.find(f"{side.map_id}:{side.model}", packages).driver
     defaults = settings.factory(driver)
     if not defaults:

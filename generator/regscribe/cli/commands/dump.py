@@ -1,11 +1,12 @@
 """`regscribe dump`: everything that a device holds, group by group."""
 
 from collections.abc import Mapping
+from itertools import chain
 from typing import Any
 
 import click
 
-from regscribe.cli.commands.read import heading, plain
+from regscribe.cli.shared.live_json import heading, plain
 from regscribe.cli.shared.output import print_json, remark, show_table
 from regscribe.cli.shared.target_options import HELP, opened, target_options
 from regscribe.tools.live import names
@@ -41,9 +42,10 @@ def command(*, target: Target, as_json: bool, wanted: tuple[str, ...]) -> int:
 
 def _groups(driver: type[BareDevice], wanted: tuple[str, ...]) -> dict[str, list[Register[Any]]]:
     known = {name: group.registers(driver) for name, group in names.groups_of(driver).items()}
-    grouped = {one.path for members in known.values() for one in members}
-    others = [one for one in names.readable(driver) if one.path not in grouped]
-    known |= {UNGROUPED: others} if others else {}
+    others = {one.path: one for one in names.readable(driver)}
+    for one in chain(*known.values()):
+        others.pop(one.path, None)
+    known |= {UNGROUPED: list(others.values())} if others else {}
     for name in wanted:
         if name not in known:
             raise TargetError(unknown("group", name, known, where=f"in {driver.model}"))

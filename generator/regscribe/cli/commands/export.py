@@ -1,17 +1,15 @@
 """`regscribe export`: what maps say in the form of an exporter, a plug-in with options of its own."""
 
-import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import click
 
 from regscribe import plugins
-from regscribe.cli.shared.diagnostic_text import findings, tally
+from regscribe.cli.shared.compiled_maps import compiled_maps
 from regscribe.cli.shared.map_arguments import find_maps
-from regscribe.cli.shared.terminal import show, tell, warn
+from regscribe.cli.shared.terminal import tell
 from regscribe.emit.write import WriteError, write
-from regscribe.pipeline import compile_map
 from regscribe.plugins import EXPORTERS, Exporter, Option, OptionError, PluginError
 from regscribe.visible import safe
 
@@ -81,7 +79,7 @@ def _default(option: Option) -> str:
 )
 @click.argument("maps", nargs=-1, metavar="[MAP]...")
 @click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Where files go that an exporter makes.")
-def command(*, maps: tuple[str, ...], form: str, out: Path | None, **said: tuple[str, ...]) -> int:
+def command(*, maps: tuple[str, ...], form: str, out: Path | None, **said: tuple[str, ...]) -> None:
     """Print what maps say in the form of an exporter: every value as CSV, the whole model as JSON, and others.
 
     MAP is a map file, a folder that is searched for *.yaml, or the id of a map (fdc/series-100). Without MAP: maps/.
@@ -89,19 +87,12 @@ def command(*, maps: tuple[str, ...], form: str, out: Path | None, **said: tuple
     """
     try:
         options = _options(plugins.exporter(form), said)
-        compiled = [compile_map(path) for path in find_maps(maps)]
-        found = [diagnostic for one in compiled for diagnostic in one.diagnostics]
-        show(findings(found), stream=sys.stderr)
-        register_maps = [one.map for one in compiled if one.map is not None]
-        if len(register_maps) < len(compiled):
-            warn(f"nothing was exported: {tally(found)}\n")
-            return 1
+        register_maps = compiled_maps(find_maps(maps), nothing="nothing was exported")
         _put(form, plugins.export(form, register_maps, options), out)
     except PluginError as error:
         raise click.ClickException(str(error)) from None
     except OptionError as error:
         raise click.UsageError(str(error)) from None
-    return 0
 
 
 def _options(exporter: Exporter, said: Mapping[str, Sequence[str]]) -> dict[str, str]:

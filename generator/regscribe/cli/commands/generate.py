@@ -115,7 +115,19 @@ def _build(paths: Sequence[Path], known: build_cache.Cache, templates: Templates
 
 
 def _write(build: Build, out: Path, *, check: bool, whole: bool) -> Report:
-    """Write what was rendered, unless two maps claim one file; a run over the whole of maps/ owns all of `out`.
+    """Write what was rendered; a run over the whole of maps/ owns all of `out`."""
+    ids = {entry.id for entry in build.entries.values()}
+    return write(
+        build.rendered | _index(build, out, whole=whole),
+        out,
+        check=check,
+        kept=[name for name in _makers(build) if name not in build.rendered],
+        owned=lambda origin: whole or origin in ids,
+    )
+
+
+def _makers(build: Build) -> dict[str, Path]:
+    """Return the map that makes each file; WriteError where two maps claim one.
 
     What maps share, such as the module of a library or of a base, each of them makes with the same content.
     """
@@ -127,14 +139,7 @@ def _write(build: Build, out: Path, *, check: bool, whole: bool) -> Report:
                 message = f"{makers[name]} and {path} both make {name}: give one of them another id"
                 message += ", or put {maker} and {family} into the template's path" if build.templates else ""
                 raise WriteError(message)
-    ids = {entry.id for entry in build.entries.values()}
-    return write(
-        build.rendered | _index(build, out, whole=whole),
-        out,
-        check=check,
-        kept=[name for name in makers if name not in build.rendered],
-        owned=lambda origin: whole or origin in ids,
-    )
+    return makers
 
 
 def _index(build: Build, out: Path, *, whole: bool) -> dict[str, str]:

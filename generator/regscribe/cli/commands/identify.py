@@ -4,7 +4,7 @@ from typing import Any
 
 import click
 
-from regscribe.cli.shared.error_report import REFUSED, told
+from regscribe.cli.shared.error_report import REFUSED, reported
 from regscribe.cli.shared.output import print_json, remark, show_table
 from regscribe.cli.shared.target_options import HELP, target_options
 from regscribe.tools.live import catalogue
@@ -22,7 +22,7 @@ from regscribe_runtime.driver.identify import Evidence, Known
 @target_options
 def command(*, target: Target, as_json: bool) -> int:
     """Ask a device what it is."""
-    with told():
+    with reported():
         found = targets.identification(target)
         targets.answered(found)
     if as_json:

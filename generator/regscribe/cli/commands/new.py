@@ -3,6 +3,7 @@
 import keyword
 import re
 import sys
+from collections.abc import Sequence
 from importlib.resources import files
 from pathlib import Path
 from shutil import copyfileobj
@@ -14,7 +15,7 @@ from regscribe import plugins
 from regscribe.cli.shared.diagnostic_text import findings, tally
 from regscribe.cli.shared.terminal import show, tell, warn
 from regscribe.map_files import shipped
-from regscribe.model import Severity
+from regscribe.model import Diagnostic, Severity
 from regscribe.plugins import IMPORTERS, PluginError
 from regscribe.visible import safe
 
@@ -38,7 +39,7 @@ HEAD = ("# yaml-language-server:", "format:", "map:")
     "--from", "origin", type=click.Path(path_type=Path), metavar="FILE", help="Begin with what this file says."
 )
 @click.option("--format", "form", metavar="NAME", help="The importer that reads FILE; else by the ending of its name.")
-def command(*, map_id: str, folder: Path, origin: Path | None, form: str | None) -> int:
+def command(*, map_id: str, folder: Path, origin: Path | None, form: str | None) -> None:
     """Start a map: a commented skeleton that passes `regscribe check`, or with --from what a file of registers says.
 
     FILE is a table (.csv) in the columns of `regscribe export`, or of a form that a plug-in reads (docs/plugins.md).
@@ -48,8 +49,6 @@ def command(*, map_id: str, folder: Path, origin: Path | None, form: str | None)
     maker, family = _parts(map_id)
     path = folder / maker / f"{family}.yaml"
     imported = _imported(origin, form)
-    if imported is None:
-        return 1
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         with path.open("x", encoding="utf-8") as file:
@@ -61,7 +60,6 @@ def command(*, map_id: str, folder: Path, origin: Path | None, form: str | None)
         message = f"cannot write {path}: {error.strerror}; choose another folder with --dir"
         raise click.ClickException(message) from None
     tell(safe(f"{path} is ready to be filled in; then: regscribe check {path}") + "\n")
-    return 0
 
 
 def _parts(map_id: str) -> tuple[str, str]:
@@ -79,30 +77,34 @@ def _parts(map_id: str) -> tuple[str, str]:
     return parts[0], parts[1]
 
 
-def _imported(origin: Path | None, form: str | None) -> str | None:
-    """Return the text of a map that an importer makes of a file; empty without a file, None if it finds errors."""
+def _imported(origin: Path | None, form: str | None) -> str:
+    """Return the text of a map that an importer makes of a file, empty without a file; ends the command on errors."""
     if origin is None and form is not None:
         message = "--format says how a file is read: name the file with --from"
         raise click.UsageError(message)
     if origin is None:
         return ""
     chosen = form or origin.suffix.removeprefix(".").lower()
+    text, found = _read(origin, chosen)
+    show(findings(found), stream=sys.stderr)
+    if any(one.severity is Severity.ERROR for one in found):
+        warn(f"nothing was written: {tally(found)}\n")
+        raise click.exceptions.Exit(1)
+    return text
+
+
+def _read(origin: Path, form: str) -> tuple[str, Sequence[Diagnostic]]:
     try:
         known = plugins.names(IMPORTERS)
-        if chosen not in known:
+        if form not in known:
             message = f"nothing imports {origin}: say with --format how, as {' or '.join(known)}"
             raise click.UsageError(message)
-        text, found = plugins.read(chosen, origin.read_bytes(), str(origin))
+        return plugins.read(form, origin.read_bytes(), str(origin))
     except OSError as error:
         message = f"cannot read {origin}: {error.strerror or error}"
         raise click.UsageError(message) from None
     except PluginError as error:
         raise click.ClickException(str(error)) from None
-    show(findings(found), stream=sys.stderr)
-    if any(one.severity is Severity.ERROR for one in found):
-        warn(f"nothing was written: {tally(found)}\n")
-        return None
-    return text
 
 
 def _text(maker: str, family: str, schema: str, imported: str) -> str:

@@ -2,16 +2,17 @@
 
 import sys
 from collections.abc import Sequence
+from typing import NoReturn
 
 import click
 
-from regscribe.cli.shared.diagnostic_text import count, findings, tally
+from regscribe.cli.shared.compiled_maps import compiled_maps
+from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.map_arguments import find_map
 from regscribe.cli.shared.output import print_json, remark, show_table
-from regscribe.cli.shared.planning import Subject
-from regscribe.cli.shared.terminal import show, tell
+from regscribe.cli.shared.planning import PlannedModel
+from regscribe.cli.shared.terminal import tell
 from regscribe.model import RegisterMap
-from regscribe.pipeline import compile_map
 from regscribe.tools.live.errors import unknown
 from regscribe_runtime.planning import plan
 from regscribe_runtime.planning.cost import Cost, milliseconds
@@ -55,7 +56,7 @@ def command(  # noqa: PLR0913 - one parameter an option
     tcp: bool,
     remembered: bool,
     as_json: bool,
-) -> int:
+) -> None:
     """Show the requests that read registers of a model at the least cost on a line, and why they are not one.
 
     ID is a register, or an array or element of one; MAP is a map file or the id of a map (fdc/series-100). The plan is
@@ -63,12 +64,8 @@ def command(  # noqa: PLR0913 - one parameter an option
     input type, word order) is read behind them. Times are the expected ones: the mean of the
     manual's shortest and longest.
     """
-    compiled = compile_map(find_map(map_name))
-    show(findings(compiled.diagnostics), stream=sys.stderr)
-    if compiled.map is None:
-        remark(f"nothing is planned: {tally(compiled.diagnostics)}")
-        return 1
-    subject = _subject(compiled.map, model)
+    (register_map,) = compiled_maps([find_map(map_name)], nothing="nothing is planned")
+    subject = _subject(register_map, model)
     wanted = _chosen(subject, ids, groups, everything=everything)
     asked = wanted if remembered else subject.with_needs(wanted)
     terms = subject.terms(_cost(subject, baud, form, framing, tcp=tcp))
@@ -76,45 +73,45 @@ def command(  # noqa: PLR0913 - one parameter an option
     single = [terms.cost.tariff(item.space).of(item.words) for item in (subject.places(path)[0].span for path in asked)]
     told = _Told(layout, asked, terms, milliseconds(sum(single)))
     if as_json:
-        print_json(map=compiled.map.id, model=subject.model.name, also=asked[len(wanted) :], **told.plain())
+        print_json(map=register_map.id, model=subject.model.name, also=asked[len(wanted) :], **told.plain())
     else:
-        told.print(f"{compiled.map.title} {subject.model.name}", asked[len(wanted) :])
-    return 0
+        told.print(f"{register_map.title} {subject.model.name}", asked[len(wanted) :])
 
 
-def _subject(register_map: RegisterMap, model: str) -> Subject:
+def _subject(register_map: RegisterMap, model: str) -> PlannedModel:
     names = {one.name.casefold(): one.name for one in register_map.models}
     if model.casefold() not in names:
         raise click.UsageError(unknown("model", model, names.values(), where=f"in {register_map.id}"))
-    return Subject.of(register_map, names[model.casefold()])
+    return PlannedModel.of(register_map, names[model.casefold()])
 
 
-def _chosen(subject: Subject, ids: Sequence[str], groups: Sequence[str], *, everything: bool) -> list[str]:
-    readable = subject.readable
-    if everything or not (ids or groups):
-        if ids or groups or not everything:
-            message = "say what to read: --all, --group ID, or ids of registers"
-            raise click.UsageError(message)
-        return readable
-    found: dict[str, None] = {}
-    known = {group.id: group.members for group in subject.model.groups}
-    for name in groups:
-        if name not in known:
-            raise click.UsageError(unknown("group", name, known, where=f"of {subject.model.name}"))
-        found.update(dict.fromkeys(path for path in readable if _within(path, known[name])))
-    for name in ids:
-        paths = [path for path in readable if _within(path, [name])]
-        if not paths:
-            _refuse(subject, name)
-        found.update(dict.fromkeys(paths))
-    return list(found)
+def _chosen(subject: PlannedModel, ids: Sequence[str], groups: Sequence[str], *, everything: bool) -> list[str]:
+    if everything == bool(ids or groups):
+        message = "say what to read: --all, --group ID, or ids of registers"
+        raise click.UsageError(message)
+    if everything:
+        return subject.readable
+    found = [path for name in groups for path in _below(subject, _members(subject, name))]
+    found += [path for name in ids for path in _below(subject, [name]) or _refuse(subject, name)]
+    return list(dict.fromkeys(found))
+
+
+def _members(subject: PlannedModel, group: str) -> Sequence[str]:
+    known = {one.id: one.members for one in subject.model.groups}
+    if group not in known:
+        raise click.UsageError(unknown("group", group, known, where=f"of {subject.model.name}"))
+    return known[group]
+
+
+def _below(subject: PlannedModel, members: Sequence[str]) -> list[str]:
+    return [path for path in subject.readable if _within(path, members)]
 
 
 def _within(path: str, members: Sequence[str]) -> bool:
     return any(path == one or path.startswith((f"{one}[", f"{one}.")) for one in members)
 
 
-def _refuse(subject: Subject, name: str) -> None:
+def _refuse(subject: PlannedModel, name: str) -> NoReturn:
     if any(_within(path, [name]) for path in subject.registers):
         message = f"`{name}` of {subject.model.name} can only be written"
         raise click.UsageError(message)
@@ -122,18 +119,22 @@ def _refuse(subject: Subject, name: str) -> None:
     raise click.UsageError(unknown("register", name, [*subject.readable, *arrays], where=f"of {subject.model.name}"))
 
 
-def _cost(subject: Subject, baud: int | None, form: str | None, framing: str, *, tcp: bool) -> Cost:
+def _cost(subject: PlannedModel, baud: int | None, form: str | None, framing: str, *, tcp: bool) -> Cost:
     protocol, serial = subject.protocol, subject.protocol.serial
     if form is not None and form not in FORMATS:
         message = f"--format {form}: write data bits (7, 8), parity (N, E, O) and stop bits (1, 2), for example 8E1"
         raise click.UsageError(message)
-    for what, value, listed in (("baud", baud, serial.bauds), ("characters", form, serial.formats)):
-        if value is not None and listed and value not in listed:
-            remark(f"the manual does not list {value} {what}: {', '.join(map(str, listed))}")
+    _remark_unlisted("baud", baud, serial.bauds)
+    _remark_unlisted("characters", form, serial.formats)
     if not tcp:
         return Cost.serial(protocol, baud=baud or 0, form=form or "", framing=framing)
     behind = SerialLine.of("", baud or serial.baud, form or serial.format) if baud or form else None
     return Cost.tcp(protocol, line=behind, framing=framing)
+
+
+def _remark_unlisted(what: str, value: object, listed: Sequence[object]) -> None:
+    if value is not None and listed and value not in listed:
+        remark(f"the manual does not list {value} {what}: {', '.join(map(str, listed))}")
 
 
 class _Told:

@@ -7,11 +7,11 @@ from typing import Any, TypeVar, cast
 import click
 
 from regscribe import files
-from regscribe.cli.commands.read import heading
-from regscribe.cli.shared.error_report import REFUSED, UNKNOWN_STATE, Failure, code_of, kind_of, told
+from regscribe.cli.shared.error_report import REFUSED, UNKNOWN_STATE, Failure, code_of, kind_of, reported
+from regscribe.cli.shared.live_json import heading
 from regscribe.cli.shared.output import print_json, remark, show_table
 from regscribe.cli.shared.program_text import show_program
-from regscribe.cli.shared.target_options import HELP, JSON, checked_identity, opened, target_options
+from regscribe.cli.shared.target_options import HELP, JSON, checked_identity, confirm_option, opened, target_options
 from regscribe.cli.shared.terminal import tell
 from regscribe.tools.live import catalogue
 from regscribe.tools.live.errors import TargetError
@@ -50,7 +50,6 @@ which = click.option(
     metavar="NAME",
     help="Which program, where a device has several: its name or number.",
 )
-confirmed = click.option("--confirm", is_flag=True, help="Write where the map calls it dangerous, too.")
 beyond = click.option(
     "--beyond-limits", is_flag=True, help="Allow setpoints beyond the controller's limits where its manual sets none."
 )
@@ -123,7 +122,7 @@ def read_command(*, target: Target, as_json: bool, name: str, out: Path | None) 
 @beyond
 def validate(*, target: Target, as_json: bool, name: str, file: Path, beyond_limits: bool) -> int:
     """Check a file against a device."""
-    with told():
+    with reported():
         given = load(file)
     with opened(target) as device:
         here = place(device, name)
@@ -152,7 +151,7 @@ def validate(*, target: Target, as_json: bool, name: str, file: Path, beyond_lim
     help="What to do about a program that runs: refuse, end it first, or write all the same.",
 )
 @beyond
-@confirmed
+@confirm_option
 @checked_identity
 def write_command(
     *,
@@ -166,7 +165,7 @@ def write_command(
     identity: bool,
 ) -> int:
     """Write a file to a device."""
-    with told():
+    with reported():
         given = load(file)
     with opened(target, identity=identity) as device:
         here = place(device, name)
@@ -199,7 +198,7 @@ def status_command(*, target: Target, as_json: bool, name: str) -> int:
 
 def _act(what: Act, about: str) -> None:
     @live(what, about)
-    @confirmed
+    @confirm_option
     @checked_identity
     def run(*, target: Target, as_json: bool, name: str, confirm: bool, identity: bool) -> int:
         with opened(target, identity=identity) as device:
@@ -224,7 +223,7 @@ _act("reset", "End a program that runs or is held.")
 @JSON
 def draw(*, file: Path, svg: Path | None, as_json: bool) -> int:
     """Draw a file."""
-    with told():
+    with reported():
         given = load(file).program
     first = _first(given)
     if svg:

@@ -1,21 +1,20 @@
 """`regscribe read`: values of registers, groups and array elements, with their units."""
 
 from collections.abc import Sequence
-from datetime import UTC, datetime
-from typing import Any
 
 import click
 
 from regscribe.cli.shared.completion_values import complete_register
-from regscribe.cli.shared.error_report import REFUSED, kind_of
-from regscribe.cli.shared.output import print_json, remark, show_table
+from regscribe.cli.shared.error_report import REFUSED
+from regscribe.cli.shared.live_json import heading, plain
+from regscribe.cli.shared.output import hexadecimal, print_json, remark, show_table
 from regscribe.cli.shared.target_options import HELP, opened, target_options
 from regscribe.cli.shared.terminal import tell
 from regscribe.tools.live import names
 from regscribe.tools.live.reading import RegisterReading, readings
 from regscribe.tools.live.target import Target
 from regscribe.visible import safe
-from regscribe_runtime import BareDevice, RegscribeError
+from regscribe_runtime import BareDevice
 from regscribe_runtime.operations import tasks
 
 
@@ -41,36 +40,14 @@ def command(*, target: Target, as_json: bool, wanted: tuple[str, ...], bare: boo
     if as_json:
         print_json(**heading(device, target), registers={one.name: plain(one) for one in found})
     elif bare:
-        tell("".join(f"{safe(one.text) if one.error is None else ''}\n" for one in found))
-        _complain(found)
+        _show_values(found)
     else:
         show_table(("REGISTER", "VALUE"), [(one.name, one.spelled) for one in found])
     return REFUSED if any(one.error for one in found) else 0
 
 
-def heading(device: BareDevice, target: Target) -> dict[str, Any]:
-    """What every JSON object of a live command begins with: which device, and when (RFC 3339, UTC)."""
-    return {"device": str(target), "unit_id": target.unit, "model": device.model, "map": device.map_id, "time": now()}
-
-
-def now() -> str:
-    """The time in UTC as RFC 3339 has it, with milliseconds."""
-    return datetime.now(UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")
-
-
-def plain(one: RegisterReading) -> dict[str, Any]:
-    """A reading in JSON: value and unit, or the error in place of it."""
-    if one.error is not None:
-        return {"error": error_object(one.error)}
-    return {"value": one.value, "unit": one.unit}
-
-
-def error_object(error: RegscribeError) -> dict[str, str]:
-    """An error in JSON."""
-    return {"kind": kind_of(error), "message": str(error)}
-
-
-def _complain(found: Sequence[RegisterReading]) -> None:
+def _show_values(found: Sequence[RegisterReading]) -> None:
+    tell("".join(f"{safe(one.text)}\n" for one in found))
     for one in found:
         if one.error is not None:
             remark(str(one.error))
@@ -80,6 +57,4 @@ def _show_words(words: dict[str, tuple[int, ...]], device: BareDevice, target: T
     if as_json:
         print_json(**heading(device, target), registers={path: {"words": list(one)} for path, one in words.items()})
     else:
-        show_table(
-            ("REGISTER", "WORDS"), [(path, " ".join(f"{word:04X}" for word in one)) for path, one in words.items()]
-        )
+        show_table(("REGISTER", "WORDS"), [(path, hexadecimal(one)) for path, one in words.items()])

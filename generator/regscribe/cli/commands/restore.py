@@ -4,23 +4,13 @@ from pathlib import Path
 
 import click
 
-from regscribe.cli.commands.read import heading
-from regscribe.cli.shared.output import print_json, remark
-from regscribe.cli.shared.settings_common import (
-    confirm_option,
-    include_option,
-    loaded,
-    plain_change,
-    show_changes,
-    telling,
-    told,
-)
+from regscribe.cli.shared.live_json import heading
+from regscribe.cli.shared.output import print_json
+from regscribe.cli.shared.settings_common import include_option, loaded, plain_restored, restoring, show_restored
 from regscribe.cli.shared.sigint import shielded
-from regscribe.cli.shared.target_options import HELP, checked_identity, opened, target_options
+from regscribe.cli.shared.target_options import HELP, checked_identity, confirm_option, opened, target_options
 from regscribe.tools import settings
 from regscribe.tools.live.target import Target
-from regscribe.tools.settings import Restored
-from regscribe_runtime import BareDevice
 
 
 @click.command(
@@ -52,37 +42,14 @@ def command(
 ) -> int:
     """Bring a device to the settings of a backup."""
     backup = loaded(path)
-    with opened(target, identity=identity) as device, told(), shielded() as shield:
-        with telling(f"restoring {target}", backup, shield) as tell:
+    with opened(target, identity=identity) as device, shielded() as shield:
+        with restoring(f"restoring {target}", backup, shield) as tell:
             task = settings.restore(
                 type(device), backup, include=include, partial=partial, dry_run=dry_run, confirm=confirm, tell=tell
             )
             done = device.run(task)
         if as_json:
-            print_json(**heading(device, target), file=str(path), dry_run=dry_run, **said(device, done))
+            print_json(**heading(device, target), file=str(path), dry_run=dry_run, **plain_restored(device, done))
         else:
-            show_changes(device, done.report.changes)
-            tell_rest(done, dry_run=dry_run)
+            show_restored(device, done, dry_run=dry_run)
     return shield.code
-
-
-def said(device: BareDevice, done: Restored) -> dict[str, object]:
-    """A restore in JSON."""
-    return {
-        "changes": [plain_change(device, one) for one in done.report.changes],
-        "stays": dict(done.fit.stays),
-        "does_not_fit": {one.path: one.reason for one in done.fit.misfits},
-        "differs": list(done.fit.strange),
-    }
-
-
-def tell_rest(done: Restored, *, dry_run: bool) -> None:
-    """Remark what a table of changes does not show: what was equal, left out, or does not fit."""
-    for line in done.fit.strange:
-        remark(line)
-    for one in done.fit.misfits:
-        remark(f"left out: {one.path}: {one.reason}")
-    written = len(done.report.changes) - len(done.report.equal)
-    verb = "would be written" if dry_run else "written"
-    stays = f", {len(done.fit.stays)} stay with their device" if done.fit.stays else ""
-    remark(f"{written} settings {verb}, {len(done.report.equal)} held already{stays}")

@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from regscribe.cli.shared.diagnostic_text import count
-from regscribe.cli.shared.error_report import REFUSED, failure, told
+from regscribe.cli.shared.error_report import REFUSED, failure, reported
 from regscribe.cli.shared.output import print_json, remark, show_table
 from regscribe.cli.shared.progress import progress
 from regscribe.cli.shared.target_options import CONFIG, JSON, PACKAGE, quiet, understood
@@ -59,7 +59,7 @@ def command(  # noqa: PLR0913 - the options of the command
     long each unit is waited for.
     """
     quiet()
-    with told():
+    with reported():
         target = understood(link, config=config, packages=packages)
         catalogue.models(target.packages)  # a package that is none is told before the line is asked for minutes
         asked = scanning.units(units)

@@ -9,14 +9,14 @@ from typing import Any, TypedDict, Unpack
 
 import click
 
-from regscribe.cli.shared.request_log import Requests, lines, table
+from regscribe.cli.shared.request_log import RequestLog, lines, table
 from regscribe.cli.shared.simulated_devices import (
-    Wish,
+    WantedDevice,
     device_of,
     found_maps,
     process_of,
-    wish_of,
-    wishes_in,
+    wanted_device,
+    wanted_devices,
 )
 from regscribe.cli.shared.terminal import tell
 from regscribe.simulate import (
@@ -123,32 +123,38 @@ def command(  # noqa: PLR0913 - one for each option that makes devices
     MAP is a map file or the id of a map (fdc/series-100). Requests are shown by the names of the map: in a table on a
     terminal, else one a line.
     """
-    if (options["tcp"] is None) == (options["rtu"] is None):
-        message = "choose one of --tcp HOST:PORT and --rtu DEVICE"
-        raise click.UsageError(message)
+    _check_line(options)
     common = {"addressing": addressing, "seed": seed, "process": process_of(process), "state": state or ""}
-    wishes = [wish_of(text) for text in devices] + (wishes_in(Path(file)) if file is not None else [])
-    if map_name is not None:
-        wishes.insert(0, Wish(map=map_name, model=model, unit=unit, givens=givens))
-    if not wishes:
-        message = "name a MAP with its --model, or devices by --device MAP:MODEL:UNIT or --devices FILE"
-        raise click.UsageError(message)
-    if len(wishes) > 1 and (state or options["save"]):
-        message = f"--state and --save are for one device, not for {len(wishes)}: give states in a file of --devices"
-        raise click.UsageError(message)
+    wanted = [WantedDevice(map=map_name, model=model, unit=unit, givens=givens)] if map_name is not None else []
+    wanted += [wanted_device(text) for text in devices]
+    wanted += wanted_devices(Path(file)) if file is not None else []
+    _check_count(len(wanted), alone=bool(state or options["save"]))
     _check(options)
-    maps = found_maps(wish.map for wish in wishes)
-    if maps is None:
-        return 1
-    made = [device_of(wish.over(common), maps[wish.map]) for wish in wishes]
+    maps = found_maps(one.map for one in wanted)
+    made = [device_of(one.over(common), maps[one.map]) for one in wanted]
     try:
         return _run(made, _service(options, made), options)
     except SimulatorError as error:
         raise click.ClickException(str(error)) from None
 
 
+def _check_line(options: Options) -> None:
+    if (options["tcp"] is None) == (options["rtu"] is None):
+        message = "choose one of --tcp HOST:PORT and --rtu DEVICE"
+        raise click.UsageError(message)
+
+
+def _check_count(devices: int, *, alone: bool) -> None:
+    if not devices:
+        message = "name a MAP with its --model, or devices by --device MAP:MODEL:UNIT or --devices FILE"
+        raise click.UsageError(message)
+    if devices > 1 and alone:
+        message = f"--state and --save are for one device, not for {devices}: give states in a file of --devices"
+        raise click.UsageError(message)
+
+
 def _run(devices: list[SimulatedDevice], service: Service, options: Options) -> int:
-    requests = Requests(devices)
+    requests = RequestLog(devices)
     drawn = not options["quiet"] and sys.stdout.isatty()
     if not options["quiet"]:
         service = requests.of(service)
@@ -161,7 +167,7 @@ def _run(devices: list[SimulatedDevice], service: Service, options: Options) -> 
             devices[0].save(options["save"])
 
 
-async def _serve(devices: list[SimulatedDevice], service: Service, drawn: Requests | None) -> int:
+async def _serve(devices: list[SimulatedDevice], service: Service, drawn: RequestLog | None) -> int:
     """Serve until Ctrl-C (which is raised) or TERM; SimulatorError as `serve`."""
     loop, ended = asyncio.get_running_loop(), asyncio.Event()
     task = loop.create_task(serve(devices, service, ready=lambda server: _announce(devices, server)))

@@ -4,11 +4,11 @@ from typing import Any
 
 import click
 
-from regscribe.cli.commands.read import heading
 from regscribe.cli.shared.completion_values import complete_register, complete_value
+from regscribe.cli.shared.live_json import heading
 from regscribe.cli.shared.output import print_json, remark, show_table
 from regscribe.cli.shared.sigint import shielded
-from regscribe.cli.shared.target_options import HELP, checked_identity, opened, target_options
+from regscribe.cli.shared.target_options import HELP, checked_identity, confirm_option, opened, target_options
 from regscribe.cli.shared.unsent_requests import plain_requests, show_requests
 from regscribe.tools.live import names, value_text
 from regscribe.tools.live.dry_run import DryWrite, dry
@@ -32,7 +32,7 @@ of an enum by name, label or code, flags as names with commas.\n\n{HELP}""",
 @target_options
 @click.argument("name", shell_complete=complete_register)
 @click.argument("value", shell_complete=complete_value)
-@click.option("--confirm", is_flag=True, help="Write where the map calls it dangerous, too.")
+@confirm_option
 @click.option("--rounded", is_flag=True, help="Round a value that is finer than the device can hold.")
 @click.option("--view", metavar="VIEW", help="Transmit it in this view of the map instead of the preferred one.")
 @click.option("--dry-run", is_flag=True, help="Check everything and show the words; write nothing.")

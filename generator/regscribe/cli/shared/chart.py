@@ -1,6 +1,7 @@
-"""A curve in the terminal."""
+"""Curves in the terminal."""
 
 from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 HEIGHT = 12
@@ -12,21 +13,27 @@ def chart(title: str, seconds: Sequence[float], values: Sequence[float], *, unit
     """The curve of `values` over `seconds` as text of at most `width` columns; "" without values."""
     if not values:
         return ""
-    import plotille  # type: ignore[import-untyped]  # noqa: PLC0415 - it ships no types; only a chart needs it
-
-    figure: Any = plotille.Figure()
-    figure.width, figure.height = max(width - MARGIN, LEAST_WIDTH), HEIGHT
-    figure.color_mode, figure.with_colors = "names", False
+    figure = empty_figure(max(width - MARGIN, LEAST_WIDTH), HEIGHT, digits=4)
     low, high = min(values), max(values)
     room = (high - low) * 0.05 or max(abs(high) * 0.05, 1.0)
     figure.set_y_limits(low - room, high + room)
     figure.set_x_limits(min(seconds), max(*seconds, min(seconds) + 1))
     figure.x_label, figure.y_label = "s", unit
-    figure.register_label_formatter(float, _label)
     figure.plot(seconds, values)
     return f"{title}\n{figure.show()}\n"
 
 
-def _label(value: float, chars: int, delta: float, left: bool = False) -> str:  # noqa: ARG001, FBT001, FBT002 - as plotille calls it
-    text = f"{value:.4g}"
+def empty_figure(width: int, height: int, *, digits: int) -> Any:  # noqa: ANN401 - plotille ships no types
+    """A figure of plotille without colours and curves; its scales show so many digits of a number."""
+    import plotille  # type: ignore[import-untyped]  # noqa: PLC0415 - as above; only a curve needs it
+
+    figure: Any = plotille.Figure()
+    figure.width, figure.height = width, height
+    figure.color_mode, figure.with_colors = "names", False
+    figure.register_label_formatter(float, partial(_label, digits))
+    return figure
+
+
+def _label(digits: int, value: float, chars: int, delta: float, left: bool = False) -> str:  # noqa: ARG001, FBT001, FBT002 - as plotille calls it
+    text = f"{value:.{digits}g}"
     return text.ljust(chars) if left else text.rjust(chars)

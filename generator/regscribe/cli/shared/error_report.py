@@ -42,7 +42,7 @@ class Failure(click.ClickException):
 
 
 @contextmanager
-def told() -> Iterator[None]:
+def reported() -> Iterator[None]:
     """Turn errors of targets and of drivers into a `Failure`; others pass."""
     try:
         yield

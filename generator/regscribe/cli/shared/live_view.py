@@ -5,7 +5,6 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from regscribe.cli.shared.chart import chart
-from regscribe.tools.live.log import moment
 from regscribe.tools.live.reading import RegisterReading, reason
 from regscribe.tools.live.watch import Round
 from regscribe.visible import safe
@@ -87,14 +86,14 @@ class Screen:
             return ""
         late = ", slower than asked for: the line needs that long" if one.late else ""
         error = f"; {one.error}" if one.error else ""
-        return safe(f"{self.device}: round {one.number} at {moment(one)} took {one.seconds * 1000:.0f} ms{late}{error}")
+        return safe(f"{self.device}: round {one.number} at {one.moment} took {one.seconds * 1000:.0f} ms{late}{error}")
 
 
 def lines(one: Round) -> Iterator[str]:
     """A round as lines: all of the first, of others what changed (marked), and what went wrong."""
     if one.error is not None:
-        yield f"{moment(one)}  {safe(str(one.error))}\n"
+        yield f"{one.moment}  {safe(str(one.error))}\n"
     for each in one.readings:
         if one.number == 1 or each.name in one.changed:
             value = each.spelled if each.error is None else f"({reason(each.error, each.name)})"
-            yield f"{moment(one)} {MARK if each.name in one.changed else ' '} {each.name} {safe(value)}\n"
+            yield f"{one.moment} {MARK if each.name in one.changed else ' '} {each.name} {safe(value)}\n"

@@ -56,3 +56,8 @@ def print_json_line(**what: Any) -> None:  # noqa: ANN401 - as above
 def remark(text: str) -> None:
     """Tell a person something beside the result."""
     warn(f"{safe(text)}\n")
+
+
+def hexadecimal(words: Iterable[int]) -> str:
+    """Words of 16 bits as they stand on the wire: `0FA0 0001`."""
+    return " ".join(f"{word:04X}" for word in words)

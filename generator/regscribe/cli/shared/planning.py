@@ -18,14 +18,14 @@ from regscribe_runtime.planning.read_places import ReadPlace, read_places
 
 
 @dataclass(frozen=True, slots=True)
-class Subject:
+class PlannedModel:
     """A model to plan for, and the class of its driver."""
 
     model: compiled.Model
     driver: type[BareDevice]
 
     @classmethod
-    def of(cls, register_map: compiled.RegisterMap, name: str) -> "Subject":
+    def of(cls, register_map: compiled.RegisterMap, name: str) -> "PlannedModel":
         """A model of a map."""
         model = register_map.model(name)
         return cls(model, driver_of(register_map, model))

@@ -4,8 +4,8 @@ import shutil
 import sys
 from collections.abc import Iterator
 from fractions import Fraction
-from typing import Any
 
+from regscribe.cli.shared.chart import empty_figure
 from regscribe.cli.shared.output import show_table
 from regscribe.cli.shared.terminal import tell
 from regscribe.tools.programs.axis import steps_of, time_scale
@@ -58,7 +58,8 @@ def curve(found: Profile) -> None:
     low, high = min(found.levels), max(found.levels)
     up = steps_of(max(high - low, Fraction(1)), most=ROWS - 2)
     bottom = low // up * up
-    figure = _figure(-(-found.total // (across * SECONDS[unit])), -((bottom - high) // up) + 1)
+    marks, rows = -(-found.total // (across * SECONDS[unit])), -((bottom - high) // up) + 1
+    figure = empty_figure(max(marks, 1) * COLUMNS, max(rows, 2), digits=6)
     figure.set_x_limits(0, float(across * figure.width / COLUMNS))
     figure.set_y_limits(float(bottom), float(bottom + up * figure.height))
     figure.x_label = f"raw ({found.counts_in})" if raw and found.counts_in else unit or RAW
@@ -66,18 +67,3 @@ def curve(found: Profile) -> None:
     points = [(leg.end / SECONDS[unit], leg.to) for leg in found.legs]
     figure.plot([float(time) for time, _ in points], [float(level) for _, level in points])
     tell("\n" + "".join(f"{line.rstrip(BLANK)}\n" for line in figure.show().splitlines()))
-
-
-def _figure(columns: int, rows: int) -> Any:  # noqa: ANN401 - plotille ships no types
-    import plotille  # type: ignore[import-untyped]  # noqa: PLC0415 - as above; only a curve needs it
-
-    figure: Any = plotille.Figure()
-    figure.width, figure.height = max(columns, 1) * COLUMNS, max(rows, 2)
-    figure.color_mode, figure.with_colors = "names", False
-    figure.register_label_formatter(float, _label)
-    return figure
-
-
-def _label(value: float, chars: int, delta: float, left: bool = False) -> str:  # noqa: ARG001, FBT001, FBT002 - as plotille calls it
-    text = f"{value:.6g}"
-    return text.ljust(chars) if left else text.rjust(chars)

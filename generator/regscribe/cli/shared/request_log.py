@@ -26,7 +26,7 @@ LONGEST = 200
 
 
 @dataclass(slots=True)
-class Requests:
+class RequestLog:
     """What was asked lately, and how often; `each` is told of every request as it comes."""
 
     devices: Sequence[SimulatedDevice]
@@ -47,7 +47,7 @@ class Requests:
             self.each(exchange)
 
 
-def lines(requests: Requests) -> None:
+def lines(requests: RequestLog) -> None:
     """Write each request on a line as it comes."""
 
     def write(exchange: Exchange) -> None:
@@ -63,7 +63,7 @@ def lines(requests: Requests) -> None:
     requests.each = write
 
 
-async def table(requests: Requests) -> None:
+async def table(requests: RequestLog) -> None:
     """Show the last requests in a table that is drawn anew now and then, until cancelled."""
     from rich.console import Console  # noqa: PLC0415 - only a terminal needs it
     from rich.live import Live  # noqa: PLC0415 - as above
@@ -74,7 +74,7 @@ async def table(requests: Requests) -> None:
             live.update(_drawn(requests), refresh=True)
 
 
-def _drawn(requests: Requests) -> "Table":
+def _drawn(requests: RequestLog) -> "Table":
     from rich.table import Table  # noqa: PLC0415 - only a terminal needs it
     from rich.text import Text  # noqa: PLC0415 - as above
 

@@ -1,16 +1,17 @@
-"""What the commands about settings share: errors, options, a bar while they write, and how they break off."""
+"""What the commands about settings share: a backup or a device as the source, restoring, and what came of it."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import click
 
-from regscribe.cli.shared.error_report import REFUSED, UNKNOWN_STATE, USAGE, Failure
-from regscribe.cli.shared.output import show_table
-from regscribe.cli.shared.progress import Advance, progress
+from regscribe.cli.shared.error_report import REFUSED, UNKNOWN_STATE, USAGE, Failure, reported
+from regscribe.cli.shared.output import remark, show_table
+from regscribe.cli.shared.progress import progress
 from regscribe.cli.shared.sigint import Shield
+from regscribe.cli.shared.target_options import opened, understood
 from regscribe.tools import settings
 from regscribe.tools.live.value_text import as_text
 from regscribe_runtime import BareDevice, NotConfigured
@@ -22,7 +23,6 @@ include_option = click.option(
     type=click.Choice(settings.KINDS),
     help="Also settings that belong to one device alone, of this kind. Repeat for several.",
 )
-confirm_option = click.option("--confirm", is_flag=True, help="Write where the map calls it dangerous, too.")
 
 
 class Stopped(KeyboardInterrupt):
@@ -30,7 +30,7 @@ class Stopped(KeyboardInterrupt):
 
 
 @contextmanager
-def told() -> Iterator[None]:
+def settings_reported() -> Iterator[None]:
     """Turn errors of settings into a `Failure`; others pass."""
     try:
         yield
@@ -44,57 +44,71 @@ def told() -> Iterator[None]:
 
 
 @contextmanager
-def telling(label: str, backup: settings.Backup, shield: Shield) -> Iterator[Teller]:
-    """A bar while settings are written; Ctrl-C breaks off between two requests, a second one at once."""
-    with progress(sum(1 for _ in backup.settings()), label) as advance:
-        yield _teller(shield, advance)
+def restoring(label: str, backup: settings.Backup, shield: Shield) -> Iterator[Teller]:
+    """A bar while settings are written, whose errors are reported; Ctrl-C breaks off between two requests."""
+    with settings_reported(), progress(sum(1 for _ in backup.settings()), label) as advance:
 
+        def tell(state: Progress) -> None:
+            if shield.interrupted:
+                message = "stopped by Ctrl-C"
+                raise Stopped(message)
+            advance(f"{state.done} of {state.total}: {state.what}")
 
-def _teller(shield: Shield, advance: Advance) -> Teller:
-    def tell(state: Progress) -> None:
-        if shield.interrupted:
-            message = "stopped by Ctrl-C"
-            raise Stopped(message)
-        advance(f"{state.done} of {state.total}: {state.what}")
-
-    return tell
+        yield tell
 
 
 def loaded(path: Path) -> settings.Backup:
     """The backup in a file; Failure says what is wrong with it."""
-    with told():
+    with settings_reported():
         return settings.load(path)
 
 
 def taken(device: BareDevice, link: str) -> settings.Backup:
     """The settings of an open device."""
-    return device.run(settings.backup(type(device), link=link))
+    with settings_reported():
+        return device.run(settings.backup(type(device), link=link))
 
 
-def show_changes(device: BareDevice, changes: Sequence[Change], *, all_of_them: bool = False) -> None:
-    """A table of what was, or would be, written: the value before and after, and what became of it."""
-    rows = [
-        (one.register, _value(device, one.register, one.was), _value(device, one.register, one.value), str(one.fate))
-        for one in changes
-        if all_of_them or one.fate is not Fate.EQUAL
-    ]
+def backup_of(text: str, packages: tuple[str, ...], config: str | None) -> tuple[settings.Backup, str]:
+    """The settings that a text means, those of a backup file or of a device, and the name of the one or the other."""
+    if text.endswith((".yaml", ".yml")) or Path(text).is_file():
+        return loaded(Path(text)), text
+    with reported():
+        target = understood(text, config=config, packages=packages)
+    with opened(target, identity=True) as device:
+        return taken(device, str(target.link)), str(target)
+
+
+def show_restored(device: BareDevice, done: settings.Restored, *, dry_run: bool) -> None:
+    """A table of what was, or would be, written, and remarks on the rest: what was equal, left out, or does not fit."""
+    changes = [_plain_change(device, one) for one in done.report.changes if one.fate is not Fate.EQUAL]
+    rows = [["?" if text is None else text for text in one.values()] for one in changes]
     show_table(("REGISTER", "BEFORE", "AFTER", ""), rows)
+    for line in done.fit.strange:
+        remark(line)
+    for misfit in done.fit.misfits:
+        remark(f"left out: {misfit.path}: {misfit.reason}")
+    written = len(done.report.changes) - len(done.report.equal)
+    verb = "would be written" if dry_run else "written"
+    stays = f", {len(done.fit.stays)} stay with their device" if done.fit.stays else ""
+    remark(f"{written} settings {verb}, {len(done.report.equal)} held already{stays}")
 
 
-def plain_change(device: BareDevice, change: Change) -> dict[str, Any]:
-    """A change in JSON."""
+def plain_restored(device: BareDevice, done: settings.Restored) -> dict[str, Any]:
+    """The same in JSON, all of it."""
     return {
-        "register": change.register,
-        "before": None if change.was is None else as_text(device.registers[change.register], change.was),
-        "after": as_text(device.registers[change.register], change.value),
-        "fate": str(change.fate),
+        "changes": [_plain_change(device, one) for one in done.report.changes],
+        "stays": dict(done.fit.stays),
+        "does_not_fit": {one.path: one.reason for one in done.fit.misfits},
+        "differs": list(done.fit.strange),
     }
 
 
-def is_file(text: str) -> bool:
-    """Whether a text names a backup: it ends so, or there is a file of that name."""
-    return text.endswith((".yaml", ".yml")) or Path(text).is_file()
-
-
-def _value(device: BareDevice, path: str, value: Any) -> str:  # noqa: ANN401 - a value of any register
-    return "?" if value is None else as_text(device.registers[path], value)
+def _plain_change(device: BareDevice, change: Change) -> dict[str, str | None]:
+    register = device.registers[change.register]
+    return {
+        "register": change.register,
+        "before": None if change.was is None else as_text(register, change.was),
+        "after": "?" if change.value is None else as_text(register, change.value),
+        "fate": str(change.fate),
+    }

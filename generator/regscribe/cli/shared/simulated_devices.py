@@ -11,22 +11,20 @@ from typing import Any
 import click
 
 from regscribe import source
-from regscribe.cli.shared.diagnostic_text import findings, tally
+from regscribe.cli.shared.compiled_maps import compiled_maps
+from regscribe.cli.shared.diagnostic_text import findings
 from regscribe.cli.shared.map_arguments import find_map
-from regscribe.cli.shared.terminal import show, warn
+from regscribe.cli.shared.terminal import show
 from regscribe.model import GivenKind, RegisterMap
-from regscribe.pipeline import compile_map
 from regscribe.simulate import SimulatedDevice, SimulatorError, ThermalProcess
-from regscribe_runtime.values.serial_line import ADDRESSINGS, MODBUS
-
-MOST_CODES = 0x10000
-"""A register has no more codes than this, so a longer range is a slip."""
+from regscribe.tools.live.givens import codes_in, flag_of
+from regscribe_runtime.values.serial_line import ADDRESSINGS
 
 KEYS = ("map", "model", "unit", "given", "state", "process", "seed", "addressing")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Wish:
+class WantedDevice:
     """One device as it was asked for; what is None or empty is as the command line has it for all."""
 
     map: str
@@ -38,21 +36,21 @@ class Wish:
     seed: int | None = None
     addressing: str = ""
 
-    def over(self, common: Mapping[str, Any]) -> "Wish":
-        """The wish with what counts for all devices where it says nothing itself."""
+    def over(self, common: Mapping[str, Any]) -> "WantedDevice":
+        """The wanted with what counts for all devices where it says nothing itself."""
         return replace(self, **{key: value for key, value in common.items() if getattr(self, key) in (None, "")})
 
 
-def wish_of(text: str) -> Wish:
+def wanted_device(text: str) -> WantedDevice:
     """The device of `MAP:MODEL:UNIT`, or `MAP:MODEL`."""
     found = re.fullmatch(r"(.+?):([^:]+)(?::([0-9]{1,3}))?", text, re.DOTALL)
     if not found:
         message = f"--device {text}: write MAP:MODEL:UNIT, for example athena/series-c:16C:3"
         raise click.UsageError(message)
-    return Wish(map=found[1], model=found[2], unit=int(found[3]) if found[3] else None)
+    return WantedDevice(map=found[1], model=found[2], unit=int(found[3]) if found[3] else None)
 
 
-def wishes_in(path: Path) -> list[Wish]:
+def wanted_devices(path: Path) -> list[WantedDevice]:
     """The devices of a YAML file, as `devices: [{map: athena/series-c, model: 16C, unit: 3}]`; UsageError if none."""
     document, found = source.load(path)
     if document is None:
@@ -63,10 +61,28 @@ def wishes_in(path: Path) -> list[Wish]:
     if not isinstance(listed, list) or not listed:
         message = f"--devices {path}: write `devices:` with a list of mappings that have `map`, `model` and `unit`"
         raise click.UsageError(message)
-    return [_wish(each, f"--devices {path}: device {number}") for number, each in enumerate(listed, start=1)]
+    return [_wanted(each, f"--devices {path}: device {number}") for number, each in enumerate(listed, start=1)]
 
 
-def _wish(entry: object, where: str) -> Wish:
+def _wanted(entry: object, where: str) -> WantedDevice:
+    given = _mapping(entry, where)
+    givens, unit, seed = given.get("given") or {}, given.get("unit"), given.get("seed")
+    if not isinstance(givens, dict) or not all(isinstance(each, int | None) for each in (unit, seed)):
+        message = f"{where}: `given` is a mapping, `unit` and `seed` are whole numbers"
+        raise click.UsageError(message)
+    return WantedDevice(
+        map=str(given["map"]),
+        model=str(given["model"]),
+        unit=unit,
+        givens=tuple(f"{name}={_spelled(value)}" for name, value in givens.items()),
+        state=_text(given, "state"),
+        process=_process(given.get("process"), where),
+        seed=seed,
+        addressing=_text(given, "addressing"),
+    )
+
+
+def _mapping(entry: object, where: str) -> dict[str, Any]:
     if not isinstance(entry, dict) or not {"map", "model"} <= entry.keys():
         message = f"{where} is no mapping with `map` and `model`"
         raise click.UsageError(message)
@@ -74,20 +90,11 @@ def _wish(entry: object, where: str) -> Wish:
         if key not in KEYS:
             message = f"{where} has the key `{key}`: known are {', '.join(KEYS)}{_near(str(key), KEYS)}"
             raise click.UsageError(message)
-    givens, unit, seed = entry.get("given") or {}, entry.get("unit"), entry.get("seed")
-    if not isinstance(givens, dict) or not all(isinstance(each, int | None) for each in (unit, seed)):
-        message = f"{where}: `given` is a mapping, `unit` and `seed` are whole numbers"
-        raise click.UsageError(message)
-    return Wish(
-        map=str(entry["map"]),
-        model=str(entry["model"]),
-        unit=unit,
-        givens=tuple(f"{name}={_spelled(value)}" for name, value in givens.items()),
-        state=str(entry.get("state") or ""),
-        process=_process(entry.get("process"), where),
-        seed=seed,
-        addressing=str(entry.get("addressing") or ""),
-    )
+    return entry
+
+
+def _text(given: Mapping[str, Any], key: str) -> str:
+    return str(given.get(key) or "")
 
 
 def _spelled(value: object) -> str:
@@ -125,47 +132,44 @@ def process_of(text: str | None, *, where: str = "--process") -> ThermalProcess 
         raise click.UsageError(str(error)) from None
 
 
-def found_maps(names: Iterable[str]) -> dict[str, RegisterMap] | None:
-    """The maps by the names that were given; None after their mistakes were shown."""
-    maps: dict[str, RegisterMap] = {}
-    for name in dict.fromkeys(names):
-        compiled = compile_map(find_map(name))
-        show(findings(compiled.diagnostics), stream=sys.stderr)
-        if compiled.map is None:
-            warn(f"nothing is served: {tally(compiled.diagnostics)}\n")
-            return None
-        maps[name] = compiled.map
-    return maps
+def found_maps(names: Iterable[str]) -> dict[str, RegisterMap]:
+    """The maps by the names that were given; ends the command where one has mistakes."""
+    return {name: compiled_maps([find_map(name)], nothing="nothing is served")[0] for name in dict.fromkeys(names)}
 
 
-def device_of(wish: Wish, register_map: RegisterMap) -> SimulatedDevice:
+def device_of(wanted: WantedDevice, register_map: RegisterMap) -> SimulatedDevice:
     """The device that was asked for; UsageError or ClickException where it cannot be."""
-    model = _model(wish.model, register_map)
-    values = dict(_given(one, register_map) for one in wish.givens)
-    if wish.addressing and wish.addressing not in ADDRESSINGS:
-        message = f"addressing {wish.addressing} is none of {', '.join(ADDRESSINGS)}"
-        raise click.UsageError(message)
+    device = _made(wanted, register_map)
     try:
-        device = SimulatedDevice(
-            register_map,
-            model,
-            unit=wish.unit,
-            givens=values,
-            seed=wish.seed or 0,
-            addressing=wish.addressing or MODBUS,
-            process=wish.process or False,
-        )
-    except SimulatorError as error:
-        missing = [given.id for given in register_map.givens if given.id not in values]
-        hint = f"\nOn the command line: --given {missing[0]}=VALUE" if missing else ""
-        message = f"{error}{hint}"
-        raise click.UsageError(message) from None
-    try:
-        if wish.state:
-            device.load(wish.state)
+        if wanted.state:
+            device.load(wanted.state)
     except SimulatorError as error:
         raise click.ClickException(str(error)) from None
     return device
+
+
+def _made(wanted: WantedDevice, register_map: RegisterMap) -> SimulatedDevice:
+    model = _model(wanted.model, register_map)
+    values = dict(_given(one, register_map) for one in wanted.givens)
+    addressing = wanted.addressing or ADDRESSINGS[0]
+    if addressing not in ADDRESSINGS:
+        message = f"addressing {addressing} is none of {', '.join(ADDRESSINGS)}"
+        raise click.UsageError(message)
+    try:
+        return SimulatedDevice(
+            register_map,
+            model,
+            unit=wanted.unit,
+            givens=values,
+            seed=wanted.seed or 0,
+            addressing=addressing,
+            process=wanted.process or False,
+        )
+    except SimulatorError as error:
+        missing = next((given.id for given in register_map.givens if given.id not in values), "")
+        hint = f"\nOn the command line: --given {missing}=VALUE" if missing else ""
+        message = f"{error}{hint}"
+        raise click.UsageError(message) from None
 
 
 def _model(model: str | None, register_map: RegisterMap) -> str:
@@ -193,20 +197,9 @@ def _given(text: str, register_map: RegisterMap) -> tuple[str, bool | frozenset[
     if not equals or name not in kinds:
         message = f"--given {text}: write ID=VALUE; {register_map.id} has the givens {', '.join(kinds) or '(none)'}"
         raise click.UsageError(message)
-    if kinds[name] is GivenKind.CODES:
-        return name, _codes(name, value)
-    if value not in {"true", "false"}:
-        message = f"--given {text}: `{name}` is true or false"
-        raise click.UsageError(message)
-    return name, value == "true"
-
-
-def _codes(name: str, value: str) -> frozenset[int]:
-    codes: set[int] = set()
-    for part in value.split(","):
-        found = re.fullmatch(r"\s*(-?[0-9]{1,6})(?:\.\.(-?[0-9]{1,6}))?\s*", part)
-        if not found or int(found[2] or found[1]) - int(found[1]) not in range(MOST_CODES):
-            message = f"--given {name}={value}: `{part}` is neither a code nor a range of codes; for example 1,4..6"
-            raise click.UsageError(message)
-        codes.update(range(int(found[1]), int(found[2] or found[1]) + 1))
-    return frozenset(codes)
+    try:
+        codes = kinds[name] is GivenKind.CODES
+        return name, codes_in(value.split(",")) if codes else flag_of(name, value)
+    except ValueError as error:
+        message = f"--given {text}: {error}"
+        raise click.UsageError(message) from None

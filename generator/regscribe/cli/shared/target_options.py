@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 import click
 
 from regscribe.cli.shared.completion_values import complete_model, complete_target
-from regscribe.cli.shared.error_report import REFUSED, Failure, told
+from regscribe.cli.shared.error_report import REFUSED, Failure, reported
 from regscribe.cli.shared.frame_trace import Tracing
 from regscribe.tools.live import config as configuration
 from regscribe.tools.live import target as targets
@@ -50,6 +50,7 @@ _OPTIONS = (
     JSON,
 )
 
+confirm_option = click.option("--confirm", is_flag=True, help="Write where the map calls it dangerous, too.")
 checked_identity = click.option(
     "--check-identity/--no-check-identity",
     "identity",
@@ -81,7 +82,7 @@ def target_options(function: F) -> F:
         trace: bool,
         **more: Any,  # noqa: ANN401 - as above
     ) -> Any:  # noqa: ANN401 - the command's own result
-        with told():
+        with reported():
             target = understood(target_text, config=config, packages=packages)
             target = targets.override(target, unit=unit, model=model or "", given=targets.given_texts(givens))
             target = replace(target, trace=Tracing(target)) if trace else target
@@ -110,7 +111,7 @@ def opened(
     another model than the target's is refused before anything else is sent.
     """
     quiet()
-    with told():
+    with reported():
         found = targets.identified(target)
         driver = found.known().driver
         if check is not None:

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
-from regscribe.cli.shared.output import remark, show_table
+from regscribe.cli.shared.output import hexadecimal, remark, show_table
 from regscribe.tools.live.dry_run import DryWrite
 
 
@@ -12,7 +12,9 @@ def show_requests(written: Sequence[DryWrite]) -> None:
     if not written:
         remark("nothing would be written: the device holds it already")
         return
-    show_table(("FUNCTION", "ADDRESS", "WORDS"), [_row(one) for one in written])
+    requests = [one.request for one in written]
+    rows = [(f"{one.function:02d}", str(one.address), hexadecimal(one.words)) for one in requests]
+    show_table(("FUNCTION", "ADDRESS", "WORDS"), rows)
     remark("nothing was sent")
 
 
@@ -22,8 +24,3 @@ def plain_requests(written: Sequence[DryWrite]) -> list[dict[str, Any]]:
         {"function": one.request.function, "address": one.request.address, "words": list(one.request.words)}
         for one in written
     ]
-
-
-def _row(one: DryWrite) -> tuple[str, str, str]:
-    words = " ".join(f"{word:04X}" for word in one.request.words)
-    return f"{one.request.function:02d}", str(one.request.address), words

@@ -2,7 +2,7 @@
 
 import inspect
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 from regscribe.tools.live.errors import TargetError, unknown
@@ -37,12 +37,10 @@ def givens_of(driver: type[BareDevice]) -> tuple[GivenArgument, ...]:
 def understood(driver: type[BareDevice], texts: Mapping[str, str]) -> dict[str, bool | frozenset[int]]:
     """The givens as a driver takes them; TargetError for one that is missing, unknown or not understood."""
     known = {given.id: given for given in givens_of(driver)}
-    for name in texts:
-        if name not in known:
-            message = (
-                f"{driver.model}: {unknown('given', name, known) if known else f'it has no givens, so no `{name}`'}"
-            )
-            raise TargetError(message)
+    for name in (one for one in texts if one not in known):
+        why = unknown("given", name, known) if known else f"it has no givens, so no `{name}`"
+        message = f"{driver.model}: {why}"
+        raise TargetError(message)
     for given in known.values():
         if given.id not in texts:
             message = (
@@ -50,22 +48,35 @@ def understood(driver: type[BareDevice], texts: Mapping[str, str]) -> dict[str, 
                 f"?given.{given.id}={given.example} or --given {given.id}={given.example}"
             )
             raise TargetError(message)
-    return {name: _codes(name, text) if known[name].codes else _flag(name, text) for name, text in texts.items()}
+    found = {}
+    for name, text in texts.items():
+        try:
+            found[name] = _codes(text) if known[name].codes else flag_of(name, text)
+        except ValueError as error:
+            message = f"given {name}={text}: {error}"
+            raise TargetError(message) from None
+    return found
 
 
-def _flag(name: str, text: str) -> bool:
+def _codes(text: str) -> frozenset[int]:
+    return codes_in(filter(None, text.split(",")) if text != "none" else ())
+
+
+def flag_of(name: str, text: str) -> bool:
+    """The yes or no of `true` or `false`; ValueError for another text."""
     if text not in {"true", "false"}:
-        message = f"given {name}={text}: `{name}` is true or false"
-        raise TargetError(message)
+        message = f"`{name}` is true or false"
+        raise ValueError(message)
     return text == "true"
 
 
-def _codes(name: str, text: str) -> frozenset[int]:
+def codes_in(parts: Iterable[str]) -> frozenset[int]:
+    """The codes of texts like `1` and `4..6`; ValueError for one that is neither a code nor a range."""
     codes: set[int] = set()
-    for part in filter(None, text.split(",")) if text != "none" else ():
+    for part in parts:
         found = re.fullmatch(r"\s*(-?[0-9]{1,6})(?:\.\.(-?[0-9]{1,6}))?\s*", part)
         if not found or int(found[2] or found[1]) - int(found[1]) not in range(MOST_CODES):
-            message = f"given {name}={text}: `{part}` is neither a code nor a range of codes; for example 1,4..6"
-            raise TargetError(message)
+            message = f"`{part}` is neither a code nor a range of codes; for example 1,4..6"
+            raise ValueError(message)
         codes.update(range(int(found[1]), int(found[2] or found[1]) + 1))
     return frozenset(codes)

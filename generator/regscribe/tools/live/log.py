@@ -170,19 +170,14 @@ def plain(one: Round, device: str) -> dict[str, Any]:
         good = {"value": each.value, "unit": each.unit}
         registers[each.name] = good if each.error is None else {"error": str(each.error)}
     error = None if one.error is None else str(one.error)
-    return {"time": moment(one), "device": device, "registers": registers, "error": error}
-
-
-def moment(one: Round) -> str:
-    """When a round began, in UTC as RFC 3339 has it, with milliseconds."""
-    return one.time.isoformat(timespec="milliseconds").replace("+00:00", "Z")
+    return {"time": one.moment, "device": device, "registers": registers, "error": error}
 
 
 def _rows(one: Round, device: str) -> list[tuple[Any, ...]]:
     if one.error is not None:
-        return [(moment(one), device, "", None, "", str(one.error))]
+        return [(one.moment, device, "", None, "", str(one.error))]
     return [
-        (moment(one), device, each.name, _cell(each), each.unit, "" if each.error is None else str(each.error))
+        (one.moment, device, each.name, _cell(each), each.unit, "" if each.error is None else str(each.error))
         for each in one.readings
     ]
 

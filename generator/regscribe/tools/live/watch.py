@@ -28,6 +28,16 @@ class Round(NamedTuple):
     error: RegscribeError | None
     late: bool
 
+    @property
+    def moment(self) -> str:
+        """When it began, in UTC as RFC 3339 has it."""
+        return rfc3339(self.time)
+
+
+def rfc3339(time: datetime) -> str:
+    """A time in UTC as RFC 3339 has it, with milliseconds."""
+    return time.isoformat(timespec="milliseconds").replace("+00:00", "Z")
+
 
 class GaveUp(Exception):  # noqa: N818 - it is the end of watching
     """So many rounds in a row failed that watching ends; `error` is the last one's."""
