@@ -10,9 +10,9 @@ from pathlib import Path
 from regscribe.compose.extend import extended
 from regscribe.compose.file_loader import FileLoader, LoadedFile
 from regscribe.compose.findings import ComposeFindings
-from regscribe.compose.libraries import as_map, with_libraries
+from regscribe.compose.libraries import as_map, left_out, with_libraries
 from regscribe.compose.rules import CYCLE, OTHER_ID, RULES
-from regscribe.compose.tree import cut, elements, in_file, members, text
+from regscribe.compose.tree import at, cut, elements, in_file, members, text
 from regscribe.map_files import ENDINGS, LIBRARY, MAP, folder_of
 from regscribe.model import Diagnostic, Override
 from regscribe.source import Document, SourceNode
@@ -76,74 +76,83 @@ def misplaced(library: Document, path: Path) -> list[Diagnostic]:
 
 def compose(document: Document, path: Path) -> Composed:
     """The map of `document`, which lies at `path`, with all that it builds on."""
-    root = document.root
-    null = any(command.value is None for command in ((root.child("commands") or root).members or {}).values())
-    if is_library(document) or not (null or any(root.child(key) for key in COMPOSING)):
+    if is_library(document) or not _builds_on_others(document.root):
         return Composed(document)
     findings = ComposeFindings()
-    root = in_file(root, document.name)
-    about = root.child(MAP) or root
-    own = LoadedFile(text(about.child("id")), path, root)
-    shelf = FileLoader(folder_of(path, own.id), findings)
-    part = _build(own, shelf, (own,))
-    files = tuple(shelf.hashes.items())
+    root = in_file(document.root, document.name)
+    own = LoadedFile(text(at(root, (MAP, "id"))), path, root)
+    loader = FileLoader(folder_of(path, own.id), findings)
+    part = _build(own, loader, (own,))
     if part is None or findings.diagnostics:
-        return Composed(None, tuple(sorted(findings.diagnostics, key=lambda found: found.span)), files=files)
-    content_hash = shelf.content_hash(document.content_hash) if files else document.content_hash
+        found = tuple(sorted(findings.diagnostics, key=lambda found: found.span))
+        return Composed(None, found, files=tuple(loader.hashes.items()))
+    content_hash = loader.content_hash(document.content_hash) if loader.hashes else document.content_hash
     whole = replace(document, data=part.root.value, root=part.root, content_hash=content_hash)
+    return _composed(whole, root, part, loader)
+
+
+def _builds_on_others(root: SourceNode) -> bool:
+    return bool(left_out(root)) or any(root.child(key) for key in COMPOSING)
+
+
+def _composed(whole: Document, root: SourceNode, part: _Part, loader: FileLoader) -> Composed:
     return Composed(
         whole,
         extends=text(root.child("extends")),
         uses=tuple(library.id for library in part.libraries),
         overrides=part.overrides,
-        files=files,
-        empty=tuple(sorted(shelf.empty)),
+        files=tuple(loader.hashes.items()),
+        empty=tuple(sorted(loader.empty)),
         base=part.base,
         renumber=tuple((old, text(new)) for old, new in members(root.child("renumber")).items()),
-        libraries=tuple(_document(library, shelf) for library in part.libraries),
-        shipped=tuple(file.id for file in shelf.known.values() if file is not None and file.shipped),
+        libraries=tuple(_document(library, loader) for library in part.libraries),
+        shipped=tuple(file.id for file in loader.known.values() if file is not None and file.shipped),
     )
 
 
-def _document(library: LoadedFile, shelf: FileLoader) -> Document:
-    return Document(library.path.name, "", library.root.value, shelf.hashes[library.path], library.root)
+def _document(library: LoadedFile, loader: FileLoader) -> Document:
+    return Document(library.path.name, "", library.root.value, loader.hashes[library.path], library.root)
 
 
-def _build(file: LoadedFile, shelf: FileLoader, chain: tuple[LoadedFile, ...]) -> _Part | None:
+def _build(file: LoadedFile, loader: FileLoader, chain: tuple[LoadedFile, ...]) -> _Part | None:
     """Compose one map of a chain of extensions, the deepest first; None if something that it needs is missing."""
-    base = _base(file, shelf, chain)
-    known = base.libraries if base else ()
-    names = {library.id for library in known}
-    wanted = [node for node in elements(file.root.child("uses")) if text(node) not in names]
-    libraries = [shelf.find(node, LIBRARY, file) for node in wanted]
-    if (file.root.child("extends") and base is None) or None in libraries:
+    base = _base(file, loader, chain)
+    below = base.libraries if base else ()
+    libraries = _libraries(file, loader, {library.id for library in below})
+    if libraries is None or (file.root.child("extends") and base is None):
         return None
-    found = [library for library in libraries if library is not None]
-    own = with_libraries(file.root, found, shelf.findings)
-    every = (*known, *found)
+    own = with_libraries(file.root, libraries, loader.findings)
+    every = (*below, *libraries)
     if base is None:
         return _Part(_plain(own), file.path, every)
-    root, overrides = extended(base.root, own, shelf.findings)
+    root, overrides = extended(base.root, own, loader.findings)
     return _Part(_plain(root), file.path, every, overrides, base.path)
 
 
-def _base(file: LoadedFile, shelf: FileLoader, chain: tuple[LoadedFile, ...]) -> _Part | None:
+def _libraries(file: LoadedFile, loader: FileLoader, known: set[str]) -> list[LoadedFile] | None:
+    """The libraries of a map that are not known from its base; None if one is missing."""
+    wanted = [node for node in elements(file.root.child("uses")) if text(node) not in known]
+    found = [loader.find(node, LIBRARY, file) for node in wanted]
+    return None if None in found else [library for library in found if library is not None]
+
+
+def _base(file: LoadedFile, loader: FileLoader, chain: tuple[LoadedFile, ...]) -> _Part | None:
     node = file.root.child("extends")
-    found = shelf.find(node, MAP, file) if node else None
+    found = loader.find(node, MAP, file) if node else None
     if node is None or found is None:
         return None
     if len(chain) > DEEPEST or any(found.path.resolve() == each.path.resolve() for each in chain):
-        _refuse_cycle(found, shelf, chain)
+        _refuse_cycle(found, loader, chain)
         return None
-    return _build(found, shelf, (*chain, found))
+    return _build(found, loader, (*chain, found))
 
 
-def _refuse_cycle(found: LoadedFile, shelf: FileLoader, chain: tuple[LoadedFile, ...]) -> None:
+def _refuse_cycle(found: LoadedFile, loader: FileLoader, chain: tuple[LoadedFile, ...]) -> None:
     """Report the circle at the map that is compiled, with each further step of it."""
     names = " -> ".join([*(each.id for each in chain), found.id])
     steps = [(each.id, each.root.child("extends") or each.root) for each in chain]
     others = [(f"`{name}` extends `{text(step)}`", step.place) for name, step in steps[1:]]
-    shelf.findings.add(
+    loader.findings.add(
         CYCLE, f"maps extend each other, or too many: {names}", steps[0][1].place, "let one stand alone", *others
     )
 

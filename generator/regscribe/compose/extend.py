@@ -2,12 +2,12 @@
 
 from regscribe.compose.dangling_refs import without_orphans
 from regscribe.compose.findings import ComposeFindings, meant
-from regscribe.compose.merge import LISTS, append, merge_notations, merge_protocol, merge_tables, replace
+from regscribe.compose.merge import LISTS, append, laid_over, replace
 from regscribe.compose.overrides import Changes
-from regscribe.compose.rename_models import Renaming, renamed
+from regscribe.compose.rename_models import Renaming
 from regscribe.compose.renumber_sections import Renumbering
 from regscribe.compose.rules import CHANGED_IN_PASSING, NO_MODEL, RENUMBERS_NOTHING
-from regscribe.compose.tree import cut, edit, elements, id_of, key_place, listing, members, put, registers, text
+from regscribe.compose.tree import at, cut, edit, elements, id_of, key_place, listing, members, put, registers, text
 from regscribe.model import Override
 from regscribe.source import SourceNode, SourcePlace
 
@@ -30,8 +30,7 @@ def extended(base: SourceNode, own: SourceNode, findings: ComposeFindings) -> tu
 
 
 def _place_of(base: SourceNode) -> SourcePlace:
-    about = base.child("map") or base
-    return (about.child("id") or about).place
+    return (at(base, ("map", "id")) or base.child("map") or base).place
 
 
 def _with_models(base: SourceNode, own: SourceNode, findings: ComposeFindings) -> SourceNode:
@@ -49,7 +48,7 @@ def _with_models(base: SourceNode, own: SourceNode, findings: ComposeFindings) -
         names[text(origin)].append(name)
         models = put(models, name, _inherited(have[text(origin)], node), key_place(table, name))
     renaming = Renaming({name: tuple(new) for name, new in names.items()}, tuple(members(table)))
-    return put(renamed(base, renaming), "models", models, key_place(own, "models"))
+    return put(renaming.inside(base), "models", models, key_place(own, "models"))
 
 
 def _inherited(base: SourceNode, own: SourceNode) -> SourceNode:
@@ -76,12 +75,8 @@ def _renumbered(root: SourceNode, table: SourceNode | None, findings: ComposeFin
 
 
 def _added(root: SourceNode, own: SourceNode, findings: ComposeFindings) -> SourceNode:
-    root = merge_tables(root, own, findings, owner="the base", advice=_CLASH)
-    root = append(merge_notations(root, own, findings, owner="the base"), own, LISTS)
+    root = laid_over(root, own, findings, LISTS, owner="the base", advice=_CLASH)
     root = replace(root, own, _REPLACED)
-    protocol = merge_protocol(root.child("protocol"), own.child("protocol"))
-    if protocol is not None:
-        root = put(root, "protocol", protocol, key_place(own, "protocol"))
     for group in elements(own.child("groups")):
         root = _with_group(root, group, findings)
     return root

@@ -2,7 +2,7 @@
 
 from regscribe.compose.file_loader import LoadedFile
 from regscribe.compose.findings import ComposeFindings, meant
-from regscribe.compose.merge import TABLES, append, merge_notations, merge_protocol, merge_tables, replace
+from regscribe.compose.merge import TABLES, laid_over, replace
 from regscribe.compose.rules import LEAVES_NOTHING_OUT
 from regscribe.compose.tree import cut, edit, key_place, listing, mapping, members, put, scalar
 from regscribe.source import Document, SourceNode
@@ -14,35 +14,27 @@ _MERGED = {*TABLES, *_LISTS, "notations", "protocol"}
 
 def with_libraries(root: SourceNode, libraries: list[LoadedFile], findings: ComposeFindings) -> SourceNode:
     """The map with all that its libraries hold, less the commands that it gives as null."""
-    left_out = _left_out(root)
+    nulls = left_out(root)
     below = mapping({}, {}, root.place)
     for library in libraries:
-        part = _without(library.root, left_out)
-        below = _laid(below, part, findings, owner="another library", advice="use one of the two libraries only")
+        part = _without(library.root, nulls)
+        advice = "use one of the two libraries only"
+        below = laid_over(below, part, findings, _LISTS, owner="another library", advice=advice)
         below = replace(below, part, _WHOLE)
     every = [name for library in libraries for name in members(library.root.child("commands"))]
-    for name in left_out - set(every):
+    for name in nulls - set(every):
         message = f"there is no command `{name}` in a library that could be left out"
         where = key_place(root.child("commands") or root, name)
-        findings.add(
-            LEAVES_NOTHING_OUT, message, where, f"commands of a base are dropped by `drop`; {meant(name, every)}"
-        )
-    own = _without(root, left_out)
-    merged = _laid(below, own, findings, owner="a library that it uses", advice="use that one, or rename yours")
-    for key, value in (own.members or {}).items():
-        if key not in _MERGED:
-            merged = put(merged, key, value, key_place(own, key))
-    return merged
+        advice = f"commands of a base are dropped by `drop`; {meant(name, every)}"
+        findings.add(LEAVES_NOTHING_OUT, message, where, advice)
+    own = _without(root, nulls)
+    advice = "use that one, or rename yours"
+    merged = laid_over(below, own, findings, _LISTS, owner="a library that it uses", advice=advice)
+    return replace(merged, own, [key for key in own.members or () if key not in _MERGED])
 
 
-def _laid(below: SourceNode, above: SourceNode, findings: ComposeFindings, *, owner: str, advice: str) -> SourceNode:
-    below = merge_tables(below, above, findings, owner=owner, advice=advice)
-    below = append(merge_notations(below, above, findings, owner=owner), above, _LISTS)
-    protocol = merge_protocol(below.child("protocol"), above.child("protocol"))
-    return below if protocol is None else put(below, "protocol", protocol, key_place(above, "protocol"))
-
-
-def _left_out(root: SourceNode) -> set[str]:
+def left_out(root: SourceNode) -> set[str]:
+    """The commands that a map gives as null: those of its libraries that it has not."""
     return {name for name, command in members(root.child("commands")).items() if command.value is None}
 
 

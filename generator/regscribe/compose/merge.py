@@ -1,4 +1,4 @@
-"""The tables of one file laid beside those of another: under each name there is one thing, or it is an error."""
+"""The keys of one file laid over those of another: under each name there is one thing, or it is an error."""
 
 from collections.abc import Iterable
 
@@ -28,31 +28,36 @@ NESTED = ("limits", "accepts", "faults", "exceptions", "latency", "serial")
 """Keys of `protocol` that are merged key by key in turn."""
 
 
-def merge_protocol(below: SourceNode | None, above: SourceNode | None) -> SourceNode | None:
+def laid_over(
+    below: SourceNode, above: SourceNode, findings: ComposeFindings, lists: Iterable[str], *, owner: str, advice: str
+) -> SourceNode:
+    """`below` with the tables, notations, lists and protocol of `above`.
+
+    A name that both have in a table is an error at the one above: `owner` says whose the names below are, `advice`
+    what to do.
+    """
+    below = _merge_tables(below, above, findings, owner=owner, advice=advice)
+    below = append(_merge_notations(below, above, findings, owner=owner), above, lists)
+    protocol = _merge_protocol(below.child("protocol"), above.child("protocol"))
+    return below if protocol is None else put(below, "protocol", protocol, key_place(above, "protocol"))
+
+
+def _merge_protocol(below: SourceNode | None, above: SourceNode | None) -> SourceNode | None:
     """The protocol of both; what stands above wins, key by key."""
     if below is None or above is None:
         return above or below
     merged = below
     for key, value in members(above).items():
         under = below.child(key)
-        new = _over(under, value) if key in NESTED and under is not None else value
+        new = replace(under, value, members(value)) if key in NESTED and under is not None else value
         merged = put(merged, key, new, key_place(above, key))
     return merged
 
 
-def _over(below: SourceNode, above: SourceNode) -> SourceNode:
-    for key, value in members(above).items():
-        below = put(below, key, value, key_place(above, key))
-    return below
-
-
-def merge_tables(
+def _merge_tables(
     below: SourceNode, above: SourceNode, findings: ComposeFindings, *, owner: str, advice: str
 ) -> SourceNode:
-    """`below` with the entries of the tables of `above`; a name that both have is an error at the one above.
-
-    `owner` says whose the names below are; they stand first.
-    """
+    """`below` with the entries of the tables of `above`; those of `below` stand first."""
     for table, what in TABLES.items():
         added = above.child(table)
         if added is None:
@@ -71,7 +76,7 @@ def merge_tables(
     return below
 
 
-def merge_notations(below: SourceNode, above: SourceNode, findings: ComposeFindings, *, owner: str) -> SourceNode:
+def _merge_notations(below: SourceNode, above: SourceNode, findings: ComposeFindings, *, owner: str) -> SourceNode:
     """`below` with the notations of `above`; one name for one space in both is an error."""
     have = {(text(one.child("name")), text(one.child("space"))): one for one in elements(below.child("notations"))}
     for one in elements(above.child("notations")):

@@ -6,20 +6,7 @@ from functools import partial
 from regscribe.compose.findings import ComposeFindings, meant
 from regscribe.compose.patch import Patch
 from regscribe.compose.rules import CHANGES_NOTHING, DROPS_NOTHING, NO_REASON, NO_TARGET
-from regscribe.compose.tree import (
-    Location,
-    at,
-    cut,
-    edit,
-    elements,
-    id_of,
-    key_place,
-    listing,
-    members,
-    put,
-    registers,
-    text,
-)
+from regscribe.compose.tree import Location, at, edit, elements, id_of, kept, members, registers, text
 from regscribe.model import Override
 from regscribe.source import SourceNode, SourcePlace
 
@@ -105,20 +92,14 @@ class Changes:
                 self.findings.add(DROPS_NOTHING, message, each.place, meant(text(each), have), self._at_base)
             self.records.append(Override(table, text(each), "", (), each.place.span("")))
         gone = {text(each) for each in elements(node)}
-        self._keep(table, [each for each in elements(self.root.child(table)) if text(each.child(key)) not in gone])
+        self.root = kept(self.root, table, lambda each: text(each.child(key)) not in gone)
 
     def _drop_all(self, table: str, node: SourceNode) -> None:
         if not elements(self.root.child(table)):
             message = f"the base has no {table}"
             self.findings.add(DROPS_NOTHING, message, node.place, "remove the key", self._at_base)
         self.records.append(Override(table, "all", "", (), node.place.span("")))
-        self._keep(table, [])
-
-    def _keep(self, table: str, kept: list[SourceNode]) -> None:
-        have = self.root.child(table)
-        if have is not None:
-            new = listing(kept, have.place)
-            self.root = put(self.root, table, new, key_place(self.root, table)) if kept else cut(self.root, table)
+        self.root = kept(self.root, table, lambda _: False)
 
     def _locations(self, kind: str, name: str) -> list[Location]:
         if kind in _TABLES:

@@ -1,6 +1,5 @@
 """One mapping laid over another key by key: null removes a key, and what changes nothing is reported."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from regscribe.compose.tree import cut, key_place, members, put
@@ -35,19 +34,24 @@ class Patch:
     def lay(self, below: SourceNode, above: SourceNode, path: str = "") -> SourceNode:
         """`below` with the keys of `above`; mappings in both are merged in turn."""
         for key, new in members(above).items():
-            old, name, where = below.child(key), f"{path}{key}", key_place(above, key)
-            default = next((each for each in self.defaults if each.child(key)), None) if not path else None
-            if old is not None and old.members is not None and new.members is not None:
-                below = put(below, key, self.lay(old, new, f"{name}."), key_place(below, key))
-            elif old is None and default is not None and (new.value is None or _same(default.child(key), new)):
-                self.idle.append(Idle(name, where, key_place(default, key), is_default=new.value is None))
-            elif _same(old, new):
-                self.idle.append(Idle(name, where, key_place(below, key)))
-            else:
-                before = old or (default.child(key) if default else None)
-                self.changed.append(f"{name}: {_shown(before)} -> {_shown(new)}")
-                below = cut(below, key) if new.value is None else put(below, key, _clean(new), where)
+            below = self._laid(below, key, new, key_place(above, key), path)
         return below
+
+    def _laid(self, below: SourceNode, key: str, new: SourceNode, where: SourcePlace, path: str) -> SourceNode:
+        old, name = below.child(key), f"{path}{key}"
+        if old is not None and old.members is not None and new.members is not None:
+            return put(below, key, self.lay(old, new, f"{name}."), key_place(below, key))
+        holder = below if path else self._holder(below, key)
+        removes_default = holder is not below and new.value is None
+        if removes_default or _same(holder.child(key), new):
+            self.idle.append(Idle(name, where, key_place(holder, key), is_default=removes_default))
+            return below
+        self.changed.append(f"{name}: {_shown(holder.child(key))} -> {_shown(new)}")
+        return cut(below, key) if new.value is None else put(below, key, _clean(new), where)
+
+    def _holder(self, below: SourceNode, key: str) -> SourceNode:
+        """The mapping that has the key now: the one below, else the innermost one of defaults."""
+        return next((each for each in (below, *self.defaults) if each.child(key)), below)
 
 
 def _same(old: SourceNode | None, new: SourceNode) -> bool:
@@ -58,13 +62,9 @@ def _same(old: SourceNode | None, new: SourceNode) -> bool:
 
 def _clean(node: SourceNode) -> SourceNode:
     """A new mapping without the keys that are null: there is nothing below to remove."""
-    for key in _null_keys(node):
+    for key in [key for key, member in members(node).items() if member.value is None]:
         node = cut(node, key)
     return node
-
-
-def _null_keys(node: SourceNode) -> Iterator[str]:
-    return (key for key, member in members(node).items() if member.value is None)
 
 
 def _shown(node: SourceNode | None) -> str:

@@ -3,14 +3,11 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from regscribe.compose.tree import cut, elements, key_place, listing, mapping, members, put, scalar, text
+from regscribe.compose.tree import branches, cut, elements, key_place, listing, mapping, put, scalar, text
 from regscribe.source import SourceNode
 
 Names = Mapping[str, tuple[str, ...]]
 """The new names of each model of the base; none for a model that is dropped."""
-
-_ELSEWHERE = frozenset({"when", "text", "with", "writes", "conditions"})
-"""Below these keys stand names of registers, which may be called like anything."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,35 +25,50 @@ class Renaming:
         return node if node.members is None else self._mapping(node)
 
     def _mapping(self, node: SourceNode) -> SourceNode | None:
-        inside: SourceNode | None = self._present(node)
-        if inside is None:
+        present = self._present(node)
+        if present is None:
             return None
-        for key, member in members(inside).items():
-            if key in _ELSEWHERE or (member.members is None and member.elements is None):
-                continue
-            new = member if key in {"models", "except"} else self.of(member)
-            if new is None and key == "registers":
-                return None
-            inside = cut(inside, key) if new is None else put(inside, key, new, key_place(inside, key))
-        return None if node.members and not inside.members else inside
+        inside = self.inside(present)
+        lost = present.child("registers") is not None and inside.child("registers") is None
+        return None if lost or (node.members and not inside.members) else inside
+
+    def inside(self, node: SourceNode) -> SourceNode:
+        """The mapping with the models renamed in all that it holds, but for its own lists of models."""
+        for key, member in branches(node):
+            if key not in {"models", "except"}:
+                new = self.of(member)
+                node = cut(node, key) if new is None else put(node, key, new, key_place(node, key))
+        return node
 
     def _present(self, node: SourceNode) -> SourceNode | None:
         """The mapping with the models that have it renamed; None, or what is left of it, where there are none."""
-        only, but, one = node.child("models"), node.child("except"), node.child("model")
-        if only is not None and self._lists_models(only):
-            names = self._renamed(only)
-            if not names:
-                return _invalid(node)
-            node = put(node, "models", _names(names, only), key_place(node, "models"))
-        if but is not None and self._lists_models(but):
-            names = self._renamed(but)
-            if set(names) >= set(self.every):
-                return None
-            node = put(node, "except", _names(names, but), key_place(node, "except")) if names else cut(node, "except")
-        if one is not None and text(one) in self.names:
-            new = self.names[text(one)]
-            return put(node, "model", scalar(new[0], one.place), key_place(node, "model")) if new else None
-        return node
+        found: SourceNode | None = node
+        for rename in (self._only, self._but, self._one):
+            found = rename(found) if found is not None else None
+        return found
+
+    def _only(self, node: SourceNode) -> SourceNode | None:
+        only = node.child("models")
+        if only is None or not self._lists_models(only):
+            return node
+        names = self._renamed(only)
+        return put(node, "models", _names(names, only), key_place(node, "models")) if names else _invalid(node)
+
+    def _but(self, node: SourceNode) -> SourceNode | None:
+        but = node.child("except")
+        if but is None or not self._lists_models(but):
+            return node
+        names = self._renamed(but)
+        if set(names) >= set(self.every):
+            return None
+        return put(node, "except", _names(names, but), key_place(node, "except")) if names else cut(node, "except")
+
+    def _one(self, node: SourceNode) -> SourceNode | None:
+        one = node.child("model")
+        if one is None or text(one) not in self.names:
+            return node
+        new = self.names[text(one)]
+        return put(node, "model", scalar(new[0], one.place), key_place(node, "model")) if new else None
 
     def _lists_models(self, node: SourceNode) -> bool:
         return bool(node.elements) and all(text(each) in self.names for each in elements(node))
@@ -73,13 +85,3 @@ def _invalid(node: SourceNode) -> SourceNode | None:
     """What is left of a code that no model has: that it is invalid, if the base says so."""
     invalid = node.child("invalid")
     return None if invalid is None else mapping({"invalid": invalid}, node.keys or {}, node.place)
-
-
-def renamed(root: SourceNode, renaming: Renaming) -> SourceNode:
-    """A map with its models renamed, but for the table `models` itself."""
-    for key, member in members(root).items():
-        if key in {"models", *_ELSEWHERE} or (member.members is None and member.elements is None):
-            continue
-        new = renaming.of(member)
-        root = cut(root, key) if new is None else put(root, key, new, key_place(root, key))
-    return root

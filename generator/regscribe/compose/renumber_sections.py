@@ -3,11 +3,10 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from regscribe.compose.tree import key_place, listing, members, put, scalar
+from regscribe.compose.tree import branches, key_place, listing, members, put, scalar
 from regscribe.model import chapters_of, renumbered
 from regscribe.source import SourceNode
 
-_ELSEWHERE = frozenset({"when", "text", "with", "writes", "conditions"})
 _SECTIONS = {"source", "where"}
 
 
@@ -22,14 +21,15 @@ class Renumbering:
         """The value with all its sections renumbered."""
         if node.elements is not None:
             return listing(map(self.of, node.elements), node.place)
-        for key, member in members(node).items():
-            if key in _ELSEWHERE:
-                continue
-            if key in _SECTIONS and member.members is None and member.elements is None:
-                section = str(member.value)
-                self.used.update(chapter for chapter in chapters_of(section) if chapter in self.chapters)
-                new = scalar(renumbered(section, self.chapters), member.place)
-            else:
-                new = self.of(member)
-            node = put(node, key, new, key_place(node, key))
+        for key in _SECTIONS & members(node).keys():
+            node = put(node, key, self._section(members(node)[key]), key_place(node, key))
+        for key, member in branches(node):
+            node = put(node, key, self.of(member), key_place(node, key))
         return node
+
+    def _section(self, node: SourceNode) -> SourceNode:
+        if node.members is not None or node.elements is not None:
+            return node
+        section = str(node.value)
+        self.used.update(chapter for chapter in chapters_of(section) if chapter in self.chapters)
+        return scalar(renumbered(section, self.chapters), node.place)

@@ -9,6 +9,9 @@ Step = str | int
 Location = tuple[Step, ...]
 """Keys and list indices from the top of the tree to a value."""
 
+_OF_REGISTERS = frozenset({"when", "text", "with", "writes", "conditions"})
+"""Below these keys stand names of registers, which may be called like any key."""
+
 
 def mapping(members: Mapping[str, SourceNode], keys: Mapping[str, SourcePlace], place: SourcePlace) -> SourceNode:
     """A mapping of these values; a key without a place of its own stands where its value does."""
@@ -49,6 +52,15 @@ def elements(node: SourceNode | None) -> list[SourceNode]:
     return (node.elements if node else None) or []
 
 
+def branches(node: SourceNode) -> list[tuple[str, SourceNode]]:
+    """The mappings and lists in a mapping, by key, without those whose keys name registers."""
+    return [
+        (key, member)
+        for key, member in members(node).items()
+        if key not in _OF_REGISTERS and (member.members is not None or member.elements is not None)
+    ]
+
+
 def key_place(node: SourceNode, key: str) -> SourcePlace:
     """Where a key stands; where there is none of that name, where the mapping does."""
     return (node.keys or {}).get(key, node.place)
@@ -66,8 +78,17 @@ def put(node: SourceNode, key: str, value: SourceNode, place: SourcePlace) -> So
 
 def cut(node: SourceNode, key: str) -> SourceNode:
     """The mapping without a key."""
-    kept = {name: member for name, member in (node.members or {}).items() if name != key}
-    return mapping(kept, node.keys or {}, node.place)
+    rest = {name: member for name, member in (node.members or {}).items() if name != key}
+    return mapping(rest, node.keys or {}, node.place)
+
+
+def kept(node: SourceNode, key: str, keep: Callable[[SourceNode], bool]) -> SourceNode:
+    """The mapping with those elements of a list that are to be kept; without the key where none is."""
+    have = node.child(key)
+    if have is None:
+        return node
+    left = [each for each in elements(have) if keep(each)]
+    return put(node, key, listing(left, have.place), key_place(node, key)) if left else cut(node, key)
 
 
 def at(node: SourceNode, location: Location) -> SourceNode | None:
@@ -86,8 +107,8 @@ def edit(node: SourceNode, location: Location, change: Callable[[SourceNode], So
         return node
     new = edit(child, rest, change) if rest else change(child)
     if node.elements is not None:
-        kept = (new if place == step else element for place, element in enumerate(node.elements))
-        return listing((element for element in kept if element is not None), node.place)
+        every = (new if place == step else element for place, element in enumerate(node.elements))
+        return listing((element for element in every if element is not None), node.place)
     key = str(step)
     return cut(node, key) if new is None else put(node, key, new, key_place(node, key))
 

@@ -78,43 +78,38 @@ def violation(error: "ValidationError") -> Violation:
 
 def complaints(error: Violation) -> Iterator[Complaint]:
     """Say what one violation means: one complaint for each key concerned."""
-    path, kind = error.path, error.kind
+    kind = error.kind
     if kind == "additionalProperties":
-        yield from _unknown_keys(error, path)
+        yield from _unknown_keys(error)
     elif kind in {"required", "dependentRequired"}:
-        yield from _missing_keys(error, path)
+        yield from (_missing_key(error, key) for key in _needed(error) if key not in error.instance)
     elif kind == "not":
-        said = f"`{path[-1]}` {error.schema.get('description', 'cannot stand here')}"
-        yield Complaint(EXCLUSIVE_KEYS, path, said, "delete one of the two", at_key=True)
+        said = f"`{error.path[-1]}` {error.schema.get('description', 'cannot stand here')}"
+        yield Complaint(EXCLUSIVE_KEYS, error.path, said, "delete one of the two", at_key=True)
     elif kind == "type":
-        yield _wrong_type(error, path)
+        yield _wrong_type(error)
     elif kind == "pattern":
         said = f"{describe(error.instance)} is not in the form of {title(error.schema)}: {_form(error.schema)}"
-        yield Complaint(WRONG_FORM, path, said, example(error.schema))
+        yield Complaint(WRONG_FORM, error.path, said, example(error.schema))
     elif kind in _COUNTS or kind == "uniqueItems":
-        yield _wrong_count(error, path, kind)
+        yield _wrong_count(error)
     else:
-        yield _not_allowed(error, path, kind)
+        yield _not_allowed(error)
 
 
-def _unknown_keys(error: Violation, path: tuple[str | int, ...]) -> Iterator[Complaint]:
+def _unknown_keys(error: Violation) -> Iterator[Complaint]:
     schema = error.schema
     known = list(schema.get("properties", ()))
     patterns = list(schema.get("patternProperties", ()))
     for key in _unmatched(error.instance, known, patterns):
-        shown = describe(key)
+        shown, path = describe(key), (*error.path, key)
         if "x-key" in schema and not get_close_matches(key[:100].lower(), known, n=1):
             form = schema["x-key"]
             said = f"{shown} is not in the form of {form['title']}: {form['description']}"
-            yield Complaint(WRONG_FORM, (*path, key), said, example(form), at_key=True)
+            yield Complaint(WRONG_FORM, path, said, example(form), at_key=True)
         else:
-            yield Complaint(
-                UNKNOWN_KEY,
-                (*path, key),
-                f"unknown key {shown} in {title(schema)}",
-                _meant(key, schema["properties"]),
-                at_key=True,
-            )
+            said = f"unknown key {shown} in {title(schema)}"
+            yield Complaint(UNKNOWN_KEY, path, said, _meant(key, schema["properties"]), at_key=True)
 
 
 def _unmatched(instance: Mapping[str, Any], known: Sequence[str], patterns: Sequence[str]) -> Iterator[str]:
@@ -130,30 +125,28 @@ def _meant(key: str, known: Mapping[str, Mapping[str, Any]]) -> str:
     return f"did you mean `{near[0]}`?" if near else f"the keys here are: {', '.join(known)}"
 
 
-def _missing_keys(error: Violation, path: tuple[str | int, ...]) -> Iterator[Complaint]:
-    value = error.bound
-    needed = (
-        value
-        if isinstance(value, list)
-        else [key for given, keys in value.items() if given in error.instance for key in keys]
-    )
-    for key in needed:
-        if key not in error.instance:
-            said = error.schema.get("x-missing", f"`{key}`")
-            where = f" in {title(error.schema)}" if "title" in error.schema else ""
-            details = error.schema.get("properties", {}).get(key, {})
-            meaning = str(details.get("description", "")).split(". ")[0].rstrip(".")
-            advice = f"add {said}{f' ({meaning})' if meaning else ''}"
-            advice = ", ".join(part for part in (advice, example(details)) if part)
-            yield Complaint(MISSING_KEY, path, f"{said} is missing{where}", advice, at_key=True, same=key)
+def _needed(error: Violation) -> list[str]:
+    """List the keys that must be there, or must be for the sake of others that are."""
+    if isinstance(error.bound, list):
+        return error.bound
+    return [key for given, keys in error.bound.items() if given in error.instance for key in keys]
 
 
-def _wrong_type(error: Violation, path: tuple[str | int, ...]) -> Complaint:
+def _missing_key(error: Violation, key: str) -> Complaint:
+    said = error.schema.get("x-missing", f"`{key}`")
+    where = f" in {title(error.schema)}" if "title" in error.schema else ""
+    details = error.schema.get("properties", {}).get(key, {})
+    meaning = str(details.get("description", "")).split(". ")[0].rstrip(".")
+    advice = ", ".join(filter(None, (f"add {said}{f' ({meaning})' if meaning else ''}", example(details))))
+    return Complaint(MISSING_KEY, error.path, f"{said} is missing{where}", advice, at_key=True, same=key)
+
+
+def _wrong_type(error: Violation) -> Complaint:
     types = [error.bound] if isinstance(error.bound, str) else list(error.bound)
     allowed = [_TYPES[name] for name in types]
     wanted = " or ".join([", ".join(allowed[:-1]), allowed[-1]] if allowed[1:] else allowed)
     said = f"{title(error.schema)} must be {wanted}; this is {describe(error.instance)}"
-    return Complaint(WRONG_TYPE, path, said, _retype(error.instance, types) or example(error.schema))
+    return Complaint(WRONG_TYPE, error.path, said, _retype(error.instance, types) or example(error.schema))
 
 
 def _retype(instance: object, types: Sequence[str]) -> str:
@@ -169,28 +162,27 @@ def _retype(instance: object, types: Sequence[str]) -> str:
     return ""
 
 
-def _wrong_count(error: Violation, path: tuple[str | int, ...], kind: str) -> Complaint:
-    if kind == "uniqueItems":
-        return Complaint(
-            WRONG_COUNT, path, f"an element of {title(error.schema)} is given twice", "delete one of the two"
-        )
-    bound, unit = _COUNTS[kind]
+def _wrong_count(error: Violation) -> Complaint:
+    if error.kind == "uniqueItems":
+        said = f"an element of {title(error.schema)} is given twice"
+        return Complaint(WRONG_COUNT, error.path, said, "delete one of the two")
+    bound, unit = _COUNTS[error.kind]
     limit, size = error.bound, len(error.instance)
     said = f"{title(error.schema)} must have {bound} {limit} {unit}{'' if limit == 1 else 's'}; this has {size}"
-    return Complaint(WRONG_COUNT, path, said, example(error.schema))
+    return Complaint(WRONG_COUNT, error.path, said, example(error.schema))
 
 
-def _not_allowed(error: Violation, path: tuple[str | int, ...], kind: str) -> Complaint:
-    value = error.bound
+def _not_allowed(error: Violation) -> Complaint:
+    kind, value = error.kind, error.bound
     if kind in _COMPARISONS:
         said = f"{title(error.schema)} must be {_COMPARISONS[kind]} {value}; this is {describe(error.instance)}"
-        return Complaint(VALUE_NOT_ALLOWED, path, said, example(error.schema))
+        return Complaint(VALUE_NOT_ALLOWED, error.path, said, example(error.schema))
     choices = [str(choice) for choice in (value if kind == "enum" else [value])]
     near = get_close_matches(str(error.instance)[:100].lower(), choices, n=1) if isinstance(error.instance, str) else []
     allowed = ", ".join(f"`{choice}`" for choice in choices)
     said = f"{describe(error.instance)} is not allowed for {title(error.schema)}; allowed: {allowed}"
     advice = f"did you mean `{near[0]}`?" if near else "write one of the allowed words"
-    return Complaint(VALUE_NOT_ALLOWED, path, said, advice if kind == "enum" else f"write {allowed}")
+    return Complaint(VALUE_NOT_ALLOWED, error.path, said, advice if kind == "enum" else f"write {allowed}")
 
 
 def _form(schema: Mapping[str, Any]) -> str:

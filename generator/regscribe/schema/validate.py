@@ -20,9 +20,7 @@ def validate(document: Document, *, language: str = MAP) -> list[Diagnostic]:
     if certainly_valid(document.data, language):
         return []
     errors = list(islice(validator(language).iter_errors(document.data), MAX_ERRORS))
-    errors.sort(
-        key=lambda error: len(error.absolute_schema_path)
-    )  # the outermost says most: it knows all types allowed
+    errors.sort(key=lambda error: len(error.absolute_schema_path))  # the outermost knows all types that are allowed
     found: dict[tuple[str, Span, str], Diagnostic] = {}
     for error in errors:
         for complaint in islice(complaints(violation(error)), MAX_ERRORS):

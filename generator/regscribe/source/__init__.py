@@ -1,7 +1,7 @@
 """Text to plain values with positions, by the rules of YAML 1.2; every mistake is a diagnostic with its place.
 
-`load` reads a file, `parse` a text. Time and memory are bounded for any input: see the limits in `reading`,
-`scalars` and `composing`.
+`load` reads a file, `parse` a text. Time and memory are bounded for any input: see the limits in `load`,
+`scalars` and `node_builder`.
 """
 
 from pathlib import Path as FilePath

@@ -32,6 +32,10 @@ class SourcePlace(NamedTuple):
         return Span(self.file or file, self.line + 1, self.column + 1, self.end_line + 1, self.end_column + 1)
 
 
+START = SourcePlace(0, 0, 0, 0)
+"""The start of a file: the place of what is wrong with the file as a whole."""
+
+
 class SourceNode(NamedTuple):
     """One value: its place, the places of its keys, what it holds, and its size with all aliases expanded."""
 

@@ -8,6 +8,9 @@ from regscribe.source.rules import TOO_MANY_FINDINGS
 
 MAX_FINDINGS = 300
 
+Others = tuple[tuple[str, SourcePlace], ...]
+"""What else a finding is about: a text and a place for each."""
+
 
 class StopReadingError(Exception):
     """The rest of the file is not worth reading; what is known stands in the findings."""
@@ -20,15 +23,7 @@ class Findings:
     name: str
     diagnostics: list[Diagnostic] = field(default_factory=list)
 
-    def add(
-        self,
-        rule: str,
-        message: str,
-        place: SourcePlace,
-        *,
-        advice: str,
-        related: tuple[tuple[str, SourcePlace], ...] = (),
-    ) -> None:
+    def add(self, rule: str, message: str, place: SourcePlace, *, advice: str, related: Others = ()) -> None:
         """Add one; raises StopReadingError when there are too many to be useful."""
         others = tuple(Related(text, where.span(self.name)) for text, where in related)
         self.diagnostics.append(Diagnostic(rule, message, place.span(self.name), advice, related=others))
@@ -39,13 +34,7 @@ class Findings:
             raise StopReadingError
 
     def stop(
-        self,
-        rule: str,
-        message: str,
-        place: SourcePlace,
-        *,
-        advice: str,
-        related: tuple[tuple[str, SourcePlace], ...] = (),
+        self, rule: str, message: str, place: SourcePlace, *, advice: str, related: Others = ()
     ) -> StopReadingError:
         """Add one after which nothing can be read; the caller raises what this returns."""
         self.add(rule, message, place, advice=advice, related=related)

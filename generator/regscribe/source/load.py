@@ -7,16 +7,15 @@ import stat
 from pathlib import Path as FilePath
 
 from regscribe.model import Diagnostic
-from regscribe.source.document import Document, SourcePlace
+from regscribe.source.document import START, Document
 from regscribe.source.findings import Findings, StopReadingError
-from regscribe.source.node_builder import Composer
+from regscribe.source.node_builder import NodeBuilder
 from regscribe.source.rules import TOO_LARGE, UNREADABLE
 from regscribe.source.scalars import shorten
 from regscribe.source.utf8 import check_characters, decode, normalise
 
 MAX_BYTES = 8 * 1024 * 1024
 
-_START = SourcePlace(0, 0, 0, 0)
 _ADVICE = {
     errno.ENOENT: "check the path; `regscribe new MAKER/FAMILY` starts a map",
     errno.EACCES: "ask for the right to read it (`ls -l` shows who has it)",
@@ -42,9 +41,9 @@ def read(path: FilePath, *, name: str) -> tuple[bytes | None, list[Diagnostic]]:
     except OSError as error:
         reason = (error.strerror or "cannot be read").lower()
         advice = _ADVICE.get(error.errno or 0, "check the path and the disk")
-        findings.add(UNREADABLE, f"the map cannot be read: {reason}", _START, advice=advice)
+        findings.add(UNREADABLE, f"the map cannot be read: {reason}", START, advice=advice)
     except ValueError:
-        findings.add(UNREADABLE, "no file can have this name", _START, advice="check the path")
+        findings.add(UNREADABLE, "no file can have this name", START, advice="check the path")
     return None, findings.diagnostics
 
 
@@ -52,9 +51,9 @@ def _read(path: FilePath, findings: Findings) -> bytes:
     status = path.stat()
     if stat.S_ISDIR(status.st_mode):
         advice = "name a file in it: MAKER/FAMILY.yaml"
-        raise findings.stop(UNREADABLE, "this is a directory, not a map", _START, advice=advice)
+        raise findings.stop(UNREADABLE, "this is a directory, not a map", START, advice=advice)
     if not stat.S_ISREG(status.st_mode):
-        raise findings.stop(UNREADABLE, "this is no regular file", _START, advice="copy the map into a file")
+        raise findings.stop(UNREADABLE, "this is no regular file", START, advice="copy the map into a file")
     _check_size(status.st_size, findings)
     with path.open("rb") as file:
         data = file.read(MAX_BYTES + 1)
@@ -65,7 +64,7 @@ def _read(path: FilePath, findings: Findings) -> bytes:
 def _check_size(size: int, findings: Findings) -> None:
     if size > MAX_BYTES:
         message = f"the file has {size:,} bytes; at most {MAX_BYTES:,} are read"
-        raise findings.stop(TOO_LARGE, message, _START, advice="is this a map? split a family that is really so large")
+        raise findings.stop(TOO_LARGE, message, START, advice="is this a map? split a family that is really so large")
 
 
 def parse(content: str | bytes, *, name: str, escapes: bool = False) -> tuple[Document | None, list[Diagnostic]]:
@@ -80,7 +79,7 @@ def parse(content: str | bytes, *, name: str, escapes: bool = False) -> tuple[Do
         text = normalise(content) if isinstance(content, str) else decode(data, findings)
         check_characters(text, findings)
         if not findings.diagnostics:
-            root = Composer(text, findings, escapes=escapes).compose()
+            root = NodeBuilder(text, findings, escapes=escapes).build()
             if not findings.diagnostics:
                 return Document(findings.name, text, root.value, hashlib.sha256(data).hexdigest(), root), []
     except StopReadingError:

@@ -16,7 +16,7 @@ from yaml.events import (
     SequenceEndEvent,
 )
 
-from regscribe.source.document import Plain, SourceNode, SourcePlace
+from regscribe.source.document import START, Plain, SourceNode, SourcePlace
 from regscribe.source.findings import Findings
 from regscribe.source.open_collection import OpenCollection, place_of
 from regscribe.source.rules import (
@@ -54,7 +54,7 @@ _TYPES: dict[str, tuple[type, ...]] = {
 _BLANK_OR_COMMENT = re.compile(r"(?:[ \t]*+(?:#.*)?+(?:\n|\Z))*+[ \t]*+")
 
 
-class Composer:
+class NodeBuilder:
     """Builds the tree of one file; what is wrong goes to `findings`. With `escapes` these may spell any character."""
 
     def __init__(self, text: str, findings: Findings, *, escapes: bool = False) -> None:
@@ -66,7 +66,7 @@ class Composer:
         self._values = 0
         self._root: SourceNode | None = None
 
-    def compose(self) -> SourceNode:
+    def build(self) -> SourceNode:
         """Return the top of the tree; raises StopReadingError if the file cannot be read to its end."""
         for event in self._events():
             self._take(event)
@@ -75,7 +75,7 @@ class Composer:
                 break
         if self._root is None or self._root.value is None:
             advice = "start one with `regscribe new MAKER/FAMILY`"
-            raise self._findings.stop(EMPTY, "the file holds no map", SourcePlace(0, 0, 0, 0), advice=advice)
+            raise self._findings.stop(EMPTY, "the file holds no map", START, advice=advice)
         return self._root
 
     def _events(self) -> Iterator[Event]:

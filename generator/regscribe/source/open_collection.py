@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 from yaml.events import Event
 
-from regscribe.source.document import Plain, SourceNode, SourcePlace
+from regscribe.source.document import START, Plain, SourceNode, SourcePlace
 
 
 @dataclass(slots=True)
@@ -57,5 +57,5 @@ def place_of(event: Event) -> SourcePlace:
     """Return where an event stands in the text."""
     start, end = event.start_mark, event.end_mark
     if start is None or end is None:
-        return SourcePlace(0, 0, 0, 0)
+        return START
     return SourcePlace(start.line, start.column, end.line, end.column)

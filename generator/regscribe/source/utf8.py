@@ -3,7 +3,7 @@
 import codecs
 import re
 
-from regscribe.source.document import SourcePlace
+from regscribe.source.document import START, SourcePlace
 from regscribe.source.findings import Findings
 from regscribe.source.rules import CONTROL_CHARACTER, DIRECTIVE, NOT_UTF8, TAB
 
@@ -20,7 +20,6 @@ _MARKS = (
     (codecs.BOM_UTF16_LE, "UTF-16"),
     (codecs.BOM_UTF16_BE, "UTF-16"),
 )
-_START = SourcePlace(0, 0, 0, 0)
 
 
 def decode(data: bytes, findings: Findings) -> str:
@@ -30,7 +29,7 @@ def decode(data: bytes, findings: Findings) -> str:
         encoding = "UTF-16 or UTF-32"
     if encoding:
         message = f"the file is {encoding}; maps are UTF-8"
-        raise findings.stop(NOT_UTF8, message, _START, advice="save it as UTF-8 (in most editors: save with encoding)")
+        raise findings.stop(NOT_UTF8, message, START, advice="save it as UTF-8 (in most editors: save with encoding)")
     try:
         return normalise(data.decode("utf-8-sig"))
     except UnicodeDecodeError as error:

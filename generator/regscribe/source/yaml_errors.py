@@ -2,7 +2,7 @@
 
 import yaml
 
-from regscribe.source.document import SourcePlace
+from regscribe.source.document import START, SourcePlace
 from regscribe.source.findings import Findings, StopReadingError
 from regscribe.source.rules import SYNTAX
 from regscribe.source.utf8 import place_at
@@ -50,17 +50,25 @@ _ELSEWHERE = "check indentation, quotes and brackets around here"
 def explain(error: yaml.YAMLError, text: str, findings: Findings) -> StopReadingError:
     """Add the parser's `error` in `text` to the findings; the caller raises what this returns."""
     if not isinstance(error, yaml.MarkedYAMLError):
-        return findings.stop(SYNTAX, "the file is not YAML", SourcePlace(0, 0, 0, 0), advice=_ELSEWHERE)
+        return findings.stop(SYNTAX, "the file is not YAML", START, advice=_ELSEWHERE)
     problem = error.problem or "not well-formed"
-    message, advice = next(((said, do) for part, said, do in _KNOWN if part in problem), (problem, _ELSEWHERE))
+    message, advice = _worded(problem)
     place, start = _place(error.problem_mark), _place(error.context_mark)
     last = _last(text)
-    if place.line > last.line:
-        place, start, problem = last, min(start, last), _BLAMED_ON_START[0]
-    if error.context_mark and any(part in problem for part in _BLAMED_ON_START):
+    beyond = place.line > last.line
+    if beyond:
+        place, start = last, min(start, last)
+    if not error.context_mark or start == place:
+        return findings.stop(SYNTAX, message, place, advice=advice)
+    if beyond or any(part in problem for part in _BLAMED_ON_START):
         return findings.stop(SYNTAX, message, start, advice=advice)
-    related = ((error.context or "in what starts here", start),) if error.context_mark and start != place else ()
+    related = ((error.context or "in what starts here", start),)
     return findings.stop(SYNTAX, message, place, advice=advice, related=related)
+
+
+def _worded(problem: str) -> tuple[str, str]:
+    """Say what a problem means and what to do; the parser's own words where it is not known."""
+    return next(((said, do) for part, said, do in _KNOWN if part in problem), (problem, _ELSEWHERE))
 
 
 def _last(text: str) -> SourcePlace:
@@ -70,4 +78,4 @@ def _last(text: str) -> SourcePlace:
 
 
 def _place(mark: "yaml.Mark | None") -> SourcePlace:
-    return SourcePlace(mark.line, mark.column, mark.line, mark.column + 1) if mark else SourcePlace(0, 0, 0, 0)
+    return SourcePlace(mark.line, mark.column, mark.line, mark.column + 1) if mark else START
