@@ -18,10 +18,10 @@ from regscribe.tools.live.capture import Captured, captured
 from regscribe.tools.live.captured_frames import FRAMINGS
 from regscribe.tools.live.decode import Decoded, DecodedItem, Decoder
 from regscribe.tools.live.errors import TargetError
-from regscribe.tools.live.link_names import ADDRESSINGS
 from regscribe.tools.live.target import given_texts
 from regscribe.visible import safe
 from regscribe_runtime import BareDevice
+from regscribe_runtime.values.serial_line import ADDRESSINGS
 
 ARROWS = {"request": "->", "response": "<-"}
 PAIR = 2

@@ -18,7 +18,7 @@ from regscribe.cli.shared.terminal import show
 from regscribe.model import GivenKind, RegisterMap
 from regscribe.simulate import SimulatedDevice, SimulatorError, ThermalProcess
 from regscribe.tools.live.givens import codes_in, flag_of
-from regscribe_runtime.values.serial_line import ADDRESSINGS
+from regscribe_runtime.values.serial_line import ADDRESSINGS, MODBUS
 
 KEYS = ("map", "model", "unit", "given", "state", "process", "seed", "addressing")
 
@@ -151,7 +151,7 @@ def device_of(wanted: WantedDevice, register_map: RegisterMap) -> SimulatedDevic
 def _made(wanted: WantedDevice, register_map: RegisterMap) -> SimulatedDevice:
     model = _model(wanted.model, register_map)
     values = dict(_given(one, register_map) for one in wanted.givens)
-    addressing = wanted.addressing or ADDRESSINGS[0]
+    addressing = wanted.addressing or MODBUS
     if addressing not in ADDRESSINGS:
         message = f"addressing {addressing} is none of {', '.join(ADDRESSINGS)}"
         raise click.UsageError(message)
