@@ -83,9 +83,9 @@ class Wire:
         """Answer a request."""
         asked = request._replace(seconds=0.0)
         self.log.append((unit, *asked[:4]))
-        answer = self.answer(pdu.encode(asked))
+        answer = self.answer(pdu.encode_request(asked))
         assert answer is not None
-        return pdu.decode(asked, answer)
+        return pdu.decode_reply(asked, answer)
 
 
 def attempt(wire: Wire, do: Callable[[], Any]) -> tuple[object, ...]:

@@ -140,8 +140,8 @@ class DirectLink:
     def _answer(self, request: Request) -> Any:
         first = {"modbus": 0, "jbus": 1}[self.addressing]
         asked = request._replace(address=request.address + first)
-        answer = self.device.handle(pdu.encode(asked))
-        reply = None if answer is None else pdu.decode(asked, answer)
+        answer = self.device.handle(pdu.encode_request(asked))
+        reply = None if answer is None else pdu.decode_reply(asked, answer)
         return reply and reply._replace(address=reply.address - first if reply.address else 0)
 
 

@@ -78,7 +78,7 @@ def test_a_wait_of_0_is_a_wait(told: Callable[..., Any]) -> None:
 def test_a_command_writes_coils(step: str, frame: str, fact: Any, told: Callable[..., Any]) -> None:
     register_map, driver, link = told(step)
     driver.commands.go()
-    assert [pdu.encode(one) for one in link.log] == [bytes.fromhex(frame)]
+    assert [pdu.encode_request(one) for one in link.log] == [bytes.fromhex(frame)]
     assert link.device.commands_run == ("go",)
     assert _facts(register_map) == [fact]
     (row,) = (line for line in _page(register_map).splitlines() if line.startswith("| 1 | write |"))

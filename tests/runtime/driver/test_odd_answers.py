@@ -141,7 +141,7 @@ def test_an_exception_is_reported_with_the_code_that_came(code: int) -> None:
     request = Request(3, 0, 1)
 
     with pytest.raises(ExceptionAnswer) as caught:
-        verify(request, pdu.decode(request, bytes([0x83, code])), unit=1, protocol=Protocol())
+        verify(request, pdu.decode_reply(request, bytes([0x83, code])), unit=1, protocol=Protocol())
 
     assert caught.value.code == code
     assert f"exception {code:02d}" in str(caught.value)

@@ -17,7 +17,7 @@ from pymodbus.framer import FramerAscii, FramerRTU
 from pymodbus.pdu import ModbusPDU
 
 from regscribe_runtime.errors import LinkLost, NoAnswer, WrongAnswer
-from regscribe_runtime.link.exchange import BROADCAST, UNADDRESSED
+from regscribe_runtime.link.exchange import BROADCAST
 from regscribe_runtime.link.links import ClientSettings
 from regscribe_runtime.link.locks import AsyncTurns, Turns
 from regscribe_runtime.link.retry import Retry
@@ -124,8 +124,7 @@ class _Base:
             raise LinkLost(message)
 
     def _sent(self, unit: int, request: Request) -> _Sent:
-        first = 0 if request.function in UNADDRESSED else first_address(self.addressing)
-        return _Sent(unit, request, request._replace(address=request.address + first), self._connection())
+        return _Sent(unit, request, request.shifted(first_address(self.addressing)), self._connection())
 
     def _pause(self, sent: _Sent) -> float:
         """How long to wait for a silent line, and until no late answer could be taken for this one's, in seconds."""
@@ -141,7 +140,7 @@ class _Base:
             return Reply(sent.shown.function, sent.shown.words, sent.shown.address, len(sent.shown.words))
         self._late.answered(sent.unit, sent.wire, now=time.monotonic(), seconds=self.timeout)
         try:
-            reply = pdu.decode(sent.wire, bytes([answer.function_code]) + answer.encode())
+            reply = pdu.decode_reply(sent.wire, bytes([answer.function_code]) + answer.encode())
         except (ModbusException, struct.error, ValueError, TypeError) as error:
             message = f"{sent}: {answer} is no answer to it"
             raise WrongAnswer(message) from error
@@ -201,7 +200,7 @@ class ClientLink(_Base):
         """Send one request once; see `Link.call`."""
         with self.lock.line:
             sent = self._sent(unit, request)
-            once = _Once(unit, pdu.encode(sent.wire), self._drain)
+            once = _Once(unit, pdu.encode_request(sent.wire), self._drain)
             while pause := self._pause(sent):
                 time.sleep(pause)
             began = time.monotonic()
@@ -244,7 +243,7 @@ class AsyncClientLink(_Base):
         """Send one request once; see `Link.call`."""
         async with self.lock.line:
             sent = self._sent(unit, request)
-            once = _Once(unit, pdu.encode(sent.wire), lambda: None)
+            once = _Once(unit, pdu.encode_request(sent.wire), lambda: None)
             while pause := self._pause(sent):  # noqa: ASYNC110 (it waits for time to pass, no event)
                 await asyncio.sleep(pause)
             began = time.monotonic()

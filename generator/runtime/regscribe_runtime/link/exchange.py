@@ -10,9 +10,8 @@ from regscribe_runtime.link.trace import RECEIVED, SENT, Trace, Tracer
 from regscribe_runtime.values.serial_line import SerialLine, first_address
 from regscribe_runtime.wire import pdu
 from regscribe_runtime.wire.framing import FoundFrame, framing_for
-from regscribe_runtime.wire.requests import LOOPBACK, READ_STATUS, Reply, Request, fits
+from regscribe_runtime.wire.requests import Reply, Request, fits
 
-UNADDRESSED = frozenset({READ_STATUS, LOOPBACK})
 BROADCAST = 0
 """A write to this unit is for all, and nobody answers."""
 USUAL_SECONDS = 1.0
@@ -46,9 +45,8 @@ class Conversation:
 
     def exchange(self, wire: Stream, unit: int, request: Request) -> Steps[Reply]:
         """Send `request` once and return its answer; NoAnswer, WrongAnswer, or OSError for a broken wire."""
-        moved = bool(self.first) and request.function not in UNADDRESSED
-        sent = request._replace(address=request.address + self.first) if moved else request
-        frame = self.framing.build(unit, pdu.encode(sent))
+        sent = request.shifted(self.first)
+        frame = self.framing.build(unit, pdu.encode_request(sent))
         asked = PendingRequest(unit, request, sent, frame, request.seconds or USUAL_SECONDS)
         manners = self.manners
         if manners is not None:
@@ -64,7 +62,8 @@ class Conversation:
             if manners is not None:
                 manners.owe(asked, deadline)
             raise
-        return reply._replace(address=reply.address - self.first) if moved and reply.exception is None else reply
+        moved = sent.address - request.address
+        return reply._replace(address=reply.address - moved) if moved and reply.exception is None else reply
 
     def _send(self, wire: Stream, asked: PendingRequest) -> None:
         wire.write(asked.frame)
@@ -128,7 +127,7 @@ class Conversation:
             return None
         if found.unit != asked.unit:
             raise _foreign(asked, found.unit)
-        reply = pdu.decode(asked.wire, found.pdu)
+        reply = pdu.decode_reply(asked.wire, found.pdu)
         # a server that cannot name the function of a bad request answers 80h
         return (
             reply._replace(function=asked.wire.function)

@@ -28,4 +28,4 @@ class PendingRequest(NamedTuple):
     @property
     def resembles_its_answer(self) -> bool:
         """Whether the request itself, echoed, would be a good answer to it (writes of one value, the loopback)."""
-        return fits(self.wire, pdu.decode(self.wire, pdu.encode(self.wire)))
+        return fits(self.wire, pdu.decode_reply(self.wire, pdu.encode_request(self.wire)))

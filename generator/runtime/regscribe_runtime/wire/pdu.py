@@ -1,21 +1,46 @@
-"""Requests and answers as bytes without their frame: function code and data (Modbus Application Protocol V1.1b3)."""
+"""Requests and answers as bytes without their frame, in both roles (Modbus Application Protocol V1.1b3).
+
+A client encodes requests and decodes answers in the light of them; a device decodes requests, strictly, and encodes
+its answers.
+"""
 
 import struct
+from collections.abc import Sequence
 
 from regscribe_runtime.wire import requests as functions
 from regscribe_runtime.wire.requests import Reply, Request
 
 EXCEPTION_BIT = 0x80
-ON = 0xFF00
-BITS_IN_BYTE = 8
+ON, OFF = 0xFF00, 0x0000
+BITS_IN_BYTE, BYTES_IN_WORD = 8, 2
 WORD_READS = (functions.READ_HOLDING, functions.READ_INPUT)
 BIT_READS = (functions.READ_COILS, functions.READ_DISCRETE_INPUTS)
+BLOCK_WRITES = (functions.WRITE_COILS, functions.WRITE_REGISTERS)
+"""What writes several values: a byte count announces them, and the answer tells only how many."""
 ADDRESSED = struct.Struct(">BHH")
 HEAD = struct.Struct(">BH")
 WORDS = tuple(struct.Struct(f">{count}H") for count in range(128))
 
+_BLOCK_HEAD = 5
+"""Bytes of address, quantity and byte count."""
+_DATA_SIZES = {
+    **dict.fromkeys((*BIT_READS, *WORD_READS), 4),
+    **dict.fromkeys((functions.WRITE_COIL, functions.WRITE_REGISTER, functions.LOOPBACK), 4),
+    functions.READ_STATUS: 0,
+    functions.MASK_REGISTER: 6,
+}
+"""By function: the bytes of a request behind it; those of a block write follow from its head."""
 
-def encode(request: Request) -> bytes:
+
+class MalformedError(ValueError):
+    """The bytes are no request of their function."""
+
+
+class CoilStateError(MalformedError):
+    """A coil is to be neither on nor off."""
+
+
+def encode_request(request: Request) -> bytes:
     """Function code and data; ValueError for what no frame can carry."""
     function, address, quantity, words, _ = request
     try:
@@ -30,56 +55,145 @@ def encode(request: Request) -> bytes:
 def _write(function: int, address: int, words: tuple[int, ...]) -> bytes:
     match function:
         case functions.WRITE_COIL:
-            return ADDRESSED.pack(function, address, ON if words[0] else 0)
+            return ADDRESSED.pack(function, address, ON if words[0] else OFF)
         case functions.READ_STATUS:
             return bytes([function])
-        case functions.WRITE_COILS:
-            packed = sum(bool(bit) << at for at, bit in enumerate(words))
-            data = packed.to_bytes(-(-len(words) // BITS_IN_BYTE), "little")
-            return ADDRESSED.pack(function, address, len(words)) + bytes([len(data)]) + data
-        case functions.WRITE_REGISTERS:
-            data = struct.pack(f">{len(words)}H", *words)
+        case functions.WRITE_COILS | functions.WRITE_REGISTERS:
+            data = pack_bits(words) if function == functions.WRITE_COILS else pack_words(words)
             return ADDRESSED.pack(function, address, len(words)) + struct.pack("B", len(data)) + data
         case _:
-            return HEAD.pack(function, address) + struct.pack(f">{len(words)}H", *words)
+            return HEAD.pack(function, address) + pack_words(words)
 
 
-def decode(request: Request, pdu: bytes) -> Reply:
+def decode_request(pdu: bytes) -> Request:
+    """The request that `pdu` spells; MalformedError for an unknown function, or another length than it asks for.
+
+    A coil's state is 0 or 1 in `words`. Function 23 is two requests behind one code, which a device takes apart.
+    """
+    function, data = pdu[0], pdu[1:]
+    if function in BLOCK_WRITES:
+        return _block_write(function, data)
+    if function not in _DATA_SIZES:
+        message = f"function {function:02d} is not known"
+        raise MalformedError(message)
+    expect_bytes(data, _DATA_SIZES[function])
+    address, *words = unpack_words(data) or (0,)
+    if function in WORD_READS or function in BIT_READS:
+        return Request(function, address, words[0])
+    if function == functions.WRITE_COIL:
+        words = [_coil_state(words[0])]
+    return Request(function, address, 1, tuple(words))
+
+
+def _block_write(function: int, data: bytes) -> Request:
+    head, values = data[:_BLOCK_HEAD], data[_BLOCK_HEAD:]
+    expect_bytes(head, _BLOCK_HEAD)
+    expect_bytes(data, _BLOCK_HEAD + head[-1])
+    address, quantity = unpack_words(head[:-1])
+    bits = function == functions.WRITE_COILS
+    if len(values) != (_packed(quantity) if bits else BYTES_IN_WORD * quantity):
+        message = f"{quantity} {'bits' if bits else 'words'} are announced, but {len(values)} bytes"
+        raise MalformedError(message)
+    return Request(function, address, quantity, unpack_bits(values, quantity) if bits else unpack_words(values))
+
+
+def _coil_state(word: int) -> int:
+    if word not in (ON, OFF):
+        message = f"{word:04X} is no state of a coil: FF00 is on, 0000 is off"
+        raise CoilStateError(message)
+    return int(word == ON)
+
+
+def expect_bytes(data: bytes, expected: int) -> None:
+    """MalformedError if there are not so many bytes behind the function code."""
+    if len(data) != expected:
+        message = f"{len(data)} bytes after the function code, {expected} expected"
+        raise MalformedError(message)
+
+
+def encode_reply(reply: Reply) -> bytes:
+    """Function code and data of an answer."""
+    function, words, address, quantity, exception = reply
+    if exception is not None:
+        return bytes((function | EXCEPTION_BIT, exception))
+    if function in BLOCK_WRITES:
+        return ADDRESSED.pack(function, address, quantity)
+    if function == functions.READ_STATUS:
+        return bytes((function, *words))
+    if function in BIT_READS:
+        return _counted(function, pack_bits(words))
+    if function in WORD_READS or function == functions.WRITE_AND_READ:
+        return _counted(function, pack_words(words))
+    return _write(function, address, words)
+
+
+def _counted(function: int, data: bytes) -> bytes:
+    return bytes((function, len(data))) + data
+
+
+def decode_reply(request: Request, pdu: bytes) -> Reply:
     """The answer that `pdu` spells; what has a wrong length or byte count has no words, so it fits no request."""
     code = pdu[0]
-    if code in WORD_READS and len(pdu) > 1 and pdu[1] == len(pdu) - 2 and not pdu[1] % 2:
-        return Reply(code, WORDS[pdu[1] // 2].unpack_from(pdu, 2))
+    if code in WORD_READS:
+        return _words_read(pdu)
     data = pdu[1:]
     if code & EXCEPTION_BIT:  # a good answer with one bit flipped has more than one byte: it is no refusal
         return Reply(code & ~EXCEPTION_BIT, exception=data[0]) if len(data) == 1 else Reply(code)
-    if code in BIT_READS and data and data[0] == len(data) - 1:
-        return Reply(code, _bits(data[1:], request.quantity))
-    if code in WORD_READS or code in BIT_READS:
-        return Reply(code)
+    if code in BIT_READS:
+        return _bits_read(code, data, request.quantity)
     if code == functions.READ_STATUS:
         return Reply(code, tuple(data))
     return _echoed(code, data)
 
 
-def _words(data: bytes) -> tuple[int, ...]:
-    return struct.unpack(f">{len(data) // 2}H", data) if len(data) % 2 == 0 else ()
+def _words_read(pdu: bytes) -> Reply:
+    if len(pdu) > 1 and pdu[1] == len(pdu) - 2 and not pdu[1] % 2:
+        return Reply(pdu[0], WORDS[pdu[1] // 2].unpack_from(pdu, 2))
+    return Reply(pdu[0])
 
 
-def _bits(data: bytes, count: int) -> tuple[int, ...]:
+def _bits_read(code: int, data: bytes, count: int) -> Reply:
+    if not data or data[0] != len(data) - 1:
+        return Reply(code)
     # bits come in whole bytes: more or fewer bytes than asked for must not look like a good answer
-    whole = len(data) == -(-count // BITS_IN_BYTE)
-    packed = int.from_bytes(data, "little")
-    return tuple(packed >> at & 1 for at in range(count if whole else len(data) * BITS_IN_BYTE))
+    return Reply(code, unpack_bits(data[1:], count if data[0] == _packed(count) else data[0] * BITS_IN_BYTE))
 
 
 def _echoed(code: int, data: bytes) -> Reply:
-    words = _words(data)
+    words = unpack_words(data) if len(data) % 2 == 0 else ()
     if len(words) < 2:  # noqa: PLR2004 (an address and a value or a quantity)
         return Reply(code)
     address, value = words[0], words[1]
-    if code in (functions.WRITE_COILS, functions.WRITE_REGISTERS):
+    if code in BLOCK_WRITES:
         return Reply(code, (), address, value)
     if code == functions.WRITE_COIL:
-        value = {ON: 1, 0: 0}.get(value, value)
+        value = {ON: 1, OFF: 0}.get(value, value)
         return Reply(code, (value,), address)
     return Reply(code, words[1:], address)
+
+
+def pack_words(words: Sequence[int]) -> bytes:
+    """Words as they are sent, the high byte first; struct.error for one of more than 16 bits."""
+    return struct.pack(f">{len(words)}H", *words)
+
+
+def unpack_words(data: bytes) -> tuple[int, ...]:
+    """The words of an even number of bytes."""
+    return struct.unpack(f">{len(data) // BYTES_IN_WORD}H", data)
+
+
+def pack_bits(bits: Sequence[int]) -> bytes:
+    """Bits as they are sent: the first is the least significant of the first byte."""
+    number = sum(bool(bit) << place for place, bit in enumerate(bits))
+    return number.to_bytes(_packed(len(bits)), "little")
+
+
+def unpack_bits(data: bytes, count: int) -> tuple[int, ...]:
+    """The first `count` bits of `data`."""
+    number = int.from_bytes(data, "little")
+    return tuple(number >> place & 1 for place in range(count))
+
+
+def _packed(count: int) -> int:
+    """Bytes of so many bits."""
+    return -(-count // BITS_IN_BYTE)

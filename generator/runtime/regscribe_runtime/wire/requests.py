@@ -12,8 +12,13 @@ from regscribe_runtime.values.wire_types import Space
 
 READ_COILS, READ_DISCRETE_INPUTS, READ_HOLDING, READ_INPUT = 1, 2, 3, 4
 WRITE_COIL, WRITE_REGISTER, READ_STATUS, LOOPBACK, WRITE_COILS, WRITE_REGISTERS = 5, 6, 7, 8, 15, 16
+MASK_REGISTER, WRITE_AND_READ = 22, 23
 READ_SPACES = {space.read_function: space for space in Space}
 READS = frozenset(READ_SPACES)
+WRITES = frozenset(function for space in Space for function in space.write_functions)
+SPACES = READ_SPACES | {function: space for space in Space for function in space.write_functions}
+"""By function: the space that it reads or writes."""
+UNADDRESSED = frozenset({READ_STATUS, LOOPBACK})
 
 
 class Request(NamedTuple):
@@ -32,6 +37,10 @@ class Request(NamedTuple):
     def reads(self) -> bool:
         """Whether it only reads, so that it may be sent again."""
         return self.function in READS
+
+    def shifted(self, steps: int) -> "Request":
+        """The request with its address moved, if its function has one: JBUS counts from 1 where Modbus does from 0."""
+        return self._replace(address=self.address + steps) if steps and self.function not in UNADDRESSED else self
 
 
 class Reply(NamedTuple):
