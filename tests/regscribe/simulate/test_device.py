@@ -303,6 +303,17 @@ def test_write_and_read_writes_first(io: SimulatedDevice) -> None:
     assert ask(io, 23, 40, 1, 40, 1, 2, form="HHHHB", data=b"\0\x2a") == b"\x17\x02\0\x2a"
 
 
+def test_a_jbus_device_counts_every_address_of_a_request_from_one(bit_device: RegisterMap) -> None:
+    jbus = SimulatedDevice(bit_device, "IO", addressing="jbus")
+    assert write(jbus, 41, 0x12) == (41, 1)
+    assert jbus.peek("plain") == 0x12
+    assert ask(jbus, 22, 41, 0xF2, 0x25, form="HHH") == struct.pack(">BHHH", 22, 41, 0xF2, 0x25)
+    assert ask(jbus, 23, 41, 1, 41, 1, 2, form="HHHHB", data=b"\0\x2a") == b"\x17\x02\0\x2a"
+    assert read(jbus, 0, 1) == 2
+    assert jbus.handle(b"\x08\0\0\xaa\xbb") == b"\x08\0\0\xaa\xbb"
+    assert jbus.handle(b"\x07") is not None
+
+
 def test_an_empty_or_short_request_gets_no_answer(device: SimulatedDevice) -> None:
     assert device.handle(b"") is None
     assert device.handle(b"\x03") is None

@@ -1,16 +1,16 @@
 """What a request and its answer say, in the names of the device's map."""
 
-import struct
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from regscribe.model import Kind, Space
 from regscribe.simulate.device import codec, plain_values
 from regscribe.simulate.device.address_index import AddressSpan
-from regscribe.simulate.device.answers import EXCEPTION_BIT, unpack_bits
-from regscribe.simulate.device.device import BIT_WORDS, READS, SimulatedDevice
+from regscribe.simulate.device.device import READS, SimulatedDevice
 from regscribe.simulate.line.connection import Exchange
 from regscribe.simulate.line.server_context import BROADCAST
+from regscribe_runtime.wire.pdu import EXCEPTION_BIT, MalformedError, decode_reply, decode_request
+from regscribe_runtime.wire.requests import SPACES
 
 NAMES = {1: "read", 2: "read", 3: "read", 4: "read", 5: "write", 6: "write", 7: "read status", 8: "loopback"} | {
     15: "write",
@@ -20,9 +20,6 @@ NAMES = {1: "read", 2: "read", 3: "read", 4: "read", 5: "write", 6: "write", 7: 
 }
 MOST_SHOWN = 6
 """Registers that are told by name; of more, their number."""
-
-BITS = {5, 15}
-WIDEST = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,32 +57,17 @@ def _outcome(device: SimulatedDevice | None, exchange: Exchange) -> tuple[bool, 
 
 def _asked(device: SimulatedDevice, exchange: Exchange) -> str:
     """The registers of a request with their values: those that were written, or those that the answer shows."""
-    pdu, function = exchange.request.pdu, exchange.request.pdu[0]
-    if function not in NAMES or len(pdu) < struct.calcsize(">BHH"):
+    pdu = exchange.request.pdu
+    try:
+        request = decode_request(pdu)
+    except MalformedError:
         return pdu.hex(" ")
-    address, number = struct.unpack(">HH", pdu[1:5])
-    if function in READS:
-        space = READS[function]
-        return _named(device, space, address, number, _read(space, number, exchange.answer))
-    if function in BITS:
-        words = (
-            (BIT_WORDS.get(number, number),)
-            if function == min(BITS)
-            else unpack_bits(pdu[6:], min(number, len(pdu) * 8))
-        )
-        return _named(device, Space.COIL, address, len(words), words)
-    data = pdu[3:5] if function == 6 else pdu[6:]  # noqa: PLR2004 - the function that writes one word
-    if function in {6, 16} and len(data) % 2 == 0:
-        words = struct.unpack(f">{len(data) // 2}H", data)
-        return _named(device, Space.HOLDING, address, len(words), words)
-    return pdu[1:].hex(" ")
-
-
-def _read(space: Space, number: int, answer: bytes | None) -> tuple[int, ...]:
-    if answer is None or answer[0] & EXCEPTION_BIT:
-        return ()
-    data = answer[2:]
-    return unpack_bits(data, number) if space.is_bits else struct.unpack(f">{len(data) // 2}H", data)
+    if request.function not in SPACES:
+        return pdu[1:].hex(" ")
+    words = request.words
+    if request.reads and exchange.answer is not None:
+        words = decode_reply(request, exchange.answer).words
+    return _named(device, Space(SPACES[request.function]), request.address, request.quantity, words)
 
 
 def _named(device: SimulatedDevice, space: Space, address: int, number: int, words: tuple[int, ...]) -> str:

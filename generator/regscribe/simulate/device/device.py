@@ -1,30 +1,30 @@
 """A device that answers as its map says: requests in, answers (or silence) out, without any line in between."""
 
 import math
-import struct
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from threading import RLock
 from typing import Any
 
 from regscribe.model import Model, RegisterMap, Space
 from regscribe.simulate.device import state_files
-from regscribe.simulate.device.answers import EXCEPTION_BIT, Refusal, exception_answer, pack_bits, unpack_bits
 from regscribe.simulate.device.commands import Commands
 from regscribe.simulate.device.read_requests import Reader
+from regscribe.simulate.device.refusal import Refusal
 from regscribe.simulate.device.side_effects import Conduct
 from regscribe.simulate.device.state import DeviceState, Value
 from regscribe.simulate.device.value_arguments import Plain
 from regscribe.simulate.device.write_requests import Writer
 from regscribe.simulate.errors import SimulatorError
 from regscribe.simulate.givens import GivenValue
-from regscribe.simulate.line.addressing import AddressError, shifted
 from regscribe.simulate.line.line_settings import Tuning
 from regscribe.simulate.process.controller import controller_of
 from regscribe.simulate.process.thermal_process import ThermalProcess
+from regscribe_runtime.wire import requests as functions
+from regscribe_runtime.wire.pdu import EXCEPTION_BIT, CoilStateError, MalformedError, decode_request, encode_reply
+from regscribe_runtime.wire.requests import Reply, Request
 
 READS = {1: Space.COIL, 2: Space.DISCRETE, 3: Space.HOLDING, 4: Space.INPUT}
-BIT_WORDS = {0xFF00: 1, 0x0000: 0}
 
 
 class SimulatedDevice:
@@ -65,14 +65,12 @@ class SimulatedDevice:
         self._lock = RLock()
         self._functions: dict[int, Callable[[bytes], bytes]] = {
             **dict.fromkeys(READS, self._read),
-            5: self._write_bit,
-            6: self._write_word,
-            7: self._status,
-            8: self._loopback,
-            15: self._write_bits,
-            16: self._write_words,
-            22: self._mask_word,
-            23: self._write_and_read,
+            **dict.fromkeys((functions.WRITE_COIL, functions.WRITE_REGISTER), self._write_one),
+            functions.READ_STATUS: self._status,
+            functions.LOOPBACK: self._loopback,
+            **dict.fromkeys((functions.WRITE_COILS, functions.WRITE_REGISTERS), self._write_several),
+            functions.MASK_REGISTER: self._mask_word,
+            functions.WRITE_AND_READ: self._write_and_read,
         }
 
     @property
@@ -161,104 +159,86 @@ class SimulatedDevice:
         if not pdu or pdu[0] & EXCEPTION_BIT or (broadcast and pdu[0] not in self._protocol.broadcast):
             return None
         with self._lock:
-            first = self._tuning.first
             try:
-                answer = shifted(self._act(shifted(pdu, -first)), first, echoes=True)
-            except AddressError:
-                answer = exception_answer(pdu[0], self.register_map.faults.address)
+                answer: bytes | None = self._act(pdu)
             except Refusal as refusal:
-                answer = exception_answer(pdu[0], refusal.code)
+                answer = refusal.answer(pdu[0])
             lost = pdu[0] not in READS and self._tuning.follow()
         return None if broadcast or lost else answer
 
-    def _act(self, pdu: bytes) -> bytes | None:
+    def _act(self, pdu: bytes) -> bytes:
         act = self._functions.get(pdu[0]) if pdu[0] in self._protocol.functions else None
         if act is None:
             raise Refusal(self.register_map.faults.function)
         return act(pdu)
 
-    def _fields(self, form: str, pdu: bytes) -> tuple[int, ...]:
-        """Unpack the numbers of a request; one that is too short or too long has the wrong quantity."""
-        if len(pdu) != 1 + struct.calcsize(form):
-            raise Refusal(self.register_map.faults.quantity)
-        return struct.unpack(form, pdu[1:])
-
-    def _block(self, pdu: bytes, start: int) -> tuple[int, int, bytes]:
-        """Unpack address, count and data of a write of several, whose byte count must fit its length."""
-        head, data = pdu[start : start + 5], pdu[start + 5 :]
-        if len(head) != struct.calcsize(">HHB") or head[4] != len(data):
-            raise Refusal(self.register_map.faults.quantity)
-        address, count = struct.unpack(">HH", head[:4])
-        return address, count, data
-
-    def _words(self, count: int, data: bytes) -> tuple[int, ...]:
-        if len(data) != 2 * count:
-            raise Refusal(self.register_map.faults.quantity)
-        return struct.unpack(f">{count}H", data)
+    def _request(self, pdu: bytes) -> Request:
+        """The request, its address counted from 0; one that is too short or too long has the wrong quantity."""
+        faults = self.register_map.faults
+        try:
+            request = decode_request(pdu).shifted(-self._tuning.first)
+        except CoilStateError:
+            raise Refusal(faults.value) from None
+        except MalformedError:
+            raise Refusal(faults.quantity) from None
+        if request.address < 0:
+            raise Refusal(faults.address)
+        return request
 
     def _read(self, pdu: bytes) -> bytes:
-        address, count = self._fields(">HH", pdu)
-        function = self._reading(pdu[0], address)
-        space = READS[function]
-        return _read_answer(pdu[0], space, self._reader.read(space, function, address, count))
+        request = self._request(pdu)
+        function = self._reading(request.function, request.address)
+        words = self._reader.read(READS[function], function, request.address, request.quantity)
+        return encode_reply(Reply(request.function, words))
 
     def _reading(self, function: int, address: int) -> int:
         """The function that reads what stands at `address`: this one, or one that does the same in another space."""
         others = (code for codes in self.register_map.alike if function in codes for code in codes if code in READS)
         return next((code for code in (function, *others) if self._layout.documents(READS[code], address)), function)
 
-    def _write_bit(self, pdu: bytes) -> bytes:
-        address, word = self._fields(">HH", pdu)
-        if word not in BIT_WORDS:
-            raise Refusal(self.register_map.faults.value)
-        self._writer.write(Space.COIL, pdu[0], address, (BIT_WORDS[word],))
+    def _write(self, request: Request) -> int:
+        """Write what a request carries; returns how many values were written."""
+        space = Space(functions.SPACES[request.function])
+        return self._writer.write(space, request.function, request.address, request.words)
+
+    def _write_one(self, pdu: bytes) -> bytes:
+        self._write(self._request(pdu))
         return pdu
 
-    def _write_word(self, pdu: bytes) -> bytes:
-        address, word = self._fields(">HH", pdu)
-        self._writer.write(Space.HOLDING, pdu[0], address, (word,))
-        return pdu
-
-    def _write_bits(self, pdu: bytes) -> bytes:
-        address, count, data = self._block(pdu, 1)
-        if len(data) != (count + 7) // 8:
-            raise Refusal(self.register_map.faults.quantity)
-        done = self._writer.write(Space.COIL, pdu[0], address, unpack_bits(data, count))
-        return struct.pack(">BHH", pdu[0], address, done)
-
-    def _write_words(self, pdu: bytes) -> bytes:
-        address, count, data = self._block(pdu, 1)
-        done = self._writer.write(Space.HOLDING, pdu[0], address, self._words(count, data))
-        return struct.pack(">BHH", pdu[0], address, done)
+    def _write_several(self, pdu: bytes) -> bytes:
+        request = self._request(pdu)
+        done = self._write(request)
+        return encode_reply(Reply(request.function, (), request.address + self._tuning.first, done))
 
     def _mask_word(self, pdu: bytes) -> bytes:
-        address, keep, put = self._fields(">HHH", pdu)
-        (word,) = self._reader.read(Space.HOLDING, pdu[0], address, 1)
-        self._writer.write(Space.HOLDING, pdu[0], address, ((word & keep) | (put & ~keep & 0xFFFF),))
+        request = self._request(pdu)
+        keep, put = request.words
+        (word,) = self._reader.read(Space.HOLDING, request.function, request.address, 1)
+        masked = ((word & keep) | (put & ~keep & 0xFFFF),)
+        self._writer.write(Space.HOLDING, request.function, request.address, masked)
         return pdu
 
     def _write_and_read(self, pdu: bytes) -> bytes:
-        read_address, read_count = self._fields(">HH", pdu[:5])
-        address, count, data = self._block(pdu, 5)
-        self._writer.write(Space.HOLDING, pdu[0], address, self._words(count, data))
-        return _read_answer(pdu[0], Space.HOLDING, self._reader.read(Space.HOLDING, pdu[0], read_address, read_count))
+        """Two requests in one: what to read, then what to write before it."""
+        function = pdu[0]
+        read = self._request(bytes([functions.READ_HOLDING]) + pdu[1:5])
+        write = self._request(bytes([functions.WRITE_REGISTERS]) + pdu[5:])
+        self._writer.write(Space.HOLDING, function, write.address, write.words)
+        words = self._reader.read(Space.HOLDING, function, read.address, read.quantity)
+        return encode_reply(Reply(function, words))
 
     def _status(self, pdu: bytes) -> bytes:
-        self._fields(">", pdu)
+        request = self._request(pdu)
         (status,) = self.state.words(Space.STATUS, 0, 1)
         if status is None:
             raise Refusal(self.register_map.faults.function)
-        return bytes((pdu[0], status))
+        return encode_reply(Reply(request.function, (status,)))
 
     def _loopback(self, pdu: bytes) -> bytes:
+        """The request itself, however much data it has."""
         if pdu[1:3] != b"\0\0":
             raise Refusal(self.register_map.faults.function)
         return pdu
-
-
-def _read_answer(function: int, space: Space, words: Sequence[int]) -> bytes:
-    data = pack_bits(words) if space.is_bits else struct.pack(f">{len(words)}H", *words)
-    return bytes((function, len(data))) + data
 
 
 def _model(register_map: RegisterMap, name: str) -> Model:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from regscribe.model import Faults, Later, RegisterMap, Space
 from regscribe.simulate.device.address_index import AddressIndex
-from regscribe.simulate.device.answers import Refusal
+from regscribe.simulate.device.refusal import Refusal
 from regscribe.simulate.device.state import DeviceState
 
 ADDRESSES = 1 << 16

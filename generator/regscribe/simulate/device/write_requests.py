@@ -8,10 +8,10 @@ from regscribe.model import Later, Register, RegisterMap, Space
 from regscribe.simulate.device import codec
 from regscribe.simulate.device.accepted_values import accepts
 from regscribe.simulate.device.address_index import AddressIndex, AddressSpan
-from regscribe.simulate.device.answers import Refusal
 from regscribe.simulate.device.commands import Commands
 from regscribe.simulate.device.device_plan import Stored
 from regscribe.simulate.device.read_requests import check_request
+from regscribe.simulate.device.refusal import Refusal
 from regscribe.simulate.device.side_effects import Conduct
 from regscribe.simulate.device.state import DeviceState
 

@@ -1,7 +1,6 @@
 """How long a device thinks: the map's latencies by function and word, real, scaled, or off."""
 
 import math
-import struct
 from collections.abc import Sequence
 from random import Random
 
@@ -10,12 +9,12 @@ from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.simulate.errors import SimulatorError
 from regscribe.simulate.line.framing import Request
 from regscribe_runtime.values.serial_line import SerialLine
+from regscribe_runtime.wire.pdu import MalformedError, decode_request
+from regscribe_runtime.wire.requests import READ_HOLDING, READ_INPUT, WRITE_AND_READ, WRITE_REGISTERS
 
 NAMED = {"off": 0.0, "real": 1.0}
-WORDS_COUNTED = frozenset({3, 4, 16})
-"""Functions whose request counts words in its third and fourth byte of data."""
-
-REPEATED = {23: 16}
+WORDS_COUNTED = frozenset({READ_HOLDING, READ_INPUT, WRITE_REGISTERS})
+REPEATED = {WRITE_AND_READ: WRITE_REGISTERS}
 """Functions that take as long as another."""
 
 
@@ -33,9 +32,11 @@ def factor_of(latency: float | str) -> float:
 
 def words_of(pdu: bytes) -> int:
     """Return how many registers a request is about, for the part of the latency that counts them."""
-    if pdu[0] in WORDS_COUNTED and len(pdu) >= struct.calcsize(">BHH"):
-        return int.from_bytes(pdu[3:5], "big")
-    return 1
+    try:
+        request = decode_request(pdu)
+    except MalformedError:
+        return 1
+    return request.quantity if request.function in WORDS_COUNTED else 1
 
 
 class Thought:

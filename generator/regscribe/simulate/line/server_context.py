@@ -3,9 +3,10 @@
 from collections.abc import Iterable
 from enum import StrEnum
 
-from regscribe.simulate.device.answers import exception_answer
 from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.simulate.errors import SimulatorError
+from regscribe_runtime.wire.pdu import encode_reply
+from regscribe_runtime.wire.requests import Reply
 
 BROADCAST = 0
 NO_RESPONSE_FROM_TARGET = 0x0B
@@ -53,4 +54,6 @@ class ServerContext:
         found = self._at(unit)
         if found is not None:
             return found.handle(pdu)
-        return exception_answer(pdu[0], NO_RESPONSE_FROM_TARGET) if self._foreign is Foreign.GATEWAY else None
+        if self._foreign is Foreign.GATEWAY:
+            return encode_reply(Reply(pdu[0], exception=NO_RESPONSE_FROM_TARGET))
+        return None
