@@ -18,7 +18,7 @@ from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map
 from regscribe.simulate import SimulatedDevice
 from regscribe.simulate.line.service import Service, Transport, start
-from regscribe_runtime.wire.framing import Rtu
+from regscribe_runtime.wire.client_framing import Rtu
 
 MAPS = Path(__file__).parents[3] / "maps"
 Plan = Callable[[bytes], Iterable[tuple[float, bytes]]]

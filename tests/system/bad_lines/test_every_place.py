@@ -17,7 +17,7 @@ from regscribe_runtime import LinkLost, NoAnswer, NotWritten, RegscribeError, Re
 from regscribe_runtime.link import links
 from regscribe_runtime.link.exchange import Conversation
 from regscribe_runtime.values.protocol import Protocol
-from regscribe_runtime.wire.framing import framing_for
+from regscribe_runtime.wire.client_framing import framing_for
 from regscribe_runtime.wire.requests import Reply, Request, verify
 
 from .machine import descriptors

@@ -9,7 +9,8 @@ from regscribe_runtime.link.streams import Stream
 from regscribe_runtime.link.trace import RECEIVED, SENT, Trace, Tracer
 from regscribe_runtime.values.serial_line import SerialLine, first_address
 from regscribe_runtime.wire import pdu
-from regscribe_runtime.wire.framing import FoundFrame, framing_for
+from regscribe_runtime.wire.client_framing import framing_for
+from regscribe_runtime.wire.framing import Frame
 from regscribe_runtime.wire.requests import Reply, Request, fits
 
 BROADCAST = 0
@@ -111,7 +112,7 @@ class Conversation:
             manners.owe(asked, deadline)
         return wrong
 
-    def _found(self, received: bytearray, asked: PendingRequest) -> FoundFrame | None:
+    def _found(self, received: bytearray, asked: PendingRequest) -> Frame | None:
         try:
             found = self.framing.find(received, asked.unit, asked.wire.function)
         except ValueError as error:
@@ -122,8 +123,8 @@ class Conversation:
             self._heard(found.unit, found.raw)
         return found
 
-    def _reply(self, found: FoundFrame, asked: PendingRequest) -> Reply | None:
-        if not found.ours:
+    def _reply(self, found: Frame, asked: PendingRequest) -> Reply | None:
+        if found.transaction != self.framing.transaction:
             return None
         if found.unit != asked.unit:
             raise _foreign(asked, found.unit)

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from regscribe_runtime.link.pending import PendingRequest, Steps
     from regscribe_runtime.link.streams import Stream
     from regscribe_runtime.values.serial_line import SerialLine
-    from regscribe_runtime.wire.framing import Framing
+    from regscribe_runtime.wire.client_framing import Framing
 
 NOISE_SECONDS = 2.0
 """A line that is not silent for so long has another master on it, or no termination."""

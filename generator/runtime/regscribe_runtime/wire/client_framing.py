@@ -1,0 +1,143 @@
+"""Where an answer begins and ends in the bytes that come to a client, and what an answer it waits for looks like."""
+
+from abc import abstractmethod
+from typing import Protocol
+
+from regscribe_runtime.wire.framing import (
+    ANSWERS,
+    ASCII,
+    LINE_END,
+    MBAP_HEAD,
+    RTU,
+    SHORTEST_RTU,
+    TCP,
+    Frame,
+    ascii_frame,
+    build,
+    checked_framing,
+    rtu_end,
+)
+from regscribe_runtime.wire.pdu import EXCEPTION_BIT
+
+LONGEST = 520
+"""No frame is longer (ASCII: 2 x 255 characters, colon, line end); what does not become one by then is noise."""
+
+
+class Framing(Protocol):
+    """One kind of frame. `decisive`: an answer names its request, so one that does not fit needs no waiting.
+
+    `transaction` is that of the last request, and of its answer; 0 where frames have none.
+    """
+
+    decisive: bool
+    transaction: int
+
+    @abstractmethod
+    def build(self, unit: int, pdu: bytes) -> bytes:
+        """The frame of a request."""
+
+    @abstractmethod
+    def find(self, buffer: bytearray, unit: int, function: int) -> Frame | None:
+        """Take the next frame that may answer a request to `unit` out of the buffer, and what stands before it.
+
+        None if there is none yet. ValueError if what stands there can never become one.
+        """
+
+    @abstractmethod
+    def stranger(self, buffer: bytes) -> int | None:
+        """The unit of a sound frame anywhere in bytes that are no answer."""
+
+
+class Mbap:
+    """Frames of Modbus TCP: a header with a transaction id, which tells an answer from a late or repeated one."""
+
+    decisive = True
+    _LENGTHS = range(3, 256)
+
+    def __init__(self) -> None:
+        self.transaction = 0
+
+    def build(self, unit: int, pdu: bytes) -> bytes:
+        """The frame of a request, with the next transaction id."""
+        self.transaction = self.transaction % 0xFFFF + 1
+        return build(TCP, unit, pdu, self.transaction)
+
+    def find(self, buffer: bytearray, unit: int, function: int) -> Frame | None:  # noqa: ARG002 (the id tells more)
+        """The next frame, whosever it is; ValueError for a header that is none."""
+        if len(buffer) < MBAP_HEAD.size:
+            return None
+        transaction, protocol, length, sender = MBAP_HEAD.unpack_from(buffer)
+        if protocol or length not in self._LENGTHS:
+            message = f"{bytes(buffer[: MBAP_HEAD.size]).hex(' ')} is no header of Modbus TCP"
+            raise ValueError(message)
+        end = MBAP_HEAD.size - 1 + length
+        if len(buffer) < end:
+            return None
+        raw = bytes(buffer[:end])
+        del buffer[:end]
+        return Frame(sender, raw[MBAP_HEAD.size :], transaction, raw)
+
+    def stranger(self, buffer: bytes) -> int | None:  # noqa: ARG002 (as above)
+        """None: a frame of another transaction was dropped when it came."""
+        return None
+
+
+class _Marked:
+    """What is common to frames without a transaction id: unit and function are all that tells them apart."""
+
+    decisive = False
+    transaction = 0
+    _NAME: str
+
+    def build(self, unit: int, pdu: bytes) -> bytes:
+        """The frame of a request."""
+        return build(self._NAME, unit, pdu)
+
+
+class Rtu(_Marked):
+    """Frames with a CRC. They have no mark at the beginning, so a sound one of the right unit is looked for."""
+
+    _NAME = RTU
+
+    def find(self, buffer: bytearray, unit: int, function: int) -> Frame | None:
+        """The first sound frame of `unit` with `function`, or with its exception."""
+        for at in range(len(buffer) - SHORTEST_RTU + 1):
+            mine = buffer[at] == unit and buffer[at + 1] & ~EXCEPTION_BIT == function
+            if mine and (end := rtu_end(buffer, at, ANSWERS)):
+                raw = bytes(buffer[at:end])
+                del buffer[:end]
+                return Frame(unit, raw[1:-2], raw=raw)
+        del buffer[:-LONGEST]
+        return None
+
+    def stranger(self, buffer: bytes) -> int | None:
+        """The unit of the first sound frame."""
+        places = range(len(buffer) - SHORTEST_RTU + 1)
+        return next((buffer[at] for at in places if rtu_end(buffer, at, ANSWERS)), None)
+
+
+class Ascii(_Marked):
+    """Frames in hexadecimal text between a colon and a line end, with an LRC."""
+
+    _NAME = ASCII
+
+    def find(self, buffer: bytearray, unit: int, function: int) -> Frame | None:
+        """The first sound frame of `unit` with `function`, or with its exception."""
+        while (end := buffer.find(LINE_END)) >= 0:
+            found = ascii_frame(bytes(buffer[:end]))
+            del buffer[: end + len(LINE_END)]
+            if found and found.unit == unit and found.pdu[0] & ~EXCEPTION_BIT == function:
+                return found
+        del buffer[:-LONGEST]
+        return None
+
+    def stranger(self, buffer: bytes) -> int | None:
+        """The unit of the first sound frame."""
+        found = (ascii_frame(line) for line in buffer.split(LINE_END))
+        return next((one.unit for one in found if one), None)
+
+
+def framing_for(name: str) -> Framing:
+    """A new framing; ValueError for an unknown name."""
+    kinds: dict[str, type[Framing]] = {TCP: Mbap, RTU: Rtu, ASCII: Ascii}
+    return kinds[checked_framing(name)]()
