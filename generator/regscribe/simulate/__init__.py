@@ -6,7 +6,6 @@ from regscribe.simulate.device.value_arguments import HIGH_FAULT, LOW_FAULT, Fau
 from regscribe.simulate.errors import SimulatorError
 from regscribe.simulate.in_process import Running, in_thread, simulate
 from regscribe.simulate.line.connection import Arrival, Chunk, Delivery, Exchange, Patience
-from regscribe.simulate.line.framing import Framing, Request
 from regscribe.simulate.line.line_faults import LineFault, LineFaults
 from regscribe.simulate.line.server_context import Foreign
 from regscribe.simulate.line.servers import Server
@@ -14,6 +13,7 @@ from regscribe.simulate.line.service import Service, Transport, serve, start
 from regscribe.simulate.map_cache import find_map
 from regscribe.simulate.process.thermal_process import ThermalProcess
 from regscribe_runtime.values.serial_line import SerialLine
+from regscribe_runtime.wire.framing import Frame
 
 __all__ = [
     "HIGH_FAULT",
@@ -24,11 +24,10 @@ __all__ = [
     "Exchange",
     "Fault",
     "Foreign",
-    "Framing",
+    "Frame",
     "LineFault",
     "LineFaults",
     "Patience",
-    "Request",
     "Running",
     "SerialLine",
     "Server",

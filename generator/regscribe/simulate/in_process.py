@@ -14,13 +14,13 @@ from regscribe.simulate.device.state import Value
 from regscribe.simulate.device.value_arguments import Fault, Plain
 from regscribe.simulate.givens import GivenValue
 from regscribe.simulate.line.connection import Arrival, Delivery, Patience, Watcher
-from regscribe.simulate.line.framing import Request
 from regscribe.simulate.line.server_context import Foreign
 from regscribe.simulate.line.servers import Server
 from regscribe.simulate.line.service import Service, Transport, start
 from regscribe.simulate.map_cache import find_map
 from regscribe.simulate.process.thermal_process import ThermalProcess
 from regscribe_runtime.values.serial_line import SerialLine
+from regscribe_runtime.wire.framing import Frame
 
 
 class SimulatorOptions(TypedDict, total=False):
@@ -105,7 +105,7 @@ def simulate(  # noqa: PLR0913 (all but two are keywords for tests)
         device.load(state)
     requests: list[bytes] = []
 
-    def record(request: Request) -> None:
+    def record(request: Frame) -> None:
         requests.append(request.pdu)
 
     given: SimulatorOptions = {"speed": 0.0, **options}

@@ -15,8 +15,8 @@ import pytest
 
 from regscribe.model import Latency, RegisterMap, SerialDefaults
 from regscribe.simulate import Running, SerialLine, SimulatedDevice, SimulatorError, find_map, simulate
-from regscribe.simulate.line.framing import Request, RtuFramer
 from regscribe.simulate.line.response_delay import Pace, factor_of
+from regscribe_runtime.wire.framing import Frame, build
 
 READ_ONE = struct.pack(">BHH", 3, 2, 1)
 READ_FOUR = struct.pack(">BHH", 3, 2, 4)
@@ -29,7 +29,7 @@ def timed(found: RegisterMap, *latencies: Latency, gap: Fraction = Fraction(7, 2
 
 def thought(found: RegisterMap, pdu: bytes, line: SerialLine = SLOW, *, factor: float = 1.0, seed: int = 0) -> float:
     device = SimulatedDevice(found, "16C", seed=seed)
-    return Pace([device], line, factor=factor).seconds(Request(1, pdu))
+    return Pace([device], line, factor=factor).seconds(Frame(1, pdu))
 
 
 def fixed(**parts: int) -> Latency:
@@ -60,7 +60,7 @@ def test_latencies_lie_between_the_limits_and_a_seed_repeats_them(controller: Re
     found = timed(controller, Latency(3, minimum=Fraction(5), maximum=Fraction(100)))
     devices = [SimulatedDevice(found, "16C", seed=seed) for seed in (1, 1, 2)]
     paces = [Pace([device], SLOW, factor=1.0) for device in devices]
-    series = [[pace.seconds(Request(1, READ_ONE)) for _ in range(20)] for pace in paces]
+    series = [[pace.seconds(Frame(1, READ_ONE)) for _ in range(20)] for pace in paces]
     assert series[0] == series[1] != series[2]
     assert all(0.005 <= seconds <= 0.1 for seconds in series[0])
     assert len(set(series[0])) > 1
@@ -70,7 +70,7 @@ def test_a_device_under_another_address_takes_as_long() -> None:
     device = SimulatedDevice(find_map("athena/series-c"), "16C")
     pace = Pace([device], SLOW, factor=1.0)
     device.handle(struct.pack(">BHH", 6, 4081, 5))
-    assert (pace.seconds(Request(5, READ_ONE)) >= 0.005, pace.seconds(Request(1, READ_ONE))) == (True, 0)
+    assert (pace.seconds(Frame(5, READ_ONE)) >= 0.005, pace.seconds(Frame(1, READ_ONE))) == (True, 0)
 
 
 @pytest.mark.parametrize(("given", "factor"), [("off", 0), ("real", 1), (0.5, 0.5), ("0.25", 0.25), (0, 0)])
@@ -110,7 +110,7 @@ def _read_once(running: Running) -> None:
 
 
 def _rtu(pdu: bytes) -> bytes:
-    return RtuFramer().answer(Request(1, b""), pdu)
+    return build("rtu", 1, pdu)
 
 
 @contextmanager

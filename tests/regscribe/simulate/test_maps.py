@@ -8,7 +8,7 @@ import pytest
 from regscribe.model import FrameExample, RegisterMap, ValueExample
 from regscribe.pipeline import compile_map
 from regscribe.simulate import SimulatedDevice
-from regscribe.simulate.line.framing import RtuFramer
+from regscribe_runtime.wire.server_framing import RtuFramer
 
 MAPS = Path(__file__).parents[3] / "maps"
 GIVENS: dict[str, dict[str, set[int]]] = {"fdc/series-100": {"linear_inputs": {16, 17, 18}}, "athena/series-c": {}}

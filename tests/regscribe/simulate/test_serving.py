@@ -23,8 +23,8 @@ from regscribe.simulate import (
     start,
 )
 from regscribe.simulate.line.connection import MOST_WAITING, Connection, ConnectionPolicy
-from regscribe.simulate.line.framing import Framing, framer_for
 from regscribe.simulate.line.server_context import ServerContext
+from regscribe_runtime.wire.server_framing import framer_for
 
 READ = bytes.fromhex("0001 0000 0006 01 03 0002 0001")
 ANSWER = 11
@@ -107,7 +107,7 @@ class Outlet:
 
 def connected(device: SimulatedDevice, manners: ConnectionPolicy) -> tuple[Connection, Outlet]:
     outlet = Outlet()
-    return Connection(framer_for(Framing.MBAP), ServerContext([device]), manners, outlet), outlet
+    return Connection(framer_for("tcp"), ServerContext([device]), manners, outlet), outlet
 
 
 def test_a_client_that_does_not_read_is_not_read_from_until_it_does(controller: RegisterMap) -> None:

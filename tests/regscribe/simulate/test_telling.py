@@ -5,14 +5,14 @@ import struct
 import pytest
 
 from regscribe.model import RegisterMap
-from regscribe.simulate import Exchange, Request, SimulatedDevice, Told, find_map, tell
+from regscribe.simulate import Exchange, Frame, SimulatedDevice, Told, find_map, tell
 
 
 def told(pdu: bytes, *devices: SimulatedDevice, unit: int = 1) -> Told:
     """What becomes of a request to the first device that has this unit."""
     device = next((each for each in devices if each.unit == unit), None)
     answer = device.handle(pdu) if device is not None else None
-    return tell(devices, Exchange(Request(unit, pdu), answer, b""))
+    return tell(devices, Exchange(Frame(unit, pdu), answer, b""))
 
 
 @pytest.fixture

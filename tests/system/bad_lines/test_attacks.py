@@ -12,11 +12,11 @@ from typing import Any
 
 import pytest
 
-from regscribe.simulate import Patience, Request, Service, SimulatedDevice, Transport, simulate, start
-from regscribe.simulate.line.framing import framer_for
+from regscribe.simulate import Patience, Service, SimulatedDevice, Transport, simulate, start
 from regscribe_runtime import Retry
 from regscribe_runtime.link import links
-from regscribe_runtime.wire.requests import Request as Asked
+from regscribe_runtime.wire.framing import build
+from regscribe_runtime.wire.requests import Request
 
 from .world import FRAMINGS, LINE_FRAMINGS, furnace
 
@@ -61,7 +61,7 @@ def clients(server: Any, count: int) -> Iterator[list[socket.socket]]:
 
 
 def framed(transport: str, pdu: bytes) -> bytes:
-    return framer_for(FRAMINGS[transport]).answer(Request(1, b"", 9), pdu)
+    return build(FRAMINGS[transport], 1, pdu, 9)
 
 
 @contextmanager
@@ -77,7 +77,7 @@ def honest(server: Any, transport: str) -> Iterator[Any]:
 
 def served_well(made: Any, times: int = 10) -> int:
     """How many of some honest reads were answered; each is right."""
-    return sum(made.call(1, Asked(3, 0, 5)).words == (70, 71, 72, 1, 4000) for _ in range(times))
+    return sum(made.call(1, Request(3, 0, 5)).words == (70, 71, 72, 1, 4000) for _ in range(times))
 
 
 def flood(sockets: Sequence[socket.socket], data: bytes, stop: threading.Event) -> None:

@@ -14,13 +14,13 @@ from typing import Any, NamedTuple
 from regscribe.emit import python
 from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map
-from regscribe.simulate import Exchange, Request, Service, SimulatedDevice, Transport, start
+from regscribe.simulate import Exchange, Frame, Service, SimulatedDevice, Transport, start
 from regscribe.simulate.line.connection import Chunk, Patience
-from regscribe.simulate.line.framing import Framing
-from regscribe.simulate.line.line_faults import EXCEPTION_BIT, USUAL, LineFault, LineFaults
+from regscribe.simulate.line.line_faults import USUAL, LineFault, LineFaults
 from regscribe_runtime import AsyncBus, Bus, Retry
 from regscribe_runtime.link import links
 from regscribe_runtime.link.trace import SENT, Trace
+from regscribe_runtime.wire.pdu import EXCEPTION_BIT
 
 FURNACE = Path(__file__).parent / "furnace.yaml"
 UNITS = (1, 2)
@@ -30,7 +30,7 @@ LATE_SECONDS = 0.15
 """How long after the timeout the drivers of these tests expect a late answer."""
 STALL = 0.1
 """Seconds by which this machine may delay an answer before it can be taken for another one's, where none has a name."""
-FRAMINGS = {"tcp": Framing.MBAP, "rtu-tcp": Framing.RTU, "ascii-tcp": Framing.ASCII, "pty": Framing.RTU}
+FRAMINGS = {"tcp": "tcp", "rtu-tcp": "rtu", "ascii-tcp": "ascii", "pty": "rtu"}
 LINE_FRAMINGS = {"tcp": "tcp", "rtu-tcp": "rtu", "ascii-tcp": "ascii", "pty": "rtu"}
 WRITES = frozenset({5, 6, 15, 16})
 Written = tuple[int, str, int, int]
@@ -100,7 +100,7 @@ class Far:
     def _wait(self, work: Any) -> Any:
         return asyncio.run_coroutine_threadsafe(work, self._loop).result(10)
 
-    def _arrive(self, request: Request, act: Callable[[], bytes | None]) -> bytes | None:
+    def _arrive(self, request: Frame, act: Callable[[], bytes | None]) -> bytes | None:
         carried_out: list[bytes | None] = []
 
         def acting() -> bytes | None:
@@ -136,7 +136,7 @@ class Far:
         self._loop.close()
 
 
-def written(request: Request) -> list[Written]:
+def written(request: Frame) -> list[Written]:
     """The words of a write request, each with its place."""
     pdu, unit = request.pdu, request.unit
     address = int.from_bytes(pdu[1:3], "big")

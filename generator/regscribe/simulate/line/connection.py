@@ -6,9 +6,10 @@ from collections.abc import Awaitable, Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from regscribe.simulate.line.framing import Framer, Request
 from regscribe.simulate.line.response_delay import Pace
 from regscribe.simulate.line.server_context import ServerContext
+from regscribe_runtime.wire.framing import Frame
+from regscribe_runtime.wire.server_framing import Framer
 
 CHUNK = 4096
 """Bytes that are taken from one client before the others have their turn."""
@@ -21,7 +22,7 @@ MOST_WAITING = 64
 class Exchange:
     """A request, the device's answer (None: silence) and the frame that would be sent (empty: nothing)."""
 
-    request: Request
+    request: Frame
     answer: bytes | None
     frame: bytes
 
@@ -42,13 +43,13 @@ The place for faults: waiting, changing, dropping or doubling frames. Exchanges 
 other; the device's own latency has passed before.
 """
 
-Arrival = Callable[[Request, Callable[[], bytes | None]], bytes | None]
+Arrival = Callable[[Frame, Callable[[], bytes | None]], bytes | None]
 """Stands between the line and the device: called with each request, and with what lets the device act on it.
 
 It returns the answer. If it does not let the device act, the request never arrived.
 """
 
-Recorder = Callable[[Request], None]
+Recorder = Callable[[Frame], None]
 """Told of each request that concerns a device here, before it is handled."""
 
 Watcher = Callable[[Exchange], None]
@@ -118,7 +119,7 @@ class Connection:
         self._station = station
         self._manners = manners
         self._outlet = outlet
-        self._waiting: deque[Request] = deque()
+        self._waiting: deque[Frame] = deque()
         self._task: asyncio.Task[None] | None = None
         self._expiry: asyncio.TimerHandle | None = None
         self._leaving = False
@@ -163,7 +164,7 @@ class Connection:
         self._expiry = None
         self._take(self._framer.expire())
 
-    def _take(self, requests: list[Request]) -> None:
+    def _take(self, requests: list[Frame]) -> None:
         if not requests:
             return
         if self._manners.immediate:
@@ -176,7 +177,7 @@ class Connection:
         if self._task is None:
             self._task = self._loop.create_task(self._work_off())
 
-    def _exchange(self, request: Request) -> Exchange:
+    def _exchange(self, request: Frame) -> Exchange:
         manners = self._manners
         if manners.recorder is not None and self._station.has(request.unit):
             manners.recorder(request)

@@ -11,9 +11,10 @@ from random import Random
 from threading import Lock
 
 from regscribe.simulate.line.connection import Chunk, Exchange
-from regscribe.simulate.line.framing import Framing, Request, framer_for
+from regscribe_runtime.wire.framing import MBAP_HEAD, TCP, Frame, build, checked_framing
+from regscribe_runtime.wire.pdu import BIT_READS, BLOCK_WRITES, WORD_READS, encode_reply
+from regscribe_runtime.wire.requests import LOOPBACK, WRITE_COIL, WRITE_REGISTER, Reply
 
-EXCEPTION_BIT = 0x80
 STORM = 3
 """Requests in a row that are refused while the device is busy."""
 STORM_CODES = (1, 2, 3, 4, 5, 6, 8, 10, 11)
@@ -21,9 +22,6 @@ FUNCTIONS = (1, 2, 3, 4, 5, 6, 15, 16)
 MOST_NOISE = 24
 KEPT = 8
 """Answers that are kept, to come once more when another one is asked for."""
-MBAP_COMPARED = 7
-"""The header of MBAP: what stands in it is compared with the request."""
-
 
 SPLIT_SECONDS, CHATTER_SECONDS = 0.002, 0.001
 
@@ -64,7 +62,7 @@ USUAL = tuple(fault for fault in LineFault if fault not in UNDETECTABLE)
 class LineFaults:
     """Faults of one service, one for about every `rate` of its exchanges; safe to read from any thread.
 
-    `framing` is mbap (Modbus TCP), rtu or ascii, as the service has it.
+    `framing` is tcp, rtu or ascii, as the service has it.
     `late` is in seconds: longer than the client's timeout, shorter than its patience with late answers. `kinds` may
     hold `HANGUP` only where a line can hang up (TCP). `injected` counts the faults, `exchanges` all exchanges; in
     `forgeries` are the faults that no client could have detected.
@@ -72,7 +70,7 @@ class LineFaults:
 
     def __init__(
         self,
-        framing: Framing | str,
+        framing: str,
         *,
         rate: float = 0.2,
         late: float = 1.5,
@@ -84,8 +82,7 @@ class LineFaults:
         self.injected: Counter[LineFault] = Counter()
         self.exchanges = 0
         self.forgeries: list[Exchange] = []
-        self._framing = Framing(framing)
-        self._framer = framer_for(self._framing)
+        self._framing = checked_framing(framing)
         self._random = Random(seed)  # noqa: S311 - repeatable, and no secret
         self._planned: deque[tuple[LineFault | None, int | None]] = deque()
         self._chosen: dict[int, tuple[LineFault | None, int | None]] = {}
@@ -107,7 +104,7 @@ class LineFaults:
             self._planned.clear()
             self.rate, self._storm = 0.0, 0
 
-    def arrival(self, request: Request, act: Callable[[], bytes | None]) -> bytes | None:
+    def arrival(self, request: Frame, act: Callable[[], bytes | None]) -> bytes | None:
         """Choose a fault for an exchange, and keep its request from the device if that is the fault."""
         with self._lock:
             self.exchanges += 1
@@ -115,7 +112,7 @@ class LineFaults:
             if (fault is LineFault.REFUSED or self._storm) and request.unit:
                 self._storm = self._storm - 1 if self._storm else STORM - 1
                 self.injected[LineFault.REFUSED] += 1
-                return bytes([request.pdu[0] | EXCEPTION_BIT, at or self._random.choice(STORM_CODES)])
+                return encode_reply(Reply(request.pdu[0], exception=at or self._random.choice(STORM_CODES)))
             if fault is LineFault.REQUEST_LOST:
                 self.injected[fault] += 1
                 return None
@@ -156,8 +153,8 @@ class LineFaults:
     def _flipped(self, exchange: Exchange, at: int | None) -> Sequence[Chunk] | None:
         frame = bytearray(exchange.frame)
         checked = len(frame)
-        if self._framing is Framing.MBAP:  # TCP has a check of its own: only what this protocol compares flips here
-            checked = MBAP_COMPARED + len(_compared(exchange.answer or b""))
+        if self._framing == TCP:  # TCP has a check of its own: only what this protocol compares flips here
+            checked = MBAP_HEAD.size + len(_compared(exchange.answer or b""))
         bit = self._random.randrange(8 * checked) if at is None else at % (8 * checked)
         frame[bit // 8] ^= 1 << bit % 8
         return (Chunk(bytes(frame)),)
@@ -173,7 +170,7 @@ class LineFaults:
     def _resembles(self, one: Exchange, other: Exchange) -> bool:
         """Whether nothing in an answer tells it from another; a transaction id does."""
         mine, its = one.request, other.request
-        if self._framing is Framing.MBAP:
+        if self._framing == TCP:
             return mine.transaction == its.transaction
         return (mine.unit, mine.pdu[0]) == (its.unit, its.pdu[0])
 
@@ -182,7 +179,7 @@ class LineFaults:
         unit, transaction, chance = request.unit, request.transaction, self._random
         if fault is LineFault.FOREIGN_UNIT:
             unit = chance.choice([one for one in range(1, 248) if one != unit])
-        elif fault is LineFault.FOREIGN_TRANSACTION and self._framing is Framing.MBAP:
+        elif fault is LineFault.FOREIGN_TRANSACTION and self._framing == TCP:
             transaction = (transaction + chance.randrange(1, 1 << 16)) % (1 << 16)
         elif fault is LineFault.FOREIGN_FUNCTION:
             answer = bytes([chance.choice([one for one in FUNCTIONS if one != request.pdu[0]])]) + answer[1:]
@@ -194,7 +191,7 @@ class LineFaults:
             return None
         if fault in UNDETECTABLE:
             self.forgeries.append(exchange)
-        return (Chunk(self._framer.answer(Request(unit, request.pdu, transaction), answer)),)
+        return (Chunk(build(self._framing, unit, answer, transaction)),)
 
 
 CUTS: dict[LineFault, Callable[[LineFaults, bytes, int], Sequence[Chunk]]] = {
@@ -220,11 +217,11 @@ def _flip(answer: bytes, place: int, chance: Random) -> bytes:
 def _compared(answer: bytes) -> range:
     """The bytes of an answer that a client can compare with its request, the function code first."""
     function, whole = answer[0], range(len(answer))
-    if function in {1, 2, 3, 4}:
+    if function in WORD_READS or function in BIT_READS:
         return whole[:2]
-    if function in {5, 6, 8}:
+    if function in {WRITE_COIL, WRITE_REGISTER, LOOPBACK}:
         return whole
-    return whole[:3] if function in {15, 16} else whole[:0]  # 07 with the bit of an exception is one
+    return whole[:3] if function in BLOCK_WRITES else whole[:0]  # 07 with the bit of an exception is one
 
 
 def _places(answer: bytes, *, compared: bool) -> Sequence[int]:

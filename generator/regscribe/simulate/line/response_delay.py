@@ -7,8 +7,8 @@ from random import Random
 from regscribe.model import Protocol
 from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.simulate.errors import SimulatorError
-from regscribe.simulate.line.framing import Request
 from regscribe_runtime.values.serial_line import SerialLine
+from regscribe_runtime.wire.framing import Frame
 from regscribe_runtime.wire.pdu import MalformedError, decode_request
 from regscribe_runtime.wire.requests import READ_HOLDING, READ_INPUT, WRITE_AND_READ, WRITE_REGISTERS
 
@@ -79,7 +79,7 @@ class Pace:
             for device in devices
         ]
 
-    def seconds(self, request: Request) -> float:
+    def seconds(self, request: Frame) -> float:
         """Return the seconds from the end of the request to the start of the answer."""
         thought = next((thought for device, thought in self._devices if device.unit == request.unit), None)
         return self._gap + (thought.seconds(request.pdu) if thought is not None else 0.0)

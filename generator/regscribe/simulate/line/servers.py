@@ -6,10 +6,11 @@ from typing import Any, Protocol, cast
 
 from regscribe.simulate.errors import SimulatorError
 from regscribe.simulate.line.connection import CHUNK, Connection, ConnectionPolicy
-from regscribe.simulate.line.framing import Framer, Framing, RtuFramer, framer_for
 from regscribe.simulate.line.paced_line import Events, LineTransport
 from regscribe.simulate.line.serial_ports import OpenLine
 from regscribe.simulate.line.server_context import ServerContext
+from regscribe_runtime.wire.framing import RTU
+from regscribe_runtime.wire.server_framing import Framer, RtuFramer, framer_for
 
 FAREWELL = 0.5
 """Seconds that a client has to take the last answers when its connection is closed."""
@@ -60,13 +61,13 @@ class TcpServer(_Accompanied):
     When `most` clients are there and another comes, the one that was silent longest is disconnected.
     """
 
-    def __init__(self, station: ServerContext, framing: Framing, manners: ConnectionPolicy, *, most: int) -> None:
+    def __init__(self, station: ServerContext, framing: str, manners: ConnectionPolicy, *, most: int) -> None:
         super().__init__()
         self.host = ""
         self.port = 0
         self.path = ""
         self.manners = manners
-        self.buffer = memoryview(bytearray(RTU_CHUNK if framing is Framing.RTU else CHUNK))
+        self.buffer = memoryview(bytearray(RTU_CHUNK if framing == RTU else CHUNK))
         self._station = station
         self._framing = framing
         self._most = most

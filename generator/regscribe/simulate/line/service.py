@@ -9,7 +9,6 @@ from regscribe.model import SerialDefaults
 from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.simulate.errors import SimulatorError
 from regscribe.simulate.line.connection import Arrival, ConnectionPolicy, Delivery, Patience, Recorder, Watcher
-from regscribe.simulate.line.framing import Framing, RtuFramer, SilenceFramer
 from regscribe.simulate.line.paced_line import PacedTransport
 from regscribe.simulate.line.response_delay import Pace, factor_of
 from regscribe.simulate.line.serial_ports import OpenLine, open_pseudo_terminal, open_serial
@@ -17,6 +16,8 @@ from regscribe.simulate.line.server_context import Foreign, ServerContext
 from regscribe.simulate.line.servers import LineServer, Server, TcpServer
 from regscribe.simulate.process.clock import speed_of, tick
 from regscribe_runtime.values.serial_line import SerialLine
+from regscribe_runtime.wire.framing import ASCII, RTU, TCP
+from regscribe_runtime.wire.server_framing import RtuFramer, SilenceFramer
 
 LOOPBACK = "127.0.0.1"
 MOST_CONNECTIONS = 64
@@ -35,9 +36,9 @@ class Transport(StrEnum):
 
 
 _FRAMINGS = {
-    Transport.TCP: Framing.MBAP,
-    Transport.RTU_OVER_TCP: Framing.RTU,
-    Transport.ASCII_OVER_TCP: Framing.ASCII,
+    Transport.TCP: TCP,
+    Transport.RTU_OVER_TCP: RTU,
+    Transport.ASCII_OVER_TCP: ASCII,
 }
 
 
