@@ -16,7 +16,7 @@ from planning import subjects
 from rivals import Task, fixed_gap
 
 from regscribe.cli.shared.map_arguments import find_map
-from regscribe.cli.shared.planning import Subject
+from regscribe.cli.shared.planning import PlannedModel
 from regscribe.model import GivenKind
 from regscribe.pipeline import compile_map
 from regscribe.simulate import SerialLine, simulate
@@ -45,7 +45,7 @@ def rows(*, every: bool = False) -> Iterator[Row]:
             yield from _model(name, known, subject)
 
 
-def _model(name: str, known: Any, subject: Subject) -> Iterator[Row]:
+def _model(name: str, known: Any, subject: PlannedModel) -> Iterator[Row]:
     register_map = compile_map(find_map(known.map_id)).map
     assert register_map is not None
     givens: dict[str, Any] = {
@@ -75,11 +75,11 @@ def _driver(driver: Any, path: str, unit: int, givens: dict[str, Any]) -> float:
         return time.perf_counter() - start
 
 
-def _items(subject: Subject) -> list[RegisterSpan]:
+def _items(subject: PlannedModel) -> list[RegisterSpan]:
     return list(dict.fromkeys(subject.places(path)[0].span for path in subject.readable))
 
 
-def _fixed_gap(subject: Subject, path: str, unit: int) -> float:
+def _fixed_gap(subject: PlannedModel, path: str, unit: int) -> float:
     terms = subject.terms(Cost.serial(subject.protocol, baud=BAUD))
     items = _items(subject)
     requests = fixed_gap(Task.of(items, items, terms), GAP)
@@ -94,7 +94,7 @@ def _fixed_gap(subject: Subject, path: str, unit: int) -> float:
         link.close()
 
 
-def _one_by_one(subject: Subject, path: str, unit: int) -> float:
+def _one_by_one(subject: PlannedModel, path: str, unit: int) -> float:
     instrument = minimalmodbus.Instrument(path, unit)
     instrument.serial.baudrate, instrument.serial.timeout = BAUD, 2
     try:

@@ -15,7 +15,7 @@ from rich.table import Table
 from rivals import GAPS, MODES, Task, fixed_gap
 
 from regscribe.cli.shared.map_arguments import find_maps
-from regscribe.cli.shared.planning import Subject
+from regscribe.cli.shared.planning import PlannedModel
 from regscribe.pipeline import compile_map
 from regscribe_runtime.planning.cost import Cost, milliseconds
 from regscribe_runtime.planning.plan import blocks
@@ -46,22 +46,22 @@ class Duel(NamedTuple):
         return min(self.greedy, *self.modes.values()) / self.ours
 
 
-def subjects(*maps: str) -> Iterator[tuple[str, Subject]]:
+def subjects(*maps: str) -> Iterator[tuple[str, PlannedModel]]:
     """Every model of the maps of these ids, or of all."""
     for path in find_maps([str(MAPS / f"{one}.yaml") for one in maps] or [str(MAPS)]):
         found = compile_map(path).map
         assert found is not None
         for model in found.models:
-            yield f"{found.maker.split()[0]} {model.name}", Subject.of(found, model.name)
+            yield f"{found.maker.split()[0]} {model.name}", PlannedModel.of(found, model.name)
 
 
-def lines(subject: Subject) -> dict[str, Cost]:
+def lines(subject: PlannedModel) -> dict[str, Cost]:
     """The lines of the comparison."""
     serial = {f"{baud} baud": Cost.serial(subject.protocol, baud=baud) for baud in BAUDS}
     return serial | {"TCP": Cost.tcp(subject.protocol)}
 
 
-def sets(subject: Subject) -> Iterator[tuple[str, list[str]]]:
+def sets(subject: PlannedModel) -> Iterator[tuple[str, list[str]]]:
     """All registers, the group that only shows the state, the largest other one, and random subsets."""
     readable = subject.readable
     yield "all", readable
@@ -76,12 +76,12 @@ def sets(subject: Subject) -> Iterator[tuple[str, list[str]]]:
         yield f"random {share:.0%}", sorted(chance.sample(readable, max(2, round(share * len(readable)))))
 
 
-def _shown(subject: Subject, paths: Sequence[str]) -> float:
+def _shown(subject: PlannedModel, paths: Sequence[str]) -> float:
     shown = [path for path in paths if subject.registers[path].access == "r"]
     return len(shown) / len(paths) + len(shown) / 1000
 
 
-def duels(subject: Subject, cost: Cost, gaps: Sequence[int] = GAPS) -> Iterator[Duel]:
+def duels(subject: PlannedModel, cost: Cost, gaps: Sequence[int] = GAPS) -> Iterator[Duel]:
     """Our plan and those of the others for each set of registers; all read the same registers at the same places."""
     terms = subject.terms(cost)
     known = [subject.places(path)[0].span for path in subject.readable]

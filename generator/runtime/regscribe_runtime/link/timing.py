@@ -15,9 +15,6 @@ MARGIN_SECONDS = 0.3
 GATEWAY_SECONDS = 0.5
 """For a gateway and the network before it."""
 
-SHORTEST_UNKNOWN, UNKNOWN_MARGIN = 1.0, 0.5
-"""In seconds, where a manual says nothing of a function: the least latency, and what is added to the longest known."""
-
 ASCII_MARKS = 2
 """An ASCII frame has twice the characters of RTU and one more (colon and line end, a check of one byte): two frames."""
 
@@ -50,20 +47,13 @@ def longest_latency(latency: Latency, words: int, line: SerialLine) -> float:
     return float(latency.longest(words)) / 1000 + float(latency.characters) * line.character
 
 
-def unknown_latency(protocol: Protocol) -> float:
-    """Seconds for a function whose latency the manual does not give: the longest of all others and a margin."""
-    words = max(protocol.read_words, protocol.write_words)
-    longest = max((float(one.longest(words)) for one in protocol.latencies), default=0.0)
-    return max(SHORTEST_UNKNOWN, longest / 1000 + UNKNOWN_MARGIN)
-
-
 def on_line(protocol: Protocol, request: Request, line: SerialLine) -> float:
     """Seconds from the first character of a request to the last of its answer, at most; without a margin.
 
-    For a function whose latency the manual does not give, `unknown_latency` stands in.
+    For a function whose latency the manual does not give, the protocol's `timeout` stands in.
     """
     latency = protocol.latency(request.function)
-    device = unknown_latency(protocol) if latency is None else longest_latency(latency, request.quantity, line)
+    device = protocol.timeout if latency is None else longest_latency(latency, request.quantity, line)
     return sum(characters(request)) * line.character + line.silence(float(protocol.serial.gap)) + device
 
 

@@ -9,6 +9,10 @@ Number = int | Fraction
 """An exact number."""
 
 
+SHORTEST_TIMEOUT, MARGIN = 1.0, 0.5
+"""In seconds: the least timeout, and what is added to the longest latency for the frames themselves."""
+
+
 class ExceptionCode(NamedTuple):
     """An exception code of this device: its name and meaning in its manual, empty if there are none."""
 
@@ -74,6 +78,13 @@ class Protocol(NamedTuple):
     latencies: tuple[Latency, ...] = ()
     serial: SerialDefaults = SerialDefaults()
     absent: int = 2
+
+    @property
+    def timeout(self) -> float:
+        """Seconds after which no good answer can come: the longest latency of a full request and a margin."""
+        words = max(self.read_words, self.write_words)
+        longest = max((float(one.longest(words)) for one in self.latencies), default=0.0)
+        return max(SHORTEST_TIMEOUT, longest / 1000 + MARGIN)
 
     def exception(self, code: int) -> ExceptionCode:
         """What this device means by an exception code."""
