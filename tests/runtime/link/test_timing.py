@@ -14,7 +14,6 @@ from regscribe_runtime.link.timing import (
     more_in_ascii,
     on_line,
     response_seconds,
-    unknown_latency,
 )
 from regscribe_runtime.values.protocol import Latency, Protocol
 from regscribe_runtime.wire.requests import LOOPBACK, Request
@@ -50,7 +49,7 @@ def test_a_function_of_unknown_latency_may_take_as_long_as_a_full_request_of_the
     latencies: tuple[Latency, ...], seconds: float
 ) -> None:
     protocol = Protocol(read_words=8, write_words=10, latencies=latencies)
-    assert unknown_latency(protocol) == pytest.approx(seconds)
+    assert protocol.timeout == pytest.approx(seconds)
     assert on_line(protocol, Request(4, 0), AT_9600) - sum(characters(Request(4, 0))) * CHARACTER == pytest.approx(
         unknown_latency(protocol) + 3.5 * CHARACTER
     )
