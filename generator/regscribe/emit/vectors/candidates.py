@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from regscribe.emit.vectors.scale import Scale
-from regscribe.model import Kind, NotANumber, Register, View, WireType
+from regscribe.model import Enum, Kind, NotANumber, Register, View, WireType
 from regscribe.reference import Surroundings, ieee_bits, special_value
 
 Words = tuple[int, ...]
@@ -55,6 +55,8 @@ PATTERNS = {
     },
 }
 """Bits of IEEE numbers that no decimal text spells briefly."""
+
+PATTERNS_OF_BITS = frozenset({Kind.FLAGS, Kind.FIELDS})
 
 ORDERED = 0x0123456789ABCDEF
 """Its bytes all differ, so that a wrong order of words or bytes shows."""
@@ -111,9 +113,6 @@ def _stored_numbers(register: Register, *, full: bool) -> Iterator[Proposal]:
         yield Proposal(sentinel.stored, f"fault: {sentinel.id}")
         yield from (Proposal(sentinel.stored + step, f"beside fault {sentinel.id}") for step in (-1, 1) if full)
     yield from codes(register)
-    if register.kind in {Kind.FLAGS, Kind.FIELDS}:
-        yield from (Proposal(Fraction(1 << bit), f"bit {bit} alone") for bit in range(min(register.bits, 64)))
-        yield from field_codes(register)
 
 
 def _scaled_numbers(register: Register, scale: Scale, known: Surroundings) -> Iterator[Proposal]:
@@ -126,10 +125,16 @@ def _scaled_numbers(register: Register, scale: Scale, known: Surroundings) -> It
 
 
 def codes(register: Register) -> Iterator[Proposal]:
-    """Yield each code of an enum, codes that the manual calls invalid, and two that it does not list."""
-    enum = register.enum
-    if enum is None:
-        return
+    """Yield what a register of codes or bits can hold: members and other codes of its enum, or bits and fields."""
+    if register.enum is not None:
+        yield from _enum_codes(register.enum)
+    if register.kind in PATTERNS_OF_BITS:
+        yield from (Proposal(Fraction(1 << bit), f"bit {bit} alone") for bit in range(min(register.bits, 64)))
+        yield from _field_codes(register)
+
+
+def _enum_codes(enum: Enum) -> Iterator[Proposal]:
+    """Yield each code, codes that the manual calls invalid, and two that it does not list."""
     yield from (Proposal(Fraction(member.code), f"member {member.id}") for member in enum.members)
     yield from (Proposal(Fraction(code), "the manual calls it invalid") for code, _ in enum.invalid)
     listed = {member.code for member in enum.members} | {code for code, _ in enum.invalid}
@@ -138,7 +143,7 @@ def codes(register: Register) -> Iterator[Proposal]:
         yield Proposal(Fraction(code), "not in the manual's list")
 
 
-def field_codes(register: Register) -> Iterator[Proposal]:
+def _field_codes(register: Register) -> Iterator[Proposal]:
     """Yield each member of each field, an unknown code of it, and the field filled with ones."""
     for bits in register.fields:
         full = (1 << bits.width) - 1

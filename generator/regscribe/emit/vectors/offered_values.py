@@ -3,7 +3,8 @@
 from collections.abc import Iterator
 from fractions import Fraction
 
-from regscribe.emit.vectors.candidates import Proposal, codes, field_codes
+from regscribe.emit.vectors.candidates import PATTERNS_OF_BITS, Proposal, codes
+from regscribe.emit.vectors.domain import CODED
 from regscribe.emit.vectors.scale import Scale
 from regscribe.model import Kind, Register, View
 from regscribe.reference import Surroundings, special_value
@@ -19,7 +20,7 @@ def numbers(
     register: Register, view: View, scale: Scale | None, known: Surroundings, *, full: bool
 ) -> Iterator[Proposal]:
     """Yield numbers to write; whether the device's map takes them is for the reference to say."""
-    if register.kind in {Kind.ENUM, Kind.FLAGS, Kind.FIELDS, Kind.BOOLEAN}:
+    if register.kind in CODED:
         yield from _coded(register)
         yield from _faults(register)
         return
@@ -41,17 +42,14 @@ def _coded(register: Register) -> Iterator[Proposal]:
     yield from codes(register)
     if register.kind is Kind.BOOLEAN:
         yield Proposal(Fraction(2), "neither true nor false")
-    if register.kind in {Kind.FLAGS, Kind.FIELDS}:
-        yield from (Proposal(Fraction(1 << bit), f"bit {bit} alone") for bit in range(min(register.bits, 64)))
-        yield from field_codes(register)
     yield Proposal(Fraction(1 << register.bits), "one bit more than the type has")
 
 
 def _faults(register: Register) -> Iterator[Proposal]:
     """Yield the codes that report faults: without a sign where the register is a pattern of bits."""
-    pattern = register.kind in {Kind.FLAGS, Kind.FIELDS}
+    signless = register.kind in PATTERNS_OF_BITS
     for stored in register.faults:
-        yield Proposal(stored % (1 << register.bits) if pattern else stored, "how the device reports a fault")
+        yield Proposal(stored % (1 << register.bits) if signless else stored, "how the device reports a fault")
 
 
 def _special(register: Register, scale: Scale, known: Surroundings) -> Iterator[Proposal]:
