@@ -7,7 +7,18 @@ from regscribe.emit.common_values import Shared, Stated, T
 from regscribe.emit.markdown.escape import Md, code, escape, lines, link, md, slug
 from regscribe.emit.outline import Node, leaves, outline, pattern
 from regscribe.emit.words import Wording, condition_words, one_line, spelled
-from regscribe.model import Array, Condition, Model, Register, RegisterMap, Space, Units
+from regscribe.model import (
+    Array,
+    Command,
+    Condition,
+    Group,
+    Model,
+    Register,
+    RegisterMap,
+    SetpointProgram,
+    Space,
+    Units,
+)
 
 SPACES = {
     Space.HOLDING: "Holding registers",
@@ -75,16 +86,31 @@ class PageContext:
 def context(register_map: RegisterMap) -> PageContext:
     """Merge the models and name the anchors."""
     nodes = outline(register_map.models)
-    conditions = {item.name: (model, item) for model, item in reversed(list(_conditions(register_map))) if item.name}
-    conditions = dict(reversed(conditions.items()))
-    keys = [f"register {leaf.register.key}" for leaf in leaves(nodes)]
-    keys += [f"group {group.id}" for model in register_map.models for group in model.groups]
-    keys += [f"command {command.id}" for model in register_map.models for command in model.commands]
-    keys += [f"program {program.id}" for model in register_map.models for program in model.programs]
-    keys += [f"condition {name}" for name in conditions]
+    conditions: dict[str, tuple[Model, Condition]] = {}
+    for model, condition in _conditions(register_map):
+        if condition.name:
+            conditions.setdefault(condition.name, (model, condition))
     units = _units(register_map)
-    keys += [f"unit {name}" for name in units]
-    return PageContext(register_map, nodes, _anchors(keys), conditions, _elements(register_map), units)
+    anchors = _anchors(_keys(register_map, nodes, conditions, units))
+    return PageContext(register_map, nodes, anchors, conditions, _elements(register_map), units)
+
+
+def _keys(
+    register_map: RegisterMap, nodes: Iterable[Node], conditions: Iterable[str], units: Iterable[str]
+) -> Iterator[str]:
+    """Yield the kind and the key of everything that can be linked to."""
+    yield from (f"register {leaf.register.key}" for leaf in leaves(nodes))
+    for kind, members in MEMBERS.items():
+        yield from (f"{kind} {member.id}" for model in register_map.models for member in members(model))
+    yield from (f"condition {name}" for name in conditions)
+    yield from (f"unit {name}" for name in units)
+
+
+MEMBERS: dict[str, Callable[[Model], Iterable[Group | Command | SetpointProgram]]] = {
+    "group": lambda model: model.groups,
+    "command": lambda model: model.commands,
+    "program": lambda model: model.programs,
+}
 
 
 def _units(register_map: RegisterMap) -> dict[str, tuple[Model, Units]]:
@@ -162,3 +188,20 @@ def by_model(shared: Shared[T], fact: Callable[[Model, T], Md]) -> Md:
     if len(shared.versions) == 1:
         return fact(*shared.versions[0])
     return stated(shared.states(fact))
+
+
+def source(section: str) -> Md:
+    """Return where the manual has something; nothing if the map does not say."""
+    return md("section ", one_line(section)) if section else Md()
+
+
+def only(context: PageContext, models: Iterable[str]) -> Md:
+    """Return which models alone have something; nothing if all have it."""
+    names = context.covers(models)
+    return md("only ", names) if names else Md()
+
+
+def conclusions(shared: Shared[Register] | Shared[SetpointProgram]) -> tuple[Md, ...]:
+    """Return what was concluded and not read in the manual."""
+    found = dict.fromkeys(item for _, version in shared.versions for item in version.inferred)
+    return tuple(md("Inferred: ", item.what, " (", item.why, ")") for item in found)

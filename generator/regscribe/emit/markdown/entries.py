@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 
 from regscribe.emit.common_values import Shared, merge
 from regscribe.emit.markdown.alt_text import bit_fields, structure
-from regscribe.emit.markdown.context import PageContext, by_model
+from regscribe.emit.markdown.context import PageContext, by_model, conclusions, only, source
 from regscribe.emit.markdown.details import bits, by_condition, elements, values, views
 from regscribe.emit.markdown.escape import Md, code, escape, join, link, md, prose
 from regscribe.emit.markdown.page_values import PageSection, PageTable, RegisterEntry, Titled, table
@@ -36,7 +36,7 @@ def _section(
     context: PageContext, group: Shared[Group], nodes: Sequence[Node], seen: dict[PageTable, Leaf]
 ) -> PageSection:
     order = f"number {group.first.order} in the order of writing" if group.first.order is not None else ""
-    parts = (code(group.key), _source(group.first.section), md(order), context.covers(group.models))
+    parts = (code(group.key), source(group.first.section), md(order), context.covers(group.models))
     return PageSection(
         anchor=context.anchor("group", group.key),
         name=one_line(group.first.name),
@@ -82,7 +82,7 @@ def _register(context: PageContext, leaf: Leaf, seen: dict[PageTable, Leaf], mar
         pictures=bit_fields(context, leaf),
         facts=facts(context, leaf),
         tables=(*views(context, leaf), *by_condition(context, leaf), *known, *bits(leaf), *elements(context, leaf)),
-        remarks=_remarks(shared),
+        remarks=conclusions(shared),
     )
 
 
@@ -93,8 +93,8 @@ def _summary(context: PageContext, leaf: Leaf) -> Md:
     parts = (
         code(lettered(shared.first.path)),
         escape(", ".join(filter(None, symbols))),
-        _source(", ".join(filter(None, sources))),
-        _only(context, shared.models),
+        source(", ".join(filter(None, sources))),
+        only(context, shared.models),
     )
     return join(DOT, parts)
 
@@ -105,11 +105,6 @@ def _symbol(register: Register) -> str:
     if not printed or printed == symbol:
         return symbol
     return f"{symbol} (printed {printed})" if symbol else f"printed {printed}"
-
-
-def _only(context: PageContext, models: Sequence[str]) -> Md:
-    names = context.covers(models)
-    return md("only ", names) if names else Md()
 
 
 def _values(context: PageContext, leaf: Leaf, seen: dict[PageTable, Leaf]) -> tuple[tuple[Titled, ...], Md]:
@@ -126,12 +121,6 @@ def _values(context: PageContext, leaf: Leaf, seen: dict[PageTable, Leaf]) -> tu
     )
 
 
-def _remarks(shared: Shared[Register]) -> tuple[Md, ...]:
-    """Return what was concluded and not read in the manual."""
-    conclusions = [item for _, register in shared.versions for item in register.inferred]
-    return tuple(md("Inferred: ", item.what, " (", item.why, ")") for item in dict.fromkeys(conclusions))
-
-
 def _array(context: PageContext, branch: Branch, marks: str) -> RegisterEntry:
     array = branch.array.first
     arrays = (*branch.arrays, array)
@@ -140,8 +129,8 @@ def _array(context: PageContext, branch: Branch, marks: str) -> RegisterEntry:
         escape(f"{array.count} elements"),
         indices(arrays),
         escape(f"each {array.stride} addresses after the one before" if array.stride > 1 else ""),
-        _source(array.section),
-        _only(context, branch.array.models),
+        source(array.section),
+        only(context, branch.array.models),
     )
     return RegisterEntry(
         marks=Md(marks),
@@ -151,10 +140,6 @@ def _array(context: PageContext, branch: Branch, marks: str) -> RegisterEntry:
         paragraphs=_paragraphs(by_model(branch.array, lambda _, item: prose(item.description))),
         pictures=structure(context, branch),
     )
-
-
-def _source(section: str) -> Md:
-    return md("section ", one_line(section)) if section else Md()
 
 
 def _paragraphs(*parts: Md) -> tuple[Md, ...]:
@@ -169,7 +154,7 @@ def commands(context: PageContext) -> tuple[RegisterEntry, ...]:
 
 def _command(context: PageContext, shared: Shared[Command]) -> RegisterEntry:
     steps = shared.states(lambda _, command: command.steps)
-    parts = (code(f"commands.{shared.key}()"), _source(shared.first.section), _only(context, shared.models))
+    parts = (code(f"commands.{shared.key}()"), source(shared.first.section), only(context, shared.models))
     return RegisterEntry(
         marks=Md("###"),
         anchor=context.anchor("command", shared.key),

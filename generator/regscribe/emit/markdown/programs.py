@@ -2,9 +2,10 @@
 
 from collections.abc import Callable, Iterable
 from fractions import Fraction
+from functools import partial
 
-from regscribe.emit.common_values import merge
-from regscribe.emit.markdown.context import PageContext, by_model
+from regscribe.emit.common_values import Shared, merge
+from regscribe.emit.markdown.context import PageContext, by_model, conclusions, only, source
 from regscribe.emit.markdown.escape import Md, code, escape, join, lines, link, md, prose
 from regscribe.emit.markdown.page_values import RegisterEntry, Titled, table
 from regscribe.emit.outline import lettered, pattern
@@ -37,28 +38,29 @@ RUNNING = {
 def programs(context: PageContext) -> tuple[RegisterEntry, ...]:
     """Return the setpoint programs of all models."""
     found = merge(context.map.models, lambda model: model.programs, lambda program: program.id)
-    entries = []
-    for shared in found:
-        first = shared.first
-        facts = [
-            (label, by_model(shared, lambda model, one, make=make: make(_Words(context, model, one))))  # type: ignore[misc]  # a default binds `make` now
-            for label, make in FACTS.items()
-        ]
-        models = context.covers(shared.models)
-        section = md("section ", one_line(first.section)) if first.section else Md()
-        conclusions = dict.fromkeys(item for _, one in shared.versions for item in one.inferred)
-        entries.append(
-            RegisterEntry(
-                marks=Md("###"),
-                anchor=context.anchor("program", shared.key),
-                name=one_line(first.name),
-                summary=join(" · ", (code(first.id), section, md("only ", models) if models else Md())),
-                paragraphs=(prose(first.description),) if first.description else (),
-                tables=(Titled("What makes it", table(("Part", "Where and what"), [one for one in facts if one[1]])),),
-                remarks=tuple(md("Inferred: ", item.what, " (", item.why, ")") for item in conclusions),
-            )
-        )
-    return tuple(entries)
+    return tuple(_entry(context, shared) for shared in found)
+
+
+def _entry(context: PageContext, shared: Shared[SetpointProgram]) -> RegisterEntry:
+    first = shared.first
+    return RegisterEntry(
+        marks=Md("###"),
+        anchor=context.anchor("program", shared.key),
+        name=one_line(first.name),
+        summary=join(" · ", (code(first.id), source(first.section), only(context, shared.models))),
+        paragraphs=(prose(first.description),) if first.description else (),
+        tables=(Titled("What makes it", table(("Part", "Where and what"), _facts(context, shared))),),
+        remarks=conclusions(shared),
+    )
+
+
+def _facts(context: PageContext, shared: Shared[SetpointProgram]) -> list[tuple[str, Md]]:
+    rows = ((label, by_model(shared, partial(_fact, context, words))) for label, words in FACTS.items())
+    return [row for row in rows if row[1]]
+
+
+def _fact(context: PageContext, words: Callable[["_Words"], Md], model: Model, program: SetpointProgram) -> Md:
+    return words(_Words(context, model, program))
 
 
 class _Words:

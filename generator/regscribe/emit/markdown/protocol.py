@@ -1,6 +1,6 @@
 """How to talk to the device: functions, limits, serial line, latency, and its answers to bad requests."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from fractions import Fraction
 
 from regscribe.emit.markdown.context import PageContext
@@ -52,22 +52,25 @@ def line(context: PageContext) -> PageTable:
 
 def _requests(register_map: RegisterMap) -> Iterable[tuple[str, Md]]:
     protocol = register_map.protocol
-    first, last = protocol.unit_ids
-    default = f", {register_map.default_unit} unless set" if register_map.default_unit is not None else ""
-    broadcast = "; ".join(_function(code) for code in protocol.broadcast)
-    yield "Functions", md("; ".join(_function(code) for code in protocol.functions))
+    yield "Functions", md(_functions(protocol.functions))
     yield (
         "Functions that do the same",
         md("; ".join(listed([f"{code:02d}" for code in same], last="and") for same in register_map.alike)),
     )
-    told = "broadcast" in register_map.protocol_notes.stated
-    yield "Broadcast (unit 0)", md(broadcast or ("not supported" if told else "not stated"))
-    yield "Unit ids", md(f"{first} to {last}{_usual(register_map, 'unit_ids')}{default}")
+    unsupported = "not supported" if "broadcast" in register_map.protocol_notes.stated else "not stated"
+    yield "Broadcast (unit 0)", md(_functions(protocol.broadcast) or unsupported)
+    yield "Unit ids", _unit_ids(register_map)
     yield "Most words in a request", md(_most(register_map, "words"))
     if BIT_FUNCTIONS & set(protocol.functions):
         yield "Most bits in a request", md(_most(register_map, "bits"))
     yield "Reading over unused addresses", md("allowed" if protocol.read_holes else "not relied upon")
     yield "Writing what is there already", md("spares the lasting memory" if register_map.spares_memory else "")
+
+
+def _unit_ids(register_map: RegisterMap) -> Md:
+    first, last = register_map.protocol.unit_ids
+    default = f", {register_map.default_unit} unless set" if register_map.default_unit is not None else ""
+    return md(f"{first} to {last}{_usual(register_map, 'unit_ids')}{default}")
 
 
 def _most(register_map: RegisterMap, what: str) -> str:
@@ -85,9 +88,12 @@ def _usual(register_map: RegisterMap, key: str) -> str:
     return "" if key in register_map.protocol_notes.stated else USUAL
 
 
+def _functions(codes: Iterable[int]) -> str:
+    return "; ".join(map(_function, codes))
+
+
 def _function(code: int) -> str:
-    name = FUNCTIONS.get(code)
-    return f"{code:02d} {name}" if name else f"{code:02d}"
+    return f"{code:02d} {FUNCTIONS[code]}" if code in FUNCTIONS else f"{code:02d}"
 
 
 def _serial(register_map: RegisterMap) -> Iterable[tuple[str, Md]]:
@@ -125,31 +131,53 @@ def _span(low: Number, high: Number) -> str:
 
 def faults(context: PageContext) -> PageTable:
     """Return the device's answer to each kind of bad request that it can get."""
-    register_map = context.map
-    views = list(_views(context.map))
-    rows = [
-        ("function code that the device does not have", "function"),
-        ("address of no register", "address"),
-        ("value outside its range", "value"),
-        ("write to a read-only register", "read_only"),
-    ]
-    if any(register.writable for model in context.map.models for register in model.registers):
-        rows.append(("write under a condition that forbids it", "condition"))
-    if any(model.unused for model in context.map.models):
-        own = "unused_write" in register_map.protocol_notes.stated
-        key = "unused_write" if own else "address"  # which counts for both then
-        rows.append(("write to an address listed as unused", key))
-    rows.append(("more words than a request may have", "quantity"))
-    if any(view.align > 1 for view in views):
-        rows.append(("first address between two values of several words", "misaligned_address"))
-        rows.append(("number of words that ends inside a value", "misaligned_count"))
-    if any(view.functions for view in views):
-        rows.append(("function that the view does not allow", "view_function"))
-    answers = [
-        (words, join("", (_answer(context, getattr(register_map.faults, key)), md(_usual(register_map, key)))))
-        for words, key in rows
-    ]
-    return table(("Bad request", "Answer"), [*answers, *_later(context)])
+    rows = [(words, _fault(context, key)) for words, key, can_be in BAD_REQUESTS if can_be(context.map)]
+    return table(("Bad request", "Answer"), [*rows, *_later(context)])
+
+
+def _fault(context: PageContext, key: str) -> Md:
+    if key == "unused_write" and key not in context.map.protocol_notes.stated:
+        key = "address"  # which counts for both then
+    return md(_answer(context, getattr(context.map.faults, key)), _usual(context.map, key))
+
+
+def _always(_: RegisterMap) -> bool:
+    return True
+
+
+def _has_conditions(register_map: RegisterMap) -> bool:
+    return any(register.writable for model in register_map.models for register in model.registers)
+
+
+def _has_unused(register_map: RegisterMap) -> bool:
+    return any(model.unused for model in register_map.models)
+
+
+def _has_aligned_views(register_map: RegisterMap) -> bool:
+    return any(view.align > 1 for view in _views(register_map))
+
+
+def _has_views_of_functions(register_map: RegisterMap) -> bool:
+    return any(view.functions for view in _views(register_map))
+
+
+def _views(register_map: RegisterMap) -> Iterable[View]:
+    return (view for model in register_map.models for register in model.registers for view in register.views)
+
+
+BAD_REQUESTS: tuple[tuple[str, str, Callable[[RegisterMap], bool]], ...] = (
+    ("function code that the device does not have", "function", _always),
+    ("address of no register", "address", _always),
+    ("value outside its range", "value", _always),
+    ("write to a read-only register", "read_only", _always),
+    ("write under a condition that forbids it", "condition", _has_conditions),
+    ("write to an address listed as unused", "unused_write", _has_unused),
+    ("more words than a request may have", "quantity", _always),
+    ("first address between two values of several words", "misaligned_address", _has_aligned_views),
+    ("number of words that ends inside a value", "misaligned_count", _has_aligned_views),
+    ("function that the view does not allow", "view_function", _has_views_of_functions),
+)
+"""Kinds of bad requests, the fault of the protocol that says the answer, and whether a map can have such requests."""
 
 
 def _later(context: PageContext) -> Iterable[tuple[str, Md]]:
@@ -162,10 +190,6 @@ def _later(context: PageContext) -> Iterable[tuple[str, Md]]:
     )
     write = LATER_WRITE.get(found.later_write, LATER_WRITE[Later.EXCEPTION])
     yield "write of several words with a bad one after good ones", md(write, _usual(register_map, "later_write"))
-
-
-def _views(register_map: RegisterMap) -> Iterable[View]:
-    return (view for model in register_map.models for register in model.registers for view in register.views)
 
 
 def _answer(context: PageContext, code: int) -> Md:

@@ -100,19 +100,25 @@ def indices(arrays: Sequence[Array]) -> Md:
 
 def transmission(context: PageContext, view: View) -> Md:
     """Return what a view does to the stored value: factor, rounding, saturation, order, functions, alignment."""
-    order = view.word_order
-    plain_order = order is Order.BIG or (isinstance(order, Order) and view.words == 1)
     parts = (
         f"stored value times {show(view.factor)}" if view.factor != 1 else "",
         ROUNDING[view.rounding],
         f"stops at {view.type.minimum} and {view.type.maximum}" if view.saturates else "",
-        "" if plain_order else md("word order: ", Md(order_words(order, context.wording(context.map.models[0])))),
+        _word_order(context, view),
         "least significant byte first" if view.byte_order is Order.LITTLE else "",
         "read as the shortest decimal of its bits" if view.type.is_float else "",
         f"functions {', '.join(map(str, view.functions))} only" if view.functions else "",
         f"address and count multiples of {view.align}" if view.align > 1 else "",
     )
-    return join("; ", tuple(md(part) for part in parts))
+    return join("; ", tuple(map(md, parts)))
+
+
+def _word_order(context: PageContext, view: View) -> Md:
+    """Return the order of the words; nothing for the usual one, and for a single word in a fixed order."""
+    order = view.word_order
+    if order is Order.BIG or (isinstance(order, Order) and view.words == 1):
+        return Md()
+    return md("word order: ", Md(order_words(order, context.wording(context.map.models[0]))))
 
 
 def view_type(view: View) -> str:
