@@ -39,12 +39,18 @@ class Shared(Generic[T]):
         """Return the fact once for all models that agree; no model names where all do."""
         if len(self.versions) == 1:
             return (Stated((), fact(*self.versions[0])),)
-        found: dict[U, list[str]] = {}
-        for model, version in self.versions:
-            found.setdefault(fact(model, version), []).append(model.name)
+        found = models_by((model.name, fact(model, version)) for model, version in self.versions)
         if len(found) == 1:
             return (Stated((), next(iter(found))),)
         return tuple(Stated(tuple(names), value) for value, names in found.items())
+
+
+def models_by(pairs: Iterable[tuple[str, T]]) -> dict[T, list[str]]:
+    """Return each value of pairs of a model's name and a value once, with the names of the models that have it."""
+    found: dict[T, list[str]] = {}
+    for model, value in pairs:
+        found.setdefault(value, []).append(model)
+    return found
 
 
 def merge(models: Sequence[Model], parts: Callable[[Model], Iterable[T]], key: Callable[[T], str]) -> list[Shared[T]]:

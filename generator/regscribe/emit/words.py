@@ -89,6 +89,11 @@ def listed(parts: Sequence[str], last: str = "or") -> str:
     return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} {last} {parts[-1]}" if parts else ""
 
 
+def span_words(first: int, last: int) -> str:
+    """Write a stretch of addresses or bits: `40`, `40 to 49`."""
+    return str(first) if first == last else f"{first} to {last}"
+
+
 def fold(codes: Iterable[CodeRange]) -> tuple[CodeRange, ...]:
     """Sort the ranges and join those that follow each other without a gap of a whole number."""
     folded: list[CodeRange] = []

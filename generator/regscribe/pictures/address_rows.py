@@ -2,10 +2,13 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from itertools import groupby, pairwise
+from itertools import chain, groupby, pairwise
 
 from regscribe.model import Space
 from regscribe.pictures.address_use import AddressUse, Stretch
+
+Hole = tuple[str, int, int]
+"""Addresses without a register: `unused`, `reserved` or nothing, the first and the last."""
 
 MOST_SECTIONS = 24
 """With more regions than this a space is drawn as one section."""
@@ -44,7 +47,7 @@ class AddressSection:
     view: str
     region: tuple[int, int] | None
     places: tuple[AddressUse, ...]
-    holes: tuple[tuple[str, int, int], ...] = ()
+    holes: tuple[Hole, ...] = ()
 
     @property
     def first(self) -> int:
@@ -83,7 +86,7 @@ class AddressRow:
 class Fold:
     """Rows without a register, drawn as one line: stretches (kind, first and last address) in order, without gaps."""
 
-    stretches: tuple[tuple[str, int, int], ...]
+    stretches: tuple[Hole, ...]
 
 
 @dataclass(slots=True)
@@ -107,16 +110,15 @@ def sections(
     return tuple(made)
 
 
-def _of_space(space: Space, found: list[AddressUse], holes: list[tuple[str, int, int]]) -> Iterator[AddressSection]:
-    regions = {place.region: None for place in found if place.region is not None}
+def _of_space(space: Space, found: list[AddressUse], holes: list[Hole]) -> Iterator[AddressSection]:
+    regions = list(dict.fromkeys(place.region for place in found if place.region is not None))
     if len(regions) > MOST_SECTIONS:
-        regions = {}
+        regions = []
     for region in regions:
         inside = tuple(place for place in found if place.region == region)
-        clipped = (_clip(hole, *region) for hole in holes)
-        yield AddressSection(space, _views(inside), region, inside, tuple(hole for hole in clipped if hole))
+        yield AddressSection(space, _views(inside), region, inside, _clipped(holes, *region))
     rest = tuple(place for place in found if place.region not in regions)
-    outside = tuple(piece for hole in holes for piece in _outside(hole, list(regions)))
+    outside = tuple(chain.from_iterable(_outside(hole, regions) for hole in holes))
     if rest or outside:
         yield from _apart(AddressSection(space, _views(rest), None, rest, outside))
 
@@ -143,12 +145,14 @@ def _views(found: Iterable[AddressUse]) -> str:
     return ", ".join(dict.fromkeys(place.view for place in found))
 
 
-def _clip(hole: tuple[str, int, int], low: int, high: int) -> tuple[str, int, int] | None:
-    kind, first, last = hole
-    return (kind, max(first, low), min(last, high)) if first <= high and low <= last else None
+def _clipped(holes: Iterable[Hole], low: int, high: int) -> tuple[Hole, ...]:
+    """Return the parts of holes that lie between two addresses."""
+    return tuple(
+        (kind, max(first, low), min(last, high)) for kind, first, last in holes if first <= high and low <= last
+    )
 
 
-def _outside(hole: tuple[str, int, int], regions: Sequence[tuple[int, int]]) -> Iterator[tuple[str, int, int]]:
+def _outside(hole: Hole, regions: Sequence[tuple[int, int]]) -> Iterator[Hole]:
     """Yield what of a hole lies in no region."""
     kind, first, last = hole
     for low, high in sorted(regions):
@@ -200,9 +204,8 @@ def _index(section: AddressSection, grid: Grid) -> _Index:
 def _fold(section: AddressSection, grid: Grid, numbers: Sequence[int]) -> Fold:
     first = max(numbers[0] * grid.step, section.first)
     last = min((numbers[-1] + 1) * grid.step - 1, section.last)
-    clipped = (_clip(hole, first, last) for hole in section.holes)
-    stretches: list[tuple[str, int, int]] = []
-    for kind, low, high in sorted((hole for hole in clipped if hole), key=lambda hole: hole[1:]):
+    stretches: list[Hole] = []
+    for kind, low, high in sorted(_clipped(section.holes, first, last), key=lambda hole: hole[1:]):
         if first < low:
             stretches.append(("", first, low - 1))
         if first <= high:

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from regscribe.emit.common_values import models_by
 from regscribe.emit.markdown.transmission import view_formula
 from regscribe.model import Access, Model, Register, RegisterMap, Space, View
 
@@ -31,10 +32,7 @@ class AddressUse:
 
 def places(register_map: RegisterMap) -> tuple[AddressUse, ...]:
     """Return every place once, with the models that have it, by space and address."""
-    models: dict[AddressUse, list[str]] = {}
-    for model in register_map.models:
-        for place in _places(model):
-            models.setdefault(place, []).append(model.name)
+    models = models_by((model.name, place) for model in register_map.models for place in _places(model))
     found = [replace(place, models=tuple(dict.fromkeys(names))) for place, names in models.items()]
     return tuple(sorted(found, key=lambda place: (list(Space).index(place.space), place.first, place.last)))
 

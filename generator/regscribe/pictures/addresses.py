@@ -1,8 +1,11 @@
 """The address spaces of a family as a map: rows of addresses, cells by group, a strip for the region of each view."""
 
+from collections import Counter
+from collections.abc import Iterable
+
 from regscribe.emit.markdown import alt_text
 from regscribe.emit.markdown.context import SPACES
-from regscribe.emit.words import listed
+from regscribe.emit.words import listed, span_words
 from regscribe.model import RegisterMap
 from regscribe.pictures.address_rows import AddressRow, AddressSection, Cell, Fold, Grid, choose, layout, sections
 from regscribe.pictures.address_use import places, unused
@@ -23,6 +26,8 @@ FEW = 20
 
 MOST_FORMULAS = 3
 
+Rows = tuple[AddressRow | Fold, ...]
+
 
 def addresses(register_map: RegisterMap) -> Drawing:
     """Draw the address spaces of a map."""
@@ -30,16 +35,20 @@ def addresses(register_map: RegisterMap) -> Drawing:
     made = sections(places(register_map), unused(register_map), register_map.reserved)
     grid = choose(made)
     rows = {section: layout(section, grid) for section in made}
-    cells = [cell for lines in rows.values() for row in lines if isinstance(row, AddressRow) for cell in row.cells]
-    kinds = [cell.kind for cell in cells if not cell.places]
     canvas = Canvas()
     title = f"Address space of {register_map.title}"
     canvas.head(title, _remarks(grid))
-    legend(canvas, found, [found.look(cell.places) for cell in cells if cell.places], kinds)
-    many = {section.space for section in made if sum(other.space is section.space for other in made) > 1}
+    _legend(canvas, found, rows.values())
+    several = Counter(section.space for section in made)
     for section in made:
-        _section(canvas, section, rows[section], grid, found, several=section.space in many)
+        _section(canvas, section, rows[section], grid, found, several=several[section.space] > 1)
     return canvas.finish(title, alt_text.addresses(register_map))
+
+
+def _legend(canvas: Canvas, found: Looks, sections: Iterable[Rows]) -> None:
+    cells = [cell for rows in sections for row in rows if isinstance(row, AddressRow) for cell in row.cells]
+    used = [found.look(cell.places) for cell in cells if cell.places]
+    legend(canvas, found, used, [cell.kind for cell in cells if not cell.places])
 
 
 def _remarks(grid: Grid) -> tuple[str, ...]:
@@ -51,7 +60,7 @@ def _remarks(grid: Grid) -> tuple[str, ...]:
 def _section(
     canvas: Canvas,
     section: AddressSection,
-    rows: tuple[AddressRow | Fold, ...],
+    rows: Rows,
     grid: Grid,
     found: Looks,
     *,
@@ -133,11 +142,7 @@ def _fold(canvas: Canvas, fold: Fold, grid: Grid) -> None:
 
 
 def _fold_words(fold: Fold) -> str:
-    return "; ".join(f"{_span(low, high)}: {kind or 'no register'}" for kind, low, high in fold.stretches)
-
-
-def _span(low: int, high: int) -> str:
-    return str(low) if low == high else f"{low} to {high}"
+    return "; ".join(f"{span_words(low, high)}: {kind or 'no register'}" for kind, low, high in fold.stretches)
 
 
 def _jagged(left: float, right: float, y: float) -> DrawnLine:

@@ -1,9 +1,10 @@
 """The bits of a word as a picture: boxes from the most significant on, a line from each field to its meaning."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
-from regscribe.emit.common_values import Shared
+from regscribe.emit.common_values import Shared, models_by
 from regscribe.emit.markdown import alt_text
 from regscribe.emit.outline import Leaf, formula, lettered
 from regscribe.emit.words import bits_words, listed, one_line
@@ -80,21 +81,23 @@ def _where(leaf: Leaf) -> str:
 def strips(shared: Shared[Register]) -> tuple[Strip, ...]:
     """Return one strip of the fields of all models, unless they cut the word differently: then one for each cut."""
     cuts = shared.states(lambda _, register: (register.bits, register.fields))
-    spans = {(part.low, part.high) for cut in cuts for part in cut.value[1]}
-    apart = all(a == b or a[1] < b[0] or b[1] < a[0] for a in spans for b in spans)
-    if apart and len({cut.value[0] for cut in cuts}) == 1:
-        return (Strip("", cuts[0].value[0], _slots(shared)),)
+    widths = {width for width, _ in (cut.value for cut in cuts)}
+    if len(widths) == 1 and _alike(part for cut in cuts for part in cut.value[1]):
+        return (Strip("", widths.pop(), _slots(shared)),)
     return tuple(
         Strip(f"On {listed(cut.models, last='and')}", cut.value[0], tuple(Slot(part) for part in cut.value[1]))
         for cut in cuts
     )
 
 
+def _alike(fields: Iterable[BitField]) -> bool:
+    """Whether fields of several models take the same bits or none of the same."""
+    spans = sorted({(part.low, part.high) for part in fields})
+    return all(one[1] < other[0] for one, other in pairwise(spans))
+
+
 def _slots(shared: Shared[Register]) -> tuple[Slot, ...]:
-    models: dict[BitField, list[str]] = {}
-    for model, register in shared.versions:
-        for part in register.fields:
-            models.setdefault(part, []).append(model.name)
+    models = models_by((model.name, part) for model, register in shared.versions for part in register.fields)
     every = len(shared.versions)
     return tuple(
         Slot(part, set_words(names, shared.models) if len(names) < every else "") for part, names in models.items()

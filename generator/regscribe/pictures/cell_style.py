@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from regscribe.emit.words import ACCESS, listed
+from regscribe.emit.words import ACCESS, listed, span_words
 from regscribe.model import Access, RegisterMap
 from regscribe.pictures.address_use import AddressUse, groups, places
 from regscribe.pictures.drawing import Box, Canvas, DrawnLine, Item, Text
@@ -114,10 +114,9 @@ def _shrunk(box: Box, by: float) -> Box:
 
 def tip(found: Sequence[AddressUse], first: int, last: int, names: Mapping[str, str], models: Sequence[str]) -> str:
     """Return the words of a cell's tooltip: its addresses and what they hold."""
-    span = str(first) if first == last else f"{first} to {last}"
     shown = [_words(place, names, models) for place in found[:3]]
     more = [f"and {len(found) - 3} more"] if len(found) > 3 else []  # noqa: PLR2004 - as many as are shown
-    return f"{span}: {'; '.join([*shown, *more])}"
+    return f"{span_words(first, last)}: {'; '.join([*shown, *more])}"
 
 
 def _words(place: AddressUse, names: Mapping[str, str], models: Sequence[str]) -> str:

@@ -6,7 +6,7 @@ from regscribe.emit import picture_paths
 from regscribe.emit.markdown.context import SPACES, PageContext
 from regscribe.emit.markdown.escape import Md, md
 from regscribe.emit.outline import Branch, Leaf, formula, leaves, lettered
-from regscribe.emit.words import bits_words, listed, one_line
+from regscribe.emit.words import bits_words, listed, one_line, span_words
 from regscribe.model import RegisterMap, Space
 
 MANY = 12
@@ -20,15 +20,14 @@ def addresses(register_map: RegisterMap) -> str:
         for view in register.views:
             found.setdefault(view.space, []).extend((view.address, view.last))
         found[register.base.space].extend(register.aliases)
-    spans = [_span(space, found[space]) for space in Space if space in found]
+    spans = [
+        f"{SPACES[space].lower()} {span_words(min(found[space]), max(found[space]))}"
+        for space in Space
+        if space in found
+    ]
     return (
         f"Address map of {one_line(register_map.title)}: {listed(spans, last='and')}, in the colours of their groups."
     )
-
-
-def _span(space: Space, taken: Sequence[int]) -> str:
-    low, high = min(taken), max(taken)
-    return f"{SPACES[space].lower()} {low}" if low == high else f"{SPACES[space].lower()} {low} to {high}"
 
 
 def bits(leaf: Leaf) -> str:

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from regscribe.emit.common_values import Shared, Stated
+from regscribe.emit.common_values import Shared, Stated, models_by
 from regscribe.emit.markdown.context import PageContext
 from regscribe.emit.markdown.escape import Md, code, escape, md, prose
 from regscribe.emit.markdown.page_values import Titled, table
@@ -136,10 +136,7 @@ def _codes(enum: Enum | None) -> str:
 
 def _by_model(shared: Shared[Register], rows: Callable[[Register], Rows]) -> list[tuple[Md, ...]]:
     """Return the rows of all models, each once, with the models that have it where not all have."""
-    found: dict[tuple[Md, ...], list[str]] = {}
-    for model, register in shared.versions:
-        for row in rows(register):
-            found.setdefault(row, []).append(model.name)
+    found = models_by((model.name, row) for model, register in shared.versions for row in rows(register))
     every = len(shared.versions)
     return [(*row, escape(", ".join(names)) if len(names) < every else Md()) for row, names in found.items()]
 

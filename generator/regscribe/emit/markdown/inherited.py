@@ -1,14 +1,12 @@
 """What a map took from elsewhere and changed, and what its manual lists without using it."""
 
-from collections.abc import Sequence
-
+from regscribe.emit.common_values import models_by
 from regscribe.emit.markdown.context import SPACES, PageContext
 from regscribe.emit.markdown.escape import Md, code, escape, join, lines, link, md, prose
 from regscribe.emit.markdown.page_values import PageTable, table
-from regscribe.emit.words import one_line
-from regscribe.model import Override, Space
+from regscribe.emit.words import one_line, span_words
+from regscribe.model import Override
 
-Stretch = tuple[Space, int, int]
 PLURALS = frozenset({"errata", "examples", "notes", "waivers"})
 INTERNAL = frozenset({"waivers"})
 """What is between the map and the compiler, and no fact of the device."""
@@ -53,14 +51,8 @@ def _words(change: str) -> Md:
 
 def unused(context: PageContext) -> PageTable:
     """Return the addresses that the manual lists as unused, with the models where not all agree."""
-    found: dict[Stretch, list[str]] = {}
-    for model in context.map.models:
-        for stretch in model.unused:
-            found.setdefault(stretch, []).append(model.name)
-    rows = ((SPACES[stretch[0]], _addresses(stretch), context.covers(models)) for stretch, models in found.items())
+    found = models_by((model.name, stretch) for model in context.map.models for stretch in model.unused)
+    rows = (
+        (SPACES[space], span_words(low, high), context.covers(models)) for (space, low, high), models in found.items()
+    )
     return table(("Space", "Wire addresses", "Models"), rows)
-
-
-def _addresses(stretch: Sequence[Space | int]) -> str:
-    _, low, high = stretch
-    return str(low) if low == high else f"{low} to {high}"

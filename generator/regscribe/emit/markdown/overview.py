@@ -9,7 +9,7 @@ from regscribe.emit.markdown.escape import Md, code, escape, join, link, md
 from regscribe.emit.markdown.page_values import PageTable, Titled, table
 from regscribe.emit.markdown.register_facts import symbols
 from regscribe.emit.outline import Leaf, aliases, last_address, leaves, lettered
-from regscribe.emit.words import codes_words, default_words, one_line, range_words, special_words
+from regscribe.emit.words import codes_words, default_words, one_line, range_words, span_words, special_words
 from regscribe.model import Access, CodeRange, Kind, Model, Register, Space, View
 
 ACCESS = {Access.READ: "R", Access.READ_WRITE: "R/W", Access.WRITE: "W"}
@@ -59,7 +59,7 @@ def _row(context: PageContext, leaf: Leaf, offsets: Sequence[int], names: Sequen
 
 def _span(leaf: Leaf, view: View, offset: int = 0) -> Md:
     first, last = view.address + offset, last_address(view, leaf.arrays) + offset
-    return escape(str(first) if first == last else f"{first} to {last}")
+    return escape(span_words(first, last))
 
 
 def _notation(leaf: Leaf, offset: int, _model: Model, register: Register) -> Md:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from regscribe.emit.common_values import models_by
 from regscribe.emit.markdown.context import PageContext
 from regscribe.emit.markdown.escape import Md, code, escape, join, lines, md
 from regscribe.emit.markdown.page_values import PageTable, table
@@ -61,10 +62,12 @@ def _effect(context: PageContext, model: Model, effect: Effect) -> Iterator[Md]:
 
 def process(context: PageContext) -> PageTable:
     """Return the roles of registers in controlling the process value, by model where they differ."""
-    rows: dict[Row, list[str]] = {}
-    for model in context.map.models:
-        for row in _roles(context, model, model.process) if model.process else ():
-            rows.setdefault(row, []).append(model.name)
+    rows = models_by(
+        (model.name, row)
+        for model in context.map.models
+        if model.process
+        for row in _roles(context, model, model.process)
+    )
     shown = [(role, md(text), context.covers(models)) for (role, text), models in rows.items()]
     headers = ("Role", "Register", "Models")
     return table(headers, shown) if any(row[2] for row in shown) else table(headers[:2], [row[:2] for row in shown])

@@ -8,7 +8,7 @@ from regscribe.emit.markdown.escape import Md, code, escape, md, prose
 from regscribe.emit.markdown.page_values import PageTable, Titled, table
 from regscribe.emit.markdown.register_facts import transmission, view_type
 from regscribe.emit.outline import leaves
-from regscribe.emit.words import Wording, condition_words, listed, one_line, when_words
+from regscribe.emit.words import Wording, condition_words, listed, one_line, span_words, when_words
 from regscribe.model import GivenKind, Identity, Kind, Register, View, show
 
 Shape = tuple[tuple[str, View], ...]
@@ -143,7 +143,5 @@ def _identity_words(item: Identity, wording: Wording) -> str:
 
 def reserved(context: PageContext) -> PageTable:
     """Return the addresses that the manual reserves."""
-    rows = (
-        (SPACES[space], str(low) if low == high else f"{low} to {high}") for space, low, high in context.map.reserved
-    )
+    rows = ((SPACES[space], span_words(low, high)) for space, low, high in context.map.reserved)
     return table(("Space", "Wire addresses"), rows)
