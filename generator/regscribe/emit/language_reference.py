@@ -123,12 +123,15 @@ def _form(schema: Schema) -> str:
         return f"{_form(schema['else'])}, or null"
     if "enum" in schema or "const" in schema:
         return ", ".join(f"`{inline(word)}`" for word in schema.get("enum", [schema.get("const")]))
-    if "type" not in schema:
-        return "anything"
+    return _typed(schema) if "type" in schema else "anything"
+
+
+def _typed(schema: Schema) -> str:
+    """Name the types of a value, with the bounds of all."""
     types = [schema["type"]] if isinstance(schema["type"], str) else schema["type"]
-    words = [_one_form(name, schema) for name in types]
-    bounds = [words_for.format(schema[bound]) for bound, words_for in _BOUNDS if bound in schema]
-    return " or ".join(dict.fromkeys(words)) + (f" ({', '.join(bounds)})" if bounds else "")
+    words = dict.fromkeys(_one_form(name, schema) for name in types)
+    bounds = [text.format(schema[bound]) for bound, text in _BOUNDS if bound in schema]
+    return " or ".join(words) + (f" ({', '.join(bounds)})" if bounds else "")
 
 
 def _one_form(name: str, schema: Schema) -> str:
@@ -138,7 +141,7 @@ def _one_form(name: str, schema: Schema) -> str:
         return _link(branch["$ref"])
     items = (branch or {}).get("items", schema.get("items"))
     if name == "array" and items:
-        return f"list of {_link(items['$ref']) if '$ref' in items else _items(items)}"
+        return f"list of {_items(items)}"
     if name == "object" and "x-key" in schema:
         return f"mapping from {schema['x-key']['title']} to {_form(_value(schema))}"
     return _TYPES[name]

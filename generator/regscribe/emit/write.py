@@ -59,15 +59,10 @@ def write(
     before = {path: _read(targets[path]) for path in files}
     changed = {path: text for path, text in files.items() if before[path] != text.encode()}
     stale = stale_files(targets, _folders(targets), out, owned)
-    diff = ""
-    if check:
-        new = {path: text.encode() for path, text in sorted(changed.items())}
-        diff = _difference(new, before) + _difference(dict.fromkeys(stale), {path: _read(out / path) for path in stale})
-    else:
-        _replace({targets[path]: text for path, text in changed.items()})
-        for path in stale:
-            _remove(path, out)
+    if not check:
+        _bring_up_to_date({targets[path]: text for path, text in changed.items()}, stale, out)
     unchanged = tuple(path for path in targets if path not in changed)
+    diff = _difference(changed, stale, before, out) if check else ""
     return Report(tuple(sorted(changed)), tuple(stale), unchanged, diff)
 
 
@@ -108,8 +103,9 @@ def _folders(targets: Iterable[str]) -> list[str]:
     return sorted({path.partition("/")[0] if "/" in path else "" for path in targets}, key=lambda top: (not top, top))
 
 
-def _difference(after: Mapping[str, bytes | None], before: Mapping[str, bytes | None]) -> str:
-    return "".join(unified(path, before[path], new) for path, new in after.items())
+def _difference(changed: Mapping[str, str], stale: Iterable[str], before: Mapping[str, bytes | None], out: Path) -> str:
+    diffs = [unified(path, before[path], text.encode()) for path, text in sorted(changed.items())]
+    return "".join([*diffs, *(unified(path, _read(out / path), None) for path in stale)])
 
 
 def unified(path: str, old: bytes | None, new: bytes | None) -> str:
@@ -128,6 +124,12 @@ def _lines(content: bytes | None) -> list[str]:
 
 def _ended(line: str) -> str:
     return line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n"
+
+
+def _bring_up_to_date(texts: Mapping[Path, str], stale: Iterable[str], out: Path) -> None:
+    _replace(texts)
+    for path in stale:
+        _remove(path, out)
 
 
 def _replace(texts: Mapping[Path, str]) -> None:

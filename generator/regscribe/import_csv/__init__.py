@@ -5,7 +5,7 @@ out and told, never guessed.
 """
 
 import re
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -75,25 +75,21 @@ def _error(message: str, span: Span) -> Diagnostic:
     return Diagnostic(name, message, span)
 
 
-def _body(rows: Iterable[tuple[int, Cells]], left: _Left) -> dict[str, Any]:
+def _body(rows: Sequence[tuple[int, Cells]], left: _Left) -> dict[str, Any]:
     """Return the map without its head: rows that differ in their model alone are one register of several models."""
-    models: dict[str, None] = {}
+    models = dict.fromkeys(map(_model, (cells for _, cells in rows)))
     groups: dict[str, dict[str, dict[str, Any]]] = {}
-    having: dict[str, list[str]] = {}
+    having: dict[tuple[str, str], dict[str, None]] = {}
     for line, cells in rows:
-        model = cells.get("model", "") or "Basic"
-        models[model] = None
         if cells.get("kind") == "command":
             left.lines.setdefault("commands", []).append(line)
             continue
-        register = _register(line, cells, left)
-        key = repr((cells.get("group", ""), register))
-        groups.setdefault(cells.get("group", "") or "Registers", {})[key] = register
-        having.setdefault(key, []).append(model)
-    for registers in groups.values():
-        for key, register in registers.items():
-            if len(set(having[key])) < len(models):
-                register["models"] = list(dict.fromkeys(having[key]))
+        group, register = cells.get("group", "") or "Registers", _register(line, cells, left)
+        groups.setdefault(group, {})[repr(register)] = register
+        having.setdefault((group, repr(register)), {})[_model(cells)] = None
+    for (group, key), some in having.items():
+        if len(some) < len(models):
+            groups[group][key]["models"] = list(some)
     return {
         "models": {model: OneLine() for model in models},
         "groups": [
@@ -101,6 +97,10 @@ def _body(rows: Iterable[tuple[int, Cells]], left: _Left) -> dict[str, Any]:
             for group, registers in groups.items()
         ],
     }
+
+
+def _model(cells: Cells) -> str:
+    return cells.get("model", "") or "Basic"
 
 
 def _id(group: str) -> str:

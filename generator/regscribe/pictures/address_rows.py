@@ -111,9 +111,7 @@ def sections(
 
 
 def _of_space(space: Space, found: list[AddressUse], holes: list[Hole]) -> Iterator[AddressSection]:
-    regions = list(dict.fromkeys(place.region for place in found if place.region is not None))
-    if len(regions) > MOST_SECTIONS:
-        regions = []
+    regions = _regions(found)
     for region in regions:
         inside = tuple(place for place in found if place.region == region)
         yield AddressSection(space, _views(inside), region, inside, _clipped(holes, *region))
@@ -121,6 +119,11 @@ def _of_space(space: Space, found: list[AddressUse], holes: list[Hole]) -> Itera
     outside = tuple(chain.from_iterable(_outside(hole, regions) for hole in holes))
     if rest or outside:
         yield from _apart(AddressSection(space, _views(rest), None, rest, outside))
+
+
+def _regions(found: Iterable[AddressUse]) -> list[tuple[int, int]]:
+    regions = list(dict.fromkeys(place.region for place in found if place.region is not None))
+    return regions if len(regions) <= MOST_SECTIONS else []
 
 
 def _apart(section: AddressSection) -> tuple[AddressSection, ...]:
