@@ -53,7 +53,7 @@ def limits(register: Register) -> str:
 
 def default(register: Register) -> str:
     """The default with its label, `1 = run`; empty where the manual gives none."""
-    return text.default_words(register)
+    return text.value_words(register, register.default)
 
 
 def order(view: View) -> str:

@@ -253,17 +253,8 @@ def sentinel_words(sentinel: Sentinel, wording: Wording = PLAIN) -> str:
     return f"{sentinel.spelled} = {wording.text(one_line(sentinel.label))}"
 
 
-def default_words(register: Register, wording: Wording = PLAIN) -> str:
-    """Word the default: text, a number, or a code with its label (`3 = off`); empty where the manual gives none."""
-    return _beginning_words(register, register.default, wording)
-
-
-def delivered_words(register: Register, wording: Wording = PLAIN) -> str:
-    """Word what the device is delivered with, as `default_words` the default."""
-    return _beginning_words(register, register.delivered, wording)
-
-
-def _beginning_words(register: Register, value: Fraction | str | None, wording: Wording) -> str:
+def value_words(register: Register, value: Fraction | str | None, wording: Wording = PLAIN) -> str:
+    """Word a default: text, a number, or a code with its label (`3 = off`); empty where the manual gives none."""
     if value is None:
         return ""
     if isinstance(value, str):

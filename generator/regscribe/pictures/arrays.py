@@ -37,6 +37,7 @@ MOST_VIEWS = 6
 
 BOLD = Text(0, 0, "", PLAIN, bold=True)
 DIM = Text(0, 0, "", NOTE, style="dim")
+INDEX = Text(0, 0, "", PLAIN, "middle", bold=True)
 
 
 def array(register_map: RegisterMap, branch: Branch) -> Drawing:
@@ -83,18 +84,15 @@ def _level(canvas: Canvas, level: Level, knees: dict[tuple[str, ...], tuple[floa
         if isinstance(child, Branch):
             knees[*level.key, child.array.first.id] = (left + 3, canvas.y + 12)
         _member(canvas, level, child, number, left)
-    columns = [
-        Box(_x(level, column) - 1, top - 2, CELL, canvas.y - top + 2, "empty", radius=3) for column in _columns(level)
+    height = canvas.y - top + 2
+    boxes = [
+        Box(_x(level, column) - 1, top - 2, CELL, height, "empty", radius=3) for column, _ in enumerate(level.elements)
     ]
-    canvas.items[frames:frames] = columns  # behind the members
+    canvas.items[frames:frames] = boxes  # behind the members
     if len(level.branch.children) > MOST_ROWS:
         canvas.y += LINE
         canvas.text(f"and {len(level.branch.children) - MOST_ROWS} more members", left, canvas.y, NAMES - left, DIM)
     canvas.y += 14
-
-
-def _columns(level: Level) -> tuple[int, ...]:
-    return tuple(range(len(level.elements)))
 
 
 def _x(level: Level, column: int) -> float:
@@ -110,19 +108,13 @@ def _heads(canvas: Canvas, level: Level) -> None:
         _arrow(canvas, f"{step:+d}", canvas.y)
     canvas.y += 25
     for column, element in enumerate(level.elements):
-        canvas.text(
-            f"[{level.array.first + element}]", _x(level, column) + CELL / 2, canvas.y, CELL - 4, _middle(bold=True)
-        )
+        canvas.text(f"[{level.array.first + element}]", _x(level, column) + CELL / 2, canvas.y, CELL - 4, INDEX)
     if level.gap:
         canvas.add(Text(_x(level, SHOWN) - GAP / 2, canvas.y, "…", PLAIN, "middle"))
     if level.start is not None:
         canvas.add(Text(OFFSETS, canvas.y, "offset", NOTE, "end", "dim"))
     canvas.add(Text(FORMULAS, canvas.y, "address", NOTE, "start", "dim"))
     canvas.y += 8
-
-
-def _middle(*, bold: bool = False) -> Text:
-    return Text(0, 0, "", PLAIN, "middle", bold=bold)
 
 
 def _arrow(canvas: Canvas, text: str, y: float) -> None:
@@ -160,17 +152,14 @@ def _member(canvas: Canvas, level: Level, child: Leaf | Branch, number: int, lef
 def _names(child: Leaf | Branch, level: Level) -> tuple[str, str]:
     """Return the name of a member and, as a note, how a program names it and which models have it."""
     shared = child.register if isinstance(child, Leaf) else child.array
-    only = set_words(shared.models, level.branch.array.models) if len(shared.versions) < _count(level) else ""
+    every = level.branch.array.models
+    only = set_words(shared.models, every) if len(shared.models) < len(every) else ""
     if isinstance(child, Leaf):
         return lettered_name(child.register.first.name), ", ".join(filter(None, (f".{child.register.first.id}", only)))
     inner = child.array.first
     return f"{inner.name} {inner.first} to {inner.first + inner.count - 1}", ", ".join(
         filter(None, (f".{inner.id}", only))
     )
-
-
-def _count(level: Level) -> int:
-    return len(level.branch.array.versions)
 
 
 def _rules(child: Leaf | Branch) -> Iterator[str]:

@@ -2,7 +2,7 @@
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from regscribe.emit.words import ACCESS, listed, span_words
 from regscribe.model import Access, RegisterMap
@@ -44,21 +44,15 @@ class Looks:
     groups: dict[str, str]
     models: tuple[str, ...]
     sets: dict[tuple[str, ...], str]
-    numbers: dict[str, int] = field(default_factory=dict)
-
-    def number(self, group: str) -> int:
-        """Return the number of a group."""
-        if not self.numbers:
-            self.numbers.update({id_: number for number, id_ in enumerate(self.groups)})
-        return self.numbers[group]
+    numbers: dict[str, int]
 
     def look(self, found: Sequence[AddressUse]) -> Look:
         """Return how a cell with these places looks: the group with the most places counts."""
         counted = Counter(place.group for place in found)
         access = {place.access for place in found}
         only = access.pop() if len(access) == 1 else Access.READ_WRITE
-        group = max(counted, key=lambda id_: (counted[id_], -self.number(id_)))
-        return Look(self.number(group), only, all(place.alias for place in found), self._mark(found))
+        group = max(counted, key=lambda id_: (counted[id_], -self.numbers[id_]))
+        return Look(self.numbers[group], only, all(place.alias for place in found), self._mark(found))
 
     def _mark(self, found: Sequence[AddressUse]) -> str:
         if len({place.group for place in found}) > 1:
@@ -74,7 +68,8 @@ def looks(register_map: RegisterMap) -> Looks:
     models = tuple(model.name for model in register_map.models)
     partial = dict.fromkeys(place.models for place in found if len(place.models) < len(models))
     sets = {names: str(number) if number <= MOST_SETS else MANY for number, names in enumerate(partial, start=1)}
-    return Looks(groups(register_map, found), models, sets)
+    names = groups(register_map, found)
+    return Looks(names, models, sets, {group: number for number, group in enumerate(names)})
 
 
 def letters(number: int) -> str:

@@ -1,6 +1,6 @@
 """The tables below a register's facts: views, scale and range by condition, values, bits, addresses of elements."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 from regscribe.emit.common_values import Shared, Stated, models_by
 from regscribe.emit.markdown.context import PageContext
@@ -17,7 +17,7 @@ Rows = tuple[tuple[Md, ...], ...]
 def views(context: PageContext, leaf: Leaf) -> tuple[Titled, ...]:
     """Return the table of views of a register that has several, once or by model."""
     facts = leaf.register.states(lambda _, register: _view_rows(context, leaf, register))
-    return _titled("Views", ("View", "Wire address", "Other notation", "Type"), facts)
+    return titled("Views", ("View", "Wire address", "Other notation", "Type"), facts)
 
 
 def _view_rows(context: PageContext, leaf: Leaf, register: Register) -> Rows:
@@ -41,9 +41,9 @@ def by_condition(context: PageContext, leaf: Leaf) -> tuple[Titled, ...]:
     scales = shared.states(lambda model, register: _scale_rows(context, model, register))
     ranges = shared.states(lambda model, register: _range_rows(context, model, register))
     return (
-        *_titled("Scale and range", ("When", "Value from the stored number x", "Range"), both),
-        *_titled("Scale", ("When", "Value from the stored number x"), scales),
-        *_titled("Range", ("When", "Range"), ranges),
+        *titled("Scale and range", ("When", "Value from the stored number x", "Range"), both),
+        *titled("Scale", ("When", "Value from the stored number x"), scales),
+        *titled("Range", ("When", "Range"), ranges),
     )
 
 
@@ -141,9 +141,12 @@ def _by_model(shared: Shared[Register], rows: Callable[[Register], Rows]) -> lis
     return [(*row, escape(", ".join(names)) if len(names) < every else Md()) for row, names in found.items()]
 
 
-def _titled(title: str, headers: tuple[str, ...], facts: tuple[Stated[Rows], ...]) -> tuple[Titled, ...]:
+def titled(
+    title: str, headers: tuple[str, ...], facts: Iterable[Stated[Rows]], *, folded: bool = False
+) -> tuple[Titled, ...]:
+    """Return a table for each set of models that share its rows; none where there are no rows."""
     return tuple(
-        Titled(f"{title} ({', '.join(fact.models)})" if fact.models else title, table(headers, fact.value))
+        Titled(f"{title} ({', '.join(fact.models)})" if fact.models else title, table(headers, fact.value), folded)
         for fact in facts
         if fact.value
     )
@@ -155,9 +158,7 @@ def elements(context: PageContext, leaf: Leaf) -> tuple[Titled, ...]:
         return ()
     facts = leaf.register.states(lambda model, _: _element_rows(context, model, leaf))
     headers = ("Element", *(view.name for view in leaf.register.first.views))
-    return tuple(
-        Titled(item.title, item.table, folded=True) for item in _titled("Address of every element", headers, facts)
-    )
+    return titled("Address of every element", headers, facts, folded=True)
 
 
 def _element_rows(context: PageContext, model: Model, leaf: Leaf) -> Rows:

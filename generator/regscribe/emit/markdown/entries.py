@@ -5,9 +5,9 @@ from collections.abc import Iterable, Sequence
 from regscribe.emit.common_values import Shared, merge
 from regscribe.emit.markdown.alt_text import bit_fields, structure
 from regscribe.emit.markdown.context import PageContext, by_model, conclusions, only, source
-from regscribe.emit.markdown.details import bits, by_condition, elements, values, views
+from regscribe.emit.markdown.details import Rows, bits, by_condition, elements, titled, values, views
 from regscribe.emit.markdown.escape import Md, code, escape, join, link, md, prose
-from regscribe.emit.markdown.page_values import PageSection, PageTable, RegisterEntry, Titled, table
+from regscribe.emit.markdown.page_values import PageSection, PageTable, RegisterEntry, Titled
 from regscribe.emit.markdown.process import effects
 from regscribe.emit.markdown.register_facts import facts, indices
 from regscribe.emit.outline import Branch, Leaf, Node, lettered
@@ -16,6 +16,7 @@ from regscribe.model import Command, Group, Register, Step
 
 HEADING = "####"
 DOT = " · "
+STEPS = ("Step", "Request", "Function", "Wire address", "Register", "Words", "Words (hex)")
 LONG = 4
 """Values that a table may have and still be repeated at each register that uses them."""
 
@@ -153,7 +154,6 @@ def commands(context: PageContext) -> tuple[RegisterEntry, ...]:
 
 
 def _command(context: PageContext, shared: Shared[Command]) -> RegisterEntry:
-    steps = shared.states(lambda _, command: command.steps)
     parts = (code(f"commands.{shared.key}()"), source(shared.first.section), only(context, shared.models))
     return RegisterEntry(
         marks=Md("###"),
@@ -165,22 +165,19 @@ def _command(context: PageContext, shared: Shared[Command]) -> RegisterEntry:
             by_model(shared, lambda model, item: effects(context, model, item.effects)),
         ),
         danger=_paragraphs(by_model(shared, lambda _, item: prose(item.danger))),
-        tables=tuple(
-            Titled(f"Steps ({', '.join(item.models)})" if item.models else "Steps", _steps(context, item.value))
-            for item in steps
-        ),
+        tables=titled("Steps", STEPS, shared.states(lambda _, command: _steps(context, command.steps))),
     )
 
 
-def _steps(context: PageContext, steps: Sequence[Step]) -> PageTable:
-    headers = ("Step", "Request", "Function", "Wire address", "Register", "Words", "Words (hex)")
-    return table(headers, (_step(context, number, step) for number, step in enumerate(steps, start=1)))
+def _steps(context: PageContext, steps: Sequence[Step]) -> Rows:
+    return tuple(_step(context, number, step) for number, step in enumerate(steps, start=1))
 
 
-def _step(context: PageContext, number: int, step: Step) -> tuple[str, ...]:
+def _step(context: PageContext, number: int, step: Step) -> tuple[Md, ...]:
     if not step.words:
-        return (str(number), f"wait {step.wait} ms", "", "", "", "", "")
+        return md(str(number)), md(f"wait {step.wait} ms"), *[Md()] * (len(STEPS) - 2)
     register = context.register(step.register) if step.register else Md()
     words = " ".join(map(str, step.words))
     hexadecimal = "" if step.space.is_bits else " ".join(f"{word & 0xFFFF:04X}" for word in step.words)
-    return (str(number), "write", f"{step.function:02d}", str(step.address), register, words, hexadecimal)
+    cells = (str(number), "write", f"{step.function:02d}", str(step.address), register, words, hexadecimal)
+    return tuple(map(md, cells))

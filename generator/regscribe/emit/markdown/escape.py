@@ -4,6 +4,7 @@
 """
 
 import re
+from collections.abc import Iterable
 from functools import lru_cache
 
 INLINE = re.compile(r"[\\`*\[\]#~|$]|(?<![A-Za-z0-9])_|_(?![A-Za-z0-9])")
@@ -64,7 +65,7 @@ def md(*parts: str) -> Md:
     return Md("".join(part if isinstance(part, Md) else escape(part) for part in parts))
 
 
-def join(separator: str, parts: list[Md] | tuple[Md, ...]) -> Md:
+def join(separator: str, parts: Iterable[Md]) -> Md:
     """Join ready parts by a separator that is ready too; empty parts are dropped."""
     return Md(separator.join(part for part in parts if part))
 

@@ -60,7 +60,7 @@ def _hex(words: Iterable[int]) -> str:
 
 def _state(context: PageContext, model: str, state: Iterable[tuple[str, Fraction]]) -> Md:
     parts = (md(context.register(path), f" = {_labelled(context.map, model, path, value)}") for path, value in state)
-    return join("<br>", tuple(parts))
+    return join("<br>", parts)
 
 
 def _labelled(register_map: RegisterMap, model: str, path: str, value: Fraction) -> str:
@@ -94,7 +94,7 @@ def _meaning(context: PageContext, item: FrameExample) -> Md:
     facts += [f"address {item.address}"] if item.address is not None else []
     facts += [f"{item.count} {'bits' if item.function in BIT_FUNCTIONS else 'words'}"] if item.count is not None else []
     words = _words(item.function, item.words) if item.words is not None else ""
-    writes = join("<br>", tuple(_write(context, item, path, value) for path, value in item.writes))
+    writes = join("<br>", (_write(context, item, path, value) for path, value in item.writes))
     command = context.command(item.command) if item.command else Md()
     return join("<br>", (escape(", ".join(facts)), escape(words) if not writes else Md(), writes, command))
 

@@ -9,7 +9,7 @@ from regscribe.emit.markdown.escape import Md, code, escape, join, link, md
 from regscribe.emit.markdown.page_values import PageTable, Titled, table
 from regscribe.emit.markdown.register_facts import symbols
 from regscribe.emit.outline import Leaf, aliases, last_address, leaves, lettered
-from regscribe.emit.words import codes_words, default_words, one_line, range_words, span_words, special_words
+from regscribe.emit.words import codes_words, one_line, range_words, span_words, special_words, value_words
 from regscribe.model import Access, CodeRange, Kind, Model, Register, Space, View
 
 ACCESS = {Access.READ: "R", Access.READ_WRITE: "R/W", Access.WRITE: "W"}
@@ -46,12 +46,12 @@ def _row(context: PageContext, leaf: Leaf, offsets: Sequence[int], names: Sequen
         cell(lambda _, register: _span(leaf, register.base)),
         *(cell(partial(_notation, leaf, offset)) for offset in offsets),
         *(cell(partial(_view, leaf, name)) for name in names),
-        cell(lambda _, register: join(", ", tuple(_span(leaf, alias) for alias in aliases(register)))),
+        cell(lambda _, register: join(", ", (_span(leaf, alias) for alias in aliases(register)))),
         link(_name(leaf), context.anchor("register", shared.key)),
         code(lettered(shared.first.path)),
         cell(lambda _, register: escape(ACCESS[register.access])),
         cell(lambda model, register: _range(context, model, register)),
-        cell(lambda model, register: Md(default_words(register, context.wording(model)))),
+        cell(lambda model, register: Md(value_words(register, register.default, context.wording(model)))),
         cell(lambda _, register: escape(symbols(register))),
         context.covers(shared.models),
     )

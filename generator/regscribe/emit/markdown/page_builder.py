@@ -8,7 +8,7 @@ from regscribe.emit.markdown.escape import Md, code, escape, join, link, md, pro
 from regscribe.emit.markdown.examples import examples
 from regscribe.emit.markdown.inherited import base, overrides, unused
 from regscribe.emit.markdown.overview import overview
-from regscribe.emit.markdown.page_values import Page, PageTable, table
+from regscribe.emit.markdown.page_values import PageTable, table
 from regscribe.emit.markdown.process import assumptions, process
 from regscribe.emit.markdown.programs import programs
 from regscribe.emit.markdown.protocol import exceptions, faults, latency, line
@@ -18,43 +18,43 @@ from regscribe.emit.words import one_line
 from regscribe.model import Manual, RegisterMap
 
 
-def page(register_map: RegisterMap) -> Page:
-    """Return everything that the reference of a map shows."""
+def page(register_map: RegisterMap) -> dict[str, object]:
+    """Return everything that the reference of a map shows, by the names in the template."""
     found = context(register_map)
     groups = sections(found)
-    return Page(
-        header=Md(header(register_map, prefix="<!-- ", suffix=" -->")),
-        title=one_line(register_map.title),
-        paragraphs=(prose(register_map.description),) if register_map.description else (),
-        manual=_manual(register_map.manual),
-        models=_models(register_map),
-        identity=identity(found),
-        contents=tuple(link(group.name, group.anchor) for group in groups),
-        quick_start=quick_start(found),
-        line=line(found),
-        latency=latency(found),
-        givens=givens(found),
-        transmission=plain(found),
-        views=views(found),
-        conditions=conditions(found),
-        units=units(found),
-        address_map=address_map(found),
-        overview=overview(found),
-        reserved=reserved(found),
-        unused=unused(found),
-        groups=groups,
-        commands=commands(found),
-        programs=programs(found),
-        process=process(found),
-        assumptions=assumptions(found),
-        faults=faults(found),
-        exceptions=exceptions(found),
-        examples=examples(found),
-        base=base(found),
-        overrides=overrides(found),
-        errata=_errata(found),
-        notes=tuple(prose(note) for note in register_map.notes),
-    )
+    return {
+        "header": Md(header(register_map, prefix="<!-- ", suffix=" -->")),
+        "title": one_line(register_map.title),
+        "paragraphs": (prose(register_map.description),) if register_map.description else (),
+        "manual": _manual(register_map.manual),
+        "models": _models(register_map),
+        "identity": identity(found),
+        "contents": tuple(link(group.name, group.anchor) for group in groups),
+        "quick_start": quick_start(found),
+        "line": line(found),
+        "latency": latency(found),
+        "givens": givens(found),
+        "transmission": plain(found),
+        "views": views(found),
+        "conditions": conditions(found),
+        "units": units(found),
+        "address_map": address_map(found),
+        "overview": overview(found),
+        "reserved": reserved(found),
+        "unused": unused(found),
+        "groups": groups,
+        "commands": commands(found),
+        "programs": programs(found),
+        "process": process(found),
+        "assumptions": assumptions(found),
+        "faults": faults(found),
+        "exceptions": exceptions(found),
+        "examples": examples(found),
+        "base": base(found),
+        "overrides": overrides(found),
+        "errata": _errata(found),
+        "notes": tuple(prose(note) for note in register_map.notes),
+    }
 
 
 def _manual(manual: Manual) -> Md:

@@ -59,7 +59,6 @@ class RegisterEntry:
     facts: PageTable = PageTable()
     tables: tuple[Titled, ...] = ()
     remarks: tuple[Md, ...] = ()
-    steps: tuple[Md, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,48 +70,3 @@ class PageSection:
     summary: Md
     paragraphs: tuple[Md, ...]
     entries: tuple[RegisterEntry, ...]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class QuickStart:
-    """The lines of the examples in Python."""
-
-    sync_lines: tuple[Md, ...]
-    async_lines: tuple[Md, ...]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Page:
-    """A reference of one map."""
-
-    header: Md
-    title: str
-    paragraphs: tuple[Md, ...]
-    manual: Md
-    models: PageTable
-    identity: PageTable
-    contents: tuple[Md, ...]
-    quick_start: QuickStart
-    line: PageTable
-    latency: PageTable
-    givens: PageTable
-    transmission: tuple[Md, ...]
-    views: tuple[Titled, ...]
-    conditions: PageTable
-    units: PageTable
-    address_map: Md
-    overview: tuple[Titled, ...]
-    reserved: PageTable
-    unused: PageTable
-    groups: tuple[PageSection, ...]
-    commands: tuple[RegisterEntry, ...]
-    programs: tuple[RegisterEntry, ...]
-    process: PageTable
-    assumptions: tuple[Md, ...]
-    faults: PageTable
-    exceptions: PageTable
-    examples: tuple[Titled, ...]
-    base: Md
-    overrides: PageTable
-    errata: PageTable
-    notes: tuple[Md, ...]

@@ -34,7 +34,7 @@ def follows(context: PageContext, model: Model, register: Register) -> Md:
         for field in register.fields
         if field.follows is not None
     )
-    return lines(join("; ", tuple(cases)), *bits)
+    return lines(join("; ", cases), *bits)
 
 
 def difference(_context: PageContext, _model: Model, register: Register) -> Md:
@@ -47,7 +47,7 @@ def effects(context: PageContext, model: Model, found: tuple[Effect, ...]) -> Md
     parts = [
         md(part, _when(context, effect.when, model)) for effect in found for part in _effect(context, model, effect)
     ]
-    return md("It changes: ", join("; ", tuple(parts)), ".") if parts else Md()
+    return md("It changes: ", join("; ", parts), ".") if parts else Md()
 
 
 def _effect(context: PageContext, model: Model, effect: Effect) -> Iterator[Md]:
@@ -122,7 +122,7 @@ def _output(context: PageContext, model: Model, output: Output) -> Md:
 
 
 def _alarm(context: PageContext, model: Model, alarm: Alarm) -> Md:
-    bits = join(", ", tuple(_subject(context, model, path) for path in alarm.active))
+    bits = join(", ", (_subject(context, model, path) for path in alarm.active))
     trips = (
         md(TRIPS[trip.kind], " ", _subject(context, model, trip.limit), _when(context, trip.when, model))
         for trip in alarm.trips

@@ -7,7 +7,7 @@ from regscribe.emit.markdown.context import PageContext
 from regscribe.emit.markdown.escape import Md, escape, join, md, prose
 from regscribe.emit.markdown.page_values import PageTable, table
 from regscribe.emit.words import listed, one_line
-from regscribe.model import SILENCE, Latency, Later, RegisterMap, View, show
+from regscribe.model import SILENCE, Latency, Later, Register, RegisterMap, View, show
 from regscribe_runtime.values.protocol import Number
 
 FUNCTIONS = {
@@ -145,24 +145,16 @@ def _always(_: RegisterMap) -> bool:
     return True
 
 
-def _has_conditions(register_map: RegisterMap) -> bool:
-    return any(register.writable for model in register_map.models for register in model.registers)
+def _registers(register_map: RegisterMap) -> Iterable[Register]:
+    return (register for model in register_map.models for register in model.registers)
 
 
-def _has_unused(register_map: RegisterMap) -> bool:
-    return any(model.unused for model in register_map.models)
+def _views(register_map: RegisterMap) -> Iterable[View]:
+    return (view for register in _registers(register_map) for view in register.views)
 
 
 def _has_aligned_views(register_map: RegisterMap) -> bool:
     return any(view.align > 1 for view in _views(register_map))
-
-
-def _has_views_of_functions(register_map: RegisterMap) -> bool:
-    return any(view.functions for view in _views(register_map))
-
-
-def _views(register_map: RegisterMap) -> Iterable[View]:
-    return (view for model in register_map.models for register in model.registers for view in register.views)
 
 
 BAD_REQUESTS: tuple[tuple[str, str, Callable[[RegisterMap], bool]], ...] = (
@@ -170,12 +162,20 @@ BAD_REQUESTS: tuple[tuple[str, str, Callable[[RegisterMap], bool]], ...] = (
     ("address of no register", "address", _always),
     ("value outside its range", "value", _always),
     ("write to a read-only register", "read_only", _always),
-    ("write under a condition that forbids it", "condition", _has_conditions),
-    ("write to an address listed as unused", "unused_write", _has_unused),
+    (
+        "write under a condition that forbids it",
+        "condition",
+        lambda found: any(register.writable for register in _registers(found)),
+    ),
+    ("write to an address listed as unused", "unused_write", lambda found: any(model.unused for model in found.models)),
     ("more words than a request may have", "quantity", _always),
     ("first address between two values of several words", "misaligned_address", _has_aligned_views),
     ("number of words that ends inside a value", "misaligned_count", _has_aligned_views),
-    ("function that the view does not allow", "view_function", _has_views_of_functions),
+    (
+        "function that the view does not allow",
+        "view_function",
+        lambda found: any(view.functions for view in _views(found)),
+    ),
 )
 """Kinds of bad requests, the fault of the protocol that says the answer, and whether a map can have such requests."""
 

@@ -4,14 +4,13 @@ import re
 
 from regscribe.emit.markdown.context import PageContext
 from regscribe.emit.markdown.escape import Md
-from regscribe.emit.markdown.page_values import QuickStart
 from regscribe.model import Group, Kind, Model, Register, show
 
 ADDRESS = "192.0.2.10"
 """An address that is reserved for documentation (RFC 5737)."""
 
 
-def quick_start(context: PageContext) -> QuickStart:
+def quick_start(context: PageContext) -> dict[str, tuple[Md, ...]]:
     """Return a synchronous and an asynchronous example of the map's first model."""
     model = context.map.models[0]
     maker, _, family = context.map.id.partition("/")
@@ -19,14 +18,14 @@ def quick_start(context: PageContext) -> QuickStart:
     names = (model.class_name, f"Async{model.class_name}")
     arguments = "".join(f", {given.id}=..." for given in context.map.givens)
     opened = [f'{name}.tcp("{ADDRESS}", unit={_unit(context)}{arguments})' for name in names]
-    return QuickStart(
-        sync_lines=_code(
+    return {
+        "sync_lines": _code(
             f"from {module} import {names[0]}",
             "",
             f"with {opened[0]} as controller:",
             *_body(model, asynchronous=False),
         ),
-        async_lines=_code(
+        "async_lines": _code(
             f"from {module} import {names[1]}",
             "",
             "",
@@ -34,7 +33,7 @@ def quick_start(context: PageContext) -> QuickStart:
             f"    async with {opened[1]} as controller:",
             *(f"    {line}" for line in _body(model, asynchronous=True)),
         ),
-    )
+    }
 
 
 def _unit(context: PageContext) -> int:

@@ -14,14 +14,13 @@ from regscribe.emit.words import (
     ROUNDING,
     cases_words,
     conversion_words,
-    default_words,
-    delivered_words,
     map_cases,
     one_line,
     order_words,
     range_words,
     sentinel_words,
     special_words,
+    value_words,
 )
 from regscribe.model import IDENTITY, Array, Kind, Model, Order, Register, Setting, View, show
 
@@ -85,7 +84,7 @@ def address(context: PageContext, leaf: Leaf, register: Register) -> Md:
         code(formula(alias, leaf.arrays)) if leaf.arrays else context.address(space, alias.address)
         for alias in aliases(register)
     )
-    also = join(", ", tuple(others))
+    also = join(", ", others)
     return lines(first, md("also at ", also) if also else Md())
 
 
@@ -110,7 +109,7 @@ def transmission(context: PageContext, view: View) -> Md:
         f"functions {', '.join(map(str, view.functions))} only" if view.functions else "",
         f"address and count multiples of {view.align}" if view.align > 1 else "",
     )
-    return join("; ", tuple(map(md, parts)))
+    return join("; ", map(md, parts))
 
 
 def _word_order(context: PageContext, view: View) -> Md:
@@ -177,11 +176,11 @@ def _sentinels(context: PageContext, model: Model, register: Register) -> Md:
 
 
 def _default(context: PageContext, model: Model, register: Register) -> Md:
-    return Md(default_words(register, context.wording(model)))
+    return Md(value_words(register, register.default, context.wording(model)))
 
 
 def _delivered(context: PageContext, model: Model, register: Register) -> Md:
-    return Md(delivered_words(register, context.wording(model)))
+    return Md(value_words(register, register.delivered, context.wording(model)))
 
 
 def _unit(context: PageContext, model: Model, register: Register) -> Md:

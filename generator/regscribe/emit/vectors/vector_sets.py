@@ -7,7 +7,19 @@ from typing import Any
 
 from regscribe.emit.vectors.content import case_of, surroundings
 from regscribe.emit.vectors.situations import Finder, Situation, writable_situations
-from regscribe.model import Enum, Model, OrderFromRegister, Register, RegisterMap, Rounding, Span, View, always, show
+from regscribe.model import (
+    Enum,
+    Model,
+    OrderFromRegister,
+    Register,
+    RegisterMap,
+    Rounding,
+    Span,
+    Special,
+    View,
+    always,
+    show,
+)
 
 Json = dict[str, Any]
 Plan = tuple[tuple[tuple[Situation, ...], ...], tuple[tuple[Situation, bool], ...]]
@@ -128,7 +140,7 @@ def _names(register: Register) -> Json:
     if register.enum is not None:
         found["members"] = _members(register.enum)
     if register.specials:
-        found["specials"] = [_special(register, place) for place in range(len(register.specials))]
+        found["specials"] = [_special(special) for special in register.specials]
     if register.sentinels:
         found["faults"] = [{"stored": one.spelled, "id": one.id, "label": one.label} for one in register.sentinels]
     if register.fields:
@@ -140,8 +152,7 @@ def _names(register: Register) -> Json:
     return found
 
 
-def _special(register: Register, place: int) -> Json:
-    special = register.specials[place]
+def _special(special: Special) -> Json:
     means = {} if special.means is None else {"means": show(special.means)}
     return {"code": show(special.code), "id": special.id, "label": special.label, **means}
 
