@@ -8,7 +8,6 @@ from regscribe.emit.markdown.escape import Md, code, escape, lines, link, md, sl
 from regscribe.emit.outline import Node, leaves, outline, pattern
 from regscribe.emit.words import Wording, condition_words, one_line, spelled
 from regscribe.model import (
-    Array,
     Command,
     Condition,
     Group,
@@ -87,10 +86,10 @@ def context(register_map: RegisterMap) -> PageContext:
     """Merge the models and name the anchors."""
     nodes = outline(register_map.models)
     conditions: dict[str, tuple[Model, Condition]] = {}
-    for model, condition in _conditions(register_map):
+    for model, condition in _conditions(register_map, nodes):
         if condition.name:
             conditions.setdefault(condition.name, (model, condition))
-    units = _units(register_map)
+    units = _units(nodes)
     anchors = _anchors(_keys(register_map, nodes, conditions, units))
     return PageContext(register_map, nodes, anchors, conditions, _elements(register_map), units)
 
@@ -113,13 +112,18 @@ MEMBERS: dict[str, Callable[[Model], Iterable[Group | Command | SetpointProgram]
 }
 
 
-def _units(register_map: RegisterMap) -> dict[str, tuple[Model, Units]]:
+def _units(nodes: Iterable[Node]) -> dict[str, tuple[Model, Units]]:
     found: dict[str, tuple[Model, Units]] = {}
-    for model in register_map.models:
-        for register in _folded(model.members):
-            if register.unit_id and len(register.unit) > 1:
-                found.setdefault(register.unit_id, (model, register.unit))
+    for model, register in _versions(nodes):
+        if register.unit_id and len(register.unit) > 1:
+            found.setdefault(register.unit_id, (model, register.unit))
     return found
+
+
+def _versions(nodes: Iterable[Node]) -> Iterator[tuple[Model, Register]]:
+    """Yield all registers of all models, those of arrays once for all elements."""
+    for leaf in leaves(nodes):
+        yield from leaf.register.versions
 
 
 def _elements(register_map: RegisterMap) -> dict[tuple[str, str], list[Register]]:
@@ -145,24 +149,14 @@ def _anchors(keys: Iterable[str]) -> dict[str, str]:
     return anchors
 
 
-def _conditions(register_map: RegisterMap) -> Iterator[tuple[Model, Condition]]:
-    for model in register_map.models:
-        for register in _folded(model.members):
-            yield from ((model, condition) for condition in conditions_of(register))
+def _conditions(register_map: RegisterMap, nodes: Iterable[Node]) -> Iterator[tuple[Model, Condition]]:
+    for model, register in _versions(nodes):
+        yield from ((model, condition) for condition in _conditions_of(register))
     for identity in register_map.identity:
         yield register_map.models[0], identity.when
 
 
-def _folded(members: Iterable[Register | Array]) -> Iterator[Register]:
-    """Yield all registers, those of arrays once for all elements."""
-    for member in members:
-        if isinstance(member, Array):
-            yield from _folded(member.members)
-        else:
-            yield member
-
-
-def conditions_of(register: Register) -> Iterator[Condition]:
+def _conditions_of(register: Register) -> Iterator[Condition]:
     """Yield every condition that a register's facts depend on."""
     for cases in (register.scale, register.unit, register.range):
         yield from (case.when for case in cases)
