@@ -21,11 +21,6 @@ TRIPS = {
 Row = tuple[str, str]
 
 
-def shadows(context: PageContext, _model: Model, register: Register) -> Md:
-    """Return where the value comes from when power comes."""
-    return md("takes the value of ", context.register(register.shadows)) if register.shadows else Md()
-
-
 def follows(context: PageContext, model: Model, register: Register) -> Md:
     """Return what a register, or its bits, take from others by themselves."""
     cases = (md(context.register(case.then), _when(context, case.when, model)) for case in register.follows)
@@ -35,11 +30,6 @@ def follows(context: PageContext, model: Model, register: Register) -> Md:
         if field.follows is not None
     )
     return lines(join("; ", cases), *bits)
-
-
-def difference(_context: PageContext, _model: Model, register: Register) -> Md:
-    """Return whether the value counts a distance."""
-    return md("a difference: its unit is converted without the zero point") if register.difference else Md()
 
 
 def effects(context: PageContext, model: Model, found: tuple[Effect, ...]) -> Md:

@@ -123,10 +123,6 @@ def _segments(words: _Words) -> Md:
     )
 
 
-def _outputs(words: _Words) -> Md:
-    return words.outputs(words.program.segments.outputs)
-
-
 def _idle(words: _Words) -> Md:
     idle = words.program.segments.idle
     return md(Md(" and ".join(words.register(path) for path in idle)), " are 0") if idle else Md()
@@ -195,7 +191,7 @@ def _order(program: SetpointProgram) -> Iterable[ProgramPart]:
 FACTS: dict[str, Callable[[_Words], Md]] = {
     "Programs": _numbers,
     "Segments": _segments,
-    "Outputs of a segment": _outputs,
+    "Outputs of a segment": lambda words: words.outputs(words.program.segments.outputs),
     "Segment not in use": _idle,
     "Final segment": _final,
     "Number of segments": _count,

@@ -6,7 +6,7 @@ from functools import partial
 from regscribe.emit.markdown.context import PageContext, by_model
 from regscribe.emit.markdown.escape import Md, code, escape, join, lines, link, md, prose
 from regscribe.emit.markdown.page_values import PageTable, table
-from regscribe.emit.markdown.process import difference, follows, shadows
+from regscribe.emit.markdown.process import follows
 from regscribe.emit.outline import Leaf, aliases, formula
 from regscribe.emit.words import (
     ACCESS,
@@ -59,6 +59,7 @@ STAYS = {
     "counter": "what the device counted or measured",
     "operation": "what the device does at the moment, no setting",
 }
+DIFFERENCE = "a difference: its unit is converted without the zero point"
 PERSISTENCE = {"ram": "RAM", "eeprom": "EEPROM", "both": "RAM and EEPROM"}
 
 Fact = Callable[[PageContext, Model, Register], Md]
@@ -170,19 +171,6 @@ def _specials(context: PageContext, model: Model, register: Register) -> Md:
     return lines(*(Md(special_words(special, wording)) for special in register.specials), *told)
 
 
-def _sentinels(context: PageContext, model: Model, register: Register) -> Md:
-    wording = context.wording(model)
-    return lines(*(Md(sentinel_words(sentinel, wording)) for sentinel in register.sentinels))
-
-
-def _default(context: PageContext, model: Model, register: Register) -> Md:
-    return Md(value_words(register, register.default, context.wording(model)))
-
-
-def _delivered(context: PageContext, model: Model, register: Register) -> Md:
-    return Md(value_words(register, register.delivered, context.wording(model)))
-
-
 def _unit(context: PageContext, model: Model, register: Register) -> Md:
     anchor = context.anchor("unit", register.unit_id) if len(register.unit) > 1 else ""
     if anchor:
@@ -210,14 +198,6 @@ def _rescales(context: PageContext, _model: Model, register: Register) -> Md:
     )
 
 
-def _unlock(context: PageContext, _model: Model, register: Register) -> Md:
-    return md("run ", context.command(register.unlock), " first") if register.unlock else Md()
-
-
-def _apply(context: PageContext, _model: Model, register: Register) -> Md:
-    return md("takes effect with ", context.command(register.apply)) if register.apply else Md()
-
-
 def _governs(_context: PageContext, _model: Model, register: Register) -> Md:
     found = register.governs
     if found is None:
@@ -228,34 +208,32 @@ def _governs(_context: PageContext, _model: Model, register: Register) -> Md:
     return join("; ", (md(SETTINGS[found.setting], " of the line"), escape(codes), md(SINCE[found.since])))
 
 
-def _settle(_context: PageContext, _model: Model, register: Register) -> Md:
-    return md(f"{register.settle} ms after the write at the earliest") if register.settle else Md()
-
-
-def _stays(_context: PageContext, _model: Model, register: Register) -> Md:
-    return md(STAYS[register.stays]) if register.stays else Md()
-
-
 FACTS: dict[str, Fact] = {
     "Transmitted as": _transmitted,
     "Access": _access,
     "Value": _kind,
     "Range": _range,
     "Special values": _specials,
-    "Faults instead of a value": _sentinels,
-    "Default": _default,
-    "As delivered": _delivered,
+    "Faults instead of a value": lambda context, model, one: lines(
+        *(Md(sentinel_words(sentinel, context.wording(model))) for sentinel in one.sentinels)
+    ),
+    "Default": lambda context, model, one: Md(value_words(one, one.default, context.wording(model))),
+    "As delivered": lambda context, model, one: Md(value_words(one, one.delivered, context.wording(model))),
     "Unit": _unit,
     "Scale": _scale,
-    "Counts": difference,
+    "Counts": lambda _, __, one: md(DIFFERENCE if one.difference else ""),
     "Kept in": _persistence,
-    "When power comes": shadows,
+    "When power comes": lambda context, _, one: (
+        md("takes the value of ", context.register(one.shadows)) if one.shadows else Md()
+    ),
     "Follows": follows,
     "Changing it": _rescales,
-    "Before a write": _unlock,
-    "After a write": _apply,
+    "Before a write": lambda context, _, one: md("run ", context.command(one.unlock), " first") if one.unlock else Md(),
+    "After a write": lambda context, _, one: (
+        md("takes effect with ", context.command(one.apply)) if one.apply else Md()
+    ),
     "Governs": _governs,
-    "Read back": _settle,
-    "Not for another device": _stays,
+    "Read back": lambda _, __, one: md(f"{one.settle} ms after the write at the earliest") if one.settle else Md(),
+    "Not for another device": lambda _, __, one: md(STAYS.get(one.stays, "")),
 }
 """The properties in the order of the table; one that is empty for every model is left out."""
