@@ -51,7 +51,7 @@ def test_a_function_of_unknown_latency_may_take_as_long_as_a_full_request_of_the
     protocol = Protocol(read_words=8, write_words=10, latencies=latencies)
     assert protocol.timeout == pytest.approx(seconds)
     assert on_line(protocol, Request(4, 0), AT_9600) - sum(characters(Request(4, 0))) * CHARACTER == pytest.approx(
-        unknown_latency(protocol) + 3.5 * CHARACTER
+        protocol.timeout + 3.5 * CHARACTER
     )
 
 
