@@ -30,21 +30,13 @@ class Compiled:
     empty: tuple[Path, ...] = ()
 
 
-_KEPT = 64
-_COMPILED: dict[Path, Compiled] = {}
-"""The last results by path, for maps that are built on them: reading a base again costs as much as the map itself."""
-
-
 def compile_map(path: Path) -> Compiled:
     """Read, validate, compose, lower and check the map at `path`; what is wrong is in the diagnostics."""
     with _undisturbed():
         document, found = source.load(path)
         if document is None or has_errors(found):
             return Compiled(path, None, _ordered(found))
-        compiled = _compile(document, path, found)
-    if compiled.map is not None and (path in _COMPILED or len(_COMPILED) < _KEPT):
-        _COMPILED[path] = compiled
-    return compiled
+        return _compile(document, path, found)
 
 
 @contextmanager
@@ -89,22 +81,10 @@ def _meaning(composed: compose.Composed) -> tuple[RegisterMap | None, list[Diagn
     if composed.files:
         origin = {"extends": composed.extends, "uses": composed.uses, "overrides": composed.overrides}
         register_map = replace(register_map, **origin)  # type: ignore[arg-type]  # three fields of three types
-        base = _base(composed)
         libraries = tuple(lower.library_of(library) for library in composed.libraries)
-        register_map = replace(register_map, base=base, renumber=composed.renumber, libraries=libraries)
-        register_map = replace(register_map, shipped=composed.shipped)
+        register_map = replace(register_map, libraries=libraries, shipped=composed.shipped)
     found = [*found, *checks.check(register_map)]
     return None if has_errors(found) else register_map, found
-
-
-def _base(composed: compose.Composed) -> RegisterMap | None:
-    """The map that is extended, as it stands alone; compiled once in a process while none of its files changes."""
-    if composed.base is None:
-        return None
-    known = _COMPILED.get(composed.base)
-    if known is None or not set(known.files) <= set(composed.files):
-        known = compile_map(composed.base)
-    return known.map
 
 
 def _check_library(document: Document, path: Path) -> list[Diagnostic]:

@@ -4,65 +4,44 @@
 # format 1, map sha256 ab993806776b36cd
 
 from regscribe_devices.athena.platinum_common import (
-    _INT16,
-    _PROTOCOL,
-    AsyncPlatinumCommonCommands,
     BaudRate,
     CommunicationsProtocol,
     CurrentRange,
     EngineeringUnits,
     OffOn,
     OffRun,
-    PlatinumCommonCommands,
     RangeState,
-    _Al2Al3AlarmStatus,
-    _Al2Al3Hysteresis,
-    _Al2Al3Thresholds,
-    _AutoTuneEnable,
-    _AutoTuneStatus,
-    _BaudRate,
-    _Calibration,
-    _Codes,
-    _CommunicationsProtocol,
-    _ComputerSetpoint,
-    _ConfigurationCodes,
-    _EngineeringUnits,
-    _FactoryCode,
-    _InputFilter,
-    _InputShift,
-    _IntegralAndDerivative,
-    _LocalSetpoint,
-    _MainOutput,
-    _MainOutputCondition,
-    _MainOutputHighLimit,
-    _OutOfRange,
-    _OutOfRangeRepeated,
-    _OvershootControl,
-    _Password,
-    _ProcessVariable,
-    _ProportionalBand,
-    _Range,
-    _RetransmissionRange,
-    _Scaling,
-    _SerialAddress,
-    _SetpointLimits,
-    _SetpointRamps,
 )
 from regscribe_runtime import (
     AsyncDevice,
+    AsyncPart,
+    Command,
+    Conversion,
     Device,
+    ExceptionCode,
     Flags,
+    Governs,
     Group,
     Identity,
+    Latency,
+    Order,
+    Part,
+    Protocol,
     ReadOnly,
     ReadWrite,
+    SerialDefaults,
     Space,
     SubPart,
     View,
     WireType,
     choice,
     flags,
+    integer,
+    number,
     raw,
+    text,
+    within,
+    word,
 )
 
 __all__ = [
@@ -81,7 +60,46 @@ __all__ = [
     "Status",
 ]
 
+_PROTOCOL = Protocol(
+    functions=(1, 2, 3, 4, 5, 6, 7, 15, 16),
+    write_words=8,
+    read_holes=True,
+    broadcast=(5, 6, 15, 16),
+    exceptions=(
+        ExceptionCode(1, "illegal function", "the controller does not have this function code"),
+        ExceptionCode(2, "illegal data address", "the controller does not have this address"),
+        ExceptionCode(3, "illegal data value", "the value is not allowed at this address"),
+        ExceptionCode(
+            7,
+            "negative acknowledgment (NAK)",
+            "not possible in the present state of the controller or a write to a read-only address",
+        ),
+    ),
+    latencies=(
+        Latency(1, maximum=10, characters=3),
+        Latency(2, maximum=10, characters=3),
+        Latency(3, maximum=10, characters=3),
+        Latency(4, maximum=10, characters=3),
+        Latency(5, maximum=110, characters=3),
+        Latency(6, maximum=10, maximum_per_word=50, characters=3),
+        Latency(7, maximum=10, characters=3),
+        Latency(15, maximum=110, characters=3),
+        Latency(16, maximum=10, maximum_per_word=50, characters=3),
+    ),
+    serial=SerialDefaults(bauds=(1200, 2400, 4800, 9600, 19200), formats=("8N1",)),
+)
+_COIL_BIT = (View("base", WireType.BIT, space=Space.COIL),)
 _STATUS_UINT8 = (View("base", WireType.UINT8, space=Space.STATUS),)
+_INT16 = word(WireType.INT16)
+# value of the stored x: x/10
+_SCALE = (((), Conversion(multiply="0.1")),)
+_DANGER = "the controller answers at the new address from now on"
+_DANGER_2 = "the controller counts all addresses one higher (JBUS) or lower (Modbus) from now on"
+_GOVERNS = Governs("addressing", codes={0: "modbus", 1: "jbus"})
+_DANGER_3 = "the controller answers at the new speed from now on"
+_GOVERNS_2 = Governs("baud", codes={0: "1200", 1: "2400", 2: "4800", 3: "9600"})
+_DANGER_4 = "reserved for the maker; a wrong value falsifies the retransmitted signal"
+_STRING = (View("base", WireType.STRING, words=2, byte_order=Order.LITTLE),)
 # addresses that read as 0
 _UNUSED = (
     (Space.COIL, 0, 2),
@@ -120,67 +138,165 @@ class Status(Flags):
 class _PlatinumC10M10:
     """Registers of C10, M10."""
 
+    main_output_condition = ReadOnly(3, _COIL_BIT, choice(OffOn), section="7.1")
+    """Main output condition: read only; 7.1."""
+    al2_alarm_status = ReadOnly(4, _COIL_BIT, choice(OffOn), section="7.1")
+    """AL2 alarm status: read only; 7.1."""
+    al3_alarm_status = ReadOnly(5, _COIL_BIT, choice(OffOn), section="7.1")
+    """AL3 alarm status: read only; 7.1."""
+    out_of_range = ReadOnly(6, _COIL_BIT, choice(RangeState), section="7.1")
+    """Out of range: read only; 7.1."""
+    auto_tune = ReadOnly(7, _COIL_BIT, choice(OffRun), section="7.1")
+    """Auto-Tune: read only; 7.1."""
+    out_of_range_9 = ReadOnly(9, _COIL_BIT, choice(RangeState), section="7.1")
+    """Out of range: read only; 7.1."""
     status = ReadOnly(0, _STATUS_UINT8, flags(Status), section="7.2")
     """Read Status: read only; 7.2."""
+    process_variable = ReadOnly(0, _INT16, raw, section="7.3")
+    """Process variable: read only; 7.3."""
+    setpoint = ReadWrite(1, _INT16, raw, section="7.3", persistence="ram", stays="operation")
+    """Setpoint: read and write; 7.3."""
+    main_output = ReadOnly(2, _INT16, raw, section="7.3")
+    """Main output: read only; 7.3."""
     target_setpoint = ReadOnly(3, _INT16, raw, section="7.3")
     """Target Setpoint: read only; 7.3."""
+    local_setpoint = ReadWrite(4, _INT16, raw, section="7.3", persistence="eeprom")
+    """Local Setpoint: read and write; 7.3."""
+    proportional_band = ReadWrite(5, _INT16, number, scale=_SCALE, section="7.3", persistence="eeprom")
+    """Proportional Band (Hysteresis ON - OFF) (P.b. (hy.)): read and write; 7.3."""
+    overshoot_control = ReadWrite(6, _INT16, raw, section="7.3", persistence="eeprom")
+    """Overshoot control (O.C.): read and write; 7.3."""
+    integral_time = ReadWrite(7, _INT16, raw, section="7.3", persistence="eeprom")
+    """Integral time (t.i.): read and write; 7.3."""
+    derivative_time = ReadWrite(8, _INT16, raw, section="7.3", persistence="eeprom")
+    """Derivative time (t.d.): read and write; 7.3."""
     output_cycling_time = ReadWrite(9, _INT16, raw, section="7.3", persistence="eeprom")
     """Output cycling time (t.c.): read and write; 7.3."""
+    low_range = ReadOnly(10, _INT16, raw, section="7.3")
+    """Low range (Sc.Lo): read only; 7.3."""
+    high_range = ReadOnly(11, _INT16, raw, section="7.3")
+    """High range (Sc.Hi): read only; 7.3."""
+    al2_alarm_threshold = ReadWrite(12, _INT16, raw, section="7.3", persistence="eeprom")
+    """AL2 Alarm threshold (A2S.P): read and write; 7.3."""
+    al3_alarm_threshold = ReadWrite(13, _INT16, raw, section="7.3", persistence="eeprom")
+    """AL3 Alarm threshold (A3S.P): read and write; 7.3."""
+    al2_alarm_hysteresis = ReadWrite(14, _INT16, raw, section="7.3", persistence="eeprom")
+    """AL2 Alarm Hysteresis (A2hy): read and write; 7.3."""
+    al3_alarm_hysteresis = ReadWrite(15, _INT16, raw, section="7.3", persistence="eeprom")
+    """AL3 Alarm Hysteresis (A3hy): read and write; 7.3."""
+    setpoint_low_limit = ReadWrite(29, _INT16, raw, section="7.3", persistence="eeprom")
+    """Setpoint low limit (S.P. L): read and write; 7.3."""
+    setpoint_high_limit = ReadWrite(30, _INT16, raw, section="7.3", persistence="eeprom")
+    """Setpoint high limit (S.P. H): read and write; 7.3."""
+    main_output_high_limit = ReadWrite(32, _INT16, raw, section="7.3", persistence="eeprom")
+    """Main output high limit (OP. H): read and write; 7.3."""
+    setpoint_ramp_up = ReadWrite(34, _INT16, raw, section="7.3", persistence="eeprom")
+    """Setpoint ramp up (Sl. u): read and write; 7.3."""
+    setpoint_ramp_down = ReadWrite(35, _INT16, raw, section="7.3", persistence="eeprom")
+    """Setpoint ramp down (Sl. d): read and write; 7.3."""
+    input_filter = ReadWrite(36, _INT16, raw, section="7.3", persistence="eeprom")
+    """Input filter (t.FiL): read and write; 7.3."""
+    input_shift = ReadWrite(37, _INT16, raw, section="7.3", persistence="eeprom")
+    """Input shift (In.Sh): read and write; 7.3."""
+    auto_tune_enable = ReadWrite(38, _INT16, integer, section="7.3", persistence="eeprom", stays="operation")
+    """Auto-Tune enable (tune): read and write; 7.3."""
+    serial_address = ReadWrite(
+        40,
+        _INT16,
+        integer,
+        range=within(1, 247),
+        section="7.3",
+        persistence="eeprom",
+        danger=_DANGER,
+        stays="address",
+        governs=Governs("address"),
+    )
+    """Serial comm.s address (Addr): 1 to 247; read and write; 7.3."""
+    retransmission_low_range = ReadWrite(42, _INT16, raw, section="7.3", persistence="eeprom")
+    """Retransmission low range (rt.Lo): read and write; 7.3."""
+    retransmission_high_range = ReadWrite(43, _INT16, raw, section="7.3", persistence="eeprom")
+    """Retransmission high range (rt.Hi): read and write; 7.3."""
+    configuration_code = ReadWrite(
+        101, _INT16, integer, section="7.4", persistence="eeprom", apply="apply_configuration"
+    )
+    """Configuration code (ConF): read and write; 7.4."""
+    al3_alarm_configuration_code = ReadWrite(
+        102, _INT16, integer, section="7.4", persistence="eeprom", apply="apply_configuration"
+    )
+    """AL3 alarm configuration code (Con.2): read and write; 7.4."""
+    engineering_units = ReadWrite(
+        103, _INT16, choice(EngineeringUnits), section="7.4", persistence="eeprom", apply="apply_configuration"
+    )
+    """Engineering units (unit): read and write; 7.4."""
+    decimal_point = ReadWrite(104, _INT16, integer, section="7.4", persistence="eeprom", apply="apply_configuration")
+    """Decimal point (Sc.d.d): read and write; 7.4."""
+    low_range_for_engineering_units = ReadWrite(
+        105, _INT16, raw, section="7.4", persistence="eeprom", apply="apply_configuration"
+    )
+    """Low range for engineering units (Sc.Lo): read and write; 7.4."""
+    high_range_for_engineering_units = ReadWrite(
+        106, _INT16, raw, section="7.4", persistence="eeprom", apply="apply_configuration"
+    )
+    """High range for engineering units (Sc.Hi): read and write; 7.4."""
+    communications_protocol = ReadWrite(
+        107,
+        _INT16,
+        choice(CommunicationsProtocol),
+        section="7.4",
+        persistence="eeprom",
+        danger=_DANGER_2,
+        stays="line",
+        governs=_GOVERNS,
+    )
+    """Communications protocol (Prot): read and write; 7.4."""
+    baud_rate = ReadWrite(
+        108,
+        _INT16,
+        choice(BaudRate),
+        section="7.4",
+        persistence="eeprom",
+        danger=_DANGER_3,
+        stays="line",
+        governs=_GOVERNS_2,
+    )
+    """Baud rate (baud): read and write; 7.4."""
     retransmitted_range = ReadWrite(109, _INT16, choice(CurrentRange), section="7.4", persistence="eeprom")
     """Retransmitted range (retr): read and write; 7.4."""
+    password = ReadWrite(112, _INT16, integer, section="7.4", persistence="eeprom")
+    """Password (Code): read and write; 7.4."""
+    rtx_low_range_calibration_value = ReadWrite(
+        113, _INT16, raw, section="7.4", persistence="eeprom", danger=_DANGER_4, stays="calibration"
+    )
+    """RTX low range calibration value (Reserved) (CAL.3): read and write; 7.4."""
+    rtx_high_range_calibration_value = ReadWrite(
+        114, _INT16, raw, section="7.4", persistence="eeprom", danger=_DANGER_4, stays="calibration"
+    )
+    """RTX high range calibration value (Reserved) (CAL.4): read and write; 7.4."""
+    factory_code = ReadOnly(120, _INT16, integer, section="7.4")
+    """Factory code: read only; 7.4."""
+    product_code = ReadOnly(121, _STRING, text, section="7.4")
+    """Product code: read only; 7.4."""
+    software_release = ReadOnly(123, _STRING, text, section="7.4")
+    """Software release: read only; 7.4."""
+    custom_code = ReadOnly(125, _INT16, integer, section="7.4")
+    """Custom code: read only; 7.4."""
 
 
-class _PlatinumC10M10InBits(
-    _MainOutputCondition, _Al2Al3AlarmStatus, _OutOfRange, _AutoTuneStatus, _OutOfRangeRepeated, section="7.1"
-):
-    """Registers of C10, M10 that other maps have, too (7.1)."""
+class _PlatinumC10M10Commands:
+    """Commands of C10, M10."""
+
+    apply_configuration = Command((6, 120, (21930,)))
+    """Apply Configuration; The controller accepts valid configuration parameters, but works with them only after this
+    code (55AAh) was written to the address of the factory code.; 7.4, 8.4, 9.4 and 11.6 (notes).
+    """
 
 
-class _PlatinumC10M10InPage1(_ProcessVariable, _MainOutput, _Range, section="7.3"):
-    """Registers of C10, M10 that other maps have, too (7.3)."""
+class PlatinumC10M10Commands(_PlatinumC10M10Commands, Part):
+    """The commands of a synchronous driver."""
 
 
-class _PlatinumC10M10InPage1Ram(_ComputerSetpoint, section="7.3", persistence="ram"):
-    """Registers of C10, M10 that other maps have, too (7.3, ram)."""
-
-
-class _PlatinumC10M10InPage1Eeprom(
-    _LocalSetpoint,
-    _ProportionalBand,
-    _OvershootControl,
-    _IntegralAndDerivative,
-    _Al2Al3Thresholds,
-    _Al2Al3Hysteresis,
-    _SetpointLimits,
-    _MainOutputHighLimit,
-    _SetpointRamps,
-    _InputFilter,
-    _InputShift,
-    _AutoTuneEnable,
-    _SerialAddress,
-    _RetransmissionRange,
-    section="7.3",
-    persistence="eeprom",
-):
-    """Registers of C10, M10 that other maps have, too (7.3, eeprom)."""
-
-
-class _PlatinumC10M10InPage2Eeprom(
-    _ConfigurationCodes,
-    _EngineeringUnits,
-    _Scaling,
-    _CommunicationsProtocol,
-    _BaudRate,
-    _Password,
-    _Calibration,
-    section="7.4",
-    persistence="eeprom",
-):
-    """Registers of C10, M10 that other maps have, too (7.4, eeprom)."""
-
-
-class _PlatinumC10M10InPage2(_FactoryCode, _Codes, section="7.4"):
-    """Registers of C10, M10 that other maps have, too (7.4)."""
+class AsyncPlatinumC10M10Commands(_PlatinumC10M10Commands, AsyncPart):
+    """The commands of an asyncio driver."""
 
 
 class PlatinumC10M10Groups:
@@ -188,75 +304,66 @@ class PlatinumC10M10Groups:
 
     bits = Group(
         "Bit Zone",
-        "main_output_condition",
-        "al2_alarm_status",
-        "al3_alarm_status",
-        "out_of_range",
-        "auto_tune",
-        "out_of_range_9",
+        _PlatinumC10M10.main_output_condition,
+        _PlatinumC10M10.al2_alarm_status,
+        _PlatinumC10M10.al3_alarm_status,
+        _PlatinumC10M10.out_of_range,
+        _PlatinumC10M10.auto_tune,
+        _PlatinumC10M10.out_of_range_9,
     )
-    status = Group("Read Status", "status")
+    status = Group("Read Status", _PlatinumC10M10.status)
     page_1 = Group(
         "Word Zone, Page 1 Parameters",
-        "process_variable",
-        "setpoint",
-        "main_output",
-        "target_setpoint",
-        "local_setpoint",
-        "proportional_band",
-        "overshoot_control",
-        "integral_time",
-        "derivative_time",
-        "output_cycling_time",
-        "low_range",
-        "high_range",
-        "al2_alarm_threshold",
-        "al3_alarm_threshold",
-        "al2_alarm_hysteresis",
-        "al3_alarm_hysteresis",
-        "setpoint_low_limit",
-        "setpoint_high_limit",
-        "main_output_high_limit",
-        "setpoint_ramp_up",
-        "setpoint_ramp_down",
-        "input_filter",
-        "input_shift",
-        "auto_tune_enable",
-        "serial_address",
-        "retransmission_low_range",
-        "retransmission_high_range",
+        _PlatinumC10M10.process_variable,
+        _PlatinumC10M10.setpoint,
+        _PlatinumC10M10.main_output,
+        _PlatinumC10M10.target_setpoint,
+        _PlatinumC10M10.local_setpoint,
+        _PlatinumC10M10.proportional_band,
+        _PlatinumC10M10.overshoot_control,
+        _PlatinumC10M10.integral_time,
+        _PlatinumC10M10.derivative_time,
+        _PlatinumC10M10.output_cycling_time,
+        _PlatinumC10M10.low_range,
+        _PlatinumC10M10.high_range,
+        _PlatinumC10M10.al2_alarm_threshold,
+        _PlatinumC10M10.al3_alarm_threshold,
+        _PlatinumC10M10.al2_alarm_hysteresis,
+        _PlatinumC10M10.al3_alarm_hysteresis,
+        _PlatinumC10M10.setpoint_low_limit,
+        _PlatinumC10M10.setpoint_high_limit,
+        _PlatinumC10M10.main_output_high_limit,
+        _PlatinumC10M10.setpoint_ramp_up,
+        _PlatinumC10M10.setpoint_ramp_down,
+        _PlatinumC10M10.input_filter,
+        _PlatinumC10M10.input_shift,
+        _PlatinumC10M10.auto_tune_enable,
+        _PlatinumC10M10.serial_address,
+        _PlatinumC10M10.retransmission_low_range,
+        _PlatinumC10M10.retransmission_high_range,
     )
     page_2 = Group(
         "Word Zone, Page 2 Configuration",
-        "configuration_code",
-        "al3_alarm_configuration_code",
-        "engineering_units",
-        "decimal_point",
-        "low_range_for_engineering_units",
-        "high_range_for_engineering_units",
-        "communications_protocol",
-        "baud_rate",
-        "retransmitted_range",
-        "password",
-        "rtx_low_range_calibration_value",
-        "rtx_high_range_calibration_value",
-        "factory_code",
-        "product_code",
-        "software_release",
-        "custom_code",
+        _PlatinumC10M10.configuration_code,
+        _PlatinumC10M10.al3_alarm_configuration_code,
+        _PlatinumC10M10.engineering_units,
+        _PlatinumC10M10.decimal_point,
+        _PlatinumC10M10.low_range_for_engineering_units,
+        _PlatinumC10M10.high_range_for_engineering_units,
+        _PlatinumC10M10.communications_protocol,
+        _PlatinumC10M10.baud_rate,
+        _PlatinumC10M10.retransmitted_range,
+        _PlatinumC10M10.password,
+        _PlatinumC10M10.rtx_low_range_calibration_value,
+        _PlatinumC10M10.rtx_high_range_calibration_value,
+        _PlatinumC10M10.factory_code,
+        _PlatinumC10M10.product_code,
+        _PlatinumC10M10.software_release,
+        _PlatinumC10M10.custom_code,
     )
 
 
-class AthenaC10(
-    _PlatinumC10M10,
-    _PlatinumC10M10InBits,
-    _PlatinumC10M10InPage1,
-    _PlatinumC10M10InPage1Ram,
-    _PlatinumC10M10InPage1Eeprom,
-    _PlatinumC10M10InPage2Eeprom,
-    _PlatinumC10M10InPage2,
-    Device,
-):
+class AthenaC10(_PlatinumC10M10, Device):
     """Athena Controls C10: Described together with the M10 (synchronous driver)."""
 
     model = "C10"
@@ -266,19 +373,10 @@ class AthenaC10(
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "C1"),)),)
     groups = PlatinumC10M10Groups
-    commands = SubPart(PlatinumCommonCommands, AsyncPlatinumCommonCommands)
+    commands = SubPart(PlatinumC10M10Commands, AsyncPlatinumC10M10Commands)
 
 
-class AsyncAthenaC10(
-    _PlatinumC10M10,
-    _PlatinumC10M10InBits,
-    _PlatinumC10M10InPage1,
-    _PlatinumC10M10InPage1Ram,
-    _PlatinumC10M10InPage1Eeprom,
-    _PlatinumC10M10InPage2Eeprom,
-    _PlatinumC10M10InPage2,
-    AsyncDevice,
-):
+class AsyncAthenaC10(_PlatinumC10M10, AsyncDevice):
     """Athena Controls C10: Described together with the M10 (asyncio driver)."""
 
     model = "C10"
@@ -288,19 +386,10 @@ class AsyncAthenaC10(
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "C1"),)),)
     groups = PlatinumC10M10Groups
-    commands = SubPart(PlatinumCommonCommands, AsyncPlatinumCommonCommands)
+    commands = SubPart(PlatinumC10M10Commands, AsyncPlatinumC10M10Commands)
 
 
-class AthenaM10(
-    _PlatinumC10M10,
-    _PlatinumC10M10InBits,
-    _PlatinumC10M10InPage1,
-    _PlatinumC10M10InPage1Ram,
-    _PlatinumC10M10InPage1Eeprom,
-    _PlatinumC10M10InPage2Eeprom,
-    _PlatinumC10M10InPage2,
-    Device,
-):
+class AthenaM10(_PlatinumC10M10, Device):
     """Athena Controls M10: Described together with the C10 (synchronous driver)."""
 
     model = "M10"
@@ -310,19 +399,10 @@ class AthenaM10(
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "C1"),)),)
     groups = PlatinumC10M10Groups
-    commands = SubPart(PlatinumCommonCommands, AsyncPlatinumCommonCommands)
+    commands = SubPart(PlatinumC10M10Commands, AsyncPlatinumC10M10Commands)
 
 
-class AsyncAthenaM10(
-    _PlatinumC10M10,
-    _PlatinumC10M10InBits,
-    _PlatinumC10M10InPage1,
-    _PlatinumC10M10InPage1Ram,
-    _PlatinumC10M10InPage1Eeprom,
-    _PlatinumC10M10InPage2Eeprom,
-    _PlatinumC10M10InPage2,
-    AsyncDevice,
-):
+class AsyncAthenaM10(_PlatinumC10M10, AsyncDevice):
     """Athena Controls M10: Described together with the C10 (asyncio driver)."""
 
     model = "M10"
@@ -332,4 +412,4 @@ class AsyncAthenaM10(
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "C1"),)),)
     groups = PlatinumC10M10Groups
-    commands = SubPart(PlatinumCommonCommands, AsyncPlatinumCommonCommands)
+    commands = SubPart(PlatinumC10M10Commands, AsyncPlatinumC10M10Commands)

@@ -4,12 +4,6 @@
 # format 1, map sha256 1994b0d278eeb9b1
 
 from regscribe_devices.athena.platinum_common import (
-    _COIL_BIT,
-    _DANGER_2,
-    _GOVERNS,
-    _INT16,
-    _PROTOCOL,
-    AsyncPlatinumCommonCommands,
     BaudRate,
     CommunicationsProtocol,
     CurrentRange,
@@ -17,69 +11,41 @@ from regscribe_devices.athena.platinum_common import (
     LockState,
     OffOn,
     OffRun,
-    PlatinumCommonCommands,
     RangeState,
     RetransmittedVariable,
     TimerAction,
     TimerMode,
-    _Al2Al3Hysteresis,
-    _Al2Al3Thresholds,
-    _AutoTuneEnable,
-    _AutoTuneStatus,
-    _BaudRate,
-    _Calibration,
-    _Codes,
-    _ComputerSetpoint,
-    _ConfigurationCodes,
-    _CoolOutputCyclingTime,
-    _CurrentTransformerRange,
-    _CycleTime,
-    _EngineeringUnits,
-    _ErrorDeadBand,
-    _FactoryCode,
-    _InputFilter,
-    _InputShift,
-    _IntegralAndDerivative,
-    _LocalSetpoint,
-    _Locks,
-    _MainOutput,
-    _MainOutputCondition,
-    _MainOutputHighLimit,
-    _MotorAndTimer,
-    _OutOfRange,
-    _OutOfRangeRepeated,
-    _OutputSafetyValue,
-    _OvershootControl,
-    _Password,
-    _ProcessVariable,
-    _ProportionalBand,
-    _Range,
-    _RetransmissionCurrent,
-    _RetransmissionRange,
-    _Scaling,
-    _SerialAddress,
-    _SetpointLimits,
-    _SetpointRamps,
-    _StartUpSetpoint,
-    _TimerAction,
-    _TimerFunctionStatus,
-    _TimerRemainingTime,
 )
 from regscribe_runtime import (
     AsyncDevice,
+    AsyncPart,
+    Command,
+    Conversion,
     Device,
+    ExceptionCode,
     Flags,
+    Governs,
     Group,
     Identity,
+    Latency,
+    Order,
+    Part,
+    Protocol,
     ReadOnly,
     ReadWrite,
+    SerialDefaults,
     Space,
     SubPart,
     View,
     WireType,
     choice,
     flags,
+    integer,
+    number,
     raw,
+    text,
+    within,
+    word,
 )
 
 __all__ = [
@@ -100,7 +66,46 @@ __all__ = [
     "TimerMode",
 ]
 
+_PROTOCOL = Protocol(
+    functions=(1, 2, 3, 4, 5, 6, 7, 15, 16),
+    write_words=8,
+    read_holes=True,
+    broadcast=(5, 6, 15, 16),
+    exceptions=(
+        ExceptionCode(1, "illegal function", "the controller does not have this function code"),
+        ExceptionCode(2, "illegal data address", "the controller does not have this address"),
+        ExceptionCode(3, "illegal data value", "the value is not allowed at this address"),
+        ExceptionCode(
+            7,
+            "negative acknowledgment (NAK)",
+            "not possible in the present state of the controller or a write to a read-only address",
+        ),
+    ),
+    latencies=(
+        Latency(1, maximum=10, characters=3),
+        Latency(2, maximum=10, characters=3),
+        Latency(3, maximum=10, characters=3),
+        Latency(4, maximum=10, characters=3),
+        Latency(5, maximum=110, characters=3),
+        Latency(6, maximum=10, maximum_per_word=50, characters=3),
+        Latency(7, maximum=10, characters=3),
+        Latency(15, maximum=110, characters=3),
+        Latency(16, maximum=10, maximum_per_word=50, characters=3),
+    ),
+    serial=SerialDefaults(bauds=(1200, 2400, 4800, 9600, 19200), formats=("8N1",)),
+)
+_COIL_BIT = (View("base", WireType.BIT, space=Space.COIL),)
 _STATUS_UINT8 = (View("base", WireType.UINT8, space=Space.STATUS),)
+_INT16 = word(WireType.INT16)
+# value of the stored x: x/10
+_SCALE = (((), Conversion(multiply="0.1")),)
+_DANGER = "the controller answers at the new address from now on"
+_DANGER_2 = "the controller counts all addresses one higher (JBUS) or lower (Modbus) from now on"
+_GOVERNS = Governs("addressing", codes={0: "modbus", 1: "jbus"})
+_DANGER_3 = "the controller answers at the new speed from now on"
+_GOVERNS_2 = Governs("baud", codes={0: "1200", 1: "2400", 2: "4800", 3: "9600"})
+_DANGER_4 = "reserved for the maker; a wrong value falsifies the retransmitted signal"
+_STRING = (View("base", WireType.STRING, words=2, byte_order=Order.LITTLE),)
 # addresses that read as 0
 _UNUSED = (
     (Space.COIL, 1, 1),
@@ -138,14 +143,58 @@ class Status(Flags):
 class _PlatinumM300:
     """Registers of M300."""
 
+    timer_function_status = ReadWrite(0, _COIL_BIT, choice(OffRun), section="8.1", stays="operation")
+    """Timer function status: read and write; 8.1."""
+    main_output_condition = ReadOnly(3, _COIL_BIT, choice(OffOn), section="8.1")
+    """Main output condition: read only; 8.1."""
     alarm_condition_al2 = ReadOnly(4, _COIL_BIT, choice(OffOn), section="8.1")
     """Alarm condition AL2: read only; 8.1."""
     alarm_condition_al3 = ReadOnly(5, _COIL_BIT, choice(OffOn), section="8.1")
     """Alarm condition AL3: read only; 8.1."""
+    out_of_range = ReadOnly(6, _COIL_BIT, choice(RangeState), section="8.1")
+    """Out of range: read only; 8.1."""
+    auto_tune = ReadOnly(7, _COIL_BIT, choice(OffRun), section="8.1")
+    """Auto-Tune: read only; 8.1."""
+    out_of_range_9 = ReadOnly(9, _COIL_BIT, choice(RangeState), section="8.1")
+    """Out of range: read only; 8.1."""
+    keypad_lock = ReadWrite(10, _COIL_BIT, choice(LockState), section="8.1", stays="operation")
+    """Keypad lock: read and write; 8.1."""
+    outputs_lock = ReadWrite(11, _COIL_BIT, choice(LockState), section="8.1", stays="operation")
+    """Outputs lock: read and write; 8.1."""
     status = ReadOnly(0, _STATUS_UINT8, flags(Status), section="8.2")
     """Read Status: read only; 8.2."""
+    process_variable = ReadOnly(0, _INT16, raw, section="8.3")
+    """Process variable: read only; 8.3."""
+    setpoint = ReadWrite(1, _INT16, raw, section="8.3", persistence="ram", stays="operation")
+    """Setpoint: read and write; 8.3."""
+    main_output = ReadOnly(2, _INT16, raw, section="8.3")
+    """Main output: read only; 8.3."""
     target_setpoint = ReadWrite(3, _INT16, raw, section="8.3", persistence="ram", stays="operation")
     """Target Setpoint: read and write; 8.3."""
+    local_setpoint = ReadWrite(4, _INT16, raw, section="8.3", persistence="eeprom")
+    """Local Setpoint: read and write; 8.3."""
+    proportional_band = ReadWrite(5, _INT16, number, scale=_SCALE, section="8.3", persistence="eeprom")
+    """Proportional Band (Hysteresis ON - OFF) (P.b. (hy.)): read and write; 8.3."""
+    overshoot_control = ReadWrite(6, _INT16, raw, section="8.3", persistence="eeprom")
+    """Overshoot control (O.C.): read and write; 8.3."""
+    integral_time = ReadWrite(7, _INT16, raw, section="8.3", persistence="eeprom")
+    """Integral time (t.i.): read and write; 8.3."""
+    derivative_time = ReadWrite(8, _INT16, raw, section="8.3", persistence="eeprom")
+    """Derivative time (t.d.): read and write; 8.3."""
+    cycle_time = ReadWrite(9, _INT16, raw, section="8.3", persistence="eeprom")
+    """Cycle time (t.c.): read and write; 8.3."""
+    low_range = ReadOnly(10, _INT16, raw, section="8.3")
+    """Low range (Sc.Lo): read only; 8.3."""
+    high_range = ReadOnly(11, _INT16, raw, section="8.3")
+    """High range (Sc.Hi): read only; 8.3."""
+    al2_alarm_threshold = ReadWrite(12, _INT16, raw, section="8.3", persistence="eeprom")
+    """AL2 Alarm threshold (A2S.P): read and write; 8.3."""
+    al3_alarm_threshold = ReadWrite(13, _INT16, raw, section="8.3", persistence="eeprom")
+    """AL3 Alarm threshold (A3S.P): read and write; 8.3."""
+    al2_alarm_hysteresis = ReadWrite(14, _INT16, raw, section="8.3", persistence="eeprom")
+    """AL2 Alarm Hysteresis (A2hy): read and write; 8.3."""
+    al3_alarm_hysteresis = ReadWrite(15, _INT16, raw, section="8.3", persistence="eeprom")
+    """AL3 Alarm Hysteresis (A3hy): read and write; 8.3."""
     heat_cool_proportional_band = ReadWrite(16, _INT16, raw, section="8.3", persistence="eeprom")
     """Heat/cool proportional band (P.b. C): read and write; 8.3."""
     heat_cool_integral_time = ReadWrite(17, _INT16, raw, section="8.3", persistence="eeprom")
@@ -154,20 +203,90 @@ class _PlatinumM300:
     """Heat/cool derivative time (t.d. C): read and write; 8.3."""
     heat_cool_dead_band = ReadWrite(19, _INT16, raw, section="8.3", persistence="eeprom")
     """Heat/cool dead band (d.bnd): read and write; 8.3."""
+    cool_output_cycling_time = ReadWrite(20, _INT16, raw, section="8.3", persistence="eeprom")
+    """Cool output cycling time (t.c. C): read and write; 8.3."""
     cool_output_high_limit = ReadWrite(21, _INT16, raw, section="8.3", persistence="eeprom")
     """Cool output high limit (OP.HC): read and write; 8.3."""
+    motor_travel_time = ReadWrite(22, _INT16, raw, section="8.3", persistence="eeprom")
+    """Motor travel time (MU.tM): read and write; 8.3."""
+    minimum_output_step = ReadWrite(23, _INT16, raw, section="8.3", persistence="eeprom")
+    """Minimum output step (MU.Hy): read and write; 8.3."""
+    timer_setting = ReadWrite(24, _INT16, raw, section="8.3", persistence="eeprom")
+    """Timer setting (tiMe): read and write; 8.3."""
     stand_by_setpoint = ReadWrite(25, _INT16, raw, section="8.3", persistence="eeprom")
     """Stand-by Setpoint (S.P. 2): read and write; 8.3."""
     stand_by_setpoint_of_timer = ReadWrite(26, _INT16, raw, section="8.3", persistence="eeprom")
     """Stand-by Setpoint of Timer (tM.S.P): read and write; 8.3."""
     soft_start_output_value = ReadWrite(27, _INT16, raw, section="8.3", persistence="eeprom")
     """Soft-start output value (St.OP): read and write; 8.3."""
+    setpoint_low_limit = ReadWrite(29, _INT16, raw, section="8.3", persistence="eeprom")
+    """Setpoint low limit (S.P. L): read and write; 8.3."""
+    setpoint_high_limit = ReadWrite(30, _INT16, raw, section="8.3", persistence="eeprom")
+    """Setpoint high limit (S.P. H): read and write; 8.3."""
+    error_dead_band = ReadWrite(31, _INT16, raw, section="8.3", persistence="eeprom")
+    """Error dead band (d.Err): read and write; 8.3."""
+    main_output_high_limit = ReadWrite(32, _INT16, raw, section="8.3", persistence="eeprom")
+    """Main output high limit (OP. H): read and write; 8.3."""
+    output_safety_value = ReadWrite(33, _INT16, raw, section="8.3", persistence="eeprom")
+    """Output safety value (Sa.OP): read and write; 8.3."""
+    setpoint_ramp_up = ReadWrite(34, _INT16, raw, section="8.3", persistence="eeprom")
+    """Setpoint ramp up (Sl. u): read and write; 8.3."""
+    setpoint_ramp_down = ReadWrite(35, _INT16, raw, section="8.3", persistence="eeprom")
+    """Setpoint ramp down (Sl. d): read and write; 8.3."""
+    input_filter = ReadWrite(36, _INT16, raw, section="8.3", persistence="eeprom")
+    """Input filter (t.FiL): read and write; 8.3."""
+    input_shift = ReadWrite(37, _INT16, raw, section="8.3", persistence="eeprom")
+    """Input shift (In.Sh): read and write; 8.3."""
+    auto_tune_enable = ReadWrite(38, _INT16, integer, section="8.3", persistence="eeprom", stays="operation")
+    """Auto-Tune enable (tune): read and write; 8.3."""
+    serial_address = ReadWrite(
+        40,
+        _INT16,
+        integer,
+        range=within(1, 247),
+        section="8.3",
+        persistence="eeprom",
+        danger=_DANGER,
+        stays="address",
+        governs=Governs("address"),
+    )
+    """Serial comm.s address (Addr): 1 to 247; read and write; 8.3."""
+    retransmission_low_range = ReadWrite(42, _INT16, raw, section="8.3", persistence="eeprom")
+    """Retransmission low range (rt.Lo): read and write; 8.3."""
+    retransmission_high_range = ReadWrite(43, _INT16, raw, section="8.3", persistence="eeprom")
+    """Retransmission high range (rt.Hi): read and write; 8.3."""
+    start_up_setpoint = ReadWrite(44, _INT16, raw, section="8.3", persistence="eeprom")
+    """Start-up Setpoint (S.P.S.U): read and write; 8.3."""
     start_up_holding_time = ReadWrite(45, _INT16, raw, section="8.3", persistence="eeprom")
     """Start-up Holding time (t.h.S.U): read and write; 8.3."""
     start_up_output_high_limit = ReadWrite(46, _INT16, raw, section="8.3", persistence="eeprom")
     """Start-up output high limit (OP.HS): read and write; 8.3."""
+    timer_remaining_time = ReadWrite(47, _INT16, raw, section="8.3", persistence="eeprom", stays="operation")
+    """Timer remaining time (tM.r.): read and write; 8.3."""
     load_current = ReadOnly(48, _INT16, raw, section="8.3")
     """Load current (CT option) (t.Cur): read only; 8.3."""
+    configuration_code = ReadWrite(
+        101, _INT16, integer, section="8.4", persistence="eeprom", apply="apply_configuration"
+    )
+    """Configuration code (ConF): read and write; 8.4."""
+    al3_alarm_configuration_code = ReadWrite(
+        102, _INT16, integer, section="8.4", persistence="eeprom", apply="apply_configuration"
+    )
+    """AL3 alarm configuration code (Con.2): read and write; 8.4."""
+    engineering_units = ReadWrite(
+        103, _INT16, choice(EngineeringUnits), section="8.4", persistence="eeprom", apply="apply_configuration"
+    )
+    """Engineering units (unit): read and write; 8.4."""
+    decimal_point = ReadWrite(104, _INT16, integer, section="8.4", persistence="eeprom", apply="apply_configuration")
+    """Decimal point (Sc.d.d): read and write; 8.4."""
+    low_range_for_engineering_units = ReadWrite(
+        105, _INT16, raw, section="8.4", persistence="eeprom", apply="apply_configuration"
+    )
+    """Low range for engineering units (Sc.Lo): read and write; 8.4."""
+    high_range_for_engineering_units = ReadWrite(
+        106, _INT16, raw, section="8.4", persistence="eeprom", apply="apply_configuration"
+    )
+    """High range for engineering units (Sc.Hi): read and write; 8.4."""
     communication_protocol = ReadWrite(
         107,
         _INT16,
@@ -179,74 +298,64 @@ class _PlatinumM300:
         governs=_GOVERNS,
     )
     """Communication protocol (Prot): read and write; 8.4."""
+    baud_rate = ReadWrite(
+        108,
+        _INT16,
+        choice(BaudRate),
+        section="8.4",
+        persistence="eeprom",
+        danger=_DANGER_3,
+        stays="line",
+        governs=_GOVERNS_2,
+    )
+    """Baud rate (baud): read and write; 8.4."""
+    retransmission_range = ReadWrite(109, _INT16, choice(CurrentRange), section="8.4", persistence="eeprom")
+    """Retransmission range (retr): read and write; 8.4."""
     retransmission_signal_selection = ReadWrite(
         110, _INT16, choice(RetransmittedVariable), section="8.4", persistence="eeprom"
     )
     """Retransmission signal selection (rtH): read and write; 8.4."""
+    current_transformer_range = ReadWrite(111, _INT16, raw, section="8.4", persistence="eeprom")
+    """Current transformer range (Ht.F.S): read and write; 8.4."""
+    password = ReadWrite(112, _INT16, integer, section="8.4", persistence="eeprom")
+    """Password (Code): read and write; 8.4."""
+    rtx_low_range_calibration_value = ReadWrite(
+        113, _INT16, raw, section="8.4", persistence="eeprom", danger=_DANGER_4, stays="calibration"
+    )
+    """RTX low range calibration value (Reserved) (CAL.3): read and write; 8.4."""
+    rtx_high_range_calibration_value = ReadWrite(
+        114, _INT16, raw, section="8.4", persistence="eeprom", danger=_DANGER_4, stays="calibration"
+    )
+    """RTX high range calibration value (Reserved) (CAL.4): read and write; 8.4."""
     timer_start_up_operating_mode = ReadWrite(115, _INT16, choice(TimerMode), section="8.4", persistence="eeprom")
     """Timer/Start-up operating mode (t.Mod): read and write; 8.4."""
+    timer_action = ReadWrite(116, _INT16, choice(TimerAction), section="8.4", persistence="eeprom")
+    """Timer action (t.Act): read and write; 8.4."""
+    factory_code = ReadOnly(120, _INT16, integer, section="8.4")
+    """Factory code: read only; 8.4."""
+    product_code = ReadOnly(121, _STRING, text, section="8.4")
+    """Product code: read only; 8.4."""
+    software_release = ReadOnly(123, _STRING, text, section="8.4")
+    """Software release: read only; 8.4."""
+    custom_code = ReadOnly(125, _INT16, integer, section="8.4")
+    """Custom code: read only; 8.4."""
 
 
-class _PlatinumM300InBits(
-    _TimerFunctionStatus, _MainOutputCondition, _OutOfRange, _AutoTuneStatus, _OutOfRangeRepeated, _Locks, section="8.1"
-):
-    """Registers of M300 that other maps have, too (8.1)."""
+class _PlatinumM300Commands:
+    """Commands of M300."""
+
+    apply_configuration = Command((6, 120, (21930,)))
+    """Apply Configuration; The controller accepts valid configuration parameters, but works with them only after this
+    code (55AAh) was written to the address of the factory code.; 7.4, 8.4, 9.4 and 11.6 (notes).
+    """
 
 
-class _PlatinumM300InPage1(_ProcessVariable, _MainOutput, _Range, section="8.3"):
-    """Registers of M300 that other maps have, too (8.3)."""
+class PlatinumM300Commands(_PlatinumM300Commands, Part):
+    """The commands of a synchronous driver."""
 
 
-class _PlatinumM300InPage1Ram(_ComputerSetpoint, section="8.3", persistence="ram"):
-    """Registers of M300 that other maps have, too (8.3, ram)."""
-
-
-class _PlatinumM300InPage1Eeprom(
-    _LocalSetpoint,
-    _ProportionalBand,
-    _OvershootControl,
-    _IntegralAndDerivative,
-    _CycleTime,
-    _Al2Al3Thresholds,
-    _Al2Al3Hysteresis,
-    _CoolOutputCyclingTime,
-    _MotorAndTimer,
-    _SetpointLimits,
-    _ErrorDeadBand,
-    _MainOutputHighLimit,
-    _OutputSafetyValue,
-    _SetpointRamps,
-    _InputFilter,
-    _InputShift,
-    _AutoTuneEnable,
-    _SerialAddress,
-    _RetransmissionRange,
-    _StartUpSetpoint,
-    _TimerRemainingTime,
-    section="8.3",
-    persistence="eeprom",
-):
-    """Registers of M300 that other maps have, too (8.3, eeprom)."""
-
-
-class _PlatinumM300InPage2Eeprom(
-    _ConfigurationCodes,
-    _EngineeringUnits,
-    _Scaling,
-    _BaudRate,
-    _RetransmissionCurrent,
-    _CurrentTransformerRange,
-    _Password,
-    _Calibration,
-    _TimerAction,
-    section="8.4",
-    persistence="eeprom",
-):
-    """Registers of M300 that other maps have, too (8.4, eeprom)."""
-
-
-class _PlatinumM300InPage2(_FactoryCode, _Codes, section="8.4"):
-    """Registers of M300 that other maps have, too (8.4)."""
+class AsyncPlatinumM300Commands(_PlatinumM300Commands, AsyncPart):
+    """The commands of an asyncio driver."""
 
 
 class PlatinumM300Groups:
@@ -254,101 +363,92 @@ class PlatinumM300Groups:
 
     bits = Group(
         "Bit Zone",
-        "timer_function_status",
-        "main_output_condition",
-        "alarm_condition_al2",
-        "alarm_condition_al3",
-        "out_of_range",
-        "auto_tune",
-        "out_of_range_9",
-        "keypad_lock",
-        "outputs_lock",
+        _PlatinumM300.timer_function_status,
+        _PlatinumM300.main_output_condition,
+        _PlatinumM300.alarm_condition_al2,
+        _PlatinumM300.alarm_condition_al3,
+        _PlatinumM300.out_of_range,
+        _PlatinumM300.auto_tune,
+        _PlatinumM300.out_of_range_9,
+        _PlatinumM300.keypad_lock,
+        _PlatinumM300.outputs_lock,
     )
-    status = Group("Read Status", "status")
+    status = Group("Read Status", _PlatinumM300.status)
     page_1 = Group(
         "Word Zone, Page 1 Parameters",
-        "process_variable",
-        "setpoint",
-        "main_output",
-        "target_setpoint",
-        "local_setpoint",
-        "proportional_band",
-        "overshoot_control",
-        "integral_time",
-        "derivative_time",
-        "cycle_time",
-        "low_range",
-        "high_range",
-        "al2_alarm_threshold",
-        "al3_alarm_threshold",
-        "al2_alarm_hysteresis",
-        "al3_alarm_hysteresis",
-        "heat_cool_proportional_band",
-        "heat_cool_integral_time",
-        "heat_cool_derivative_time",
-        "heat_cool_dead_band",
-        "cool_output_cycling_time",
-        "cool_output_high_limit",
-        "motor_travel_time",
-        "minimum_output_step",
-        "timer_setting",
-        "stand_by_setpoint",
-        "stand_by_setpoint_of_timer",
-        "soft_start_output_value",
-        "setpoint_low_limit",
-        "setpoint_high_limit",
-        "error_dead_band",
-        "main_output_high_limit",
-        "output_safety_value",
-        "setpoint_ramp_up",
-        "setpoint_ramp_down",
-        "input_filter",
-        "input_shift",
-        "auto_tune_enable",
-        "serial_address",
-        "retransmission_low_range",
-        "retransmission_high_range",
-        "start_up_setpoint",
-        "start_up_holding_time",
-        "start_up_output_high_limit",
-        "timer_remaining_time",
-        "load_current",
+        _PlatinumM300.process_variable,
+        _PlatinumM300.setpoint,
+        _PlatinumM300.main_output,
+        _PlatinumM300.target_setpoint,
+        _PlatinumM300.local_setpoint,
+        _PlatinumM300.proportional_band,
+        _PlatinumM300.overshoot_control,
+        _PlatinumM300.integral_time,
+        _PlatinumM300.derivative_time,
+        _PlatinumM300.cycle_time,
+        _PlatinumM300.low_range,
+        _PlatinumM300.high_range,
+        _PlatinumM300.al2_alarm_threshold,
+        _PlatinumM300.al3_alarm_threshold,
+        _PlatinumM300.al2_alarm_hysteresis,
+        _PlatinumM300.al3_alarm_hysteresis,
+        _PlatinumM300.heat_cool_proportional_band,
+        _PlatinumM300.heat_cool_integral_time,
+        _PlatinumM300.heat_cool_derivative_time,
+        _PlatinumM300.heat_cool_dead_band,
+        _PlatinumM300.cool_output_cycling_time,
+        _PlatinumM300.cool_output_high_limit,
+        _PlatinumM300.motor_travel_time,
+        _PlatinumM300.minimum_output_step,
+        _PlatinumM300.timer_setting,
+        _PlatinumM300.stand_by_setpoint,
+        _PlatinumM300.stand_by_setpoint_of_timer,
+        _PlatinumM300.soft_start_output_value,
+        _PlatinumM300.setpoint_low_limit,
+        _PlatinumM300.setpoint_high_limit,
+        _PlatinumM300.error_dead_band,
+        _PlatinumM300.main_output_high_limit,
+        _PlatinumM300.output_safety_value,
+        _PlatinumM300.setpoint_ramp_up,
+        _PlatinumM300.setpoint_ramp_down,
+        _PlatinumM300.input_filter,
+        _PlatinumM300.input_shift,
+        _PlatinumM300.auto_tune_enable,
+        _PlatinumM300.serial_address,
+        _PlatinumM300.retransmission_low_range,
+        _PlatinumM300.retransmission_high_range,
+        _PlatinumM300.start_up_setpoint,
+        _PlatinumM300.start_up_holding_time,
+        _PlatinumM300.start_up_output_high_limit,
+        _PlatinumM300.timer_remaining_time,
+        _PlatinumM300.load_current,
     )
     page_2 = Group(
         "Word Zone, Page 2 Configuration",
-        "configuration_code",
-        "al3_alarm_configuration_code",
-        "engineering_units",
-        "decimal_point",
-        "low_range_for_engineering_units",
-        "high_range_for_engineering_units",
-        "communication_protocol",
-        "baud_rate",
-        "retransmission_range",
-        "retransmission_signal_selection",
-        "current_transformer_range",
-        "password",
-        "rtx_low_range_calibration_value",
-        "rtx_high_range_calibration_value",
-        "timer_start_up_operating_mode",
-        "timer_action",
-        "factory_code",
-        "product_code",
-        "software_release",
-        "custom_code",
+        _PlatinumM300.configuration_code,
+        _PlatinumM300.al3_alarm_configuration_code,
+        _PlatinumM300.engineering_units,
+        _PlatinumM300.decimal_point,
+        _PlatinumM300.low_range_for_engineering_units,
+        _PlatinumM300.high_range_for_engineering_units,
+        _PlatinumM300.communication_protocol,
+        _PlatinumM300.baud_rate,
+        _PlatinumM300.retransmission_range,
+        _PlatinumM300.retransmission_signal_selection,
+        _PlatinumM300.current_transformer_range,
+        _PlatinumM300.password,
+        _PlatinumM300.rtx_low_range_calibration_value,
+        _PlatinumM300.rtx_high_range_calibration_value,
+        _PlatinumM300.timer_start_up_operating_mode,
+        _PlatinumM300.timer_action,
+        _PlatinumM300.factory_code,
+        _PlatinumM300.product_code,
+        _PlatinumM300.software_release,
+        _PlatinumM300.custom_code,
     )
 
 
-class AthenaM300(
-    _PlatinumM300,
-    _PlatinumM300InBits,
-    _PlatinumM300InPage1,
-    _PlatinumM300InPage1Ram,
-    _PlatinumM300InPage1Eeprom,
-    _PlatinumM300InPage2Eeprom,
-    _PlatinumM300InPage2,
-    Device,
-):
+class AthenaM300(_PlatinumM300, Device):
     """Athena Controls M300: Timer and current transformer are options (synchronous driver)."""
 
     model = "M300"
@@ -358,19 +458,10 @@ class AthenaM300(
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "M3"),)),)
     groups = PlatinumM300Groups
-    commands = SubPart(PlatinumCommonCommands, AsyncPlatinumCommonCommands)
+    commands = SubPart(PlatinumM300Commands, AsyncPlatinumM300Commands)
 
 
-class AsyncAthenaM300(
-    _PlatinumM300,
-    _PlatinumM300InBits,
-    _PlatinumM300InPage1,
-    _PlatinumM300InPage1Ram,
-    _PlatinumM300InPage1Eeprom,
-    _PlatinumM300InPage2Eeprom,
-    _PlatinumM300InPage2,
-    AsyncDevice,
-):
+class AsyncAthenaM300(_PlatinumM300, AsyncDevice):
     """Athena Controls M300: Timer and current transformer are options (asyncio driver)."""
 
     model = "M300"
@@ -380,4 +471,4 @@ class AsyncAthenaM300(
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "M3"),)),)
     groups = PlatinumM300Groups
-    commands = SubPart(PlatinumCommonCommands, AsyncPlatinumCommonCommands)
+    commands = SubPart(PlatinumM300Commands, AsyncPlatinumM300Commands)

@@ -4,10 +4,6 @@
 # format 1, map sha256 1b1786d7986dddf3
 
 from regscribe_devices.athena.platinum_common import (
-    _COIL_BIT,
-    _INT16,
-    _PROTOCOL,
-    AsyncPlatinumCommonCommands,
     AutoMan,
     BaudRate,
     CommunicationsProtocol,
@@ -16,68 +12,42 @@ from regscribe_devices.athena.platinum_common import (
     LockState,
     OffOn,
     OffRun,
-    PlatinumCommonCommands,
     RangeState,
     TimerAction,
     TimerMode,
-    _Al2Al3AlarmStatus,
-    _Al2Al3ThresholdsInSmallLetters,
-    _AutoMan,
-    _BaudRate,
-    _Calibration,
-    _Codes,
-    _CommunicationsProtocol,
-    _ComputerSetpoint,
-    _ConfigurationCodes,
-    _CoolOutputCyclingTime,
-    _CurrentTransformerRange,
-    _CycleTime,
-    _EngineeringUnits,
-    _FactoryCode,
-    _InputFilter,
-    _InputShift,
-    _IntegralAndDerivative,
-    _LocalSetpoint,
-    _Locks,
-    _MainOutputHighLimit,
-    _MotorAndTimer,
-    _OutOfRange,
-    _OutOfRangeRepeated,
-    _OutputSafetyValue,
-    _OvershootControlInCapitals,
-    _Password,
-    _ProcessVariable,
-    _ProportionalBand,
-    _Range,
-    _RetransmissionCurrent,
-    _RetransmissionRange,
-    _Scaling,
-    _SerialAddress,
-    _SetpointLimits,
-    _SetpointRamps,
-    _SoftStartActivationTime,
-    _StartUpOutputLimit,
-    _TimerAction,
-    _TimerFunctionStatus,
-    _TimerRemainingTime,
 )
 from regscribe_runtime import (
     AsyncDevice,
+    AsyncPart,
     Choice,
+    Command,
+    Conversion,
     Device,
+    ExceptionCode,
     Flags,
+    Governs,
     Group,
     Identity,
     Is,
+    Latency,
+    Order,
+    Part,
+    Protocol,
     ReadOnly,
     ReadWrite,
+    SerialDefaults,
     Space,
     SubPart,
     View,
     WireType,
     choice,
     flags,
+    integer,
+    number,
     raw,
+    text,
+    within,
+    word,
 )
 
 __all__ = [
@@ -102,9 +72,48 @@ __all__ = [
     "TimerMode",
 ]
 
+_PROTOCOL = Protocol(
+    functions=(1, 2, 3, 4, 5, 6, 7, 15, 16),
+    write_words=8,
+    read_holes=True,
+    broadcast=(5, 6, 15, 16),
+    exceptions=(
+        ExceptionCode(1, "illegal function", "the controller does not have this function code"),
+        ExceptionCode(2, "illegal data address", "the controller does not have this address"),
+        ExceptionCode(3, "illegal data value", "the value is not allowed at this address"),
+        ExceptionCode(
+            7,
+            "negative acknowledgment (NAK)",
+            "not possible in the present state of the controller or a write to a read-only address",
+        ),
+    ),
+    latencies=(
+        Latency(1, maximum=10, characters=3),
+        Latency(2, maximum=10, characters=3),
+        Latency(3, maximum=10, characters=3),
+        Latency(4, maximum=10, characters=3),
+        Latency(5, maximum=110, characters=3),
+        Latency(6, maximum=10, maximum_per_word=50, characters=3),
+        Latency(7, maximum=10, characters=3),
+        Latency(15, maximum=110, characters=3),
+        Latency(16, maximum=10, maximum_per_word=50, characters=3),
+    ),
+    serial=SerialDefaults(bauds=(1200, 2400, 4800, 9600, 19200), formats=("8N1",)),
+)
+_COIL_BIT = (View("base", WireType.BIT, space=Space.COIL),)
 _STATUS_UINT8 = (View("base", WireType.UINT8, space=Space.STATUS),)
+_INT16 = word(WireType.INT16)
 _MANUAL_MODE = (Is("auto_man", ((1, 1),)),)
 _WRITABLE = (_MANUAL_MODE, "the output can be written in manual mode only (and if the Auto/Man option is fitted)")
+# value of the stored x: x/10
+_SCALE = (((), Conversion(multiply="0.1")),)
+_DANGER = "the controller answers at the new address from now on"
+_DANGER_2 = "the controller counts all addresses one higher (JBUS) or lower (Modbus) from now on"
+_GOVERNS = Governs("addressing", codes={0: "modbus", 1: "jbus"})
+_DANGER_3 = "the controller answers at the new speed from now on"
+_GOVERNS_2 = Governs("baud", codes={0: "1200", 1: "2400", 2: "4800", 3: "9600"})
+_DANGER_4 = "reserved for the maker; a wrong value falsifies the retransmitted signal"
+_STRING = (View("base", WireType.STRING, words=2, byte_order=Order.LITTLE),)
 # addresses that read as 0
 _UNUSED = (
     (Space.COIL, 2, 2),
@@ -178,18 +187,58 @@ class DigitalInputFunction(Choice):
 class _PlatinumM400:
     """Registers of M400."""
 
+    timer_function_status = ReadWrite(0, _COIL_BIT, choice(OffRun), section="9.1", stays="operation")
+    """Timer function status: read and write; 9.1."""
+    auto_man = ReadWrite(1, _COIL_BIT, choice(AutoMan), section="9.1", stays="operation")
+    """Auto/Man: read and write; 9.1."""
     control_output_status = ReadOnly(3, _COIL_BIT, choice(OffOn), section="9.1")
     """Control output status: read only; 9.1."""
+    al2_alarm_status = ReadOnly(4, _COIL_BIT, choice(OffOn), section="9.1")
+    """AL2 alarm status: read only; 9.1."""
+    al3_alarm_status = ReadOnly(5, _COIL_BIT, choice(OffOn), section="9.1")
+    """AL3 alarm status: read only; 9.1."""
+    out_of_range = ReadOnly(6, _COIL_BIT, choice(RangeState), section="9.1")
+    """Out of range: read only; 9.1."""
     auto_tuning = ReadOnly(7, _COIL_BIT, choice(OffRun), section="9.1")
     """Auto Tuning: read only; 9.1."""
+    out_of_range_9 = ReadOnly(9, _COIL_BIT, choice(RangeState), section="9.1")
+    """Out of range: read only; 9.1."""
+    keypad_lock = ReadWrite(10, _COIL_BIT, choice(LockState), section="9.1", stays="operation")
+    """Keypad lock: read and write; 9.1."""
+    outputs_lock = ReadWrite(11, _COIL_BIT, choice(LockState), section="9.1", stays="operation")
+    """Outputs lock: read and write; 9.1."""
     logic_input_1 = ReadOnly(12, _COIL_BIT, choice(LogicInput1), section="9.1")
     """Logic input #1: read only; 9.1."""
     status = ReadOnly(0, _STATUS_UINT8, flags(Status), section="9.2")
     """Read Status: read only; 9.2."""
+    process_variable = ReadOnly(0, _INT16, raw, section="9.3")
+    """Process variable: read only; 9.3."""
+    setpoint = ReadWrite(1, _INT16, raw, section="9.3", stays="operation")
+    """Setpoint: read and write; 9.3."""
     main_output = ReadWrite(2, _INT16, raw, section="9.3", writable=_WRITABLE, stays="operation")
     """Main output: read and write; 9.3."""
     local_setpoint_3 = ReadWrite(3, _INT16, raw, section="9.3", stays="operation")
     """Local Setpoint: read and write; 9.3."""
+    local_setpoint = ReadWrite(4, _INT16, raw, section="9.3", persistence="eeprom")
+    """Local Setpoint: read and write; 9.3."""
+    proportional_band = ReadWrite(5, _INT16, number, scale=_SCALE, section="9.3", persistence="eeprom")
+    """Proportional Band (Hysteresis ON - OFF) (P.b. (hy.)): read and write; 9.3."""
+    overshoot_control = ReadWrite(6, _INT16, raw, section="9.3", persistence="eeprom")
+    """Overshoot Control (O.C.): read and write; 9.3."""
+    integral_time = ReadWrite(7, _INT16, raw, section="9.3", persistence="eeprom")
+    """Integral time (t.i.): read and write; 9.3."""
+    derivative_time = ReadWrite(8, _INT16, raw, section="9.3", persistence="eeprom")
+    """Derivative time (t.d.): read and write; 9.3."""
+    cycle_time = ReadWrite(9, _INT16, raw, section="9.3", persistence="eeprom")
+    """Cycle time (t.c.): read and write; 9.3."""
+    low_range = ReadOnly(10, _INT16, raw, section="9.3")
+    """Low range (Sc.Lo): read only; 9.3."""
+    high_range = ReadOnly(11, _INT16, raw, section="9.3")
+    """High range (Sc.Hi): read only; 9.3."""
+    al2_alarm_threshold = ReadWrite(12, _INT16, raw, section="9.3", persistence="eeprom")
+    """AL2 alarm threshold (A2S.P): read and write; 9.3."""
+    al3_alarm_threshold = ReadWrite(13, _INT16, raw, section="9.3", persistence="eeprom")
+    """AL3 alarm threshold (A3S.P): read and write; 9.3."""
     al2_alarm_hysteresis = ReadWrite(14, _INT16, raw, section="9.3", persistence="eeprom")
     """AL2 alarm Hysteresis (A2hy): read and write; 9.3."""
     al3_alarm_hysteresis = ReadWrite(15, _INT16, raw, section="9.3", persistence="eeprom")
@@ -200,89 +249,163 @@ class _PlatinumM400:
     """Cool output Hysteresis (On-OFF only) (Hy. C): read and write; 9.3."""
     heat_cool_dead_band = ReadWrite(19, _INT16, raw, section="9.3", persistence="eeprom")
     """Heat/Cool dead band (d.bnd): read and write; 9.3."""
+    cool_output_cycling_time = ReadWrite(20, _INT16, raw, section="9.3", persistence="eeprom")
+    """Cool output cycling time (t.c. C): read and write; 9.3."""
     cool_output_maximum_value = ReadWrite(21, _INT16, raw, section="9.3", persistence="eeprom")
     """Cool output maximum value (OP.HC): read and write; 9.3."""
+    motor_travel_time = ReadWrite(22, _INT16, raw, section="9.3", persistence="eeprom")
+    """Motor travel time (MU.tM): read and write; 9.3."""
+    minimum_output_step = ReadWrite(23, _INT16, raw, section="9.3", persistence="eeprom")
+    """Minimum output step (MU.Hy): read and write; 9.3."""
+    timer_setting = ReadWrite(24, _INT16, raw, section="9.3", persistence="eeprom")
+    """Timer setting (tiMe): read and write; 9.3."""
     stand_by_setpoint = ReadWrite(25, _INT16, raw, section="9.3", persistence="eeprom")
     """Stand-by Setpoint (tM.S.P): read and write; 9.3."""
     soft_start_output_high_limit = ReadWrite(26, _INT16, raw, section="9.3", persistence="eeprom")
     """Soft start output high limit (St.OP): read and write; 9.3."""
+    soft_start_activation_time = ReadWrite(27, _INT16, raw, section="9.3", persistence="eeprom")
+    """Soft-start activation time (St.tM): read and write; 9.3."""
+    setpoint_low_limit = ReadWrite(29, _INT16, raw, section="9.3", persistence="eeprom")
+    """Setpoint low limit (S.P. L): read and write; 9.3."""
+    setpoint_high_limit = ReadWrite(30, _INT16, raw, section="9.3", persistence="eeprom")
+    """Setpoint high limit (S.P. H): read and write; 9.3."""
     pid_dead_band = ReadWrite(31, _INT16, raw, section="9.3", persistence="eeprom")
     """PID Dead Band (d.Err): read and write; 9.3."""
+    main_output_high_limit = ReadWrite(32, _INT16, raw, section="9.3", persistence="eeprom")
+    """Main output high limit (OP. H): read and write; 9.3."""
+    output_safety_value = ReadWrite(33, _INT16, raw, section="9.3", persistence="eeprom")
+    """Output safety value (Sa.OP): read and write; 9.3."""
+    setpoint_ramp_up = ReadWrite(34, _INT16, raw, section="9.3", persistence="eeprom")
+    """Setpoint ramp up (Sl. u): read and write; 9.3."""
+    setpoint_ramp_down = ReadWrite(35, _INT16, raw, section="9.3", persistence="eeprom")
+    """Setpoint ramp down (Sl. d): read and write; 9.3."""
+    input_filter = ReadWrite(36, _INT16, raw, section="9.3", persistence="eeprom")
+    """Input filter (t.FiL): read and write; 9.3."""
+    input_shift = ReadWrite(37, _INT16, raw, section="9.3", persistence="eeprom")
+    """Input shift (In.Sh): read and write; 9.3."""
     one_shot_tuning = ReadWrite(
         38, _INT16, choice(OneShotTuning), section="9.3", persistence="eeprom", stays="operation"
     )
     """Start/Stop One shot tuning (tune): read and write; 9.3."""
+    serial_address = ReadWrite(
+        40,
+        _INT16,
+        integer,
+        range=within(1, 247),
+        section="9.3",
+        persistence="eeprom",
+        danger=_DANGER,
+        stays="address",
+        governs=Governs("address"),
+    )
+    """Serial comm.s address (Addr): 1 to 247; read and write; 9.3."""
+    retransmission_low_range = ReadWrite(42, _INT16, raw, section="9.3", persistence="eeprom")
+    """Retransmission low range (rt.Lo): read and write; 9.3."""
+    retransmission_high_range = ReadWrite(43, _INT16, raw, section="9.3", persistence="eeprom")
+    """Retransmission high range (rt.Hi): read and write; 9.3."""
     start_up_setpoint = ReadWrite(44, _INT16, raw, section="9.3", persistence="eeprom")
     """Start-Up Setpoint (S.P.S.U): read and write; 9.3."""
     start_up_hold_time = ReadWrite(45, _INT16, raw, section="9.3", persistence="eeprom")
     """Start-Up Hold time (t.h.S.U): read and write; 9.3."""
+    output_high_limit_during_start_up = ReadWrite(46, _INT16, raw, section="9.3", persistence="eeprom")
+    """Output high limit during Start-up (OP.HS): read and write; 9.3."""
+    timer_remaining_time = ReadWrite(47, _INT16, raw, section="9.3", persistence="eeprom", stays="operation")
+    """Timer remaining time (tM.r.): read and write; 9.3."""
     load_current = ReadOnly(48, _INT16, raw, unit="A", section="9.3")
     """Load current in ampere (t.Cur): unit A; read only; 9.3."""
+    configuration_code = ReadWrite(
+        101, _INT16, integer, section="9.4", persistence="eeprom", apply="apply_configuration"
+    )
+    """Configuration code (ConF): read and write; 9.4."""
+    al3_alarm_configuration_code = ReadWrite(
+        102, _INT16, integer, section="9.4", persistence="eeprom", apply="apply_configuration"
+    )
+    """AL3 alarm configuration code (Con.2): read and write; 9.4."""
+    engineering_units = ReadWrite(
+        103, _INT16, choice(EngineeringUnits), section="9.4", persistence="eeprom", apply="apply_configuration"
+    )
+    """Engineering units (unit): read and write; 9.4."""
+    decimal_point = ReadWrite(104, _INT16, integer, section="9.4", persistence="eeprom", apply="apply_configuration")
+    """Decimal point (Sc.d.d): read and write; 9.4."""
+    low_range_for_engineering_units = ReadWrite(
+        105, _INT16, raw, section="9.4", persistence="eeprom", apply="apply_configuration"
+    )
+    """Low range for engineering units (Sc.Lo): read and write; 9.4."""
+    high_range_for_engineering_units = ReadWrite(
+        106, _INT16, raw, section="9.4", persistence="eeprom", apply="apply_configuration"
+    )
+    """High range for engineering units (Sc.Hi): read and write; 9.4."""
+    communications_protocol = ReadWrite(
+        107,
+        _INT16,
+        choice(CommunicationsProtocol),
+        section="9.4",
+        persistence="eeprom",
+        danger=_DANGER_2,
+        stays="line",
+        governs=_GOVERNS,
+    )
+    """Communications protocol (Prot): read and write; 9.4."""
+    baud_rate = ReadWrite(
+        108,
+        _INT16,
+        choice(BaudRate),
+        section="9.4",
+        persistence="eeprom",
+        danger=_DANGER_3,
+        stays="line",
+        governs=_GOVERNS_2,
+    )
+    """Baud rate (baud): read and write; 9.4."""
+    retransmission_range = ReadWrite(109, _INT16, choice(CurrentRange), section="9.4", persistence="eeprom")
+    """Retransmission range (retr): read and write; 9.4."""
     retransmission_signal_selection = ReadWrite(
         110, _INT16, choice(RetransmissionSignalSelection), section="9.4", persistence="eeprom"
     )
     """Retransmission signal selection (rtH): read and write; 9.4."""
+    current_transformer_range = ReadWrite(111, _INT16, raw, section="9.4", persistence="eeprom")
+    """Current transformer range (Ht.F.S): read and write; 9.4."""
+    password = ReadWrite(112, _INT16, integer, section="9.4", persistence="eeprom")
+    """Password (Code): read and write; 9.4."""
+    rtx_low_range_calibration_value = ReadWrite(
+        113, _INT16, raw, section="9.4", persistence="eeprom", danger=_DANGER_4, stays="calibration"
+    )
+    """RTX low range calibration value (Reserved) (CAL.3): read and write; 9.4."""
+    rtx_high_range_calibration_value = ReadWrite(
+        114, _INT16, raw, section="9.4", persistence="eeprom", danger=_DANGER_4, stays="calibration"
+    )
+    """RTX high range calibration value (Reserved) (CAL.4): read and write; 9.4."""
     timer_operating_mode = ReadWrite(115, _INT16, choice(TimerMode), section="9.4", persistence="eeprom")
     """Timer operating mode (t.Mod): read and write; 9.4."""
+    timer_action = ReadWrite(116, _INT16, choice(TimerAction), section="9.4", persistence="eeprom")
+    """Timer action (t.Act): read and write; 9.4."""
     digital_input_function = ReadWrite(117, _INT16, choice(DigitalInputFunction), section="9.4", persistence="eeprom")
     """Digital input function (IL.Fn): read and write; 9.4."""
+    factory_code = ReadOnly(120, _INT16, integer, section="9.4")
+    """Factory code: read only; 9.4."""
+    product_code = ReadOnly(121, _STRING, text, section="9.4")
+    """Product code: read only; 9.4."""
+    software_release = ReadOnly(123, _STRING, text, section="9.4")
+    """Software release: read only; 9.4."""
+    custom_code = ReadOnly(125, _INT16, integer, section="9.4")
+    """Custom code: read only; 9.4."""
 
 
-class _PlatinumM400InBits(
-    _TimerFunctionStatus, _AutoMan, _Al2Al3AlarmStatus, _OutOfRange, _OutOfRangeRepeated, _Locks, section="9.1"
-):
-    """Registers of M400 that other maps have, too (9.1)."""
+class _PlatinumM400Commands:
+    """Commands of M400."""
+
+    apply_configuration = Command((6, 120, (21930,)))
+    """Apply Configuration; The controller accepts valid configuration parameters, but works with them only after this
+    code (55AAh) was written to the address of the factory code.; 7.4, 8.4, 9.4 and 11.6 (notes).
+    """
 
 
-class _PlatinumM400InPage1(_ProcessVariable, _ComputerSetpoint, _Range, section="9.3"):
-    """Registers of M400 that other maps have, too (9.3)."""
+class PlatinumM400Commands(_PlatinumM400Commands, Part):
+    """The commands of a synchronous driver."""
 
 
-class _PlatinumM400InPage1Eeprom(
-    _LocalSetpoint,
-    _ProportionalBand,
-    _OvershootControlInCapitals,
-    _IntegralAndDerivative,
-    _CycleTime,
-    _Al2Al3ThresholdsInSmallLetters,
-    _CoolOutputCyclingTime,
-    _MotorAndTimer,
-    _SoftStartActivationTime,
-    _SetpointLimits,
-    _MainOutputHighLimit,
-    _OutputSafetyValue,
-    _SetpointRamps,
-    _InputFilter,
-    _InputShift,
-    _SerialAddress,
-    _RetransmissionRange,
-    _StartUpOutputLimit,
-    _TimerRemainingTime,
-    section="9.3",
-    persistence="eeprom",
-):
-    """Registers of M400 that other maps have, too (9.3, eeprom)."""
-
-
-class _PlatinumM400InPage2Eeprom(
-    _ConfigurationCodes,
-    _EngineeringUnits,
-    _Scaling,
-    _CommunicationsProtocol,
-    _BaudRate,
-    _RetransmissionCurrent,
-    _CurrentTransformerRange,
-    _Password,
-    _Calibration,
-    _TimerAction,
-    section="9.4",
-    persistence="eeprom",
-):
-    """Registers of M400 that other maps have, too (9.4, eeprom)."""
-
-
-class _PlatinumM400InPage2(_FactoryCode, _Codes, section="9.4"):
-    """Registers of M400 that other maps have, too (9.4)."""
+class AsyncPlatinumM400Commands(_PlatinumM400Commands, AsyncPart):
+    """The commands of an asyncio driver."""
 
 
 class PlatinumM400Groups:
@@ -290,102 +413,94 @@ class PlatinumM400Groups:
 
     bits = Group(
         "Bit Zone",
-        "timer_function_status",
-        "auto_man",
-        "control_output_status",
-        "al2_alarm_status",
-        "al3_alarm_status",
-        "out_of_range",
-        "auto_tuning",
-        "out_of_range_9",
-        "keypad_lock",
-        "outputs_lock",
-        "logic_input_1",
+        _PlatinumM400.timer_function_status,
+        _PlatinumM400.auto_man,
+        _PlatinumM400.control_output_status,
+        _PlatinumM400.al2_alarm_status,
+        _PlatinumM400.al3_alarm_status,
+        _PlatinumM400.out_of_range,
+        _PlatinumM400.auto_tuning,
+        _PlatinumM400.out_of_range_9,
+        _PlatinumM400.keypad_lock,
+        _PlatinumM400.outputs_lock,
+        _PlatinumM400.logic_input_1,
     )
-    status = Group("Read Status", "status")
+    status = Group("Read Status", _PlatinumM400.status)
     page_1 = Group(
         "Word Zone, Page 1 Parameters",
-        "process_variable",
-        "setpoint",
-        "main_output",
-        "local_setpoint_3",
-        "local_setpoint",
-        "proportional_band",
-        "overshoot_control",
-        "integral_time",
-        "derivative_time",
-        "cycle_time",
-        "low_range",
-        "high_range",
-        "al2_alarm_threshold",
-        "al3_alarm_threshold",
-        "al2_alarm_hysteresis",
-        "al3_alarm_hysteresis",
-        "relative_cold_gain",
-        "cool_output_hysteresis",
-        "heat_cool_dead_band",
-        "cool_output_cycling_time",
-        "cool_output_maximum_value",
-        "motor_travel_time",
-        "minimum_output_step",
-        "timer_setting",
-        "stand_by_setpoint",
-        "soft_start_output_high_limit",
-        "soft_start_activation_time",
-        "setpoint_low_limit",
-        "setpoint_high_limit",
-        "pid_dead_band",
-        "main_output_high_limit",
-        "output_safety_value",
-        "setpoint_ramp_up",
-        "setpoint_ramp_down",
-        "input_filter",
-        "input_shift",
-        "one_shot_tuning",
-        "serial_address",
-        "retransmission_low_range",
-        "retransmission_high_range",
-        "start_up_setpoint",
-        "start_up_hold_time",
-        "output_high_limit_during_start_up",
-        "timer_remaining_time",
-        "load_current",
+        _PlatinumM400.process_variable,
+        _PlatinumM400.setpoint,
+        _PlatinumM400.main_output,
+        _PlatinumM400.local_setpoint_3,
+        _PlatinumM400.local_setpoint,
+        _PlatinumM400.proportional_band,
+        _PlatinumM400.overshoot_control,
+        _PlatinumM400.integral_time,
+        _PlatinumM400.derivative_time,
+        _PlatinumM400.cycle_time,
+        _PlatinumM400.low_range,
+        _PlatinumM400.high_range,
+        _PlatinumM400.al2_alarm_threshold,
+        _PlatinumM400.al3_alarm_threshold,
+        _PlatinumM400.al2_alarm_hysteresis,
+        _PlatinumM400.al3_alarm_hysteresis,
+        _PlatinumM400.relative_cold_gain,
+        _PlatinumM400.cool_output_hysteresis,
+        _PlatinumM400.heat_cool_dead_band,
+        _PlatinumM400.cool_output_cycling_time,
+        _PlatinumM400.cool_output_maximum_value,
+        _PlatinumM400.motor_travel_time,
+        _PlatinumM400.minimum_output_step,
+        _PlatinumM400.timer_setting,
+        _PlatinumM400.stand_by_setpoint,
+        _PlatinumM400.soft_start_output_high_limit,
+        _PlatinumM400.soft_start_activation_time,
+        _PlatinumM400.setpoint_low_limit,
+        _PlatinumM400.setpoint_high_limit,
+        _PlatinumM400.pid_dead_band,
+        _PlatinumM400.main_output_high_limit,
+        _PlatinumM400.output_safety_value,
+        _PlatinumM400.setpoint_ramp_up,
+        _PlatinumM400.setpoint_ramp_down,
+        _PlatinumM400.input_filter,
+        _PlatinumM400.input_shift,
+        _PlatinumM400.one_shot_tuning,
+        _PlatinumM400.serial_address,
+        _PlatinumM400.retransmission_low_range,
+        _PlatinumM400.retransmission_high_range,
+        _PlatinumM400.start_up_setpoint,
+        _PlatinumM400.start_up_hold_time,
+        _PlatinumM400.output_high_limit_during_start_up,
+        _PlatinumM400.timer_remaining_time,
+        _PlatinumM400.load_current,
     )
     page_2 = Group(
         "Word Zone, Page 2 Configuration",
-        "configuration_code",
-        "al3_alarm_configuration_code",
-        "engineering_units",
-        "decimal_point",
-        "low_range_for_engineering_units",
-        "high_range_for_engineering_units",
-        "communications_protocol",
-        "baud_rate",
-        "retransmission_range",
-        "retransmission_signal_selection",
-        "current_transformer_range",
-        "password",
-        "rtx_low_range_calibration_value",
-        "rtx_high_range_calibration_value",
-        "timer_operating_mode",
-        "timer_action",
-        "digital_input_function",
-        "factory_code",
-        "product_code",
-        "software_release",
-        "custom_code",
+        _PlatinumM400.configuration_code,
+        _PlatinumM400.al3_alarm_configuration_code,
+        _PlatinumM400.engineering_units,
+        _PlatinumM400.decimal_point,
+        _PlatinumM400.low_range_for_engineering_units,
+        _PlatinumM400.high_range_for_engineering_units,
+        _PlatinumM400.communications_protocol,
+        _PlatinumM400.baud_rate,
+        _PlatinumM400.retransmission_range,
+        _PlatinumM400.retransmission_signal_selection,
+        _PlatinumM400.current_transformer_range,
+        _PlatinumM400.password,
+        _PlatinumM400.rtx_low_range_calibration_value,
+        _PlatinumM400.rtx_high_range_calibration_value,
+        _PlatinumM400.timer_operating_mode,
+        _PlatinumM400.timer_action,
+        _PlatinumM400.digital_input_function,
+        _PlatinumM400.factory_code,
+        _PlatinumM400.product_code,
+        _PlatinumM400.software_release,
+        _PlatinumM400.custom_code,
     )
 
 
-class AthenaM400(
-    _PlatinumM400,
-    _PlatinumM400InBits,
-    _PlatinumM400InPage1,
-    _PlatinumM400InPage1Eeprom,
-    _PlatinumM400InPage2Eeprom,
-    _PlatinumM400InPage2,
-    Device,
-):
+class AthenaM400(_PlatinumM400, Device):
     """Athena Controls M400: Timer, Auto/Man and current transformer are options (synchronous driver)."""
 
     model = "M400"
@@ -395,18 +510,10 @@ class AthenaM400(
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "M4"),)),)
     groups = PlatinumM400Groups
-    commands = SubPart(PlatinumCommonCommands, AsyncPlatinumCommonCommands)
+    commands = SubPart(PlatinumM400Commands, AsyncPlatinumM400Commands)
 
 
-class AsyncAthenaM400(
-    _PlatinumM400,
-    _PlatinumM400InBits,
-    _PlatinumM400InPage1,
-    _PlatinumM400InPage1Eeprom,
-    _PlatinumM400InPage2Eeprom,
-    _PlatinumM400InPage2,
-    AsyncDevice,
-):
+class AsyncAthenaM400(_PlatinumM400, AsyncDevice):
     """Athena Controls M400: Timer, Auto/Man and current transformer are options (asyncio driver)."""
 
     model = "M400"
@@ -416,4 +523,4 @@ class AsyncAthenaM400(
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "M4"),)),)
     groups = PlatinumM400Groups
-    commands = SubPart(PlatinumCommonCommands, AsyncPlatinumCommonCommands)
+    commands = SubPart(PlatinumM400Commands, AsyncPlatinumM400Commands)

@@ -4,11 +4,6 @@
 # format 1, map sha256 30eb2ad7d28b20fa
 
 from regscribe_devices.athena.platinum_common import (
-    _COIL_BIT,
-    _DANGER_4,
-    _INT16,
-    _PROTOCOL,
-    AsyncPlatinumCommonCommands,
     AutoMan,
     BaudRate,
     CommunicationsProtocol,
@@ -16,61 +11,35 @@ from regscribe_devices.athena.platinum_common import (
     LockState,
     OffOn,
     OffRun,
-    PlatinumCommonCommands,
     RetransmittedVariable,
     TimerAction,
     TimerMode,
-    _Al2Al3ThresholdsInSmallLetters,
-    _AutoMan,
-    _AutoTuneStatus,
-    _BaudRate,
-    _CommunicationsProtocol,
-    _ControlOutputHighLimit,
-    _CustomCode,
-    _CycleTime,
-    _EngineeringUnits,
-    _ErrorDeadBand,
-    _FilterTimeConstant,
-    _InputShift,
-    _IntegralAndDerivative,
-    _LocalSetpointSpl,
-    _Locks,
-    _MotorAndTimer,
-    _OutputSafetyValue,
-    _OvershootControl,
-    _Password,
-    _ProcessVariablePv,
-    _ProductCode,
-    _ProportionalBandInSmallLetters,
-    _Range,
-    _ReleaseCode,
-    _RetransmissionRange,
-    _SerialAddress,
-    _SetpointLimits,
-    _SetpointRamps,
-    _SoftStartActivationTime,
-    _StartUpOutputLimit,
-    _StartUpSetpoint,
-    _TimerAction,
-    _TimerRemainingTime,
 )
 from regscribe_runtime import (
     Array,
     AsyncDevice,
     AsyncPart,
     Choice,
+    Command,
+    Conversion,
     Device,
+    ExceptionCode,
     Flags,
+    Governs,
     Group,
     Identity,
     Is,
+    Latency,
+    Order,
     Part,
     ProgramAction,
     ProgramFinal,
     ProgramSegments,
     ProgramStates,
+    Protocol,
     ReadOnly,
     ReadWrite,
+    SerialDefaults,
     SetpointProgram,
     Space,
     SubPart,
@@ -80,8 +49,11 @@ from regscribe_runtime import (
     flags,
     integer,
     integer_or,
+    number,
     raw,
+    text,
     within,
+    word,
 )
 
 __all__ = [
@@ -116,9 +88,48 @@ __all__ = [
     "TimerMode",
 ]
 
+_PROTOCOL = Protocol(
+    functions=(1, 2, 3, 4, 5, 6, 7, 15, 16),
+    write_words=8,
+    read_holes=True,
+    broadcast=(5, 6, 15, 16),
+    exceptions=(
+        ExceptionCode(1, "illegal function", "the controller does not have this function code"),
+        ExceptionCode(2, "illegal data address", "the controller does not have this address"),
+        ExceptionCode(3, "illegal data value", "the value is not allowed at this address"),
+        ExceptionCode(
+            7,
+            "negative acknowledgment (NAK)",
+            "not possible in the present state of the controller or a write to a read-only address",
+        ),
+    ),
+    latencies=(
+        Latency(1, maximum=10, characters=3),
+        Latency(2, maximum=10, characters=3),
+        Latency(3, maximum=10, characters=3),
+        Latency(4, maximum=10, characters=3),
+        Latency(5, maximum=110, characters=3),
+        Latency(6, maximum=10, maximum_per_word=50, characters=3),
+        Latency(7, maximum=10, characters=3),
+        Latency(15, maximum=110, characters=3),
+        Latency(16, maximum=10, maximum_per_word=50, characters=3),
+    ),
+    serial=SerialDefaults(bauds=(1200, 2400, 4800, 9600, 19200), formats=("8N1",)),
+)
+_COIL_BIT = (View("base", WireType.BIT, space=Space.COIL),)
 _STATUS_UINT8 = (View("base", WireType.UINT8, space=Space.STATUS),)
+_INT16 = word(WireType.INT16)
 _MANUAL_MODE = (Is("auto_man", ((1, 1),)),)
 _WRITABLE = (_MANUAL_MODE, "the output can be written in manual mode only (and if the Auto/Man option is fitted)")
+# value of the stored x: x/10
+_SCALE = (((), Conversion(multiply="0.1")),)
+_DANGER = "the controller answers at the new address from now on"
+_DANGER_2 = "the controller counts all addresses one higher (JBUS) or lower (Modbus) from now on"
+_GOVERNS = Governs("addressing", codes={0: "modbus", 1: "jbus"})
+_DANGER_3 = "the controller answers at the new speed from now on"
+_GOVERNS_2 = Governs("baud", codes={0: "1200", 1: "2400", 2: "4800", 3: "9600"})
+_DANGER_4 = "reserved for the maker; a wrong value falsifies the retransmitted signal"
+_STRING = (View("base", WireType.STRING, words=2, byte_order=Order.LITTLE),)
 # addresses that read as 0
 _UNUSED = (
     (Space.COIL, 15, 15),
@@ -299,6 +310,8 @@ class _PlatinumX100X400:
 
     remote_status_or_program = ReadWrite(0, _COIL_BIT, choice(RemoteStatusOrProgram), section="11.1", stays="operation")
     """Remote status or program: read and write; 11.1."""
+    auto_man = ReadWrite(1, _COIL_BIT, choice(AutoMan), section="11.1", stays="operation")
+    """Auto/Man: read and write; 11.1."""
     op4_digital_output_status = ReadOnly(2, _COIL_BIT, choice(OffOn), section="11.1")
     """OP4 digital output status: read only; 11.1."""
     op1_digital_output_status = ReadOnly(3, _COIL_BIT, choice(OffOn), section="11.1")
@@ -309,10 +322,16 @@ class _PlatinumX100X400:
     """OP3 digital output status: read only; 11.1."""
     out_of_range = ReadOnly(6, _COIL_BIT, choice(NormalState), section="11.1")
     """Out of range: read only; 11.1."""
+    auto_tune = ReadOnly(7, _COIL_BIT, choice(OffRun), section="11.1")
+    """Auto-Tune: read only; 11.1."""
     timer_status = ReadWrite(8, _COIL_BIT, choice(OffRun), section="11.1", stays="operation")
     """Timer status: read and write; 11.1."""
     out_of_range_9 = ReadOnly(9, _COIL_BIT, choice(NormalState), section="11.1")
     """Out of range: read only; 11.1."""
+    keypad_lock = ReadWrite(10, _COIL_BIT, choice(LockState), section="11.1", stays="operation")
+    """Keypad lock: read and write; 11.1."""
+    outputs_lock = ReadWrite(11, _COIL_BIT, choice(LockState), section="11.1", stays="operation")
+    """Outputs lock: read and write; 11.1."""
     il1_digital_input_status = ReadOnly(12, _COIL_BIT, choice(OffOn), section="11.1")
     """IL1 Digital input status: read only; 11.1."""
     il2_digital_input_status = ReadOnly(13, _COIL_BIT, choice(OffOn), section="11.1")
@@ -321,12 +340,34 @@ class _PlatinumX100X400:
     """IL3 Digital input status: read only; 11.1."""
     status = ReadOnly(0, _STATUS_UINT8, flags(Status), section="11.2")
     """Read Status: read only; 11.2."""
+    process_variable = ReadOnly(0, _INT16, raw, section="11.3")
+    """PV process variable: read only; 11.3."""
     setpoint = ReadWrite(1, _INT16, raw, section="11.3", stays="operation")
     """SP Setpoint: read and write; 11.3."""
     main_output = ReadWrite(2, _INT16, raw, section="11.3", writable=_WRITABLE, stays="operation")
     """MV main control output: read and write; 11.3."""
     target_setpoint = ReadWrite(3, _INT16, raw, section="11.3", stays="operation")
     """SPT target Setpoint: read and write; 11.3."""
+    local_setpoint = ReadWrite(4, _INT16, raw, section="11.3")
+    """SPL local Setpoint: read and write; 11.3."""
+    proportional_band = ReadWrite(5, _INT16, number, scale=_SCALE, section="11.3")
+    """Proportional band (Hysteresis ON - OFF) (P.b. (hy.)): read and write; 11.3."""
+    overshoot_control = ReadWrite(6, _INT16, raw, section="11.3")
+    """Overshoot control (O.C.): read and write; 11.3."""
+    integral_time = ReadWrite(7, _INT16, raw, section="11.3")
+    """Integral time (t.i.): read and write; 11.3."""
+    derivative_time = ReadWrite(8, _INT16, raw, section="11.3")
+    """Derivative time (t.d.): read and write; 11.3."""
+    cycle_time = ReadWrite(9, _INT16, raw, section="11.3")
+    """Cycle time (t.c.): read and write; 11.3."""
+    low_range = ReadOnly(10, _INT16, raw, section="11.3")
+    """Low range (Sc.Lo): read only; 11.3."""
+    high_range = ReadOnly(11, _INT16, raw, section="11.3")
+    """High range (Sc.Hi): read only; 11.3."""
+    al2_alarm_threshold = ReadWrite(12, _INT16, raw, section="11.3")
+    """AL2 alarm threshold (A2S.P): read and write; 11.3."""
+    al3_alarm_threshold = ReadWrite(13, _INT16, raw, section="11.3")
+    """AL3 alarm threshold (A3S.P): read and write; 11.3."""
     al2_alarm_hysteresis = ReadWrite(14, _INT16, raw, section="11.3")
     """AL2 alarm hysteresis (A2hy): read and write; 11.3."""
     al3_alarm_hysteresis = ReadWrite(15, _INT16, raw, section="11.3")
@@ -341,16 +382,63 @@ class _PlatinumX100X400:
     """Cool cycle time (t.c. C): read and write; 11.3."""
     cool_control_output_high_limit = ReadWrite(21, _INT16, raw, section="11.3")
     """Cool control output high limit (OP.HC): read and write; 11.3."""
+    motor_travel_time = ReadWrite(22, _INT16, raw, section="11.3")
+    """Motor travel time (MU.tM): read and write; 11.3."""
+    minimum_output_step = ReadWrite(23, _INT16, raw, section="11.3")
+    """Minimum output step (MU.Hy): read and write; 11.3."""
+    timer_setting = ReadWrite(24, _INT16, raw, section="11.3")
+    """Timer setting (tiMe): read and write; 11.3."""
     stand_by_setpoint = ReadWrite(25, _INT16, raw, section="11.3")
     """Stand-by Setpoint (S.P.Sb): read and write; 11.3."""
     soft_start_output_value = ReadWrite(26, _INT16, raw, section="11.3")
     """Soft-start output value (St.OP): read and write; 11.3."""
+    soft_start_activation_time = ReadWrite(27, _INT16, raw, section="11.3")
+    """Soft-start activation time (St.tM): read and write; 11.3."""
     manual_reset = ReadWrite(28, _INT16, raw, section="11.3")
     """Manual reset (M.reS): read and write; 11.3."""
+    setpoint_low_limit = ReadWrite(29, _INT16, raw, section="11.3")
+    """Setpoint low limit (S.P. L): read and write; 11.3."""
+    setpoint_high_limit = ReadWrite(30, _INT16, raw, section="11.3")
+    """Setpoint high limit (S.P. H): read and write; 11.3."""
+    error_dead_band = ReadWrite(31, _INT16, raw, section="11.3")
+    """Error dead band (d.Err): read and write; 11.3."""
+    control_output_high_limit = ReadWrite(32, _INT16, raw, section="11.4")
+    """Control output high limit (OP. H): read and write; 11.4."""
+    output_safety_value = ReadWrite(33, _INT16, raw, section="11.4")
+    """Output safety value (Sa.OP): read and write; 11.4."""
+    setpoint_ramp_up = ReadWrite(34, _INT16, raw, section="11.4")
+    """Setpoint ramp up (Sl. u): read and write; 11.4."""
+    setpoint_ramp_down = ReadWrite(35, _INT16, raw, section="11.4")
+    """Setpoint ramp down (Sl. d): read and write; 11.4."""
+    filter_time_constant = ReadWrite(36, _INT16, raw, section="11.4")
+    """Filter time constant (t.FiL): read and write; 11.4."""
+    input_shift = ReadWrite(37, _INT16, raw, section="11.4")
+    """Input shift (In.Sh): read and write; 11.4."""
     tune_run_stop = ReadWrite(38, _INT16, integer, section="11.4", stays="operation")
     """Tune run/stop (tune): read and write; 11.4."""
+    serial_address = ReadWrite(
+        40,
+        _INT16,
+        integer,
+        range=within(1, 247),
+        section="11.4",
+        danger=_DANGER,
+        stays="address",
+        governs=Governs("address"),
+    )
+    """Serial comm.s address (Addr): 1 to 247; read and write; 11.4."""
+    retransmission_low_range = ReadWrite(42, _INT16, raw, section="11.4")
+    """Retransmission low range (rt.Lo): read and write; 11.4."""
+    retransmission_high_range = ReadWrite(43, _INT16, raw, section="11.4")
+    """Retransmission high range (rt.Hi): read and write; 11.4."""
+    start_up_setpoint = ReadWrite(44, _INT16, raw, section="11.4")
+    """Start-up Setpoint (S.P.S.U): read and write; 11.4."""
     hold_time = ReadWrite(45, _INT16, raw, section="11.4")
     """Hold time (t.h.S.U): read and write; 11.4."""
+    output_high_limit_during_start_up = ReadWrite(46, _INT16, raw, section="11.4")
+    """Output high limit during Start-up (OP.HS): read and write; 11.4."""
+    timer_remaining_time = ReadWrite(47, _INT16, raw, section="11.4", stays="operation")
+    """Timer remaining time (tM.r.): read and write; 11.4."""
     load_current = ReadOnly(48, _INT16, raw, unit="A", section="11.4")
     """Load current in Ampere (t.Cur): unit A; read only; 11.4."""
     setpoint_selection = ReadOnly(49, _INT16, integer, section="11.4")
@@ -401,18 +489,30 @@ class _PlatinumX100X400:
     """1° version configuration (Con.1): read and write; 11.6."""
     configuration_2 = ReadWrite(102, _INT16, integer, section="11.6", apply="apply_configuration")
     """2° version configuration (Con.2): read and write; 11.6."""
+    engineering_units = ReadWrite(103, _INT16, choice(EngineeringUnits), section="11.6", apply="apply_configuration")
+    """Engineering units (unit): read and write; 11.6."""
     number_of_decimals = ReadWrite(104, _INT16, integer, section="11.6", apply="apply_configuration")
     """Number of decimals (Sc.d.d): read and write; 11.6."""
     configured_low_range = ReadWrite(105, _INT16, raw, section="11.6", apply="apply_configuration")
     """Low range (Sc.Lo): read and write; 11.6."""
     configured_high_range = ReadWrite(106, _INT16, raw, section="11.6", apply="apply_configuration")
     """High range (Sc.Hi): read and write; 11.6."""
+    communications_protocol = ReadWrite(
+        107, _INT16, choice(CommunicationsProtocol), section="11.6", danger=_DANGER_2, stays="line", governs=_GOVERNS
+    )
+    """Communications protocol (Prot): read and write; 11.6."""
+    baud_rate = ReadWrite(
+        108, _INT16, choice(BaudRate), section="11.6", danger=_DANGER_3, stays="line", governs=_GOVERNS_2
+    )
+    """Baud rate (baud): read and write; 11.6."""
     continuous_control_output_range = ReadWrite(109, _INT16, choice(ContinuousControlOutputRange), section="11.6")
     """Continuous control output range (retr): read and write; 11.6."""
     retransmission_output_selection = ReadWrite(110, _INT16, choice(RetransmittedVariable), section="11.6")
     """Retransmission output selection (rtH): read and write; 11.6."""
     ct_primary_high_range = ReadWrite(111, _INT16, raw, section="11.6")
     """CT primary high range (Ht.F.S): read and write; 11.6."""
+    password = ReadWrite(112, _INT16, integer, section="11.6")
+    """Password (Code): read and write; 11.6."""
     retransmission_calibration_low_range = ReadWrite(
         113, _INT16, raw, section="11.6", danger=_DANGER_4, stays="calibration"
     )
@@ -423,6 +523,8 @@ class _PlatinumX100X400:
     """Retransm. calibration high range (for Athena Controls only) (CAL.4): read and write; 11.6."""
     timer_mode = ReadWrite(115, _INT16, choice(TimerMode), section="11.6")
     """Timer setting (t.Mod): read and write; 11.6."""
+    timer_action = ReadWrite(116, _INT16, choice(TimerAction), section="11.6")
+    """Timer action (t.Act): read and write; 11.6."""
     il1_digital_input_function = ReadWrite(117, _INT16, choice(DigitalInputFunction), section="11.6")
     """IL1 digital input function (IL1): read and write; 11.6."""
     il2_digital_input_function = ReadWrite(118, _INT16, choice(DigitalInputFunction), section="11.6")
@@ -431,58 +533,29 @@ class _PlatinumX100X400:
     """IL3 digital input function (IL3): read and write; 11.6."""
     manufacturer_code = ReadOnly(120, _INT16, integer, default=600, section="11.6")
     """Manufacturer code: read only; 11.6."""
+    product_code = ReadOnly(121, _STRING, text, section="11.6")
+    """Product code: read only; 11.6."""
+    release_code = ReadOnly(123, _STRING, text, section="11.6")
+    """Release code: read only; 11.6."""
+    custom_code = ReadOnly(125, _INT16, integer, section="11.6")
+    """Custom code: read only; 11.6."""
 
 
-class _PlatinumX100X400InBits(_AutoMan, _AutoTuneStatus, _Locks, section="11.1"):
-    """Registers of X100, X400 that other maps have, too (11.1)."""
+class _PlatinumX100X400Commands:
+    """Commands of X100, X400."""
+
+    apply_configuration = Command((6, 120, (21930,)))
+    """Apply Configuration; The controller accepts valid configuration parameters, but works with them only after this
+    code (55AAh) was written to the address of the factory code.; 7.4, 8.4, 9.4 and 11.6 (notes).
+    """
 
 
-class _PlatinumX100X400InPage1(
-    _ProcessVariablePv,
-    _LocalSetpointSpl,
-    _ProportionalBandInSmallLetters,
-    _OvershootControl,
-    _IntegralAndDerivative,
-    _CycleTime,
-    _Range,
-    _Al2Al3ThresholdsInSmallLetters,
-    _MotorAndTimer,
-    _SoftStartActivationTime,
-    _SetpointLimits,
-    _ErrorDeadBand,
-    section="11.3",
-):
-    """Registers of X100, X400 that other maps have, too (11.3)."""
+class PlatinumX100X400Commands(_PlatinumX100X400Commands, Part):
+    """The commands of a synchronous driver."""
 
 
-class _PlatinumX100X400InPage2(
-    _ControlOutputHighLimit,
-    _OutputSafetyValue,
-    _SetpointRamps,
-    _FilterTimeConstant,
-    _InputShift,
-    _SerialAddress,
-    _RetransmissionRange,
-    _StartUpSetpoint,
-    _StartUpOutputLimit,
-    _TimerRemainingTime,
-    section="11.4",
-):
-    """Registers of X100, X400 that other maps have, too (11.4)."""
-
-
-class _PlatinumX100X400InPage4(
-    _EngineeringUnits,
-    _CommunicationsProtocol,
-    _BaudRate,
-    _Password,
-    _TimerAction,
-    _ProductCode,
-    _CustomCode,
-    _ReleaseCode,
-    section="11.6",
-):
-    """Registers of X100, X400 that other maps have, too (11.6)."""
+class AsyncPlatinumX100X400Commands(_PlatinumX100X400Commands, AsyncPart):
+    """The commands of an asyncio driver."""
 
 
 class PlatinumX100X400Groups:
@@ -490,134 +563,127 @@ class PlatinumX100X400Groups:
 
     bits = Group(
         "Bit Zone",
-        "remote_status_or_program",
-        "auto_man",
-        "op4_digital_output_status",
-        "op1_digital_output_status",
-        "op2_digital_output_status",
-        "op3_digital_output_status",
-        "out_of_range",
-        "auto_tune",
-        "timer_status",
-        "out_of_range_9",
-        "keypad_lock",
-        "outputs_lock",
-        "il1_digital_input_status",
-        "il2_digital_input_status",
-        "il3_digital_input_status",
+        _PlatinumX100X400.remote_status_or_program,
+        _PlatinumX100X400.auto_man,
+        _PlatinumX100X400.op4_digital_output_status,
+        _PlatinumX100X400.op1_digital_output_status,
+        _PlatinumX100X400.op2_digital_output_status,
+        _PlatinumX100X400.op3_digital_output_status,
+        _PlatinumX100X400.out_of_range,
+        _PlatinumX100X400.auto_tune,
+        _PlatinumX100X400.timer_status,
+        _PlatinumX100X400.out_of_range_9,
+        _PlatinumX100X400.keypad_lock,
+        _PlatinumX100X400.outputs_lock,
+        _PlatinumX100X400.il1_digital_input_status,
+        _PlatinumX100X400.il2_digital_input_status,
+        _PlatinumX100X400.il3_digital_input_status,
     )
-    status = Group("Read Status", "status")
+    status = Group("Read Status", _PlatinumX100X400.status)
     page_1 = Group(
         "Word Zone, Page 1 Parameters",
-        "process_variable",
-        "setpoint",
-        "main_output",
-        "target_setpoint",
-        "local_setpoint",
-        "proportional_band",
-        "overshoot_control",
-        "integral_time",
-        "derivative_time",
-        "cycle_time",
-        "low_range",
-        "high_range",
-        "al2_alarm_threshold",
-        "al3_alarm_threshold",
-        "al2_alarm_hysteresis",
-        "al3_alarm_hysteresis",
-        "cool_relative_gain",
-        "cool_output_hysteresis",
-        "dead_band",
-        "cool_cycle_time",
-        "cool_control_output_high_limit",
-        "motor_travel_time",
-        "minimum_output_step",
-        "timer_setting",
-        "stand_by_setpoint",
-        "soft_start_output_value",
-        "soft_start_activation_time",
-        "manual_reset",
-        "setpoint_low_limit",
-        "setpoint_high_limit",
-        "error_dead_band",
+        _PlatinumX100X400.process_variable,
+        _PlatinumX100X400.setpoint,
+        _PlatinumX100X400.main_output,
+        _PlatinumX100X400.target_setpoint,
+        _PlatinumX100X400.local_setpoint,
+        _PlatinumX100X400.proportional_band,
+        _PlatinumX100X400.overshoot_control,
+        _PlatinumX100X400.integral_time,
+        _PlatinumX100X400.derivative_time,
+        _PlatinumX100X400.cycle_time,
+        _PlatinumX100X400.low_range,
+        _PlatinumX100X400.high_range,
+        _PlatinumX100X400.al2_alarm_threshold,
+        _PlatinumX100X400.al3_alarm_threshold,
+        _PlatinumX100X400.al2_alarm_hysteresis,
+        _PlatinumX100X400.al3_alarm_hysteresis,
+        _PlatinumX100X400.cool_relative_gain,
+        _PlatinumX100X400.cool_output_hysteresis,
+        _PlatinumX100X400.dead_band,
+        _PlatinumX100X400.cool_cycle_time,
+        _PlatinumX100X400.cool_control_output_high_limit,
+        _PlatinumX100X400.motor_travel_time,
+        _PlatinumX100X400.minimum_output_step,
+        _PlatinumX100X400.timer_setting,
+        _PlatinumX100X400.stand_by_setpoint,
+        _PlatinumX100X400.soft_start_output_value,
+        _PlatinumX100X400.soft_start_activation_time,
+        _PlatinumX100X400.manual_reset,
+        _PlatinumX100X400.setpoint_low_limit,
+        _PlatinumX100X400.setpoint_high_limit,
+        _PlatinumX100X400.error_dead_band,
     )
     page_2 = Group(
         "Word Zone, Page 2 Parameters",
-        "control_output_high_limit",
-        "output_safety_value",
-        "setpoint_ramp_up",
-        "setpoint_ramp_down",
-        "filter_time_constant",
-        "input_shift",
-        "tune_run_stop",
-        "serial_address",
-        "retransmission_low_range",
-        "retransmission_high_range",
-        "start_up_setpoint",
-        "hold_time",
-        "output_high_limit_during_start_up",
-        "timer_remaining_time",
-        "load_current",
-        "setpoint_selection",
-        "first_stored_setpoint",
-        "second_stored_setpoint",
-        "ratio_setpoint",
-        "bias_setpoint",
-        "al1_alarm_threshold",
-        "al1_alarm_hysteresis",
-        "al1_latching_and_blocking_functions",
-        "al2_latching_and_blocking_functions",
-        "al3_latching_and_blocking_functions",
+        _PlatinumX100X400.control_output_high_limit,
+        _PlatinumX100X400.output_safety_value,
+        _PlatinumX100X400.setpoint_ramp_up,
+        _PlatinumX100X400.setpoint_ramp_down,
+        _PlatinumX100X400.filter_time_constant,
+        _PlatinumX100X400.input_shift,
+        _PlatinumX100X400.tune_run_stop,
+        _PlatinumX100X400.serial_address,
+        _PlatinumX100X400.retransmission_low_range,
+        _PlatinumX100X400.retransmission_high_range,
+        _PlatinumX100X400.start_up_setpoint,
+        _PlatinumX100X400.hold_time,
+        _PlatinumX100X400.output_high_limit_during_start_up,
+        _PlatinumX100X400.timer_remaining_time,
+        _PlatinumX100X400.load_current,
+        _PlatinumX100X400.setpoint_selection,
+        _PlatinumX100X400.first_stored_setpoint,
+        _PlatinumX100X400.second_stored_setpoint,
+        _PlatinumX100X400.ratio_setpoint,
+        _PlatinumX100X400.bias_setpoint,
+        _PlatinumX100X400.al1_alarm_threshold,
+        _PlatinumX100X400.al1_alarm_hysteresis,
+        _PlatinumX100X400.al1_latching_and_blocking_functions,
+        _PlatinumX100X400.al2_latching_and_blocking_functions,
+        _PlatinumX100X400.al3_latching_and_blocking_functions,
     )
     page_3 = Group(
         "Word Zone, Page 3 Program",
-        "program_status",
-        "restart_after_a_power_off",
-        "time_units",
-        "number_of_segments",
-        "number_of_program_cycles",
-        "allowed_deviation",
-        "segments",
-        "end_setpoint",
-        "end_digital_output",
+        _PlatinumX100X400.program_status,
+        _PlatinumX100X400.restart_after_a_power_off,
+        _PlatinumX100X400.time_units,
+        _PlatinumX100X400.number_of_segments,
+        _PlatinumX100X400.number_of_program_cycles,
+        _PlatinumX100X400.allowed_deviation,
+        _PlatinumX100X400.segments,
+        _PlatinumX100X400.end_setpoint,
+        _PlatinumX100X400.end_digital_output,
     )
     page_4 = Group(
         "Word Zone, Page 4 Configuration",
-        "remote_setpoint_range",
-        "configuration_1",
-        "configuration_2",
-        "engineering_units",
-        "number_of_decimals",
-        "configured_low_range",
-        "configured_high_range",
-        "communications_protocol",
-        "baud_rate",
-        "continuous_control_output_range",
-        "retransmission_output_selection",
-        "ct_primary_high_range",
-        "password",
-        "retransmission_calibration_low_range",
-        "retransmission_calibration_high_range",
-        "timer_mode",
-        "timer_action",
-        "il1_digital_input_function",
-        "il2_digital_input_function",
-        "il3_digital_input_function",
-        "manufacturer_code",
-        "product_code",
-        "release_code",
-        "custom_code",
+        _PlatinumX100X400.remote_setpoint_range,
+        _PlatinumX100X400.configuration_1,
+        _PlatinumX100X400.configuration_2,
+        _PlatinumX100X400.engineering_units,
+        _PlatinumX100X400.number_of_decimals,
+        _PlatinumX100X400.configured_low_range,
+        _PlatinumX100X400.configured_high_range,
+        _PlatinumX100X400.communications_protocol,
+        _PlatinumX100X400.baud_rate,
+        _PlatinumX100X400.continuous_control_output_range,
+        _PlatinumX100X400.retransmission_output_selection,
+        _PlatinumX100X400.ct_primary_high_range,
+        _PlatinumX100X400.password,
+        _PlatinumX100X400.retransmission_calibration_low_range,
+        _PlatinumX100X400.retransmission_calibration_high_range,
+        _PlatinumX100X400.timer_mode,
+        _PlatinumX100X400.timer_action,
+        _PlatinumX100X400.il1_digital_input_function,
+        _PlatinumX100X400.il2_digital_input_function,
+        _PlatinumX100X400.il3_digital_input_function,
+        _PlatinumX100X400.manufacturer_code,
+        _PlatinumX100X400.product_code,
+        _PlatinumX100X400.release_code,
+        _PlatinumX100X400.custom_code,
     )
 
 
-class AthenaX100(
-    _PlatinumX100X400,
-    _PlatinumX100X400InBits,
-    _PlatinumX100X400InPage1,
-    _PlatinumX100X400InPage2,
-    _PlatinumX100X400InPage4,
-    Device,
-):
+class AthenaX100(_PlatinumX100X400, Device):
     """Athena Controls X100: Product code X1 (synchronous driver)."""
 
     model = "X100"
@@ -627,18 +693,11 @@ class AthenaX100(
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "X1"),)),)
     groups = PlatinumX100X400Groups
-    commands = SubPart(PlatinumCommonCommands, AsyncPlatinumCommonCommands)
+    commands = SubPart(PlatinumX100X400Commands, AsyncPlatinumX100X400Commands)
     setpoint_programs = _PROGRAMS
 
 
-class AsyncAthenaX100(
-    _PlatinumX100X400,
-    _PlatinumX100X400InBits,
-    _PlatinumX100X400InPage1,
-    _PlatinumX100X400InPage2,
-    _PlatinumX100X400InPage4,
-    AsyncDevice,
-):
+class AsyncAthenaX100(_PlatinumX100X400, AsyncDevice):
     """Athena Controls X100: Product code X1 (asyncio driver)."""
 
     model = "X100"
@@ -648,18 +707,11 @@ class AsyncAthenaX100(
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "X1"),)),)
     groups = PlatinumX100X400Groups
-    commands = SubPart(PlatinumCommonCommands, AsyncPlatinumCommonCommands)
+    commands = SubPart(PlatinumX100X400Commands, AsyncPlatinumX100X400Commands)
     setpoint_programs = _PROGRAMS
 
 
-class AthenaX400(
-    _PlatinumX100X400,
-    _PlatinumX100X400InBits,
-    _PlatinumX100X400InPage1,
-    _PlatinumX100X400InPage2,
-    _PlatinumX100X400InPage4,
-    Device,
-):
+class AthenaX400(_PlatinumX100X400, Device):
     """Athena Controls X400: Product code X3 (synchronous driver)."""
 
     model = "X400"
@@ -669,18 +721,11 @@ class AthenaX400(
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "X3"),)),)
     groups = PlatinumX100X400Groups
-    commands = SubPart(PlatinumCommonCommands, AsyncPlatinumCommonCommands)
+    commands = SubPart(PlatinumX100X400Commands, AsyncPlatinumX100X400Commands)
     setpoint_programs = _PROGRAMS
 
 
-class AsyncAthenaX400(
-    _PlatinumX100X400,
-    _PlatinumX100X400InBits,
-    _PlatinumX100X400InPage1,
-    _PlatinumX100X400InPage2,
-    _PlatinumX100X400InPage4,
-    AsyncDevice,
-):
+class AsyncAthenaX400(_PlatinumX100X400, AsyncDevice):
     """Athena Controls X400: Product code X3 (asyncio driver)."""
 
     model = "X400"
@@ -690,5 +735,5 @@ class AsyncAthenaX400(
     _unused = _UNUSED
     identity = (Identity((), (("product_code", "X3"),)),)
     groups = PlatinumX100X400Groups
-    commands = SubPart(PlatinumCommonCommands, AsyncPlatinumCommonCommands)
+    commands = SubPart(PlatinumX100X400Commands, AsyncPlatinumX100X400Commands)
     setpoint_programs = _PROGRAMS

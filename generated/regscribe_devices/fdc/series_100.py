@@ -682,46 +682,95 @@ class Series100Groups:
 
     input = Group(
         "Set Points and Input",
-        "sp1",
-        "sp2",
-        "sp3",
-        "lock",
-        "inpt",
-        "measuring_unit",
-        "dp",
-        "inlo",
-        "inhi",
-        "sp1l",
-        "sp1h",
-        "shif",
-        "filt",
-        "disp",
+        _Series100.sp1,
+        _Series100OfBTC9100BTC8100BTC4100BTC7100.sp2,
+        _Series100.sp3,
+        _Series100.lock,
+        _Series100.inpt,
+        _Series100.measuring_unit,
+        _Series100.dp,
+        _Series100.inlo,
+        _Series100.inhi,
+        _Series100.sp1l,
+        _Series100.sp1h,
+        _Series100.shif,
+        _Series100.filt,
+        _Series100.disp,
     )
     output_1 = Group(
-        "Control and Output 1", "pb", "ti", "td", "out1", "o1ty", "o1ft", "o1hy", "cyc1", "ofst", "ramp", "rr"
+        "Control and Output 1",
+        _Series100.pb,
+        _Series100.ti,
+        _Series100.td,
+        _Series100.out1,
+        _Series100.o1ty,
+        _Series100.o1ft,
+        _Series100.o1hy,
+        _Series100.cyc1,
+        _Series100.ofst,
+        _Series100.ramp,
+        _Series100.rr,
     )
     output_2 = Group(
         "Output 2, Retransmission and Alarm",
-        "out2",
-        "relo",
-        "o2ty",
-        "o2ft",
-        "o2hy",
-        "cyc2",
-        "cpb",
-        "db",
-        "alfn",
-        "rehi",
-        "almd",
-        "alhy",
-        "alft",
+        _Series100.out2,
+        _Series100.relo,
+        _Series100.o2ty,
+        _Series100.o2ft,
+        _Series100.o2hy,
+        _Series100.cyc2,
+        _Series100.cpb,
+        _Series100.db,
+        _Series100.alfn,
+        _Series100.rehi,
+        _Series100.almd,
+        _Series100.alhy,
+        _Series100.alft,
     )
-    communication = Group("Communication", "comm", "addr", "baud", "data", "pari", "stop")
-    selection = Group("Selection", "sel1", "sel2", "sel3", "sel4", "sel5", "sel6", "sel7", "sel8")
-    calibration = Group("Calibration", "adlo", "adhi", "rtdl", "rtdh", "cjlo", "cjhi")
-    service = Group("Service", "date", "srno", "hour", "bpl1", "bpl2", "cjcl")
-    process = Group("Process", "pv", "sv", "mv1", "mv2", "timer", "eror", "mode", "prog")
-    command = Group("Command", "cmnd", "job1", "job2", "job3", "cjct")
+    communication = Group(
+        "Communication",
+        _Series100.comm,
+        _Series100.addr,
+        _Series100.baud,
+        _Series100.data,
+        _Series100.pari,
+        _Series100.stop,
+    )
+    selection = Group(
+        "Selection",
+        _Series100.sel1,
+        _Series100.sel2,
+        _Series100.sel3,
+        _Series100.sel4,
+        _Series100.sel5,
+        _Series100.sel6,
+        _Series100.sel7,
+        _Series100.sel8,
+    )
+    calibration = Group(
+        "Calibration",
+        _Series100.adlo,
+        _Series100.adhi,
+        _Series100.rtdl,
+        _Series100.rtdh,
+        _Series100.cjlo,
+        _Series100.cjhi,
+    )
+    service = Group(
+        "Service", _Series100.date, _Series100.srno, _Series100.hour, _Series100.bpl1, _Series100.bpl2, _Series100.cjcl
+    )
+    process = Group(
+        "Process",
+        _Series100.pv,
+        _Series100.sv,
+        _Series100.mv1,
+        _Series100OfBTC9100BTC8100BTC4100BTC7100.mv2,
+        _Series100.timer,
+        _Series100.eror,
+        _Series100OfBTC9100BTC8100BTC4100BTC7100.mode,
+        _Series100.prog,
+    )
+    command = Group("Command", _Series100.cmnd, _Series100.job1, _Series100.job2, _Series100.job3, _Series100.cjct)
 
 
 class FdcBTC9100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Series100Device):

@@ -12,7 +12,7 @@ from regscribe.compose.file_loader import FileLoader, LoadedFile
 from regscribe.compose.findings import ComposeFindings
 from regscribe.compose.libraries import as_map, left_out, with_libraries
 from regscribe.compose.rules import CYCLE, OTHER_ID, RULES
-from regscribe.compose.tree import at, cut, elements, in_file, members, text
+from regscribe.compose.tree import at, cut, elements, in_file, text
 from regscribe.map_files import ENDINGS, LIBRARY, MAP, folder_of
 from regscribe.model import Diagnostic, Override
 from regscribe.source import Document, SourceNode
@@ -31,9 +31,8 @@ DEEPEST = 16
 class Composed:
     """The document of all files, None if there are diagnostics; what it was made of, with the SHA-256 of each file.
 
-    `base` is where the map that it extends lies, `renumber` the chapters that have another number here, `libraries`
-    are the documents of `uses`. `shipped` are the ids of those files that come with regscribe. `empty` are the paths
-    where a file would have counted before one of `files`, had there been one.
+    `libraries` are the documents of `uses`. `shipped` are the ids of those files that come with regscribe. `empty` are
+    the paths where a file would have counted before one of `files`, had there been one.
     """
 
     document: Document | None
@@ -43,21 +42,17 @@ class Composed:
     overrides: tuple[Override, ...] = ()
     files: tuple[tuple[Path, str], ...] = ()
     empty: tuple[Path, ...] = ()
-    base: Path | None = None
-    renumber: tuple[tuple[str, str], ...] = ()
     libraries: tuple[Document, ...] = ()
     shipped: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class _Part:
-    """A map of the chain as far as it is composed, where it lies, and the libraries in it."""
+    """A map of the chain as far as it is composed, and the libraries in it."""
 
     root: SourceNode
-    path: Path
     libraries: tuple[LoadedFile, ...] = ()
     overrides: tuple[Override, ...] = ()
-    base: Path | None = None
 
 
 def is_library(document: Document) -> bool:
@@ -103,8 +98,6 @@ def _composed(whole: Document, root: SourceNode, part: _Part, loader: FileLoader
         overrides=part.overrides,
         files=tuple(loader.hashes.items()),
         empty=tuple(sorted(loader.empty)),
-        base=part.base,
-        renumber=tuple((old, text(new)) for old, new in members(root.child("renumber")).items()),
         libraries=tuple(_document(library, loader) for library in part.libraries),
         shipped=tuple(file.id for file in loader.known.values() if file is not None and file.shipped),
     )
@@ -124,9 +117,9 @@ def _build(file: LoadedFile, loader: FileLoader, chain: tuple[LoadedFile, ...]) 
     own = with_libraries(file.root, libraries, loader.findings)
     every = (*below, *libraries)
     if base is None:
-        return _Part(_plain(own), file.path, every)
+        return _Part(_plain(own), every)
     root, overrides = extended(base.root, own, loader.findings)
-    return _Part(_plain(root), file.path, every, overrides, base.path)
+    return _Part(_plain(root), every, overrides)
 
 
 def _libraries(file: LoadedFile, loader: FileLoader, known: set[str]) -> list[LoadedFile] | None:

@@ -1,13 +1,15 @@
 """Chapters under another number: the sections of a base as the manual of the extension numbers them."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from regscribe.compose.tree import branches, key_place, listing, members, put, scalar
-from regscribe.model import chapters_of, renumbered
 from regscribe.source import SourceNode
 
 _SECTIONS = {"source", "where"}
+_CHAPTER = re.compile(r"(^|[,;] ?| and )((?:[Tt]able|[Ff]igure|[Ss]ection|[Cc]hapter) )?([0-9]+)")
+"""The first number of a section: behind its line's start, a separator or a word such as `table`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +32,10 @@ class Renumbering:
     def _section(self, node: SourceNode) -> SourceNode:
         if node.members is not None or node.elements is not None:
             return node
-        section = str(node.value)
-        self.used.update(chapter for chapter in chapters_of(section) if chapter in self.chapters)
-        return scalar(renumbered(section, self.chapters), node.place)
+        return scalar(_CHAPTER.sub(self._new, str(node.value)), node.place)
+
+    def _new(self, found: re.Match[str]) -> str:
+        """A chapter as the other manual counts it (`4.2, 4.3` by {4: 5}: `5.2, 5.3`)."""
+        opening, word, chapter = found[1], found[2] or "", found[3]
+        self.used.update({chapter} & self.chapters.keys())
+        return f"{opening}{word}{self.chapters.get(chapter, chapter)}"

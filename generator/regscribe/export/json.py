@@ -26,7 +26,7 @@ summary = "the whole model, for programs in any language"
 options: tuple[Option, ...] = ()
 
 EXAMPLES = {ValueExample: "value", FrameExample: "frame", TimingExample: "timing"}
-PLACES = frozenset({"span", "by_path", "base", "renumber", "libraries", "shipped"})
+PLACES = frozenset({"span", "by_path", "libraries", "shipped"})
 """Fields that say where something stands in a file, that only speed a look-up, or that only let emitters share."""
 
 Json = Any  # what the json module writes: nested lists and dicts of str, int, float, bool and None

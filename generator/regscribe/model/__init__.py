@@ -41,7 +41,6 @@ from regscribe.model.program import (
     numbered,
 )
 from regscribe.model.register import Array, Group, Inferred, Register, Writable
-from regscribe.model.section import chapters_of, renumbered
 from regscribe.model.value import (
     IDENTITY,
     NAN,
@@ -157,11 +156,9 @@ __all__ = [
     "WireType",
     "Writable",
     "always",
-    "chapters_of",
     "exact",
     "numbered",
     "parse",
     "registers_of",
-    "renumbered",
     "show",
 ]

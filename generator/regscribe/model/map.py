@@ -237,10 +237,10 @@ class Override:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Library:
-    """What a library declares that code is shared by, without what depends on the map that uses it.
+    """What drivers import from the module of a library, without what depends on the map that uses it.
 
     `enums` have the members that no model alone has. `sets` are those that mean the same wherever they are used: each
-    is a model of the set's id that has nothing but its registers. `protocol` is None if the library says nothing of it.
+    is a model of the set's id that has nothing but its registers.
     """
 
     id: str
@@ -248,8 +248,6 @@ class Library:
     content_hash: str
     enums: tuple[Enum, ...] = ()
     sets: tuple[Model, ...] = ()
-    commands: tuple[Command, ...] = ()
-    protocol: Protocol | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -261,10 +259,8 @@ class RegisterMap:
     `accepts`: limits of the protocol that the device goes beyond, by another passage of its manual; a driver keeps to
     the limits.
     `content_hash` is the SHA-256 in hex of the file's bytes, or of the hashes of all files where there are several.
-    `base` is the map that it extends as that map stands alone, None if it extends none (or one with errors of its own);
-    `renumber` has the chapters of the base's manual that have another number here; `libraries` are those of `uses`.
-    `shipped` are the ids of those of them that come with regscribe, as do their modules.
-    These four let emitters share code. They are no facts about the devices, so exports leave them out.
+    `libraries` are those of `uses`, `shipped` the ids of all its files that come with regscribe, as do the modules of
+    such libraries. These two let drivers share enums. They are no facts about the devices, so exports leave them out.
     """
 
     id: str
@@ -295,8 +291,6 @@ class RegisterMap:
     extends: str = ""
     uses: tuple[str, ...] = ()
     overrides: tuple[Override, ...] = ()
-    base: "RegisterMap | None" = field(default=None, compare=False, repr=False)
-    renumber: tuple[tuple[str, str], ...] = field(default=(), compare=False)
     libraries: tuple[Library, ...] = field(default=(), compare=False, repr=False)
     shipped: tuple[str, ...] = field(default=(), compare=False)
     span: Span = NOWHERE

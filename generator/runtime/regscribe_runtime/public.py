@@ -18,7 +18,6 @@ from regscribe_runtime.driver.device import (
 )
 from regscribe_runtime.driver.identify import Identification, identify, identify_async, known_models
 from regscribe_runtime.driver.parts import Array, AsyncPart, Command, Group, Part, SubPart
-from regscribe_runtime.driver.sets import RegisterSet
 from regscribe_runtime.errors import (
     Absent,
     ConditionNotMet,
@@ -156,7 +155,6 @@ __all__ = [
     "ReadWrite",
     "Ref",
     "Register",
-    "RegisterSet",
     "RegscribeError",
     "Retry",
     "Rounding",

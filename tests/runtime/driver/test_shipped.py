@@ -122,11 +122,11 @@ def test_a_library_of_ones_own_comes_before_one_of_the_same_id(tmp_path: Path) -
     library.parent.mkdir(parents=True)
     library.write_text(
         "format: 1\nlibrary: {id: athena/platinum-common, title: Own}\n"
-        "sets: {locks: [{at: 1, name: Own lock, access: r, type: uint16}]}\n"
+        "sets: {locks: [{at: 1, name: Own lock, access: r, enum: {0: free, 1: locked}}]}\n"
     )
     modules = generated(tmp_path, "athena/own", OWN)
     assert "regscribe_devices/athena/platinum_common.py" in modules
-    assert "own_lock" in (tmp_path / "generated/regscribe_devices/athena/platinum_common.py").read_text()
+    assert "class OwnLock(" in (tmp_path / "generated/regscribe_devices/athena/platinum_common.py").read_text()
 
 
 def test_a_shipped_map_does_not_see_libraries_of_ones_own(tmp_path: Path) -> None:

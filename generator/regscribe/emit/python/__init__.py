@@ -4,19 +4,20 @@ The text is laid out as `ruff format` would lay it out (line length 120), so not
 """
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import cache
 
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 
 from regscribe.emit.header import header_of
-from regscribe.emit.python.classes import Classes, givens_key
+from regscribe.emit.python.classes import Classes
+from regscribe.emit.python.constants import Pool
+from regscribe.emit.python.enum_classes import NamedClasses, Origin
 from regscribe.emit.python.expressions import PROTOCOL, expression
-from regscribe.emit.python.formatting import WIDTH, flat, lay, width
-from regscribe.emit.python.literals import docstring, literal
-from regscribe.emit.python.offer import Origin
-from regscribe.emit.python.reserved_names import RUNTIME
-from regscribe.emit.python.siblings import build, build_library, libraries, module_path
+from regscribe.emit.python.formatting import WIDTH, lay, width
+from regscribe.emit.python.library_modules import libraries, module_path, offered
+from regscribe.emit.python.literals import camel, docstring, literal
+from regscribe.emit.python.reserved_names import RUNTIME, hidden
 from regscribe.emit.words import one_line
 from regscribe.model import GivenKind, Library, RegisterMap
 
@@ -36,88 +37,94 @@ def path_of(register_map: RegisterMap) -> str:
 
 
 def render(register_map: RegisterMap) -> dict[str, str]:
-    """The driver module of a map and those that it imports, of its base and its libraries, as {path: text}.
+    """The driver module of a map and the modules of its libraries, as {path: text}.
 
-    What comes with regscribe is imported from there and not made again.
+    The module of a library that comes with regscribe is imported from there and not made again.
     """
-    installed = {module_path(map_id) for map_id in register_map.shipped}
-    return {path: text for path, text in _files(build(register_map)).items() if path not in installed}
+    used = libraries(register_map)
+    modules = {
+        module_path(library.id): _library(library, named)
+        for library, named in used
+        if library.id not in register_map.shipped
+    }
+    named = NamedClasses(register_map, offered(used))
+    named.collect_all()
+    return {**modules, path_of(register_map): _driver(register_map, named)}
 
 
-def _files(classes: Classes) -> dict[str, str]:
-    register_map = classes.register_map
-    below = _files(classes.below) if classes.below else {}
-    shared = {module_path(library.id): _library(library) for library in libraries(register_map)}
+def _library(library: Library, named: NamedClasses) -> str:
+    about = f"{one_line(library.title)}: named values that several drivers share."
+    source = header_of(f"{library.id}.library", library.content_hash, prefix="# ", separator="\n# ")
+    return _module(about, source, named, "\n".join([*named.lines(), ""]))
+
+
+def _driver(register_map: RegisterMap, named: NamedClasses) -> str:
     about = f"{one_line(register_map.title)}: drivers of {', '.join(model.name for model in register_map.models)}."
-    return {**below, **shared, path_of(register_map): _module(classes, about, register_map.id)}
-
-
-def _library(library: Library) -> str:
-    about = f"{one_line(library.title)}: what the drivers of several maps share."
-    return _module(build_library(library), about, f"{library.id}.library", protocol=library.protocol is not None)
-
-
-def _module(classes: Classes, about: str, source: str, *, protocol: bool = True) -> str:
-    register_map = classes.register_map
-    named = classes.named.lines()
-    own = [match[1] for line in named if (match := re.match(r"class (\w+)\(", line))]
-    line = expression(register_map.protocol)
-    offered = classes.offer.constants.get(flat(line))
-    givens_elsewhere = givens_key(register_map) in classes.offer.devices
+    source = header_of(register_map.id, register_map.content_hash, prefix="# ", separator="\n# ")
+    pool = Pool(hidden(register_map))
+    classes = Classes(register_map, named, pool, camel(register_map.id.split("/")[1]))
+    classes.build()
     body = _template().render(
-        constants=classes.pool.lines,
-        protocol=lay(line, head=f"{PROTOCOL} = ") if protocol and not offered else [],
-        named=named,
+        protocol=lay(expression(register_map.protocol), head=f"{PROTOCOL} = "),
+        constants=pool.lines,
+        named=named.lines(),
         classes=classes.lines,
         stem=classes.stem,
         givens=[
             {"id": given.id, "type": "Collection[int]" if given.kind is GivenKind.CODES else "bool"}
-            for given in (() if givens_elsewhere else register_map.givens)
+            for given in register_map.givens
         ],
     )
-    imports = {
-        *classes.imports,
-        *classes.pool.imports,
-        *classes.named.imports.values(),
-        *([offered] if offered else []),
-    }
+    return _module(about, source, named, body, classes.public, pool.hidden)
+
+
+def _module(
+    about: str,
+    source: str,
+    named: NamedClasses,
+    body: str,
+    classes: Iterable[str] = (),
+    hidden_names: frozenset[str] = frozenset(),
+) -> str:
+    own = [match[1] for line in named.lines() if (match := re.match(r"class (\w+)\(", line))]
     used = set(re.findall(r"\w+", NOT_CODE.sub("", body)))
     standard = [line for line in STANDARD if used & set(re.findall(r"[A-Z]\w+", line))]
-    public = {*own, *classes.named.imported, *classes.public}
     head = [
-        *docstring(about, 0, classes.cited(origin.module for origin in classes.imports)),
+        *docstring(about, 0),
         "",
-        header_of(source, register_map.content_hash, prefix="# ", separator="\n# "),
+        source,
         "",
         *standard,
         *([""] if standard else []),
-        *_siblings(origin for origin in imports if origin.name in used | public),
-        *_import(used, classes.pool.hidden),
+        *_library_imports(named.imports.values()),
+        *_runtime_imports(used, hidden_names),
         "",
-        *_all(sorted(public, key=natural)),
+        *_all(sorted({*own, *named.imported, *classes}, key=natural)),
         *([] if body.startswith("\n") else [""]),
     ]
     return "\n".join(head) + "\n" + body
 
 
-def _import(used: set[str], hidden_names: frozenset[str]) -> list[str]:
+def _runtime_imports(used: set[str], hidden_names: frozenset[str]) -> list[str]:
     names = [name for name in RUNTIME if name in used and name not in hidden_names]
     aliases = [name for name in RUNTIME if f"_{name}" in used and name in hidden_names]
     return [
-        *(["from regscribe_runtime import (", *(f"    {name}," for name in names), ")"] if names else []),
+        *(_import("regscribe_runtime", names) if names else []),
         *(f"from regscribe_runtime import {name} as _{name}" for name in aliases),
     ]
 
 
-def _siblings(origins: Iterable[Origin]) -> list[str]:
-    """Imports of what other generated modules have, each name on a line of its own."""
+def _library_imports(origins: Iterable[Origin]) -> list[str]:
+    """Imports of the named values that the modules of libraries have."""
     imports, lines = set(origins), list[str]()
     for module in sorted({origin.module for origin in imports}):
-        names = sorted({origin.name for origin in imports if origin.module == module}, key=_import_order)
-        whole = f"from {module} import {', '.join(names)}"
-        many = [f"from {module} import (", *(f"    {name}," for name in names), ")"]
-        lines += [whole] if width(whole) <= WIDTH else many
+        lines += _import(module, sorted((one.name for one in imports if one.module == module), key=_import_order))
     return lines
+
+
+def _import(module: str, names: Sequence[str]) -> list[str]:
+    whole = f"from {module} import {', '.join(names)}"
+    return [whole] if width(whole) <= WIDTH else [f"from {module} import (", *(f"    {name}," for name in names), ")"]
 
 
 def _import_order(name: str) -> tuple[object, ...]:

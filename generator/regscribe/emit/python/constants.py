@@ -1,11 +1,9 @@
 """Constants that several declarations share: each is emitted once, before its first use, under a readable name."""
 
 import re
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from regscribe.emit.python.formatting import WIDTH, Expression, flat, lay
-from regscribe.emit.python.offer import Origin
 
 SHORT = 30
 """An expression of at most this many characters stays where it is used."""
@@ -15,13 +13,10 @@ SHORT = 30
 class Pool:
     """Named constants by their text; `lines` are their definitions in the order of first use.
 
-    `hidden` are the functions of the runtime that go by another name in this module. What another module offers with
-    the same text is imported; no name of such a constant is used for another one, so equal texts mean the same.
+    `hidden` are the functions of the runtime that go by another name in this module.
     """
 
     hidden: frozenset[str] = frozenset()
-    offered: Mapping[str, Origin] = field(default_factory=dict)
-    imports: set[Origin] = field(default_factory=set)
     names: dict[str, str] = field(default_factory=dict)
     lines: list[str] = field(default_factory=list)
 
@@ -32,10 +27,7 @@ class Pool:
     def share(self, name: str, expression: Expression, comment: str = "") -> str:
         """The name of a constant of this content, defined now if it is new."""
         text = flat(expression)
-        if text not in self.names and text in self.offered:
-            self.names[text] = self.offered[text].name
-            self.imports.add(self.offered[text])
-        elif text not in self.names:
+        if text not in self.names:
             self.names[text] = self._free(name)
             self.lines += [f"# {comment}"] if comment and len(comment) + 2 <= WIDTH else []
             self.lines += lay(expression, head=f"{self.names[text]} = ")
@@ -47,6 +39,6 @@ class Pool:
 
     def _free(self, name: str) -> str:
         name = "_" + re.sub(r"\W+", "_", name, flags=re.ASCII).strip("_").upper()
-        taken = {*self.names.values(), *(origin.name for origin in self.offered.values())}
+        taken = set(self.names.values())
         numbered = (f"{name}_{count}" for count in range(2, len(taken) + 3))
         return name if name not in taken else next(free for free in numbered if free not in taken)

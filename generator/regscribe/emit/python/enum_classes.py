@@ -3,16 +3,23 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from typing import NamedTuple
 
 from regscribe.emit.python.class_sharing import suffix
 from regscribe.emit.python.formatting import INDENT, WIDTH, Call, call, group, lay, width
 from regscribe.emit.python.literals import camel, docstring, literal, plain
-from regscribe.emit.python.offer import Origin
 from regscribe.emit.python.reserved_names import free, taken
 from regscribe.emit.words import member_words, one_line
-from regscribe.model import BitField, Enum, Kind, Register, RegisterMap
+from regscribe.model import Array, BitField, Enum, Kind, Register, RegisterMap
 
 Content = tuple[object, ...]
+
+
+class Origin(NamedTuple):
+    """A class and the module of a library that defines it."""
+
+    module: str
+    name: str
 
 
 @dataclass(slots=True)
@@ -20,7 +27,7 @@ class NamedClasses:
     """Class names by content.
 
     Of a name that models define differently, the definition that most models share keeps the plain name; the others
-    get their models' names behind it. What another module offers under the same key is imported from there.
+    get their models' names behind it. What a library has under the same key is imported from its module.
     """
 
     register_map: RegisterMap
@@ -33,6 +40,14 @@ class NamedClasses:
 
     def __post_init__(self) -> None:
         self.taken = taken(self.register_map)
+
+    def collect_all(self) -> None:
+        """Note all classes that the map needs."""
+        found = [(one, model.name) for model in self.register_map.models for one in _registers(model.members)]
+        for register, model in found:
+            self.collect(register, model)
+        for register, model in found:
+            self.collect_words(register, model)
 
     def declare(self, enum: Enum, owner: str) -> None:
         """Note an enum that stands for itself."""
@@ -73,6 +88,14 @@ class NamedClasses:
         if model not in models:
             models.append(model)
         self.bodies.setdefault(content, body)
+
+    def offered_by(self, module: str) -> dict[str, Origin]:
+        """What a module with these classes offers to others, by key."""
+        return {
+            self.keys[content]: Origin(module, self.name(wanted, content))
+            for wanted, variants in self.wanted.items()
+            for content in variants
+        }
 
     @property
     def imported(self) -> frozenset[str]:
@@ -120,6 +143,14 @@ class NamedClasses:
             return call("Bit", str(part.low), literal(part.label))
         kind = self.name(part.enum.id, enum_content(part.enum)) if part.enum else "int"
         return call("Field", str(part.low), str(part.high), kind, literal(part.label))
+
+
+def _registers(members: Sequence[Register | Array]) -> list[Register]:
+    return [
+        register
+        for member in members
+        for register in (_registers(member.members) if isinstance(member, Array) else [member])
+    ]
 
 
 def enum_content(enum: Enum) -> Content:

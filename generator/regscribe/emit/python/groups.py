@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping
 from regscribe.emit.python.formatting import call, lay
 from regscribe.emit.python.literals import literal
 from regscribe.emit.words import one_line
-from regscribe.model import Group, Model, RegisterMap
+from regscribe.model import Group, RegisterMap
 
 Content = Mapping[str, tuple[str, tuple[str, ...], int | None]]
 """Title, members and place in the write order of each group by its id.
@@ -41,33 +41,15 @@ def _merged(orders: Iterable[Iterable[str]]) -> list[str]:
     return list(merged)
 
 
-def same_groups(base: Content, own: Content, register_map: RegisterMap) -> set[str]:
-    """The groups of `base` that are good for a map as they stand: each model finds its own members and no others.
-
-    Their order is that of the base, whose models also have one order between them.
-    """
-    return {
-        name
-        for name, (title, members, order) in base.items()
-        if (own[name][0], own[name][2]) == (title, order)
-        and all(_fits(name, members, model) for model in register_map.models)
-    }
-
-
-def _fits(name: str, members: tuple[str, ...], model: Model) -> bool:
-    present = {member.id for member in model.members}
-    own = [_first_parts(group) for group in model.groups if group.id == name]
-    return present.intersection(members) == set(own[0] if own else ())
-
-
 def _first_parts(group: Group) -> dict[str, None]:
     return dict.fromkeys(path.split("[")[0] for path in group.members)
 
 
-def groups_body(groups: Content) -> list[str]:
-    """The declarations."""
+def groups_body(groups: Content, homes: Mapping[str, str]) -> list[str]:
+    """The declarations; `homes` are the classes that declare the members."""
     body: list[str] = []
     for name, (title, members, order) in groups.items():
         place = None if order is None else str(order)
-        body += lay(call("Group", literal(title), *map(literal, members), order=place), head=f"{name} = ", depth=1)
+        declared = (f"{homes[member]}.{member}" for member in members)
+        body += lay(call("Group", literal(title), *declared, order=place), head=f"{name} = ", depth=1)
     return body

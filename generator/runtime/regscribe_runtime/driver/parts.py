@@ -2,7 +2,7 @@
 
 from collections.abc import Awaitable, Callable, Iterator, Mapping
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, Self, TypeVar, overload
+from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar, overload
 
 from regscribe_runtime.operations import tasks
 from regscribe_runtime.operations.snapshot import Snapshot
@@ -30,12 +30,9 @@ class Catalogue:
         cached: Mapping[str, Register[Any]] | None = vars(owner).get("_catalogue")
         if cached is None:
             found = sorted(_registers(owner), key=_place(owner))
-            cached = MappingProxyType({path: self._made(register, owner) for path, register in found})
+            cached = MappingProxyType({path: register.closed() if self.whole else register for path, register in found})
             owner._catalogue = cached  # type: ignore[attr-defined] # noqa: SLF001 (its own cache)
         return cached
-
-    def _made(self, register: Register[Any], owner: type) -> Register[Any]:
-        return (register.closed() if self.whole else register).cited(owner)
 
 
 def _place(owner: type) -> Callable[[tuple[str, object]], int]:
@@ -93,7 +90,7 @@ def _here(part: "Part | AsyncPart", register: Register[T]) -> Register[T]:
     """A register as the device has it that this part belongs to."""
     if part._prefix:  # noqa: SLF001 (parts are one family)
         return _everything(part)[f"{part._prefix}.{register.id}"]  # noqa: SLF001 (as above)
-    return register.seen(type(part)) if part._sections else register  # noqa: SLF001 (as above)
+    return register
 
 
 def _placed(part: "Part | AsyncPart") -> dict[str, Register[Any]]:
@@ -110,14 +107,9 @@ def _everything(part: "Part | AsyncPart") -> Mapping[str, Register[Any]]:
 
 
 class Part:
-    """A place of registers in a synchronous driver: the device, an array element, its commands.
-
-    `_sections` has, for the module of a sibling's driver that registers are inherited from, the chapters of its manual
-    that have another number in the manual of this device.
-    """
+    """A place of registers in a synchronous driver: the device, an array element, its commands."""
 
     registers = Catalogue()
-    _sections: ClassVar[Mapping[str, Mapping[str, str]]] = {}
     _device: "BareDevice"
     _prefix = ""
 
@@ -145,7 +137,6 @@ class AsyncPart:
     """As `Part`, for asyncio."""
 
     registers = Catalogue()
-    _sections: ClassVar[Mapping[str, Mapping[str, str]]] = {}
     _device: "AsyncBareDevice"
     _prefix = ""
 
@@ -290,13 +281,15 @@ class SubPart(Generic[P, A]):
 
 
 class Group:
-    """A named, ordered set of registers: ids, or ids of arrays for all that is in them.
+    """A named, ordered set of registers and arrays; an array stands for all that is in it.
 
-    `order` is its place when a whole configuration is written (None: the manual gives none).
+    A model whose register of the same id is another one has that in the group. `order` is the group's place when a
+    whole configuration is written (None: the manual gives none).
     """
 
-    def __init__(self, name: str, *members: str, order: int | None = None) -> None:
-        self.name, self.members, self.order = name, members, order
+    def __init__(self, name: str, *members: Register[Any] | Array[Any, Any], order: int | None = None) -> None:
+        self.name, self.order = name, order
+        self.members = tuple(member.id for member in members)
         self.id = ""
 
     def __set_name__(self, owner: type, name: str) -> None:

@@ -12,7 +12,6 @@ from regscribe_runtime.driver.attributes import (
     ReadWritable,
     WritableAttribute,
 )
-from regscribe_runtime.driver.section import renumbered
 from regscribe_runtime.errors import ValueRefused
 from regscribe_runtime.registers import codec, element
 from regscribe_runtime.registers.value_types import ValueType
@@ -85,11 +84,10 @@ class Register(Generic[T]):
         self.writable, self.persistence = writable, persistence
         self.unlock, self.apply, self.danger = unlock, apply, danger
         self.stays, self.governs, self.settle, self.rescales = stays, governs, settle, rescales
-        self.id = self.path = self.home = ""
+        self.id = self.path = ""
 
     def __set_name__(self, owner: type, name: str) -> None:
         self.id = self.path = name
-        self.home = owner.__module__
 
     def __set__(self, instance: object, value: Never) -> None:
         message = f"{self.path} is a register: use .write(...) to change it"
@@ -97,14 +95,6 @@ class Register(Generic[T]):
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.path} at {self.at}: {self.kind}>"
-
-    def told(self, home: str, *, section: str | None, persistence: str | None) -> Self:
-        """The same register in the module `home`, which tells of it what is given here."""
-        other = self._copy()
-        other.home = home
-        other.section = self.section if section is None else section
-        other.persistence = self.persistence if persistence is None else persistence
-        return other
 
     def _copy(self) -> Self:
         # copy.copy goes through the protocol of pickle, which takes five times as long
@@ -135,22 +125,6 @@ class Register(Generic[T]):
             setattr(other, name, element.closed(getattr(self, name), self.path))
         other.is_open = False
         return other
-
-    def cited(self, owner: type) -> Self:
-        """The same register for a device `owner` that inherits it: its section as the manual of `owner` numbers it."""
-        chapters = getattr(owner, "_sections", {}).get(self.home)
-        if not chapters:
-            return self
-        other = self._copy()
-        other.section = renumbered(self.section, chapters)
-        return other
-
-    def seen(self, owner: type) -> Self:
-        """This register as an attribute of the class `owner`: always the one in its catalogue."""
-        if not getattr(owner, "_sections", None):
-            return self
-        found: Self = getattr(owner, "registers", {}).get(self.id, self)
-        return found
 
     @property
     def is_configuration(self) -> bool:
@@ -255,7 +229,7 @@ class ReadOnly(Register[T]):
     def __get__(self, instance: "AsyncPart", owner: type) -> AsyncReadable[T]: ...
     def __get__(self, instance: "Part | AsyncPart | None", owner: type) -> "Self | Readable[T] | AsyncReadable[T]":
         if instance is None:
-            return self.seen(owner)
+            return self
         return cast("Readable[T]", instance.bind(self, Readable, AsyncReadable))
 
 
@@ -274,7 +248,7 @@ class ReadWrite(Register[T]):
         self, instance: "Part | AsyncPart | None", owner: type
     ) -> "Self | ReadWritable[T] | AsyncReadWritable[T]":
         if instance is None:
-            return self.seen(owner)
+            return self
         return cast("ReadWritable[T]", instance.bind(self, ReadWritable, AsyncReadWritable))
 
 
@@ -293,5 +267,5 @@ class WriteOnly(Register[T]):
         self, instance: "Part | AsyncPart | None", owner: type
     ) -> "Self | WritableAttribute[T] | AsyncWritable[T]":
         if instance is None:
-            return self.seen(owner)
+            return self
         return cast("WritableAttribute[T]", instance.bind(self, WritableAttribute, AsyncWritable))
