@@ -117,13 +117,13 @@ _COIL_BIT = (View("base", WireType.BIT, space=Space.COIL),)
 _STATUS_UINT8 = (View("base", WireType.UINT8, space=Space.STATUS),)
 _INT16 = word(WireType.INT16)
 _MANUAL_MODE = (Is("auto_man", ((1, 1),)),)
-_WRITABLE = (_MANUAL_MODE, "the output can be written in manual mode only")
+_MAIN_OUTPUT_WRITABLE = (_MANUAL_MODE, "the output can be written in manual mode only")
 # value of the stored x: x/10
-_SCALE = (((), Conversion(multiply="0.1")),)
-_DANGER = "the controller answers at the new address from now on"
-_DANGER_2 = "the controller counts all addresses one higher (JBUS) or lower (Modbus) from now on"
-_GOVERNS = Governs("addressing", codes={0: "modbus", 1: "jbus"})
-_DANGER_3 = "the controller answers at the new speed from now on"
+_PROPORTIONAL_BAND_SCALE = (((), Conversion(multiply="0.1")),)
+_SERIAL_ADDRESS_DANGER = "the controller answers at the new address from now on"
+_COMMUNICATION_PROTOCOL_DANGER = "the controller counts all addresses one higher (JBUS) or lower (Modbus) from now on"
+_COMMUNICATION_PROTOCOL_GOVERNS = Governs("addressing", codes={0: "modbus", 1: "jbus"})
+_BAUD_RATE_DANGER = "the controller answers at the new speed from now on"
 _STRING = (View("base", WireType.STRING, words=2, byte_order=Order.LITTLE),)
 # addresses that read as 0
 _UNUSED = (
@@ -437,11 +437,11 @@ class _Alarm:
     """Registers of M5000."""
 
     output = ReadWrite(127, _INT16, choice(AlarmOutput), section="10.4")
-    """AL{i} alarm output (A{i}.Ou): read and write; 10.4."""
+    """AL{i} alarm output (A{i}.Ou): 10.4."""
     latching = ReadWrite(128, _INT16, choice(NoYes), section="10.4")
-    """AL{i} alarm latching (Ltch): read and write; 10.4."""
+    """AL{i} alarm latching (Ltch): 10.4."""
     blocking = ReadWrite(129, _INT16, choice(NoYes), section="10.4")
-    """AL{i} alarm blocking (bLoc): read and write; 10.4."""
+    """AL{i} alarm blocking (bLoc): 10.4."""
 
 
 class Alarm(_Alarm, Part):
@@ -456,11 +456,11 @@ class _Segment:
     """Registers of M5000."""
 
     time = ReadWrite(154, _INT16, raw, section="10.5")
-    """Segment {i} - Time (ti. {i}): read and write; 10.5."""
+    """Segment {i} - Time (ti. {i}): 10.5."""
     setpoint = ReadWrite(155, _INT16, raw, section="10.5")
-    """Segment {i} - Setpoint (S.P. {i}): read and write; 10.5."""
+    """Segment {i} - Setpoint (S.P. {i}): 10.5."""
     digital_output = ReadWrite(156, _INT16, choice(SegmentOutput), section="10.5")
-    """Segment {i} digital output (dO. {i}): read and write; 10.5."""
+    """Segment {i} digital output (dO. {i}): 10.5."""
 
 
 class Segment(_Segment, Part):
@@ -475,270 +475,256 @@ class _PlatinumM5000:
     """Registers of M5000."""
 
     remote_status = ReadWrite(0, _COIL_BIT, choice(RemoteStatus), section="10.1", stays="operation")
-    """Remote status: read and write; 10.1."""
     auto_man = ReadWrite(1, _COIL_BIT, choice(AutoMan), section="10.1", stays="operation")
-    """Auto/Man: read and write; 10.1."""
     al3_alarm_status = ReadOnly(2, _COIL_BIT, choice(OffOn), section="10.1")
-    """AL3 alarm status: read only; 10.1."""
     al4_alarm_status = ReadOnly(3, _COIL_BIT, choice(OffOn), section="10.1")
-    """AL4 alarm status: read only; 10.1."""
     al1_alarm_status = ReadOnly(4, _COIL_BIT, choice(OffOn), section="10.1")
-    """AL1 alarm status: read only; 10.1."""
     al2_alarm_status = ReadOnly(5, _COIL_BIT, choice(OffOn), section="10.1")
-    """AL2 alarm status: read only; 10.1."""
     out_of_range = ReadOnly(6, _COIL_BIT, choice(RangeState), section="10.1")
-    """Out of range: read only; 10.1."""
     self_tuning = ReadOnly(7, _COIL_BIT, choice(DisabledRun), section="10.1")
-    """Self Tuning: read only; 10.1."""
     out_of_range_9 = ReadOnly(9, _COIL_BIT, choice(RangeState), section="10.1")
-    """Out of range: read only; 10.1."""
+    """Out of range: 10.1."""
     first_stored_setpoint_in_use = ReadWrite(12, _COIL_BIT, boolean, section="10.1", stays="operation")
-    """1st Stored setpoint: read and write; 10.1."""
+    """1st Stored setpoint: 10.1."""
     second_stored_setpoint_in_use = ReadWrite(13, _COIL_BIT, boolean, section="10.1", stays="operation")
-    """2nd Stored setpoint: read and write; 10.1."""
+    """2nd Stored setpoint: 10.1."""
     il1_digital_input_status = ReadOnly(16, _COIL_BIT, choice(OffOn), section="10.1")
-    """IL1 Digital input status: read only; 10.1."""
     il2_digital_input_status = ReadOnly(17, _COIL_BIT, choice(OffOn), section="10.1")
-    """IL2 Digital input status: read only; 10.1."""
     keys_enable = ReadWrite(20, _COIL_BIT, choice(KeysEnable), section="10.1", stays="operation")
-    """Keys enable: read and write; 10.1."""
     slope_enable = ReadWrite(21, _COIL_BIT, choice(DisabledEnabled), section="10.1", stays="operation")
-    """Slope enable: read and write; 10.1."""
     hold_pv = ReadWrite(22, _COIL_BIT, choice(DisabledEnabled), section="10.1", stays="operation")
-    """Hold PV: read and write; 10.1."""
     op1_forced_status_by_serial_comm_s = ReadWrite(23, _COIL_BIT, choice(OffOnWords), section="10.1", stays="operation")
-    """OP1 forced status by serial comm.s: read and write; 10.1."""
     op2_forced_status_by_serial_comm_s = ReadWrite(24, _COIL_BIT, choice(OffOnWords), section="10.1", stays="operation")
-    """OP2 forced status by serial comm.s: read and write; 10.1."""
     op3_forced_status_by_serial_comm_s = ReadWrite(25, _COIL_BIT, choice(OffOnWords), section="10.1", stays="operation")
-    """OP3 forced status by serial comm.s: read and write; 10.1."""
     op4_forced_status_by_serial_comm_s = ReadWrite(26, _COIL_BIT, choice(OffOnWords), section="10.1", stays="operation")
-    """OP4 (logic) forced status by serial comm.s: read and write; 10.1."""
+    """OP4 (logic) forced status by serial comm.s: 10.1."""
     status = ReadOnly(0, _STATUS_UINT8, flags(Status), section="10.2")
-    """Read Status: read only; 10.2."""
+    """Read Status: 10.2."""
     process_variable = ReadOnly(0, _INT16, raw, section="10.3")
-    """PV Process variable: read only; 10.3."""
+    """PV Process variable: 10.3."""
     setpoint = ReadOnly(1, _INT16, raw, section="10.3")
-    """SP Setpoint: read only; 10.3."""
-    main_output = ReadWrite(2, _INT16, raw, section="10.3", writable=_WRITABLE, stays="operation")
-    """MV Main output: read and write; 10.3."""
+    """SP Setpoint: 10.3."""
+    main_output = ReadWrite(2, _INT16, raw, section="10.3", writable=_MAIN_OUTPUT_WRITABLE, stays="operation")
+    """MV Main output: 10.3."""
     local_setpoint_3 = ReadWrite(3, _INT16, raw, section="10.3")
-    """SPT Target setpoint: read and write; 10.3."""
+    """SPT Target setpoint: 10.3."""
     local_setpoint = ReadWrite(4, _INT16, raw, section="10.3")
-    """SPL Local setpoint: read and write; 10.3."""
-    proportional_band = ReadWrite(5, _INT16, number, scale=_SCALE, section="10.3")
-    """Proportional Band (Hysteresis ON - OFF) (P.b. (hy.)): read and write; 10.3."""
+    """SPL Local setpoint: 10.3."""
+    proportional_band = ReadWrite(5, _INT16, number, scale=_PROPORTIONAL_BAND_SCALE, section="10.3")
+    """Proportional Band (Hysteresis ON - OFF) (P.b. (hy.)): 10.3."""
     overshoot_control = ReadWrite(6, _INT16, raw, section="10.3")
-    """Overshoot Control (O.C.): read and write; 10.3."""
+    """Overshoot Control (O.C.): 10.3."""
     integral_time = ReadWrite(7, _INT16, raw, section="10.3")
-    """Integral time (t.i.): read and write; 10.3."""
+    """Integral time (t.i.): 10.3."""
     derivative_time = ReadWrite(8, _INT16, raw, section="10.3")
-    """Derivative time (t.d.): read and write; 10.3."""
+    """Derivative time (t.d.): 10.3."""
     cycle_time = ReadWrite(9, _INT16, raw, section="10.3")
-    """Cycle time (t.c.): read and write; 10.3."""
+    """Cycle time (t.c.): 10.3."""
     low_range = ReadWrite(10, _INT16, raw, section="10.3")
-    """Low range (Sc.Lo): read and write; 10.3."""
+    """Low range (Sc.Lo): 10.3."""
     high_range = ReadWrite(11, _INT16, raw, section="10.3")
-    """High range (Sc.Hi): read and write; 10.3."""
+    """High range (Sc.Hi): 10.3."""
     al1_alarm_threshold = ReadWrite(12, _INT16, raw, section="10.3")
-    """AL1 alarm threshold (1***): read and write; 10.3."""
+    """AL1 alarm threshold (1***): 10.3."""
     al2_alarm_threshold = ReadWrite(13, _INT16, raw, section="10.3")
-    """AL2 alarm threshold (2***): read and write; 10.3."""
+    """AL2 alarm threshold (2***): 10.3."""
     al3_alarm_threshold = ReadWrite(14, _INT16, raw, section="10.3")
-    """AL3 alarm threshold (3***): read and write; 10.3."""
+    """AL3 alarm threshold (3***): 10.3."""
     al4_alarm_threshold = ReadWrite(15, _INT16, raw, section="10.3")
-    """AL4 alarm threshold (4***): read and write; 10.3."""
+    """AL4 alarm threshold (4***): 10.3."""
     al1_alarm_hysteresis_up = ReadWrite(16, _INT16, raw, section="10.3")
-    """AL1 alarm hysteresis Up (hy.1u): read and write; 10.3."""
+    """AL1 alarm hysteresis Up (hy.1u): 10.3."""
     al1_alarm_hysteresis_down = ReadWrite(17, _INT16, raw, section="10.3")
-    """AL1 alarm hysteresis Down (hy.1d): read and write; 10.3."""
+    """AL1 alarm hysteresis Down (hy.1d): 10.3."""
     al2_alarm_hysteresis_up = ReadWrite(18, _INT16, raw, section="10.3")
-    """AL2 alarm hysteresis Up (hy.2u): read and write; 10.3."""
+    """AL2 alarm hysteresis Up (hy.2u): 10.3."""
     al2_alarm_hysteresis_down = ReadWrite(19, _INT16, raw, section="10.3")
-    """AL2 alarm hysteresis Down (hy.2d): read and write; 10.3."""
+    """AL2 alarm hysteresis Down (hy.2d): 10.3."""
     al3_alarm_hysteresis_up = ReadWrite(20, _INT16, raw, section="10.3")
-    """AL3 alarm hysteresis Up (hy.3u): read and write; 10.3."""
+    """AL3 alarm hysteresis Up (hy.3u): 10.3."""
     al3_alarm_hysteresis_down = ReadWrite(21, _INT16, raw, section="10.3")
-    """AL3 alarm hysteresis Down (hy.3d): read and write; 10.3."""
+    """AL3 alarm hysteresis Down (hy.3d): 10.3."""
     al4_alarm_hysteresis_up = ReadWrite(22, _INT16, raw, section="10.3")
-    """AL4 alarm hysteresis Up (hy.4u): read and write; 10.3."""
+    """AL4 alarm hysteresis Up (hy.4u): 10.3."""
     al4_alarm_hysteresis_down = ReadWrite(23, _INT16, raw, section="10.3")
-    """AL4 alarm hysteresis Down (hy.4d): read and write; 10.3."""
+    """AL4 alarm hysteresis Down (hy.4d): 10.3."""
     heat_cool_proportional_band = ReadWrite(24, _INT16, raw, section="10.3")
-    """Heat/cool proportional band (P.b. C): read and write; 10.3."""
+    """Heat/cool proportional band (P.b. C): 10.3."""
     heat_cool_integral_time = ReadWrite(25, _INT16, raw, section="10.3")
-    """Heat/cool integral time (t.i. C): read and write; 10.3."""
+    """Heat/cool integral time (t.i. C): 10.3."""
     heat_cool_derivative_time = ReadWrite(26, _INT16, raw, section="10.3")
-    """Heat/cool derivative time (t.d. C): read and write; 10.3."""
+    """Heat/cool derivative time (t.d. C): 10.3."""
     cool_output_cycling_time = ReadWrite(27, _INT16, raw, section="10.3")
-    """Cool output cycling time (t.c. C): read and write; 10.3."""
+    """Cool output cycling time (t.c. C): 10.3."""
     output_minimum_step = ReadWrite(28, _INT16, raw, section="10.3")
-    """Output minimum step (MU.Hy): read and write; 10.3."""
+    """Output minimum step (MU.Hy): 10.3."""
     setpoint_low_limit = ReadWrite(29, _INT16, raw, section="10.3")
-    """Setpoint low limit (S.P. L): read and write; 10.3."""
+    """Setpoint low limit (S.P. L): 10.3."""
     setpoint_high_limit = ReadWrite(30, _INT16, raw, section="10.3")
-    """Setpoint high limit (S.P. H): read and write; 10.3."""
+    """Setpoint high limit (S.P. H): 10.3."""
     main_output_low_limit = ReadWrite(31, _INT16, raw, section="10.3")
-    """Main output low limit (OP. L): read and write; 10.3."""
+    """Main output low limit (OP. L): 10.3."""
     main_output_high_limit = ReadWrite(32, _INT16, raw, section="10.3")
-    """Main output high limit (OP. H): read and write; 10.3."""
+    """Main output high limit (OP. H): 10.3."""
     cool_output_maximum_value = ReadWrite(33, _INT16, raw, section="10.3")
-    """Cool output maximum value (OP.C.H): read and write; 10.3."""
+    """Cool output maximum value (OP.C.H): 10.3."""
     setpoint_ramp_up = ReadWrite(34, _INT16, raw, section="10.3")
-    """Setpoint ramp up (Sl. u): read and write; 10.3."""
+    """Setpoint ramp up (Sl. u): 10.3."""
     setpoint_ramp_down = ReadWrite(35, _INT16, raw, section="10.3")
-    """Setpoint ramp down (Sl. d): read and write; 10.3."""
+    """Setpoint ramp down (Sl. d): 10.3."""
     input_filter = ReadWrite(36, _INT16, raw, section="10.3")
-    """Input filter (t.FiL): read and write; 10.3."""
+    """Input filter (t.FiL): 10.3."""
     input_shift = ReadWrite(37, _INT16, raw, section="10.3")
-    """Input shift (In.Sh): read and write; 10.3."""
+    """Input shift (In.Sh): 10.3."""
     one_shot_tuning = ReadWrite(38, _INT16, choice(StopRun), section="10.3", stays="operation")
-    """Start/Stop One shot tuning (tune): read and write; 10.3."""
+    """Start/Stop One shot tuning (tune): 10.3."""
     adaptive_tuning = ReadWrite(39, _INT16, choice(StopRun), section="10.3", stays="operation")
-    """Start/Stop Adaptive (AdPt): read and write; 10.3."""
+    """Start/Stop Adaptive (AdPt): 10.3."""
     serial_address = ReadWrite(
         40,
         _INT16,
         integer,
         range=within(1, 247),
         section="10.3",
-        danger=_DANGER,
+        danger=_SERIAL_ADDRESS_DANGER,
         stays="address",
         governs=Governs("address"),
     )
-    """Serial comm.s address (Addr): 1 to 247; read and write; 10.3."""
+    """Serial comm.s address (Addr): 1 to 247; 10.3."""
     communication_protocol = ReadWrite(
-        41, _INT16, choice(CommunicationsProtocol), section="10.3", danger=_DANGER_2, stays="line", governs=_GOVERNS
+        41,
+        _INT16,
+        choice(CommunicationsProtocol),
+        section="10.3",
+        danger=_COMMUNICATION_PROTOCOL_DANGER,
+        stays="line",
+        governs=_COMMUNICATION_PROTOCOL_GOVERNS,
     )
-    """Communication protocol (Prot): read and write; 10.3."""
-    baud_rate = ReadWrite(42, _INT16, integer, section="10.3", danger=_DANGER_3, stays="line", governs=Governs("baud"))
-    """Baud rate (baud): read and write; 10.3."""
+    """Communication protocol (Prot): 10.3."""
+    baud_rate = ReadWrite(
+        42, _INT16, integer, section="10.3", danger=_BAUD_RATE_DANGER, stays="line", governs=Governs("baud")
+    )
+    """Baud rate (baud): 10.3."""
     remote_setpoint = ReadWrite(43, _INT16, raw, section="10.3", stays="operation")
-    """Remote setpoint: read and write; 10.3."""
     soft_start_time = ReadWrite(44, _INT16, raw, section="10.3")
-    """Soft start time (St.tM): read and write; 10.3."""
+    """Soft start time (St.tM): 10.3."""
     soft_start_output_high_limit = ReadWrite(45, _INT16, raw, section="10.3")
-    """Soft start output high limit (St.OP): read and write; 10.3."""
+    """Soft start output high limit (St.OP): 10.3."""
     control_output_maximum_speed = ReadWrite(46, _INT16, raw, section="10.3")
-    """Control output maximum speed (OP.r): read and write; 10.3."""
+    """Control output maximum speed (OP.r): 10.3."""
     cool_output_maximum_speed = ReadWrite(47, _INT16, raw, section="10.3")
-    """Cool output maximum speed (OP.rC): read and write; 10.3."""
+    """Cool output maximum speed (OP.rC): 10.3."""
     ct_current = ReadOnly(48, _INT16, raw, section="10.3")
-    """CT current (t.Cur): read only; 10.3."""
+    """CT current (t.Cur): 10.3."""
     sampling_time = ReadWrite(49, _INT16, raw, section="10.3")
-    """Sampling time (t.San): read and write; 10.3."""
+    """Sampling time (t.San): 10.3."""
     manual_reset = ReadWrite(50, _INT16, raw, section="10.3")
-    """Manual Reset (M.reS): read and write; 10.3."""
+    """Manual Reset (M.reS): 10.3."""
     configuration_password = ReadWrite(51, _INT16, integer, section="10.3")
-    """Configuration password (C.PASS): read and write; 10.3."""
+    """Configuration password (C.PASS): 10.3."""
     internal_servomotor_position = ReadOnly(52, _INT16, raw, section="10.3")
-    """Internal servomotor position: read only; 10.3."""
     heat_cool_dead_band = ReadWrite(53, _INT16, raw, section="10.3")
-    """Heat/Cool dead band (d.bnd): read and write; 10.3."""
+    """Heat/Cool dead band (d.bnd): 10.3."""
     access_password = ReadWrite(54, _INT16, integer, section="10.3")
-    """Access password (PASS): read and write; 10.3."""
+    """Access password (PASS): 10.3."""
     adaptive_proportional_band = ReadOnly(55, _INT16, raw, section="10.3")
-    """Proportional band (Adaptive) (P.b.): read only; 10.3."""
+    """Proportional band (Adaptive) (P.b.): 10.3."""
     adaptive_integral_time = ReadOnly(56, _INT16, raw, section="10.3")
-    """Integral time (Adaptive) (t.i.): read only; 10.3."""
+    """Integral time (Adaptive) (t.i.): 10.3."""
     first_stored_setpoint = ReadWrite(57, _INT16, raw, section="10.3")
-    """1st stored setpoint (S.P. 1): read and write; 10.3."""
+    """1st stored setpoint (S.P. 1): 10.3."""
     second_stored_setpoint = ReadWrite(58, _INT16, raw, section="10.3")
-    """2nd stored setpoint (S.P. 2): read and write; 10.3."""
+    """2nd stored setpoint (S.P. 2): 10.3."""
     remote_setpoint_bias = ReadWrite(59, _INT16, raw, section="10.3")
-    """Remote setpoint bias (biaS): read and write; 10.3."""
+    """Remote setpoint bias (biaS): 10.3."""
     remote_setpoint_ratio = ReadWrite(60, _INT16, raw, section="10.3")
-    """Remote setpoint ratio (rtio): read and write; 10.3."""
+    """Remote setpoint ratio (rtio): 10.3."""
     motor_travel_time = ReadWrite(61, _INT16, raw, section="10.3")
-    """Motor travel time (MU.tM): read and write; 10.3."""
+    """Motor travel time (MU.tM): 10.3."""
     target_setpoint = ReadOnly(62, _INT16, raw, section="10.3")
-    """Target setpoint (t.S.P.): read only; 10.3."""
+    """Target setpoint (t.S.P.): 10.3."""
     pid_dead_band = ReadWrite(63, _INT16, raw, section="10.3")
-    """PID Dead Band (d.Err): read and write; 10.3."""
+    """PID Dead Band (d.Err): 10.3."""
     input_configuration = ReadWrite(100, _INT16, choice(InputType), section="10.4")
-    """Input configuration (In P.): read and write; 10.4."""
+    """Input configuration (In P.): 10.4."""
     square_root = ReadWrite(101, _INT16, choice(NoYes), section="10.4")
-    """Square root (Sqr): read and write; 10.4."""
+    """Square root (Sqr): 10.4."""
     decimal_point = ReadWrite(102, _INT16, integer, range=within(0, 3), section="10.4")
-    """Decimal point (Sc.d.d): 0 to 3; read and write; 10.4."""
+    """Decimal point (Sc.d.d): 0 to 3; 10.4."""
     low_range_for_engineering_units = ReadWrite(103, _INT16, raw, section="10.4")
-    """Low range for engineering units (Sc.Lo): read and write; 10.4."""
+    """Low range for engineering units (Sc.Lo): 10.4."""
     high_range_for_engineering_units = ReadWrite(104, _INT16, raw, section="10.4")
-    """High range for engineering units (Sc.Hi): read and write; 10.4."""
+    """High range for engineering units (Sc.Hi): 10.4."""
     engineering_units = ReadWrite(105, _INT16, choice(UnitOfInput), section="10.4")
-    """Engineering units (Unit): read and write; 10.4."""
+    """Engineering units (Unit): 10.4."""
     control_type = ReadWrite(106, _INT16, choice(ControlMode), section="10.4")
-    """Control type (O1ty): read and write; 10.4."""
+    """Control type (O1ty): 10.4."""
     op_output_type = ReadWrite(107, _INT16, choice(OutputType), section="10.4")
-    """OP output type (OP.1): read and write; 10.4."""
+    """OP output type (OP.1): 10.4."""
     cool_output_type = ReadWrite(108, _INT16, choice(OutputType), section="10.4")
-    """Cool output type (OP.2): read and write; 10.4."""
+    """Cool output type (OP.2): 10.4."""
     retransmission_type = ReadWrite(109, _INT16, choice(RetransmissionType), section="10.4")
-    """Retransmission type (rtH): read and write; 10.4."""
+    """Retransmission type (rtH): 10.4."""
     retransmission_output = ReadWrite(110, _INT16, choice(RetransmissionOutput), section="10.4")
-    """Retransmission output (O.r.ty): read and write; 10.4."""
+    """Retransmission output (O.r.ty): 10.4."""
     retransmission_low_range = ReadWrite(111, _INT16, raw, section="10.4")
-    """Retransmission low range (rt.Lo): read and write; 10.4."""
+    """Retransmission low range (rt.Lo): 10.4."""
     retransmission_high_range = ReadWrite(112, _INT16, raw, section="10.4")
-    """Retransmission high range (rt.Hi): read and write; 10.4."""
+    """Retransmission high range (rt.Hi): 10.4."""
     auto_man_enable = ReadWrite(113, _INT16, integer, section="10.4")
-    """Auto/Man enable (E.AMn): read and write; 10.4."""
+    """Auto/Man enable (E.AMn): 10.4."""
     remote_input_configuration = ReadWrite(114, _INT16, choice(RemoteInputConfiguration), section="10.4")
-    """Remote input configuration (rS.In): read and write; 10.4."""
+    """Remote input configuration (rS.In): 10.4."""
     setpoint_configuration = ReadWrite(115, _INT16, choice(SetpointConfiguration), section="10.4")
-    """Setpoint configuration (rSPC): read and write; 10.4."""
+    """Setpoint configuration (rSPC): 10.4."""
     access_level = ReadWrite(117, _INT16, choice(AccessLevel), section="10.4")
-    """Access level (OPer): read and write; 10.4."""
+    """Access level (OPer): 10.4."""
     safety_output = ReadWrite(119, _INT16, integer_or(SafetyOutputSpecial), range=within(-100, 100), section="10.4")
-    """Safety output (S.Out): -100 to 100; special: 101 = OFF; read and write; 10.4."""
+    """Safety output (S.Out): -100 to 100; special: 101 = OFF; 10.4."""
     factory_code = ReadOnly(120, _INT16, integer, section="10.4")
-    """Factory code: read only; 10.4."""
     product_code = ReadOnly(121, _STRING, text, section="10.4")
-    """Product code: read only; 10.4."""
     release_code = ReadOnly(123, _STRING, text, section="10.4")
-    """Release code: read only; 10.4."""
     custom_code = ReadOnly(125, _INT16, integer, section="10.4")
-    """Custom code: read only; 10.4."""
     al1_alarm_function = ReadWrite(126, _INT16, choice(FirstAlarmFunction), section="10.4")
-    """AL1 alarm configuration (AL. 1): read and write; 10.4."""
+    """AL1 alarm configuration (AL. 1): 10.4."""
     al2_alarm_function = ReadWrite(130, _INT16, choice(AlarmFunction), section="10.4")
-    """AL2 alarm configuration (AL. 2): read and write; 10.4."""
+    """AL2 alarm configuration (AL. 2): 10.4."""
     al3_alarm_function = ReadWrite(134, _INT16, choice(AlarmFunction), section="10.4")
-    """AL3 alarm configuration (AL. 3): read and write; 10.4."""
+    """AL3 alarm configuration (AL. 3): 10.4."""
     al4_alarm_function = ReadWrite(138, _INT16, choice(AlarmFunction), section="10.4")
-    """AL4 alarm configuration (AL. 4): read and write; 10.4."""
+    """AL4 alarm configuration (AL. 4): 10.4."""
     alarms = Array(Alarm, AsyncAlarm, first=1, count=4, stride=4)
     """Alarm 1 to 4: 10.4."""
     il1_digital_input_configuration = ReadWrite(142, _INT16, choice(DigitalInputFunction), section="10.4")
-    """IL1 digital input configuration (IL1): read and write; 10.4."""
+    """IL1 digital input configuration (IL1): 10.4."""
     il2_digital_input_configuration = ReadWrite(143, _INT16, choice(DigitalInputFunction), section="10.4")
-    """IL2 digital input configuration (IL2): read and write; 10.4."""
+    """IL2 digital input configuration (IL2): 10.4."""
     setpoint_slope_unit = ReadWrite(144, _INT16, integer, section="10.4")
-    """Setpoint slope unit (S.P.tM): read and write; 10.4."""
+    """Setpoint slope unit (S.P.tM): 10.4."""
     on_status_ct_alarm_configuration = ReadWrite(145, _INT16, choice(OffOnWords), section="10.4")
-    """On status CT alarm configuration (Ht.On): read and write; 10.4."""
+    """On status CT alarm configuration (Ht.On): 10.4."""
     ct_maximum_value = ReadWrite(146, _INT16, raw, section="10.4")
-    """CT maximum value (Ht.F.S): read and write; 10.4."""
+    """CT maximum value (Ht.F.S): 10.4."""
     linearization_enable = ReadWrite(147, _INT16, choice(LinearizationEnable), section="10.4")
-    """Linearization enable (Char): read and write; 10.4."""
+    """Linearization enable (Char): 10.4."""
     program_status = ReadWrite(148, _INT16, choice(ProgramStatus), section="10.5", stays="operation")
-    """Program status (Stat): read and write; 10.5."""
+    """Program status (Stat): 10.5."""
     number_of_segments = ReadWrite(149, _INT16, integer, range=within(1, 14), section="10.5")
-    """N° of segments (n.Seg): 1 to 14; read and write; 10.5."""
+    """N° of segments (n.Seg): 1 to 14; 10.5."""
     allowed_deviation = ReadWrite(150, _INT16, raw, section="10.5")
-    """Allowed deviation (band): read and write; 10.5."""
+    """Allowed deviation (band): 10.5."""
     recover_action_after_blackout = ReadWrite(151, _INT16, choice(RecoverActionAfterBlackout), section="10.5")
-    """Recover action type after blackout: read and write; 10.5."""
+    """Recover action type after blackout: 10.5."""
     time_unit = ReadWrite(152, _INT16, choice(TimeUnit), section="10.5")
-    """Time unit (Unit): read and write; 10.5."""
+    """Time unit (Unit): 10.5."""
     cycles = ReadWrite(153, _INT16, integer_or(CyclesSpecial), range=within(0, 9999), section="10.5")
-    """Cycles (Cyc.): 0 to 9999; special: 0 = infinite cycles; read and write; 10.5."""
+    """Cycles (Cyc.): 0 to 9999; special: 0 = infinite cycles; 10.5."""
     segments = Array(Segment, AsyncSegment, first=0, count=15, stride=3)
     """Segment 0 to 14: 10.5."""
     final_setpoint = ReadWrite(199, _INT16, raw, section="10.5")
-    """Segment F - Setpoint (S.P. F): read and write; 10.5."""
+    """Segment F - Setpoint (S.P. F): 10.5."""
     final_digital_output = ReadWrite(200, _INT16, choice(SegmentOutput), section="10.5")
-    """Segment F - digital output (dO. F): read and write; 10.5."""
+    """Segment F - digital output (dO. F): 10.5."""
 
 
 class PlatinumM5000Groups:

@@ -117,12 +117,12 @@ _COIL_BIT = (View("base", WireType.BIT, space=Space.COIL),)
 _STATUS_UINT8 = (View("base", WireType.UINT8, space=Space.STATUS),)
 _INT16 = word(WireType.INT16)
 _MANUAL_MODE = (Is("auto_manual", ((1, 1),)),)
-_WRITABLE = (_MANUAL_MODE, "the output can be written in manual mode only")
+_MAIN_OUTPUT_WRITABLE = (_MANUAL_MODE, "the output can be written in manual mode only")
 # value of the stored x: x/10
-_SCALE = (((), Conversion(multiply="0.1")),)
-_DANGER = "the controller answers at the new address from now on"
-_DANGER_2 = "the controller may count all addresses one higher (JBUS) or lower (Modbus) from now on"
-_DANGER_3 = "the controller answers at the new speed from now on"
+_PROPORTIONAL_BAND_SCALE = (((), Conversion(multiply="0.1")),)
+_SLAVE_ADDRESS_DANGER = "the controller answers at the new address from now on"
+_SLAVE_PROTOCOL_DANGER = "the controller may count all addresses one higher (JBUS) or lower (Modbus) from now on"
+_SLAVE_BAUD_RATE_DANGER = "the controller answers at the new speed from now on"
 _STRING = (View("base", WireType.STRING, words=2, byte_order=Order.LITTLE),)
 # addresses that read as 0
 _UNUSED = (
@@ -458,13 +458,13 @@ class _Alarm:
     """Registers of X5000."""
 
     function = ReadWrite(126, _INT16, choice(AlarmType), section="12.4")
-    """AL{i} alarm type (AL. {i}): read and write; 12.4."""
+    """AL{i} alarm type (AL. {i}): 12.4."""
     output = ReadWrite(127, _INT16, choice(OutputAssignment), section="12.4")
-    """AL{i} addressing (A{i}.Ou): read and write; 12.4."""
+    """AL{i} addressing (A{i}.Ou): 12.4."""
     latching = ReadWrite(128, _INT16, integer, section="12.4")
-    """AL{i} alarm Latching (Ltch): read and write; 12.4."""
+    """AL{i} alarm Latching (Ltch): 12.4."""
     blocking = ReadWrite(129, _INT16, integer, section="12.4")
-    """AL{i} alarm Blocking (bLoc): read and write; 12.4."""
+    """AL{i} alarm Blocking (bLoc): 12.4."""
 
 
 class Alarm(_Alarm, Part):
@@ -479,13 +479,13 @@ class _Segment:
     """Registers of X5000."""
 
     time = ReadWrite(185, _INT16, raw, section="12.5")
-    """Prog. {i} segment {j} - Time (ti. {j}): read and write; 12.5."""
+    """Prog. {i} segment {j} - Time (ti. {j}): 12.5."""
     setpoint = ReadWrite(186, _INT16, raw, section="12.5")
-    """Prog. {i} segment {j} - Setpoint (S.P. {j}): read and write; 12.5."""
+    """Prog. {i} segment {j} - Setpoint (S.P. {j}): 12.5."""
     op3_digital_output = ReadWrite(187, _INT16, choice(SegmentOutput), section="12.5")
-    """Prog. {i} segment {j} - OP3 digital output (OP. 3): read and write; 12.5."""
+    """Prog. {i} segment {j} - OP3 digital output (OP. 3): 12.5."""
     op4_digital_output = ReadWrite(188, _INT16, choice(SegmentOutput), section="12.5")
-    """Prog. {i} segment {j} - OP4 digital output (OP. 4): read and write; 12.5."""
+    """Prog. {i} segment {j} - OP4 digital output (OP. 4): 12.5."""
 
 
 class Segment(_Segment, Part):
@@ -500,23 +500,23 @@ class _Program:
     """Registers of X5000."""
 
     power_failure = ReadWrite(180, _INT16, choice(PowerFailure), section="12.5")
-    """Prog. {i} Power Failure (FAiL): read and write; 12.5."""
+    """Prog. {i} Power Failure (FAiL): 12.5."""
     time_units = ReadWrite(181, _INT16, choice(TimeUnit), section="12.5")
-    """Prog. {i} Time units (Unit): read and write; 12.5."""
+    """Prog. {i} Time units (Unit): 12.5."""
     cycles = ReadWrite(182, _INT16, integer_or(CyclesSpecial), range=within(0, 9999), section="12.5")
-    """Prog. {i} cycles (Cyc.): 0 to 9999; special: 0 = infinite cycles; read and write; 12.5."""
+    """Prog. {i} cycles (Cyc.): 0 to 9999; special: 0 = infinite cycles; 12.5."""
     number_of_segments = ReadWrite(183, _INT16, integer, range=within(1, 14), section="12.5")
-    """Prog. {i} n° of segments (n.Seg): 1 to 14; read and write; 12.5."""
+    """Prog. {i} n° of segments (n.Seg): 1 to 14; 12.5."""
     allowed_deviation = ReadWrite(184, _INT16, raw, section="12.5")
-    """Prog. {i} Allowed deviation (band): read and write; 12.5."""
+    """Prog. {i} Allowed deviation (band): 12.5."""
     segments = Array(Segment, AsyncSegment, first=0, count=15, stride=4)
     """Segment 0 to 14: 12.5."""
     final_setpoint = ReadWrite(245, _INT16, raw, section="12.5")
-    """Prog. {i} segment F - Setpoint (S.P. F): read and write; 12.5."""
+    """Prog. {i} segment F - Setpoint (S.P. F): 12.5."""
     final_op3_digital_output = ReadWrite(246, _INT16, choice(SegmentOutput), section="12.5")
-    """Prog. {i} segment F - OP3 digital output (OP. 3): read and write; 12.5."""
+    """Prog. {i} segment F - OP3 digital output (OP. 3): 12.5."""
     final_op4_digital_output = ReadWrite(247, _INT16, choice(SegmentOutput), section="12.5")
-    """Prog. {i} segment F - OP4 digital output (OP. 4): read and write; 12.5."""
+    """Prog. {i} segment F - OP4 digital output (OP. 4): 12.5."""
 
 
 class Program(_Program, Part):
@@ -531,304 +531,277 @@ class _PlatinumX5000:
     """Registers of X5000."""
 
     remote_status = ReadWrite(0, _COIL_BIT, choice(RemoteStatus), section="12.1", stays="operation")
-    """Remote status: read and write; 12.1."""
     auto_manual = ReadWrite(1, _COIL_BIT, choice(AutoManual), section="12.1", stays="operation")
-    """Auto / Manual: read and write; 12.1."""
     al3_alarm_status = ReadOnly(2, _COIL_BIT, choice(OffOn), section="12.1")
-    """AL3 alarm status: read only; 12.1."""
     al4_alarm_status = ReadOnly(3, _COIL_BIT, choice(OffOn), section="12.1")
-    """AL4 alarm status: read only; 12.1."""
     al1_alarm_status = ReadOnly(4, _COIL_BIT, choice(OffOn), section="12.1")
-    """AL1 alarm status: read only; 12.1."""
     al2_alarm_status = ReadOnly(5, _COIL_BIT, choice(OffOn), section="12.1")
-    """AL2 alarm status: read only; 12.1."""
     out_of_range = ReadOnly(6, _COIL_BIT, choice(RangeState), section="12.1")
-    """Out of range: read only; 12.1."""
     auto_tune = ReadOnly(7, _COIL_BIT, choice(DisabledRun), section="12.1")
-    """Auto-Tune: read only; 12.1."""
     out_of_range_9 = ReadOnly(9, _COIL_BIT, choice(RangeState), section="12.1")
-    """Out of range: read only; 12.1."""
+    """Out of range: 12.1."""
     local_setpoint_in_use = ReadWrite(12, _COIL_BIT, boolean, section="12.1", stays="operation")
-    """Local stored Setpoint: read and write; 12.1."""
+    """Local stored Setpoint: 12.1."""
     first_stored_setpoint_in_use = ReadWrite(13, _COIL_BIT, boolean, section="12.1", stays="operation")
-    """1st stored Setpoint: read and write; 12.1."""
+    """1st stored Setpoint: 12.1."""
     second_stored_setpoint_in_use = ReadWrite(14, _COIL_BIT, boolean, section="12.1", stays="operation")
-    """2nd stored Setpoint: read and write; 12.1."""
+    """2nd stored Setpoint: 12.1."""
     third_stored_setpoint_in_use = ReadWrite(15, _COIL_BIT, boolean, section="12.1", stays="operation")
-    """3rd stored Setpoint: read and write; 12.1."""
+    """3rd stored Setpoint: 12.1."""
     il1_digital_input_status = ReadOnly(16, _COIL_BIT, choice(OffOn), section="12.1")
-    """IL1 Digital input status: read only; 12.1."""
     il2_digital_input_status = ReadOnly(17, _COIL_BIT, choice(OffOn), section="12.1")
-    """IL2 Digital input status: read only; 12.1."""
     il3_digital_input_status = ReadOnly(18, _COIL_BIT, choice(OffOn), section="12.1")
-    """IL3 Digital input status: read only; 12.1."""
     keypad_lock = ReadWrite(20, _COIL_BIT, choice(LockState), section="12.1", stays="operation")
-    """Keypad lock: read and write; 12.1."""
     slope_inhibition_by_serial_comm_s = ReadWrite(21, _COIL_BIT, boolean, section="12.1", stays="operation")
-    """Slope inhibition by serial comm.s: read and write; 12.1."""
     pv_hold_by_serial_comm_s = ReadWrite(22, _COIL_BIT, boolean, section="12.1", stays="operation")
-    """PV Hold by serial comm.s: read and write; 12.1."""
     op1_forced_status_by_serial_comm_s = ReadWrite(23, _COIL_BIT, choice(OffOn), section="12.1", stays="operation")
-    """OP1 forced status by serial comm.s: read and write; 12.1."""
     op2_forced_status_by_serial_comm_s = ReadWrite(24, _COIL_BIT, choice(OffOn), section="12.1", stays="operation")
-    """OP2 forced status by serial comm.s: read and write; 12.1."""
     op3_forced_status_by_serial_comm_s = ReadWrite(25, _COIL_BIT, choice(OffOn), section="12.1", stays="operation")
-    """OP3 forced status by serial comm.s: read and write; 12.1."""
     op4_forced_status_by_serial_comm_s = ReadWrite(26, _COIL_BIT, choice(OffOn), section="12.1", stays="operation")
-    """OP4 forced status by serial comm.s: read and write; 12.1."""
     op5_forced_status_by_serial_comm_s = ReadWrite(27, _COIL_BIT, choice(OffOn), section="12.1", stays="operation")
-    """OP5 (logic) forced status by serial comm.s: read and write; 12.1."""
+    """OP5 (logic) forced status by serial comm.s: 12.1."""
     output_forcing = ReadWrite(28, _COIL_BIT, boolean, section="12.1", stays="operation")
-    """Output forcing value: read and write; 12.1."""
+    """Output forcing value: 12.1."""
     program_1_run_reset_bit = ReadWrite(29, _COIL_BIT, boolean, section="12.1", stays="operation")
-    """1st Program Run/Reset: read and write; 12.1."""
+    """1st Program Run/Reset: 12.1."""
     program_2_run_reset_bit = ReadWrite(30, _COIL_BIT, boolean, section="12.1", stays="operation")
-    """2nd Program Run/Reset: read and write; 12.1."""
+    """2nd Program Run/Reset: 12.1."""
     program_3_run_reset_bit = ReadWrite(31, _COIL_BIT, boolean, section="12.1", stays="operation")
-    """3rd Program Run/Reset: read and write; 12.1."""
+    """3rd Program Run/Reset: 12.1."""
     program_4_run_reset_bit = ReadWrite(32, _COIL_BIT, boolean, section="12.1", stays="operation")
-    """4th Program Run/Reset: read and write; 12.1."""
+    """4th Program Run/Reset: 12.1."""
     status = ReadOnly(0, _STATUS_UINT8, flags(Status), section="12.2")
-    """Read Status: read only; 12.2."""
+    """Read Status: 12.2."""
     process_variable = ReadOnly(0, _INT16, raw, section="12.3")
-    """PV process variable: read only; 12.3."""
+    """PV process variable: 12.3."""
     setpoint = ReadOnly(1, _INT16, raw, section="12.3")
-    """SP Setpoint: read only; 12.3."""
-    main_output = ReadWrite(2, _INT16, raw, section="12.3", writable=_WRITABLE, stays="operation")
-    """MV Main control output: read and write; 12.3."""
+    """SP Setpoint: 12.3."""
+    main_output = ReadWrite(2, _INT16, raw, section="12.3", writable=_MAIN_OUTPUT_WRITABLE, stays="operation")
+    """MV Main control output: 12.3."""
     local_setpoint_3 = ReadWrite(3, _INT16, raw, section="12.3")
-    """SPL local Setpoint: read and write; 12.3."""
+    """SPL local Setpoint: 12.3."""
     local_setpoint = ReadWrite(4, _INT16, raw, section="12.3")
-    """SPL local Setpoint: read and write; 12.3."""
-    proportional_band = ReadWrite(5, _INT16, number, scale=_SCALE, section="12.3")
-    """Proportional band (Hysteresis ON - OFF) (P.b. (hy.)): read and write; 12.3."""
+    """SPL local Setpoint: 12.3."""
+    proportional_band = ReadWrite(5, _INT16, number, scale=_PROPORTIONAL_BAND_SCALE, section="12.3")
+    """Proportional band (Hysteresis ON - OFF) (P.b. (hy.)): 12.3."""
     overshoot_control = ReadWrite(6, _INT16, raw, section="12.3")
-    """Overshoot control (O.C.): read and write; 12.3."""
+    """Overshoot control (O.C.): 12.3."""
     integral_time = ReadWrite(7, _INT16, raw, section="12.3")
-    """Integral time (t.i.): read and write; 12.3."""
+    """Integral time (t.i.): 12.3."""
     derivative_time = ReadWrite(8, _INT16, raw, section="12.3")
-    """Derivative time (t.d.): read and write; 12.3."""
+    """Derivative time (t.d.): 12.3."""
     cycle_time = ReadWrite(9, _INT16, raw, section="12.3")
-    """Cycle time (t.c.): read and write; 12.3."""
+    """Cycle time (t.c.): 12.3."""
     low_range = ReadOnly(10, _INT16, raw, section="12.3")
-    """Low range (Sc.Lo): read only; 12.3."""
+    """Low range (Sc.Lo): 12.3."""
     high_range = ReadOnly(11, _INT16, raw, section="12.3")
-    """High range (Sc.Hi): read only; 12.3."""
+    """High range (Sc.Hi): 12.3."""
     al1_alarm_threshold = ReadWrite(12, _INT16, raw, section="12.3")
-    """AL1 alarm threshold (A1S.P): read and write; 12.3."""
+    """AL1 alarm threshold (A1S.P): 12.3."""
     al2_alarm_threshold = ReadWrite(13, _INT16, raw, section="12.3")
-    """AL2 alarm threshold (A2S.P): read and write; 12.3."""
+    """AL2 alarm threshold (A2S.P): 12.3."""
     al3_alarm_threshold = ReadWrite(14, _INT16, raw, section="12.3")
-    """AL3 alarm threshold (A3S.P): read and write; 12.3."""
+    """AL3 alarm threshold (A3S.P): 12.3."""
     al4_alarm_threshold = ReadWrite(15, _INT16, raw, section="12.3")
-    """AL4 alarm threshold (A4S.P): read and write; 12.3."""
+    """AL4 alarm threshold (A4S.P): 12.3."""
     al1_alarm_high_hysteresis = ReadWrite(16, _INT16, raw, section="12.3")
-    """AL1 alarm high hysteresis (hy.1u): read and write; 12.3."""
+    """AL1 alarm high hysteresis (hy.1u): 12.3."""
     al1_alarm_low_hysteresis = ReadWrite(17, _INT16, raw, section="12.3")
-    """AL1 alarm low hysteresis (hy.1d): read and write; 12.3."""
+    """AL1 alarm low hysteresis (hy.1d): 12.3."""
     al2_alarm_high_hysteresis = ReadWrite(18, _INT16, raw, section="12.3")
-    """AL2 alarm high hysteresis (hy.2u): read and write; 12.3."""
+    """AL2 alarm high hysteresis (hy.2u): 12.3."""
     al2_alarm_low_hysteresis = ReadWrite(19, _INT16, raw, section="12.3")
-    """AL2 alarm low hysteresis (hy.2d): read and write; 12.3."""
+    """AL2 alarm low hysteresis (hy.2d): 12.3."""
     al3_alarm_high_hysteresis = ReadWrite(20, _INT16, raw, section="12.3")
-    """AL3 alarm high hysteresis (hy.3u): read and write; 12.3."""
+    """AL3 alarm high hysteresis (hy.3u): 12.3."""
     al3_alarm_low_hysteresis = ReadWrite(21, _INT16, raw, section="12.3")
-    """AL3 alarm low hysteresis (hy.3d): read and write; 12.3."""
+    """AL3 alarm low hysteresis (hy.3d): 12.3."""
     al4_alarm_high_hysteresis = ReadWrite(22, _INT16, raw, section="12.3")
-    """AL4 alarm high hysteresis (hy.4u): read and write; 12.3."""
+    """AL4 alarm high hysteresis (hy.4u): 12.3."""
     al4_alarm_low_hysteresis = ReadWrite(23, _INT16, raw, section="12.3")
-    """AL4 alarm low hysteresis (hy.4d): read and write; 12.3."""
+    """AL4 alarm low hysteresis (hy.4d): 12.3."""
     cool_proportional_band = ReadWrite(24, _INT16, raw, section="12.3")
-    """Cool proportional band (P.b. C): read and write; 12.3."""
+    """Cool proportional band (P.b. C): 12.3."""
     cool_integral_time = ReadWrite(25, _INT16, raw, section="12.3")
-    """Cool integral time (t.i. C): read and write; 12.3."""
+    """Cool integral time (t.i. C): 12.3."""
     cool_derivative_time = ReadWrite(26, _INT16, raw, section="12.3")
-    """Cool derivative time (t.d. C): read and write; 12.3."""
+    """Cool derivative time (t.d. C): 12.3."""
     cool_cycle_time = ReadWrite(27, _INT16, raw, section="12.3")
-    """Cool cycle time (t.c. C): read and write; 12.3."""
+    """Cool cycle time (t.c. C): 12.3."""
     minimum_output_step = ReadWrite(28, _INT16, raw, section="12.3")
-    """Minimum output step (MU.Hy): read and write; 12.3."""
+    """Minimum output step (MU.Hy): 12.3."""
     setpoint_low_limit = ReadWrite(29, _INT16, raw, section="12.3")
-    """Setpoint low limit (S.P. L): read and write; 12.3."""
+    """Setpoint low limit (S.P. L): 12.3."""
     setpoint_high_limit = ReadWrite(30, _INT16, raw, section="12.3")
-    """Setpoint high limit (S.P. H): read and write; 12.3."""
+    """Setpoint high limit (S.P. H): 12.3."""
     control_output_low_limit = ReadWrite(31, _INT16, raw, section="12.3")
-    """Control output low limit (OP. L): read and write; 12.3."""
+    """Control output low limit (OP. L): 12.3."""
     control_output_high_limit = ReadWrite(32, _INT16, raw, section="12.3")
-    """Control output high limit (OP. H): read and write; 12.3."""
+    """Control output high limit (OP. H): 12.3."""
     cool_control_output_high_limit = ReadWrite(33, _INT16, raw, section="12.3")
-    """Cool control output high limit (OP.C.H): read and write; 12.3."""
+    """Cool control output high limit (OP.C.H): 12.3."""
     slope_up = ReadWrite(34, _INT16, raw, section="12.3")
-    """Slope up (Sl. u): read and write; 12.3."""
+    """Slope up (Sl. u): 12.3."""
     slope_down = ReadWrite(35, _INT16, raw, section="12.3")
-    """Slope down (Sl. d): read and write; 12.3."""
+    """Slope down (Sl. d): 12.3."""
     filter_time_constant = ReadWrite(36, _INT16, raw, section="12.3")
-    """Filter time constant (t.FiL): read and write; 12.3."""
+    """Filter time constant (t.FiL): 12.3."""
     input_shift = ReadWrite(37, _INT16, raw, section="12.3")
-    """Input Shift (In.Sh): read and write; 12.3."""
+    """Input Shift (In.Sh): 12.3."""
     tuning = ReadWrite(38, _INT16, choice(StopRun), section="12.3", stays="operation")
-    """AutoTune (tune): read and write; 12.3."""
+    """AutoTune (tune): 12.3."""
     adaptive_tuning = ReadWrite(39, _INT16, choice(StopRun), section="12.3", stays="operation")
-    """Adaptive Tune (AdPt): read and write; 12.3."""
+    """Adaptive Tune (AdPt): 12.3."""
     slave_address = ReadWrite(
         40,
         _INT16,
         integer,
         range=within(1, 247),
         section="12.3",
-        danger=_DANGER,
+        danger=_SLAVE_ADDRESS_DANGER,
         stays="address",
         governs=Governs("address"),
     )
-    """Serial comm.s SLAVE address (Add.S): 1 to 247; read and write; 12.3."""
+    """Serial comm.s SLAVE address (Add.S): 1 to 247; 12.3."""
     slave_protocol = ReadWrite(
-        41, _INT16, integer, section="12.3", danger=_DANGER_2, stays="line", governs=Governs("addressing")
+        41, _INT16, integer, section="12.3", danger=_SLAVE_PROTOCOL_DANGER, stays="line", governs=Governs("addressing")
     )
-    """Serial comm.s SLAVE protocol (Pro.S): read and write; 12.3."""
+    """Serial comm.s SLAVE protocol (Pro.S): 12.3."""
     slave_baud_rate = ReadWrite(
-        42, _INT16, integer, section="12.3", danger=_DANGER_3, stays="line", governs=Governs("baud")
+        42, _INT16, integer, section="12.3", danger=_SLAVE_BAUD_RATE_DANGER, stays="line", governs=Governs("baud")
     )
-    """SLAVE baud rate (bdr.S): read and write; 12.3."""
+    """SLAVE baud rate (bdr.S): 12.3."""
     remote_setpoint = ReadOnly(43, _INT16, raw, section="12.3")
-    """Remote Setpoint: read only; 12.3."""
     soft_start_activation_time = ReadWrite(44, _INT16, raw, section="12.3")
-    """Soft-Start activation time (St.tM): read and write; 12.3."""
+    """Soft-Start activation time (St.tM): 12.3."""
     soft_start_output_value = ReadWrite(45, _INT16, raw, section="12.3")
-    """Soft-Start output value (St.OP): read and write; 12.3."""
+    """Soft-Start output value (St.OP): 12.3."""
     control_output_maximum_speed = ReadWrite(46, _INT16, raw, section="12.3")
-    """Control output maximum speed (OP.r): read and write; 12.3."""
+    """Control output maximum speed (OP.r): 12.3."""
     cool_control_output_maximum_speed = ReadWrite(47, _INT16, raw, section="12.3")
-    """Cool Control output maximum speed (OP.rC): read and write; 12.3."""
+    """Cool Control output maximum speed (OP.rC): 12.3."""
     control_output_forcing_value = ReadWrite(48, _INT16, raw, section="12.3")
-    """Control output forcing value (F.Out): read and write; 12.3."""
+    """Control output forcing value (F.Out): 12.3."""
     sampling_time = ReadWrite(49, _INT16, raw, section="12.3")
-    """Sampling time (t.San): read and write; 12.3."""
+    """Sampling time (t.San): 12.3."""
     manual_reset = ReadWrite(50, _INT16, raw, section="12.3")
-    """Manual Reset (M.reS): read and write; 12.3."""
+    """Manual Reset (M.reS): 12.3."""
     configuration_password = ReadWrite(51, _INT16, integer, section="12.3")
-    """Configuration Password (C.PASS): read and write; 12.3."""
+    """Configuration Password (C.PASS): 12.3."""
     internal_servomotor_position = ReadOnly(52, _INT16, raw, section="12.3")
-    """Internal servomotor position: read only; 12.3."""
     dead_band = ReadWrite(53, _INT16, raw, section="12.3")
-    """Dead band (d.bnd): read and write; 12.3."""
+    """Dead band (d.bnd): 12.3."""
     password_level_access = ReadWrite(54, _INT16, integer, section="12.3")
-    """Password Level access (A.PASS): read and write; 12.3."""
+    """Password Level access (A.PASS): 12.3."""
     adaptive_proportional_band = ReadOnly(55, _INT16, raw, section="12.3")
-    """Adaptive Proportional band (P.b.): read only; 12.3."""
+    """Adaptive Proportional band (P.b.): 12.3."""
     adaptive_integral_time = ReadOnly(56, _INT16, raw, section="12.3")
-    """Adaptive Integral time (t.i.): read only; 12.3."""
+    """Adaptive Integral time (t.i.): 12.3."""
     first_stored_setpoint = ReadWrite(57, _INT16, raw, section="12.3")
-    """1st stored Setpoint (S.P. 1): read and write; 12.3."""
+    """1st stored Setpoint (S.P. 1): 12.3."""
     second_stored_setpoint = ReadWrite(58, _INT16, raw, section="12.3")
-    """2nd stored Setpoint (S.P. 2): read and write; 12.3."""
+    """2nd stored Setpoint (S.P. 2): 12.3."""
     third_stored_setpoint = ReadWrite(59, _INT16, raw, section="12.3")
-    """3rd stored Setpoint (S.P. 3): read and write; 12.3."""
+    """3rd stored Setpoint (S.P. 3): 12.3."""
     remote_setpoint_bias = ReadWrite(60, _INT16, raw, section="12.3")
-    """Remote Setpoint Bias (biaS): read and write; 12.3."""
+    """Remote Setpoint Bias (biaS): 12.3."""
     ratio_setpoint = ReadWrite(61, _INT16, raw, section="12.3")
-    """Ratio Setpoint (rtio): read and write; 12.3."""
+    """Ratio Setpoint (rtio): 12.3."""
     motor_travel_time = ReadWrite(62, _INT16, raw, section="12.3")
-    """Motor travel time (MU.tM): read and write; 12.3."""
+    """Motor travel time (MU.tM): 12.3."""
     target_setpoint = ReadOnly(63, _INT16, raw, section="12.3")
-    """SPT Target Setpoint (t.S.P.): read only; 12.3."""
+    """SPT Target Setpoint (t.S.P.): 12.3."""
     status_word = ReadOnly(64, _INT16, integer, section="12.3")
-    """Read Status: read only; 12.3."""
+    """Read Status: 12.3."""
     master_enable = ReadWrite(65, _INT16, integer, section="12.3", stays="line")
-    """MASTER enable (MaSt): read and write; 12.3."""
+    """MASTER enable (MaSt): 12.3."""
     master_baud_rate = ReadWrite(66, _INT16, integer, section="12.3", stays="line")
-    """MASTER baud rate (bdr.M): read and write; 12.3."""
+    """MASTER baud rate (bdr.M): 12.3."""
     master_protocol = ReadWrite(67, _INT16, integer, section="12.3", stays="line")
-    """Serial comm.s MASTER protocol (Pro.M): read and write; 12.3."""
+    """Serial comm.s MASTER protocol (Pro.M): 12.3."""
     profibus_dp_address = ReadWrite(68, _INT16, integer, section="12.3", stays="address")
-    """Profibus Dp address (Add.P): read and write; 12.3."""
+    """Profibus Dp address (Add.P): 12.3."""
     cold_junction_temperature = ReadOnly(69, _INT16, raw, section="12.3")
-    """Cold junction temperature (for TC only): read only; 12.3."""
+    """Cold junction temperature (for TC only): 12.3."""
     running_program_status = ReadOnly(70, _INT16, choice(ProgramStatus), section="12.3")
-    """Running program status: read only; 12.3."""
     program_selection = ReadOnly(71, _INT16, integer, section="12.3")
-    """Program selection: read only; 12.3."""
     running_program_number = ReadOnly(72, _INT16, integer, section="12.3")
-    """Running program number: read only; 12.3."""
     program_1_run_reset = ReadWrite(73, _INT16, choice(ProgramCommand), section="12.3", stays="operation")
-    """1st Program Run/Reset: read and write; 12.3."""
+    """1st Program Run/Reset: 12.3."""
     program_2_run_reset = ReadWrite(74, _INT16, choice(ProgramCommand), section="12.3", stays="operation")
-    """2nd Program Run/Reset: read and write; 12.3."""
+    """2nd Program Run/Reset: 12.3."""
     program_3_run_reset = ReadWrite(75, _INT16, choice(ProgramCommand), section="12.3", stays="operation")
-    """3rd Program Run/Reset: read and write; 12.3."""
+    """3rd Program Run/Reset: 12.3."""
     program_4_run_reset = ReadWrite(76, _INT16, choice(ProgramCommand), section="12.3", stays="operation")
-    """4th Program Run/Reset: read and write; 12.3."""
+    """4th Program Run/Reset: 12.3."""
     error_dead_band = ReadWrite(79, _INT16, raw, section="12.3")
-    """Error dead band (d.Err): read and write; 12.3."""
+    """Error dead band (d.Err): 12.3."""
     input_type = ReadWrite(100, _INT16, choice(InputType), section="12.4")
-    """Input type (In P.): read and write; 12.4."""
+    """Input type (In P.): 12.4."""
     square_root = ReadWrite(101, _INT16, choice(OffOnWords), section="12.4")
-    """Square root (Sqr): read and write; 12.4."""
+    """Square root (Sqr): 12.4."""
     number_of_decimals = ReadWrite(102, _INT16, integer, section="12.4")
-    """N° of decimals (Sc.d.d): read and write; 12.4."""
+    """N° of decimals (Sc.d.d): 12.4."""
     configured_low_range = ReadWrite(103, _INT16, raw, section="12.4")
-    """Low range (Sc.Lo): read and write; 12.4."""
+    """Low range (Sc.Lo): 12.4."""
     configured_high_range = ReadWrite(104, _INT16, raw, section="12.4")
-    """High range (Sc.Hi): read and write; 12.4."""
+    """High range (Sc.Hi): 12.4."""
     engineering_units = ReadWrite(105, _INT16, choice(UnitOfInput), section="12.4")
-    """Engineering units (Unit): read and write; 12.4."""
+    """Engineering units (Unit): 12.4."""
     control_type = ReadWrite(106, _INT16, choice(ControlType), section="12.4")
-    """Control type (Cn.ty): read and write; 12.4."""
+    """Control type (Cn.ty): 12.4."""
     main_output_type = ReadWrite(107, _INT16, choice(MainOutput), section="12.4")
-    """Main output (Heat) (M.C.OP): read and write; 12.4."""
+    """Main output (Heat) (M.C.OP): 12.4."""
     secondary_output_type = ReadWrite(108, _INT16, choice(SecondaryOutput), section="12.4")
-    """Secondary output (Cool) (S.C.OP): read and write; 12.4."""
+    """Secondary output (Cool) (S.C.OP): 12.4."""
     first_retransmitted_output_selection = ReadWrite(109, _INT16, choice(RetransmittedValue), section="12.4")
-    """1st retransmitted output selection (rt. 1): read and write; 12.4."""
+    """1st retransmitted output selection (rt. 1): 12.4."""
     first_retransmission_output = ReadWrite(110, _INT16, choice(RetransmissionSignal), section="12.4")
-    """1st retransmission output (O.r.t.1): read and write; 12.4."""
+    """1st retransmission output (O.r.t.1): 12.4."""
     first_retransmission_low_range = ReadWrite(111, _INT16, raw, section="12.4")
-    """1st retransmission low range (rt.L.1): read and write; 12.4."""
+    """1st retransmission low range (rt.L.1): 12.4."""
     first_retransmission_high_range = ReadWrite(112, _INT16, raw, section="12.4")
-    """1st retransmission high range (rt.H.1): read and write; 12.4."""
+    """1st retransmission high range (rt.H.1): 12.4."""
     auto_manual_enable = ReadWrite(113, _INT16, choice(OffOnWords), section="12.4")
-    """Auto / Manual (E.AMn): read and write; 12.4."""
+    """Auto / Manual (E.AMn): 12.4."""
     remote_setpoint_input = ReadWrite(114, _INT16, choice(RemoteSetpointInput), section="12.4")
-    """Remote Setpoint input (rS.In): read and write; 12.4."""
+    """Remote Setpoint input (rS.In): 12.4."""
     setpoint_type = ReadWrite(115, _INT16, choice(SetpointType), section="12.4")
-    """Setpoint type (S.P.ty): read and write; 12.4."""
+    """Setpoint type (S.P.ty): 12.4."""
     store_setpoint_tracking = ReadWrite(116, _INT16, integer, section="12.4")
-    """Store Setpoint Tracking (S.P.tr): read and write; 12.4."""
+    """Store Setpoint Tracking (S.P.tr): 12.4."""
     level_access = ReadWrite(117, _INT16, choice(LevelAccess), section="12.4")
-    """Level access (Ac.Le): read and write; 12.4."""
+    """Level access (Ac.Le): 12.4."""
     op5_cool_output = ReadWrite(118, _INT16, choice(Op5CoolOutput), section="12.4")
-    """OP5 Cool output (C.O.P.S): read and write; 12.4."""
+    """OP5 Cool output (C.O.P.S): 12.4."""
     main_output_safety_value = ReadWrite(119, _INT16, raw, section="12.4")
-    """Main output safety value (S.Out): read and write; 12.4."""
+    """Main output safety value (S.Out): 12.4."""
     factory_code = ReadOnly(120, _INT16, integer, default=600, section="12.4")
-    """Factory code: read only; 12.4."""
     product_code = ReadOnly(121, _STRING, text, section="12.4")
-    """Product code: read only; 12.4."""
     release_code = ReadOnly(123, _STRING, text, section="12.4")
-    """Release code: read only; 12.4."""
     customer_code = ReadOnly(125, _INT16, integer, section="12.4")
-    """Customer code: read only; 12.4."""
     alarms = Array(Alarm, AsyncAlarm, first=1, count=4, stride=4)
     """Alarm 1 to 4: 12.4."""
     il1_digital_input_function = ReadWrite(142, _INT16, choice(DigitalInputFunction), section="12.4")
-    """IL1 digital input function (IL 1): read and write; 12.4."""
+    """IL1 digital input function (IL 1): 12.4."""
     il2_digital_input_function = ReadWrite(143, _INT16, choice(DigitalInputFunction), section="12.4")
-    """IL2 digital input function (IL 2): read and write; 12.4."""
+    """IL2 digital input function (IL 2): 12.4."""
     time_unit_of_setpoint_slope = ReadWrite(144, _INT16, choice(TimeUnit), section="12.4")
-    """Time unit of Setpoint slope (S.P.tM): read and write; 12.4."""
+    """Time unit of Setpoint slope (S.P.tM): 12.4."""
     ct_alarm_configuration = ReadWrite(145, _INT16, choice(OffOnWords), section="12.4")
-    """CT alarm configuration (Ht.On): read and write; 12.4."""
+    """CT alarm configuration (Ht.On): 12.4."""
     linearisation = ReadWrite(147, _INT16, choice(OffOnWords), section="12.4")
-    """Linearisation (Char): read and write; 12.4."""
+    """Linearisation (Char): 12.4."""
     il3_digital_input_function = ReadWrite(148, _INT16, choice(DigitalInputFunction), section="12.4")
-    """IL3 digital input function (IL 3): read and write; 12.4."""
+    """IL3 digital input function (IL 3): 12.4."""
     second_retransmitted_output_selection = ReadWrite(149, _INT16, choice(RetransmittedValue), section="12.4")
-    """2nd retransmitted output selection (rt. 2): read and write; 12.4."""
+    """2nd retransmitted output selection (rt. 2): 12.4."""
     second_retransmission_output = ReadWrite(150, _INT16, choice(RetransmissionSignal), section="12.4")
-    """2nd retransmission output (O.r.t.2): read and write; 12.4."""
+    """2nd retransmission output (O.r.t.2): 12.4."""
     second_retransmission_low_range = ReadWrite(151, _INT16, raw, section="12.4")
-    """2nd retransmission low range (rt.L.2): read and write; 12.4."""
+    """2nd retransmission low range (rt.L.2): 12.4."""
     second_retransmission_high_range = ReadWrite(152, _INT16, raw, section="12.4")
-    """2nd retransmission high range (rt.H.2): read and write; 12.4."""
+    """2nd retransmission high range (rt.H.2): 12.4."""
     programs = Array(Program, AsyncProgram, first=1, count=4, stride=68)
     """Program 1 to 4: 12.5."""
 

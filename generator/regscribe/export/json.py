@@ -26,8 +26,8 @@ summary = "the whole model, for programs in any language"
 options: tuple[Option, ...] = ()
 
 EXAMPLES = {ValueExample: "value", FrameExample: "frame", TimingExample: "timing"}
-PLACES = frozenset({"span", "by_path", "libraries", "shipped"})
-"""Fields that say where something stands in a file, that only speed a look-up, or that only let emitters share."""
+PLACES = frozenset({"span", "by_path", "libraries", "shipped", "rules"})
+"""Fields that say where something stands in a file, that only speed a look-up, or that only emitters of code need."""
 
 Json = Any  # what the json module writes: nested lists and dicts of str, int, float, bool and None
 

@@ -33,6 +33,8 @@ from regscribe.model import (
 )
 from regscribe.model.identifiers import has_mark, indexed
 
+_RULES = {"views": "views", "scale": "scale", "decimals": "scale", "range_decimals": "special_scale"}
+"""Keys that may name a rule of the map, and what the rule makes."""
 _BY_KEY = {"enum": Kind.ENUM, "flags": Kind.FLAGS, "fields": Kind.FIELDS, "version": Kind.VERSION}
 
 
@@ -88,10 +90,17 @@ def register_of(entry: TreeNode, everywhere: Scope) -> Register:
         array=entry.place.array,
         index=entry.place.index,
         printed=indexed(_text(entry, "printed"), entry.place.index),
+        rules=_rules(entry),
         span=entry.span,
     )
     report_idle(entry, register)
     return register
+
+
+def _rules(entry: TreeNode) -> tuple[tuple[str, str], ...]:
+    """The names of the map's rules that the register is given, by what they make."""
+    named = [(use, _text(entry, key)) for key, use in _RULES.items()]
+    return tuple((use, name) for use, name in named if name.isidentifier())
 
 
 def kind_of(entry: TreeNode, views: tuple[View, ...], scaling: tuple[Scaling, ...]) -> Kind:

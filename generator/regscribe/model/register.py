@@ -46,6 +46,7 @@ class Register:
     not matter, as a proportional band does.
     `symbol` is a clean reading of the manual's short code, `printed` the code as it is printed (empty: the same).
     `version_digits` is how many decimal digits a `VERSION` packs, `version_groups` how many digits stand in a group.
+    `rules` are the names of the map's view set and scale or decimals rule, by key (`views`, `scale`); drivers use them.
     """
 
     id: str
@@ -89,6 +90,7 @@ class Register:
     array: str = ""
     index: tuple[int, ...] = ()
     printed: str = ""
+    rules: tuple[tuple[str, str], ...] = field(default=(), compare=False)
     span: Span = NOWHERE
 
     @property

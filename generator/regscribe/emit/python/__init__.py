@@ -21,11 +21,7 @@ from regscribe.emit.python.reserved_names import RUNTIME, hidden
 from regscribe.emit.words import one_line
 from regscribe.model import GivenKind, Library, RegisterMap
 
-STANDARD = (
-    "from collections.abc import Collection",
-    "from fractions import Fraction",
-    "from typing import Self, Unpack",
-)
+STANDARD = {"collections.abc": ["Collection"], "fractions": ["Fraction"], "typing": ["Any", "Self", "Unpack"]}
 """What a module imports of the standard library, as far as it uses it."""
 
 NOT_CODE = re.compile(r'"""[\s\S]*?"""|"(?:[^"\\\n]|\\.)*"|\'(?:[^\'\\\n]|\\.)*\'|#[^\n]*')
@@ -54,13 +50,13 @@ def render(register_map: RegisterMap) -> dict[str, str]:
 
 def _library(library: Library, named: NamedClasses) -> str:
     about = f"{one_line(library.title)}: named values that several drivers share."
-    source = header_of(f"{library.id}.library", library.content_hash, prefix="# ", separator="\n# ")
+    source = _source(f"{library.id}.library", library.content_hash)
     return _module(about, source, named, "\n".join([*named.lines(), ""]))
 
 
 def _driver(register_map: RegisterMap, named: NamedClasses) -> str:
     about = f"{one_line(register_map.title)}: drivers of {', '.join(model.name for model in register_map.models)}."
-    source = header_of(register_map.id, register_map.content_hash, prefix="# ", separator="\n# ")
+    source = _source(register_map.id, register_map.content_hash)
     pool = Pool(hidden(register_map))
     classes = Classes(register_map, named, pool, camel(register_map.id.split("/")[1]))
     classes.build()
@@ -78,6 +74,13 @@ def _driver(register_map: RegisterMap, named: NamedClasses) -> str:
     return _module(about, source, named, body, classes.public, pool.hidden)
 
 
+def _source(origin_id: str, content_hash: str) -> str:
+    """What a module comes from, as a comment."""
+    whole = header_of(origin_id, content_hash, prefix="# ", separator="\n# ")
+    long = any(width(line) > WIDTH for line in whole.splitlines())
+    return whole.replace("; regenerate", ";\n# regenerate") if long else whole
+
+
 def _module(
     about: str,
     source: str,
@@ -88,7 +91,7 @@ def _module(
 ) -> str:
     own = [match[1] for line in named.lines() if (match := re.match(r"class (\w+)\(", line))]
     used = set(re.findall(r"\w+", NOT_CODE.sub("", body)))
-    standard = [line for line in STANDARD if used & set(re.findall(r"[A-Z]\w+", line))]
+    standard = [line for module, names in STANDARD.items() for line in _import(module, [n for n in names if n in used])]
     head = [
         *docstring(about, 0),
         "",
@@ -109,7 +112,7 @@ def _runtime_imports(used: set[str], hidden_names: frozenset[str]) -> list[str]:
     names = [name for name in RUNTIME if name in used and name not in hidden_names]
     aliases = [name for name in RUNTIME if f"_{name}" in used and name in hidden_names]
     return [
-        *(_import("regscribe_runtime", names) if names else []),
+        *_import("regscribe_runtime", names),
         *(f"from regscribe_runtime import {name} as _{name}" for name in aliases),
     ]
 
@@ -123,6 +126,8 @@ def _library_imports(origins: Iterable[Origin]) -> list[str]:
 
 
 def _import(module: str, names: Sequence[str]) -> list[str]:
+    if not names:
+        return []
     whole = f"from {module} import {', '.join(names)}"
     return [whole] if width(whole) <= WIDTH else [f"from {module} import (", *(f"    {name}," for name in names), ")"]
 

@@ -9,10 +9,11 @@ from regscribe.emit.python.constants import Pool
 from regscribe.emit.python.enum_classes import NamedClasses
 from regscribe.emit.python.expressions import Specs
 from regscribe.emit.python.formatting import INDENT, call, group, lay
+from regscribe.emit.python.group_facts import with_group_facts
 from regscribe.emit.python.groups import groups_body, groups_of
 from regscribe.emit.python.literals import camel, docstring, literal, member
 from regscribe.emit.python.programs import programs
-from regscribe.emit.python.register_lines import Declarations, command_call, command_text
+from regscribe.emit.python.register_lines import Declarations, command_call, command_text, declaration_lines
 from regscribe.emit.python.reserved_names import free
 from regscribe.emit.words import one_line
 from regscribe.model import Array, Model, Register, RegisterMap
@@ -52,12 +53,22 @@ class Classes:
         """Emit the classes that declare what some models share."""
         shared = partition(members, self._namer(stem, members))
         for one in shared:
-            declarations = Declarations(Specs(self.register_map.model(one.models[0]), self.pool), self.named)
-            body: list[str] = []
-            for item in one.items:
-                body += self._array(item, one.models) if isinstance(item, Array) else declarations.lines(item)
-            self._class(one.name, [], f"Registers of {', '.join(one.models)}.", body)
+            self._class(one.name, [], f"Registers of {', '.join(one.models)}.", self._members(one))
         return shared
+
+    def _members(self, shared: Shared[Register | Array]) -> list[str]:
+        """The declarations of registers and arrays."""
+        model = self.register_map.model(shared.models[0])
+        declarations = Declarations(Specs(model, self.pool), self.named)
+        calls = {item: declarations.call(item) for item in shared.items if isinstance(item, Register)}
+        calls = with_group_facts(calls, self.pool, model)
+        body: list[str] = []
+        for item in shared.items:
+            if isinstance(item, Array):
+                body += self._array(item, shared.models)
+            else:
+                body += declaration_lines(item, calls[item])
+        return body
 
     def _namer(self, stem: str, every: Iterable[str]) -> Callable[[Sequence[str]], str]:
         """What names the class of some of the models `every`."""
@@ -105,7 +116,7 @@ class Classes:
         for one in shared:
             body: list[str] = []
             for command in one.items:
-                declaration = lay(command_call(command), head=f"{command.id} = ", depth=1)
+                declaration = lay(command_call(command, self.pool), head=f"{command.id} = ", depth=1)
                 body += [*declaration, *docstring(command_text(command), 1)]
             self._class(one.name, [], f"Commands of {', '.join(one.models)}.", body)
         parents = {name: tuple(one.name for one in shared if name in one.models) for name in owned}
@@ -154,11 +165,12 @@ class Classes:
             self.public.append(name)
 
     def _programs(self, model: Model) -> str:
-        return self.pool.share("programs", programs(model, Specs(model, self.pool)), "setpoint programs")
+        built = programs(model, Specs(model, self.pool))
+        return self.pool.share(built, "programs", f"programs_{model.name}", comment="setpoint programs")
 
     def _unused(self, model: Model) -> str:
         rows = [group([member(space), str(first), str(last)]) for space, first, last in model.unused]
-        return self.pool.share("unused", group(rows), "addresses that read as 0")
+        return self.pool.share(group(rows), "unused", f"unused_{model.name}", comment="addresses that read as 0")
 
     def _identity(self, model: Model) -> list[str]:
         specs = Specs(model, self.pool)

@@ -1,9 +1,11 @@
 """Constants that several declarations share: each is emitted once, before its first use, under a readable name."""
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from regscribe.emit.python.formatting import WIDTH, Expression, flat, lay
+from regscribe.emit.python.formatting import INDENT, WIDTH, Expression, flat, lay, width
+from regscribe.model import Model, Register
 
 SHORT = 30
 """An expression of at most this many characters stays where it is used."""
@@ -24,21 +26,47 @@ class Pool:
         """The name under which this module calls a function of the runtime."""
         return f"_{name}" if name in self.hidden else name
 
-    def share(self, name: str, expression: Expression, comment: str = "") -> str:
-        """The name of a constant of this content, defined now if it is new."""
+    def share(self, expression: Expression, *names: str, comment: str = "", type_name: str = "") -> str:
+        """The name of a constant of this content, defined now if it is new, under the first of `names` that is free."""
         text = flat(expression)
         if text not in self.names:
-            self.names[text] = self._free(name)
+            self.names[text] = self._free(names)
             self.lines += [f"# {comment}"] if comment and len(comment) + 2 <= WIDTH else []
-            self.lines += lay(expression, head=f"{self.names[text]} = ")
+            self.lines += _definition(self.names[text] + (f": {type_name}" if type_name else ""), expression)
         return self.names[text]
 
-    def maybe(self, name: str, expression: Expression, comment: str = "") -> Expression:
+    def maybe(self, expression: Expression, *names: str) -> Expression:
         """The expression itself if it is short, else its constant."""
-        return expression if len(flat(expression)) <= SHORT else self.share(name, expression, comment)
+        return expression if len(flat(expression)) <= SHORT else self.share(expression, *names)
 
-    def _free(self, name: str) -> str:
-        name = "_" + re.sub(r"\W+", "_", name, flags=re.ASCII).strip("_").upper()
+    def _free(self, names: Sequence[str]) -> str:
+        wanted = [_constant(name) for name in names]
         taken = set(self.names.values())
-        numbered = (f"{name}_{count}" for count in range(2, len(taken) + 3))
-        return name if name not in taken else next(free for free in numbered if free not in taken)
+        numbered = (f"{wanted[-1]}_{count}" for count in range(2, len(taken) + 3))
+        return next(free for free in (*wanted, *numbered) if free not in taken)
+
+
+def _definition(target: str, expression: Expression) -> list[str]:
+    """The lines of an assignment; a text that does not fit behind its name stands in brackets."""
+    lines = lay(expression, head=f"{target} = ")
+    too_long = len(lines) == 1 and width(lines[0]) > WIDTH
+    if too_long and len(INDENT) + width(flat(expression)) <= WIDTH:
+        return [f"{target} = (", f"{INDENT}{flat(expression)}", ")"]
+    return lines
+
+
+def names_of(register: Register, use: str, model: Model) -> tuple[str, ...]:
+    """What to call a constant for a `use` in a register of a model, the shortest name first.
+
+    A rule of the map that says it lends its name; else it is called after the register and the use.
+    """
+    rule = dict(register.rules).get(use, "") or (register.unit_id if use == "unit" else "")
+    if rule:
+        return rule, f"{rule}_{use}", f"{rule}_{use}_{model.name}"
+    path = re.sub(r"\[.*?\]", "", register.path)
+    return f"{register.id}_{use}", f"{path}_{use}", f"{path}_{use}_{model.name}"
+
+
+def _constant(name: str) -> str:
+    """The name of a constant, of characters that a name may have."""
+    return "_" + re.sub(r"\W+", "_", name, flags=re.ASCII).strip("_").upper()

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
 
-from regscribe.emit.python.constants import Pool
+from regscribe.emit.python.constants import Pool, names_of
 from regscribe.emit.python.formatting import Call, Expression, call, group, mapping
 from regscribe.emit.python.literals import exact, literal, member
 from regscribe.emit.words import cases_words, conversion_words, range_words
@@ -86,7 +86,11 @@ class Specs:
     def when(self, condition: Condition) -> Expression:
         """A tuple of tests; a named condition becomes a constant of its name."""
         tests = group([self._test(test) for test in condition.tests])
-        return self.pool.share(condition.name, tests) if condition.name and condition.tests else tests
+        return (
+            self.pool.share(tests, condition.name, f"{condition.name}_{self.model.name}")
+            if condition.name and condition.tests
+            else tests
+        )
 
     def _test(self, test: Test) -> Call:
         codes = group([group([exact(code.low), exact(code.high)]) for code in test.codes]) if test.codes else None
@@ -105,18 +109,22 @@ class Specs:
 
     def scale(self, register: Register) -> Expression | None:
         """The cases of a scale; None for the identity."""
-        return self._scale(register.scale, "scale", "value of the stored x")
+        return self._scale(register, "scale", "value of the stored x")
 
     def special_scale(self, register: Register) -> Expression | None:
         """The cases of the decimals of special values; None for the identity."""
-        return self._scale(register.special_scale, "special_scale", "value of the special code x")
+        return self._scale(register, "special_scale", "value of the special code x")
 
-    def _scale(self, cases: Cases[Conversion], name: str, about: str) -> Expression | None:
+    def _share(self, register: Register, use: str, expression: Expression, comment: str = "") -> str:
+        return self.pool.share(expression, *names_of(register, use, self.model), comment=comment)
+
+    def _scale(self, register: Register, use: str, about: str) -> Expression | None:
+        cases: Cases[Conversion] = getattr(register, use)
         if cases == (Case(Condition(), IDENTITY),):
             return None
         words = cases_words(tuple(Case(case.when, conversion_words(case.then)) for case in cases))
         built = group([group([self.when(case.when), self._conversion(case.then)]) for case in cases])
-        return self.pool.share(name, built, f"{about}: {words}")
+        return self._share(register, use, built, f"{about}: {words}")
 
     @staticmethod
     def _conversion(conversion: Conversion) -> Expression:
@@ -138,12 +146,11 @@ class Specs:
             return None  # nothing could be checked
         if len(cases) == 1 and cases[0].when.always and self._simple(cases[0].then):
             (interval,) = cases[0].then.intervals
-            return self.pool.maybe(
-                "range", call(self.pool.helper("within"), _limit(interval.low), _limit(interval.high))
-            )
+            simple = call(self.pool.helper("within"), _limit(interval.low), _limit(interval.high))
+            return self.pool.maybe(simple, *names_of(register, "range", self.model))
         words = cases_words(tuple(Case(case.when, range_words(case.then)) for case in cases))
         built = group([group([self.when(case.when), self._limits(case.then)]) for case in cases])
-        return self.pool.share("range", built, words)
+        return self._share(register, "range", built, words)
 
     @staticmethod
     def _simple(limits: Range) -> bool:
@@ -160,12 +167,13 @@ class Specs:
             at_most=str(found.at_most) if found and found.at_most is not None else None,
         )
 
-    def unit(self, cases: Cases[str]) -> Expression | None:
+    def unit(self, register: Register) -> Expression | None:
         """A unit, or its cases; None without one."""
+        cases = register.unit
         if len(cases) == 1 and cases[0].when.always:
             return literal(cases[0].then) if cases[0].then else None
         built = group([group([self.when(case.when), literal(case.then)]) for case in cases])
-        return self.pool.share("unit", built, cases_words(cases))
+        return self._share(register, "unit", built, cases_words(cases))
 
     def governs(self, register: Register) -> Expression | None:
         """What a register sets of the line; None if it sets nothing of it."""
@@ -174,18 +182,19 @@ class Specs:
             return None
         codes = mapping([(str(code), literal(value)) for code, value in found.codes]) if found.codes else None
         since = literal(found.since) if found.since else None
-        return self.pool.maybe("governs", call("Governs", literal(found.setting), codes=codes, since=since))
+        governs = call("Governs", literal(found.setting), codes=codes, since=since)
+        return self.pool.maybe(governs, *names_of(register, "governs", self.model))
 
     def views(self, register: Register) -> str:
         """The name of the constant that holds a register's view set."""
         base = register.base
         templates = group([_view(view, base) for view in register.views])
         if len(register.views) > 1:
-            return self.pool.share("views", templates)
+            return self._share(register, "views", templates)
         if base == _plain(base):
-            return self.pool.share(base.type, call(self.pool.helper("word"), member(base.type)))
+            return self.pool.share(call(self.pool.helper("word"), member(base.type)), base.type)
         kind = base.type if base.space is Space.HOLDING else f"{base.space}_{base.type}"
-        return self.pool.share(kind, templates)
+        return self.pool.share(templates, kind)
 
 
 def _limit(limit: Limit) -> Expression:

@@ -1,32 +1,21 @@
 """One register as one declaration of a generated class."""
 
+import re
 from dataclasses import dataclass
-from typing import Protocol
 
-from regscribe.emit.python.enum_classes import Content, enum_content, special_content, specials, word_content
+from regscribe.emit.python.constants import Pool, names_of
+from regscribe.emit.python.enum_classes import NamedClasses, enum_content, special_content, specials, word_content
 from regscribe.emit.python.expressions import Specs
 from regscribe.emit.python.formatting import Call, Expression, call, group, lay, mapping
 from regscribe.emit.python.literals import docstring, exact, literal, plain
-from regscribe.emit.words import ACCESS, cases_words, listed, one_line, range_words
-from regscribe.model import Access, Case, Command, Kind, NotANumber, Register, Sentinel, Step, show
+from regscribe.emit.words import listed, one_line, range_words
+from regscribe.model import Access, Command, Kind, NotANumber, Register, Sentinel, Step, show
 
-SHOWN_CASES = 2
-"""Ranges of more cases are left to the reference: a docstring is for a glance."""
 DESCRIPTORS = {Access.READ: "ReadOnly", Access.READ_WRITE: "ReadWrite", Access.WRITE: "WriteOnly"}
 
 
 NAMED = {Kind.ENUM: "choice", Kind.FLAGS: "flags", Kind.FIELDS: "word_of"}
 """The kinds whose values are of a class of their own, and the function of the runtime that takes it."""
-TYPES = {Kind.STRING: "str", Kind.VERSION: "str", Kind.BOOLEAN: "bool"}
-"""What the values of a kind are to a type checker, if neither `int` nor, where they may have a fraction, `float`."""
-
-
-class Names(Protocol):
-    """What gives named classes their names."""
-
-    def name(self, wanted: str, content: Content) -> str:
-        """The class name for `wanted` with this content."""
-        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,17 +23,7 @@ class Declarations:
     """Writes declarations of registers with the shared constants and classes of a module."""
 
     specs: Specs
-    named: Names
-
-    def lines(self, register: Register) -> list[str]:
-        """The declaration and its docstring, indented for a class body."""
-        return [*lay(self.call(register), head=f"{register.id} = ", depth=1), *docstring(about(register), 1)]
-
-    def type(self, register: Register) -> str:
-        """The type of the declaration: that of the register and of its values."""
-        special = self._special(register) if specials(register) and not self._named(register) else ""
-        value = self._named(register) or ("float" if register.fractional else TYPES.get(register.kind, "int"))
-        return f"{DESCRIPTORS[register.access]}[{value}{special}]"
+    named: NamedClasses
 
     def call(self, register: Register) -> Call:
         """The declaration itself."""
@@ -58,7 +37,7 @@ class Declarations:
             special_scale=specs.special_scale(register),
             range=specs.range(register),
             default=_default(register),
-            unit=specs.unit(register.unit),
+            unit=specs.unit(register),
             section=literal(register.section) if register.section else None,
             sentinels=self._sentinels(register),
             aliases=group([str(alias) for alias in register.aliases]) if register.aliases else None,
@@ -66,7 +45,7 @@ class Declarations:
             persistence=literal(register.persistence) if register.persistence else None,
             unlock=literal(register.unlock) if register.unlock else None,
             apply=literal(register.apply) if register.apply else None,
-            danger=specs.pool.maybe("danger", literal(one_line(register.danger))) if register.danger else None,
+            danger=self._maybe(register, "danger", literal(one_line(register.danger))) if register.danger else None,
             stays=literal(register.stays) if register.stays else None,
             governs=specs.governs(register),
             settle=str(register.settle) if register.settle else None,
@@ -75,13 +54,19 @@ class Declarations:
 
     def _sentinels(self, register: Register) -> str | None:
         rows = [group([_stored(one), literal(one.id), literal(one.label)]) for one in register.sentinels]
-        return self.specs.pool.share("sentinels", group(rows)) if rows else None
+        return self._share(register, "sentinels", group(rows)) if rows else None
 
     def _writable(self, register: Register) -> str | None:
         if register.writable is None:
             return None
         told = [self.specs.when(register.writable.when), literal(one_line(register.writable.reason))]
-        return self.specs.pool.share("writable", group(told))
+        return self._share(register, "writable", group(told))
+
+    def _share(self, register: Register, use: str, expression: Expression) -> str:
+        return self.specs.pool.share(expression, *names_of(register, use, self.specs.model))
+
+    def _maybe(self, register: Register, use: str, expression: Expression) -> Expression:
+        return self.specs.pool.maybe(expression, *names_of(register, use, self.specs.model))
 
     def _kind(self, register: Register) -> Expression:
         helper = self.specs.pool.helper
@@ -127,32 +112,44 @@ def _default(register: Register) -> str | None:
     return literal(register.default) if isinstance(register.default, str) else plain(register.default)
 
 
+def declaration_lines(register: Register, declaration: Call) -> list[str]:
+    """A declaration and the register's docstring, indented for a class body."""
+    text = about(register)
+    return [*lay(declaration, head=f"{register.id} = ", depth=1), *(docstring(text, 1) if text else [])]
+
+
 def about(register: Register) -> str:
-    """The docstring of a register: range, special values, unit, access, section."""
+    """The docstring of a register; empty if it says no more than the declaration."""
+    name = one_line(register.name)
     symbol = f" ({one_line(register.symbol)})" if register.symbol else ""
     facts = [
-        range_text(register) if len(register.range) <= SHOWN_CASES else "range by condition",
+        range_text(register),
         f"special: {listed([f'{show(one.code)} = {one_line(one.label)}' for one in register.specials])}"
         if register.specials
         else "",
         f"unit {units}" if (units := listed([case.then for case in register.unit if case.then])) else "",
-        ACCESS[register.access],
-        register.section,
     ]
-    return f"{one_line(register.name)}{symbol}: {'; '.join(one_line(fact) for fact in facts if fact)}."
+    if not any(facts) and _words(name + symbol) == register.id:
+        return ""
+    return f"{name}{symbol}: {'; '.join(one_line(fact) for fact in (*facts, register.section) if fact)}."
+
+
+def _words(text: str) -> str:
+    return re.sub(r"\W+", "_", text.lower()).strip("_")
 
 
 def range_text(register: Register) -> str:
-    """The range in words, with the conditions of its cases."""
-    return (
-        cases_words(tuple(Case(case.when, range_words(case.then)) for case in register.range)) if register.range else ""
-    )
+    """The range in words; empty where it depends on others: the constant that holds its cases tells them."""
+    if len(register.range) > 1 or any(not case.when.always for case in register.range):
+        return ""
+    return listed([range_words(case.then) for case in register.range])
 
 
-def command_call(command: Command) -> Call:
+def command_call(command: Command, pool: Pool) -> Call:
     """The declaration of a command."""
     steps = (_step(step) for step in command.steps)
-    return call("Command", *steps, danger=literal(one_line(command.danger)) if command.danger else None)
+    danger = pool.maybe(literal(one_line(command.danger)), f"{command.id}_danger") if command.danger else None
+    return call("Command", *steps, danger=danger)
 
 
 def _step(step: Step) -> Call:

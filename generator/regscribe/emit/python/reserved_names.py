@@ -21,7 +21,7 @@ RUNTIME = tuple(
 HELPERS = frozenset(name for name in RUNTIME if name.islower())
 """Functions that declarations call: in a class body a register of such a name would stand in their place."""
 
-OTHERS = frozenset({"Collection", "Fraction", "Self", "Unpack"})
+OTHERS = frozenset({"Any", "Collection", "Fraction", "Self", "Unpack"})
 
 
 def taken(register_map: RegisterMap) -> frozenset[str]:

@@ -1,0 +1,45 @@
+"""What long declarations of one group have in common, as a constant that they unpack: `**_CALIBRATION`."""
+
+from collections.abc import Iterable, Mapping, Sequence
+
+from regscribe.emit.python.constants import Pool
+from regscribe.emit.python.formatting import Call, Expression, lay, mapping
+from regscribe.emit.python.literals import literal
+from regscribe.model import Model, Register
+
+ENOUGH_LINES = 3
+"""A declaration of at most so many lines is left as it is."""
+FEWEST = 2
+"""So many registers must have so many facts in common."""
+Facts = Sequence[tuple[str, Expression]]
+
+
+def with_group_facts(calls: Mapping[Register, Call], pool: Pool, model: Model) -> dict[Register, Call]:
+    """The declarations of some registers of a model; long ones unpack what those of their group have in common."""
+    found = dict(calls)
+    for group_id in dict.fromkeys(register.group for register in calls):
+        lines = {one: _lines(one, call) for one, call in calls.items() if one.group == group_id}
+        long = [one for one, count in lines.items() if count > ENOUGH_LINES]
+        common = _common(calls[one] for one in long)
+        if min(len(long), len(common)) >= FEWEST:
+            facts = mapping([(literal(key.removesuffix("=")), value) for key, value in common])
+            name = pool.share(facts, group_id, f"{group_id}_{model.name}", type_name="dict[str, Any]")
+            alike = [one for one, count in lines.items() if count > 1 and set(common) <= set(calls[one].items)]
+            found |= {one: _without(calls[one], common, name) for one in alike}
+    return found
+
+
+def _lines(register: Register, call: Call) -> int:
+    return len(lay(call, head=f"{register.id} = ", depth=1))
+
+
+def _common(calls: Iterable[Call]) -> Facts:
+    """The keyword arguments that all calls have, in the order of the first."""
+    first, *others = [[item for item in call.items if item[0]] for call in calls] or [[]]
+    return [item for item in first if all(item in other for other in others)]
+
+
+def _without(call: Call, facts: Facts, name: str) -> Call:
+    """The call with the facts unpacked from a constant."""
+    own = tuple(item for item in call.items if item not in facts)
+    return Call(call.opening, (*own, ("", f"**{name}")), call.closing)
