@@ -1174,36 +1174,13 @@ class _SeriesCOf16C:
     """Installed Option Card (Card): 4.10.2."""
 
 
-class _SeriesCCommandsOf1ZC:
-    """Commands of 1ZC."""
-
-    load_defaults = Command((16, 7000, (85, 92)), danger=_LOAD_DEFAULTS_DANGER)
-    """Load All Parameter Defaults; Returns all values except the address of a 1ZC to the defaults.; 7.2; dangerous: all
-    configuration, calibration and setpoints are lost; the option card must be set at the front panel again.
-    """
-
-
-class _SeriesCCommandsOf16C:
-    """Commands of 16C."""
-
-    load_defaults = Command((16, 7000, (85, 92)), danger=_LOAD_DEFAULTS_DANGER)
-    """Load All Parameter Defaults; Returns all values except the address of a 1ZC to the defaults.; 7.2; dangerous: all
-    configuration, calibration and setpoints are lost; the option card must be set at the front panel again.
-    """
-
-
-class _SeriesCCommandsOf18C25C:
-    """Commands of 18C, 25C."""
-
-    load_defaults = Command((16, 7000, (85, 92)), danger=_LOAD_DEFAULTS_DANGER)
-    """Load All Parameter Defaults; Returns all values except the address of a 1ZC to the defaults.; 7.2; dangerous: all
-    configuration, calibration and setpoints are lost; the option card must be set at the front panel again.
-    """
-
-
 class _SeriesCCommands:
     """Commands of 1ZC, 16C, 18C, 25C."""
 
+    load_defaults = Command((16, 7000, (85, 92)), danger=_LOAD_DEFAULTS_DANGER)
+    """Load All Parameter Defaults; Returns all values except the address of a 1ZC to the defaults.; 7.2; dangerous: all
+    configuration, calibration and setpoints are lost; the option card must be set at the front panel again.
+    """
     zero_calibration = Command((16, 7002, (85, 92)), danger=_ZERO_CALIBRATION_DANGER)
     """Perform Zero (Low) Calibration; Clears the zero offset of the present input type to 0 and then measures. At least
     two seconds later the offset (read it in the IEEE view) is other than 0 if the calibration was done, and still 0
@@ -1225,27 +1202,11 @@ class _SeriesCCommands:
     """Reset Lowest Reading; 4.11.2."""
 
 
-class SeriesCCommands1ZC(_SeriesCCommandsOf1ZC, _SeriesCCommands, Part):
+class SeriesCCommands(_SeriesCCommands, Part):
     """The commands of a synchronous driver."""
 
 
-class AsyncSeriesCCommands1ZC(_SeriesCCommandsOf1ZC, _SeriesCCommands, AsyncPart):
-    """The commands of an asyncio driver."""
-
-
-class SeriesCCommands16C(_SeriesCCommandsOf16C, _SeriesCCommands, Part):
-    """The commands of a synchronous driver."""
-
-
-class AsyncSeriesCCommands16C(_SeriesCCommandsOf16C, _SeriesCCommands, AsyncPart):
-    """The commands of an asyncio driver."""
-
-
-class SeriesCCommands(_SeriesCCommandsOf18C25C, _SeriesCCommands, Part):
-    """The commands of a synchronous driver."""
-
-
-class AsyncSeriesCCommands(_SeriesCCommandsOf18C25C, _SeriesCCommands, AsyncPart):
+class AsyncSeriesCCommands(_SeriesCCommands, AsyncPart):
     """The commands of an asyncio driver."""
 
 
@@ -1430,7 +1391,7 @@ class Athena1ZC(_SeriesC, _SeriesCOf1ZC16C, _SeriesCOf1ZC, Device):
     protocol = _PROTOCOL
     identity = (Identity((Is("controller_type", ((4, 4),)),)),)
     groups = SeriesCGroups
-    commands = SubPart(SeriesCCommands1ZC, AsyncSeriesCCommands1ZC)
+    commands = SubPart(SeriesCCommands, AsyncSeriesCCommands)
     setpoint_programs = _PROGRAMS
 
 
@@ -1443,7 +1404,7 @@ class AsyncAthena1ZC(_SeriesC, _SeriesCOf1ZC16C, _SeriesCOf1ZC, AsyncDevice):
     protocol = _PROTOCOL
     identity = (Identity((Is("controller_type", ((4, 4),)),)),)
     groups = SeriesCGroups
-    commands = SubPart(SeriesCCommands1ZC, AsyncSeriesCCommands1ZC)
+    commands = SubPart(SeriesCCommands, AsyncSeriesCCommands)
     setpoint_programs = _PROGRAMS
 
 
@@ -1456,7 +1417,7 @@ class Athena16C(_SeriesC, _SeriesCOf1ZC16C, _SeriesCOf16C18C25C, _SeriesCOf16C, 
     protocol = _PROTOCOL
     identity = (Identity((Is("controller_type", ((2, 2),)),)),)
     groups = SeriesCGroups
-    commands = SubPart(SeriesCCommands16C, AsyncSeriesCCommands16C)
+    commands = SubPart(SeriesCCommands, AsyncSeriesCCommands)
     setpoint_programs = _PROGRAMS_16C
 
 
@@ -1469,7 +1430,7 @@ class AsyncAthena16C(_SeriesC, _SeriesCOf1ZC16C, _SeriesCOf16C18C25C, _SeriesCOf
     protocol = _PROTOCOL
     identity = (Identity((Is("controller_type", ((2, 2),)),)),)
     groups = SeriesCGroups
-    commands = SubPart(SeriesCCommands16C, AsyncSeriesCCommands16C)
+    commands = SubPart(SeriesCCommands, AsyncSeriesCCommands)
     setpoint_programs = _PROGRAMS_16C
 
 

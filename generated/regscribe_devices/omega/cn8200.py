@@ -1037,29 +1037,14 @@ class _Cn8200OfCN8240CN8260:
     """Installed Option Card (Card): 5.10.2."""
 
 
-class _Cn8200CommandsOfCN8200:
-    """Commands of CN8200."""
-
-    load_defaults = Command((16, 7000, (85, 92)), danger=_LOAD_DEFAULTS_DANGER)
-    """Load All Parameter Defaults; Returns all values to the defaults. Whether the controller ID is among them is
-    unclear - the manual excepts it, in a sentence that was written of a model with DIP switches.; 8.2; dangerous:
-    all configuration, calibration and setpoints are lost; the option card must be set at the front panel again.
-    """
-
-
-class _Cn8200CommandsOfCN8240CN8260:
-    """Commands of CN8240, CN8260."""
-
-    load_defaults = Command((16, 7000, (85, 92)), danger=_LOAD_DEFAULTS_DANGER)
-    """Load All Parameter Defaults; Returns all values to the defaults. Whether the controller ID is among them is
-    unclear - the manual excepts it, in a sentence that was written of a model with DIP switches.; 8.2; dangerous:
-    all configuration, calibration and setpoints are lost; the option card must be set at the front panel again.
-    """
-
-
 class _Cn8200Commands:
     """Commands of CN8200, CN8240, CN8260."""
 
+    load_defaults = Command((16, 7000, (85, 92)), danger=_LOAD_DEFAULTS_DANGER)
+    """Load All Parameter Defaults; Returns all values to the defaults. Whether the controller ID is among them is
+    unclear - the manual excepts it, in a sentence that was written of a model with DIP switches.; 8.2; dangerous:
+    all configuration, calibration and setpoints are lost; the option card must be set at the front panel again.
+    """
     zero_calibration = Command((16, 7002, (85, 92)), danger=_ZERO_CALIBRATION_DANGER)
     """Perform Zero (Low) Calibration; Clears the zero offset of the present input type to 0 and then measures. At least
     two seconds later the offset (read it in the IEEE view) is other than 0 if the calibration was done, and still 0
@@ -1081,19 +1066,11 @@ class _Cn8200Commands:
     """Reset Lowest Reading; 5.11.2."""
 
 
-class Cn8200CommandsCN8200(_Cn8200CommandsOfCN8200, _Cn8200Commands, Part):
+class Cn8200Commands(_Cn8200Commands, Part):
     """The commands of a synchronous driver."""
 
 
-class AsyncCn8200CommandsCN8200(_Cn8200CommandsOfCN8200, _Cn8200Commands, AsyncPart):
-    """The commands of an asyncio driver."""
-
-
-class Cn8200Commands(_Cn8200CommandsOfCN8240CN8260, _Cn8200Commands, Part):
-    """The commands of a synchronous driver."""
-
-
-class AsyncCn8200Commands(_Cn8200CommandsOfCN8240CN8260, _Cn8200Commands, AsyncPart):
+class AsyncCn8200Commands(_Cn8200Commands, AsyncPart):
     """The commands of an asyncio driver."""
 
 
@@ -1276,7 +1253,7 @@ class OmegaCN8200(_Cn8200, _Cn8200OfCN8200, Device):
     protocol = _PROTOCOL
     identity = (Identity((Is("controller_type", ((2, 2),)),)),)
     groups = Cn8200Groups
-    commands = SubPart(Cn8200CommandsCN8200, AsyncCn8200CommandsCN8200)
+    commands = SubPart(Cn8200Commands, AsyncCn8200Commands)
     setpoint_programs = _PROGRAMS
 
 
@@ -1289,7 +1266,7 @@ class AsyncOmegaCN8200(_Cn8200, _Cn8200OfCN8200, AsyncDevice):
     protocol = _PROTOCOL
     identity = (Identity((Is("controller_type", ((2, 2),)),)),)
     groups = Cn8200Groups
-    commands = SubPart(Cn8200CommandsCN8200, AsyncCn8200CommandsCN8200)
+    commands = SubPart(Cn8200Commands, AsyncCn8200Commands)
     setpoint_programs = _PROGRAMS
 
 

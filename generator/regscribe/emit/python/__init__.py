@@ -11,9 +11,9 @@ from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 
 from regscribe.emit.header import header_of
 from regscribe.emit.python.classes import Classes
-from regscribe.emit.python.constants import Pool
+from regscribe.emit.python.constants import PROTOCOL, Pool
 from regscribe.emit.python.enum_classes import NamedClasses, Origin
-from regscribe.emit.python.expressions import PROTOCOL, expression
+from regscribe.emit.python.expressions import expression
 from regscribe.emit.python.formatting import WIDTH, lay, width
 from regscribe.emit.python.library_modules import libraries, module_path, offered
 from regscribe.emit.python.literals import camel, docstring, literal

@@ -1,7 +1,7 @@
 """The classes of a generated module: shared parts, array elements, commands, groups and models."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from regscribe.emit.header import HASH_DIGITS
 from regscribe.emit.python.class_sharing import Shared, partition, suffix
@@ -25,7 +25,7 @@ Members = Mapping[str, Sequence[Register | Array]]
 class Classes:
     """Builds the class definitions of a map; `lines` grows in the order in which the module needs them.
 
-    `given` are the private names, `homes` the classes that declare the registers and arrays of the models, by id.
+    `homes` are the classes that declare the registers and arrays of the models, by id.
     """
 
     register_map: RegisterMap
@@ -34,7 +34,6 @@ class Classes:
     stem: str
     lines: list[str] = field(default_factory=list)
     public: list[str] = field(default_factory=list)
-    given: set[str] = field(default_factory=set)
     homes: dict[str, str] = field(default_factory=dict)
 
     def build(self) -> None:
@@ -60,14 +59,15 @@ class Classes:
         """The declarations of registers and arrays."""
         model = self.register_map.model(shared.models[0])
         declarations = Declarations(Specs(model, self.pool), self.named)
-        calls = {item: declarations.call(item) for item in shared.items if isinstance(item, Register)}
-        calls = with_group_facts(calls, self.pool, model)
+        registers = [item for item in shared.items if isinstance(item, Register)]
+        calls = {register.id: declarations.call(register) for register in registers}
+        calls = with_group_facts(registers, calls, self.pool, model)
         body: list[str] = []
         for item in shared.items:
             if isinstance(item, Array):
                 body += self._array(item, shared.models)
             else:
-                body += declaration_lines(item, calls[item])
+                body += declaration_lines(item, calls[item.id])
         return body
 
     def _namer(self, stem: str, every: Iterable[str]) -> Callable[[Sequence[str]], str]:
@@ -76,8 +76,8 @@ class Classes:
         return lambda models: self._free(f"_{stem}" if tuple(models) == everyone else f"_{stem}Of{suffix(models)}")
 
     def _free(self, name: str) -> str:
-        found = free(name, self.given, "Own")
-        self.given.add(found)
+        found = free(name, self.pool.taken, "Own")
+        self.pool.taken.add(found)
         return found
 
     def _class(self, name: str, parents: Sequence[str], about: str, body: Sequence[str]) -> None:
@@ -111,7 +111,12 @@ class Classes:
 
     def _commands(self) -> dict[str, str]:
         """Emit the classes of commands; the name of the one of each model that has commands."""
-        owned = {model.name: model.commands for model in self.register_map.models if model.commands}
+        # what a command changes in a device is no part of its declaration, so it does not tell models apart
+        owned = {
+            model.name: [replace(command, effects=()) for command in model.commands]
+            for model in self.register_map.models
+            if model.commands
+        }
         shared = partition(owned, self._namer(f"{self.stem}Commands", owned))
         for one in shared:
             body: list[str] = []

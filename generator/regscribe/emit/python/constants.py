@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 from regscribe.emit.python.formatting import INDENT, WIDTH, Expression, flat, lay, width
 from regscribe.model import Model, Register
 
+PROTOCOL = "_PROTOCOL"
+"""The name of the constant of the protocol."""
 SHORT = 30
 """An expression of at most this many characters stays where it is used."""
 
@@ -15,12 +17,13 @@ SHORT = 30
 class Pool:
     """Named constants by their text; `lines` are their definitions in the order of first use.
 
-    `hidden` are the functions of the runtime that go by another name in this module.
+    `hidden` are the functions of the runtime that go by another name in this module, `taken` all private names in it.
     """
 
     hidden: frozenset[str] = frozenset()
     names: dict[str, str] = field(default_factory=dict)
     lines: list[str] = field(default_factory=list)
+    taken: set[str] = field(default_factory=lambda: {PROTOCOL})
 
     def helper(self, name: str) -> str:
         """The name under which this module calls a function of the runtime."""
@@ -31,6 +34,7 @@ class Pool:
         text = flat(expression)
         if text not in self.names:
             self.names[text] = self._free(names)
+            self.taken.add(self.names[text])
             self.lines += [f"# {comment}"] if comment and len(comment) + 2 <= WIDTH else []
             self.lines += _definition(self.names[text] + (f": {type_name}" if type_name else ""), expression)
         return self.names[text]
@@ -41,9 +45,8 @@ class Pool:
 
     def _free(self, names: Sequence[str]) -> str:
         wanted = [_constant(name) for name in names]
-        taken = set(self.names.values())
-        numbered = (f"{wanted[-1]}_{count}" for count in range(2, len(taken) + 3))
-        return next(free for free in (*wanted, *numbered) if free not in taken)
+        numbered = (f"{wanted[-1]}_{count}" for count in range(2, len(self.taken) + 3))
+        return next(free for free in (*wanted, *numbered) if free not in self.taken)
 
 
 def _definition(target: str, expression: Expression) -> list[str]:

@@ -32,9 +32,6 @@ from regscribe.model import (
     show,
 )
 
-PROTOCOL = "_PROTOCOL"
-"""The name of the constant of a map's protocol."""
-
 Known = Callable[[object], Expression | None]
 """How a module writes a value by other means than its content, such as the name of a constant; None: it does not."""
 

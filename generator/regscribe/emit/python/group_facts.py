@@ -14,23 +14,25 @@ FEWEST = 2
 Facts = Sequence[tuple[str, Expression]]
 
 
-def with_group_facts(calls: Mapping[Register, Call], pool: Pool, model: Model) -> dict[Register, Call]:
-    """The declarations of some registers of a model; long ones unpack what those of their group have in common."""
+def with_group_facts(
+    registers: Sequence[Register], calls: Mapping[str, Call], pool: Pool, model: Model
+) -> dict[str, Call]:
+    """The declarations of registers by id; long ones unpack what those of their group have in common."""
     found = dict(calls)
-    for group_id in dict.fromkeys(register.group for register in calls):
-        lines = {one: _lines(one, call) for one, call in calls.items() if one.group == group_id}
-        long = [one for one, count in lines.items() if count > ENOUGH_LINES]
-        common = _common(calls[one] for one in long)
+    for group_id in dict.fromkeys(register.group for register in registers):
+        lines = {one.id: _lines(one.id, calls[one.id]) for one in registers if one.group == group_id}
+        long = [name for name, count in lines.items() if count > ENOUGH_LINES]
+        common = _common(calls[name] for name in long)
         if min(len(long), len(common)) >= FEWEST:
             facts = mapping([(literal(key.removesuffix("=")), value) for key, value in common])
-            name = pool.share(facts, group_id, f"{group_id}_{model.name}", type_name="dict[str, Any]")
-            alike = [one for one, count in lines.items() if count > 1 and set(common) <= set(calls[one].items)]
-            found |= {one: _without(calls[one], common, name) for one in alike}
+            constant = pool.share(facts, group_id, f"{group_id}_{model.name}", type_name="dict[str, Any]")
+            alike = [name for name, count in lines.items() if count > 1 and set(common) <= set(calls[name].items)]
+            found |= {name: _without(calls[name], common, constant) for name in alike}
     return found
 
 
-def _lines(register: Register, call: Call) -> int:
-    return len(lay(call, head=f"{register.id} = ", depth=1))
+def _lines(name: str, call: Call) -> int:
+    return len(lay(call, head=f"{name} = ", depth=1))
 
 
 def _common(calls: Iterable[Call]) -> Facts:

@@ -148,3 +148,23 @@ def test_long_declarations_of_a_group_unpack_what_they_have_in_common(rendered: 
     assert "    calibration_offset_20 = ReadWrite(20, _INT16, integer, default=20, **_MAIN)\n" in code
     assert "_MAIN: dict[str, Any] = {" in code
     assert "from typing import Any" in code
+
+
+CLASHING = """\
+      - id: pid
+        name: PID
+        repeat: 1..2
+        stride: 10
+        registers:
+          - {at: 30, name: Gain, type: int16, decimals: pid}
+          - {at: 31, name: Share, type: int16, decimals: protocol}
+"""
+
+
+def test_no_constant_takes_the_name_of_a_class_or_of_the_protocol(rendered: Callable[[str], str]) -> None:
+    rules = "decimals: {pid: {register: places}, protocol: {register: places, at_most: 2}, "
+    code = rendered(MAP.replace("decimals: {", rules, 1) + CLASHING)
+    defined = re.findall(r"^(?:class )?(\w+)(?: = |[(:])", code, re.MULTILINE)
+    assert sorted(set(defined)) == sorted(defined)
+    assert "scale=_PID_SCALE" in code
+    assert "scale=_PROTOCOL_SCALE" in code
