@@ -2,7 +2,7 @@
 
 from regscribe.evidence.compare import compare_maps, compare_table
 from regscribe.evidence.coverage import coverage
-from regscribe.evidence.coverage_values import Addresses, MapCoverage, ModelCoverage, Remark
+from regscribe.evidence.coverage_values import Addresses, MapCoverage, ModelCoverage, Remark, counts
 from regscribe.evidence.differences import CellDifference, Comparison, Location
 from regscribe.evidence.index_row import card
 from regscribe.evidence.table import Table, TableError, read
@@ -20,6 +20,7 @@ __all__ = [
     "card",
     "compare_maps",
     "compare_table",
+    "counts",
     "coverage",
     "read",
 ]

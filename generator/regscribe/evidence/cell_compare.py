@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 
 from regscribe.emit.words import one_line
@@ -101,17 +101,26 @@ def _within(part: str, whole: str) -> bool:
 def objects(text: str) -> dict[str, object] | None:
     """Read a cell that holds an object; None if it does not."""
     if text.lstrip().startswith("{"):
-        try:
-            found = json.loads(text)
-        except (ValueError, RecursionError):
-            return None
-        return found if isinstance(found, dict) else None
-    views = [VIEW.fullmatch(word) for word in text.split()]
-    pairs = [PAIR.fullmatch(entry) for entry in re.split(r"[;\n]", text) if entry.strip()]
-    for found_all, value in ((views, int), (pairs, str)):
-        if found_all and all(found_all):
-            return {found[1]: value(found[2]) for found in found_all if found}
+        return _json_object(text)
+    if views := _matches(VIEW, text.split()):
+        return {found[1]: int(found[2]) for found in views}
+    if pairs := _matches(PAIR, filter(str.strip, re.split(r"[;\n]", text))):
+        return {found[1]: found[2] for found in pairs}
     return None if text.strip() else {}
+
+
+def _matches(pattern: re.Pattern[str], parts: Iterable[str]) -> list[re.Match[str]]:
+    """The matches of all parts; none if one of them does not match."""
+    found = [pattern.fullmatch(part) for part in parts]
+    return [] if None in found else [match for match in found if match]
+
+
+def _json_object(text: str) -> dict[str, object] | None:
+    try:
+        found = json.loads(text)
+    except (ValueError, RecursionError):
+        return None
+    return found if isinstance(found, dict) else None
 
 
 def _objects(ours: str, theirs: str, same: Same) -> tuple[str, str] | None:
@@ -132,16 +141,19 @@ def _code(key: str) -> str:
 
 
 def _entry(ours: object, theirs: object, same: Same) -> bool:
-    """Whether two entries agree; of a view only what both sides say is compared, its address at least."""
-    if isinstance(ours, dict) and isinstance(theirs, int) and not isinstance(theirs, bool):
-        return ours.get("address") == theirs
-    if isinstance(ours, dict) and isinstance(theirs, dict):
-        return bool(theirs) and all(ours.get(key) == value for key, value in theirs.items())
-    if isinstance(ours, str) and isinstance(theirs, int | float) and not isinstance(theirs, bool):
+    """Whether two entries of objects agree."""
+    if isinstance(ours, dict):
+        return _view(ours, theirs)
+    if isinstance(ours, str) and type(theirs) in {int, float}:
         theirs = str(theirs)
-    if isinstance(ours, str) and isinstance(theirs, str):
-        return same(ours, theirs)
-    return ours == theirs
+    return same(ours, theirs) if isinstance(ours, str) and isinstance(theirs, str) else ours == theirs
+
+
+def _view(ours: dict[str, object], theirs: object) -> bool:
+    """Whether two views agree in what both sides say, their address at least."""
+    if isinstance(theirs, dict):
+        return bool(theirs) and all(ours.get(key) == value for key, value in theirs.items())
+    return type(theirs) is int and ours.get("address") == theirs
 
 
 def _shown(found: Mapping[str, object], keys: list[str]) -> str:

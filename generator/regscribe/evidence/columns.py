@@ -58,13 +58,27 @@ def choose(table: Table, wanted: Sequence[str], notations: Sequence[str]) -> Col
     `wanted` names the columns to compare, `name` or `name=header` where the table calls it otherwise; none: all that
     the table has, and then every header must be known. Raises TableError for unknown, missing or doubled columns.
     """
-    known = {fold(name): fold(name) for name in (*COLUMNS, *notations)}
-    known |= {f"{fold(name)}_address": fold(name) for name in notations}
-    known |= {name: column for name, column in SYNONYMS.items() if name not in known}
-    if not any(fold(head) in known for head in table.header) and not wanted:
+    known = _known(notations)
+    if not wanted and not any(fold(head) in known for head in table.header):
         raise TableError(_no_header(table))
     asked = dict(_asked(wanted, known))
-    heads = {head: fold(head) for head in table.header}
+    at = _places(table, asked, known)
+    if missing := [f"`{head}`" for name, head in asked.items() if name not in at]:
+        message = f"{table.name} has no column {', '.join(missing)}: it has {', '.join(dict.fromkeys(table.header))}"
+        raise TableError(message)
+    compared = tuple(name for name in (asked or at) if name not in PLACES)
+    return Columns(tuple(at.items()), compared)
+
+
+def _known(notations: Sequence[str]) -> dict[str, str]:
+    """The names that a header may use, folded, with the columns that they mean."""
+    known = {fold(name): fold(name) for name in (*COLUMNS, *notations)}
+    known |= {f"{fold(name)}_address": fold(name) for name in notations}
+    return known | {name: column for name, column in SYNONYMS.items() if name not in known}
+
+
+def _places(table: Table, asked: dict[str, str], known: dict[str, str]) -> dict[str, int]:
+    """Where the columns stand; without `asked`, every header that has something below it must be known."""
     at: dict[str, int] = {}
     for index, head in enumerate(table.header):
         name = _name_of(head, asked, known)
@@ -73,13 +87,9 @@ def choose(table: Table, wanted: Sequence[str], notations: Sequence[str]) -> Col
             raise TableError(message)
         if name:
             at[name] = index
-        elif not wanted and (head or any(row.cells[index].strip() for row in table.rows)):
+        elif not asked and (head or any(row.cells[index].strip() for row in table.rows)):
             raise TableError(_unknown(table, head, index, known))
-    if missing := [f"`{head}`" for name, head in asked.items() if name not in at]:
-        message = f"{table.name} has no column {', '.join(missing)}: it has {', '.join(heads)}"
-        raise TableError(message)
-    compared = tuple(name for name in (asked or at) if name not in PLACES)
-    return Columns(tuple(at.items()), compared)
+    return at
 
 
 def _asked(wanted: Sequence[str], known: dict[str, str]) -> Iterable[tuple[str, str]]:
@@ -107,9 +117,8 @@ def _name_of(head: str, asked: dict[str, str], known: dict[str, str]) -> str:
 
 def _unknown(table: Table, head: str, index: int, known: dict[str, str]) -> str:
     if not head:
-        return (
-            f"{table.name}: column {index + 1} has no name in the header, but content: name it or choose with --columns"
-        )
+        column = f"{table.name}: column {index + 1}"
+        return f"{column} has no name in the header, but content: name it or choose with --columns"
     return (
         f"{table.name}: there is no column `{head}`{_meant(head, known)}; choose the columns to compare with --columns "
         f"(name=header where the table calls it otherwise)"

@@ -38,21 +38,15 @@ def compare_table(
     _refuse_keyless(table, chosen, notations)
     model = _model(register_map, table, chosen, model)
     theirs = list(of_table(table, chosen, register_map, model))
-    notes = tuple(_notes(register_map, table, chosen, theirs))
+    notes = [*_other_maps(register_map, table, chosen), *_foreign_models(register_map, theirs)]
     ours = [entry for entry in of_map(register_map) if not model or entry.model == model]
     matching = match(ours, theirs, name=table.name)
-    if "kind" not in chosen.names:  # such a table lists registers: a command in it is a chance
-        matching.only_ours = [entry for entry in matching.only_ours if not entry.is_command]
-    if partial:
-        matching.only_ours = []
-    silent = _silent(register_map)
-    told = [row.is_silent and _stands_in(row, silent) for row in matching.only_theirs]
-    if any(told):
-        matching.only_theirs = [row for row, agreed in zip(matching.only_theirs, told, strict=True) if not agreed]
-        notes += (f"{sum(told)} rows name no register where the map has none (unused, reserved or a further word)",)
-    return _comparison(
-        matching, ours=register_map.id, theirs=table.name, columns=chosen.compared, loose=loose, notes=notes
-    )
+    lists_commands = "kind" in chosen.names  # a table without it lists registers: a command in it is a chance
+    expected = [entry for entry in matching.only_ours if lists_commands or not entry.is_command]
+    matching.only_ours = [] if partial else expected
+    notes += _without_silent(matching, register_map)
+    names = {"ours": register_map.id, "theirs": table.name}
+    return _comparison(matching, **names, columns=chosen.compared, loose=loose, notes=tuple(notes))
 
 
 def compare_maps(
@@ -70,7 +64,7 @@ def compare_maps(
     """
     paired = dict(pairs) if pairs else _paired(ours, theirs)
     labels = {left: left if left == right else f"{left} = {right}" for left, right in paired.items()}
-    chosen = _columns_of_export(columns)
+    chosen = choose(Table("the export", COLUMNS, ()), columns, ()).compared
     matching = match(
         _of_models(ours, labels),
         _of_models(theirs, {right: labels[left] for left, right in paired.items()}),
@@ -102,19 +96,12 @@ def _paired(ours: RegisterMap, theirs: RegisterMap) -> dict[str, str]:
     return {name: others.get(name, name) for name in left}
 
 
-def _columns_of_export(wanted: Sequence[str]) -> tuple[str, ...]:
-    header = Table("the export", COLUMNS, ())
-    return choose(header, wanted, ()).compared
-
-
 def _comparison(
     matching: Matching, *, ours: str, theirs: str, columns: tuple[str, ...], loose: bool, notes: tuple[str, ...]
 ) -> Comparison:
     besides = tuple(column for column in columns if column in COLUMNS and column not in OF_BASE)
-    found = [difference for pair in matching.pairs for difference in _differences(*pair, columns=columns, loose=loose)]
-    found += [
-        difference for pair in matching.by_alias for difference in _differences(*pair, columns=besides, loose=loose)
-    ]
+    found = [each for pair in matching.pairs for each in _differences(*pair, columns=columns, loose=loose)]
+    found += [each for pair in matching.by_alias for each in _differences(*pair, columns=besides, loose=loose)]
     return Comparison(
         ours=ours,
         theirs=theirs,
@@ -136,6 +123,15 @@ def _differences(
             continue  # a row that leaves the space open was looked for in all of them
         if apart := differing(column, left, right, loose=loose):
             yield CellDifference(replace(ours.place, line=theirs.line), column, *apart)
+
+
+def _without_silent(matching: Matching, register_map: RegisterMap) -> list[str]:
+    """Take out the rows that name no register where the map has none, and note how many there are."""
+    silent = _silent(register_map)
+    loud = [row for row in matching.only_theirs if not (row.is_silent and _stands_in(row, silent))]
+    count = len(matching.only_theirs) - len(loud)
+    matching.only_theirs = loud
+    return [f"{count} rows name no register where the map has none (unused, reserved or a further word)"] * bool(count)
 
 
 def _silent(register_map: RegisterMap) -> set[tuple[str, Spot]]:
@@ -183,17 +179,20 @@ def _model(register_map: RegisterMap, table: Table, chosen: Columns, model: str)
     return names[0]
 
 
-def _notes(register_map: RegisterMap, table: Table, chosen: Columns, theirs: Sequence[ComparedRow]) -> Iterator[str]:
-    """Yield what is left out of the comparison, and models that the map does not have."""
-    places = dict(chosen.at)
-    if "map" in places:
-        maps = [row.cells[places["map"]].strip() for row in table.rows]
-        others = [name for name in maps if name != register_map.id]
-        if len(others) == len(maps):
-            message = f"{table.name} has no row of the map {register_map.id}, but of {', '.join(dict.fromkeys(others))}"
-            raise TableError(message)
-        if others:
-            yield f"left out: {len(others)} rows of other maps ({', '.join(dict.fromkeys(others))})"
+def _other_maps(register_map: RegisterMap, table: Table, chosen: Columns) -> list[str]:
+    """Note how many rows are of other maps; TableError if all are."""
+    column = dict(chosen.at).get("map")
+    maps = [row.cells[column].strip() for row in table.rows] if column is not None else []
+    others = [name for name in maps if name != register_map.id]
+    listed = ", ".join(dict.fromkeys(others))
+    if others and len(others) == len(maps):
+        message = f"{table.name} has no row of the map {register_map.id}, but of {listed}"
+        raise TableError(message)
+    return [f"left out: {len(others)} rows of other maps ({listed})"] if others else []
+
+
+def _foreign_models(register_map: RegisterMap, theirs: Sequence[ComparedRow]) -> Iterator[str]:
+    """Note the models of a table that the map does not have."""
     names = [one_line(model.name) for model in register_map.models]
     for foreign in dict.fromkeys(entry.model for entry in theirs if entry.model not in names):
         yield f"{register_map.id} has no model `{foreign}`{_meant(foreign, names)}"

@@ -6,10 +6,16 @@ from collections.abc import Callable, Iterable, Iterator
 
 from regscribe.emit.words import one_line
 from regscribe.evidence.coverage_values import Addresses, MapCoverage, ModelCoverage, Remark
-from regscribe.evidence.exemplified import exemplified
-from regscribe.model import Kind, Model, Open, Register, RegisterMap, Space
-
-"""Function codes that write coils; every other write of a command goes to holding registers."""
+from regscribe.model import (
+    FrameExample,
+    Kind,
+    Model,
+    Open,
+    Register,
+    RegisterMap,
+    Space,
+    ValueExample,
+)
 
 INFERRED, OPEN_LIMIT, NOT_STATED = KINDS = ("inferred", "open limit", "decimals not stated")
 """What is said of registers, in this order."""
@@ -34,7 +40,7 @@ def _model(register_map: RegisterMap, model: Model) -> ModelCoverage:
     def number(fact: Callable[[Register], object]) -> int:
         return sum(bool(fact(register)) for register in model.registers)
 
-    shown = exemplified(register_map, model)
+    shown = _exemplified(register_map, model)
     return ModelCoverage(
         name=one_line(model.name),
         addresses=tuple(_addresses(register_map, model)),
@@ -49,6 +55,59 @@ def _model(register_map: RegisterMap, model: Model) -> ModelCoverage:
         open_limits=number(open_limits),
         raw=number(_is_raw),
     )
+
+
+def _exemplified(register_map: RegisterMap, model: Model) -> frozenset[str]:
+    """Return the paths of the registers of `model` that an example decodes, writes, or reads and writes in a frame.
+
+    An example is about one model; it counts for another one whose register has the same views and scale.
+    """
+    own = {register.path: register for register in model.registers}
+    paths = {(name, path) for name, path in _named(register_map) if register_map.has(name)}
+    return frozenset(path for name, path in paths if path in own and _alike(own[path], register_map.model(name), path))
+
+
+def _alike(register: Register, other: Model, path: str) -> bool:
+    try:
+        shown = other.register(path)
+    except KeyError:
+        return False
+    return (shown.views, shown.scale) == (register.views, register.scale)
+
+
+def _named(register_map: RegisterMap) -> Iterator[tuple[str, str]]:
+    """Yield model and path of every register that an example is about."""
+    for example in register_map.examples:
+        if isinstance(example, ValueExample):
+            yield example.model, example.register
+        elif isinstance(example, FrameExample):
+            paths = (*(path for path, _ in example.writes), *_touched(register_map, example))
+            yield from ((example.model, path) for path in paths)
+
+
+def _touched(register_map: RegisterMap, frame: FrameExample) -> list[str]:
+    """The registers whose words a frame carries; a request without words counts if it is for one register."""
+    if frame.address is None or not register_map.has(frame.model) or not _spaces([frame.function]):
+        return []
+    alike = next((codes for codes in register_map.alike if frame.function in codes), (frame.function,))
+    end = frame.address + _length(frame)
+    registers = register_map.model(frame.model).registers
+    found = [one.path for one in registers if _is_inside(one, _spaces(alike), frame.address, end)]
+    return found if frame.words or len(found) == 1 else []
+
+
+def _length(frame: FrameExample) -> int:
+    return frame.count or len(frame.words or ()) or 1
+
+
+def _spaces(functions: Iterable[int]) -> set[Space]:
+    """The spaces that function codes address."""
+    codes = set(functions)
+    return {one for one in Space if codes & {one.read_function, *one.write_functions}}
+
+
+def _is_inside(register: Register, spaces: set[Space], start: int, end: int) -> bool:
+    return any(view.space in spaces and start <= view.address and view.last < end for view in register.views)
 
 
 def open_limits(register: Register) -> tuple[str, ...]:

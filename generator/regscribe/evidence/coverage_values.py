@@ -1,6 +1,6 @@
 """What a map covers, as `regscribe coverage` shows it: frozen values."""
 
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,3 +69,8 @@ class MapCoverage:
     overrides: int
     givens: int
     examples: int
+
+
+def counts(found: Addresses | ModelCoverage | MapCoverage) -> tuple[int, ...]:
+    """The numbers alone, in the order of the fields."""
+    return tuple(value for value in astuple(found) if isinstance(value, int))

@@ -6,7 +6,7 @@ from regscribe.emit.docs_index import Card
 from regscribe.emit.markdown import index_row
 from regscribe.emit.markdown.escape import Md, code, escape, join, md, prose
 from regscribe.evidence.coverage import coverage
-from regscribe.evidence.coverage_values import Addresses, MapCoverage, ModelCoverage, Remark
+from regscribe.evidence.coverage_values import Addresses, MapCoverage, ModelCoverage, Remark, counts
 from regscribe.model import RegisterMap
 
 
@@ -17,7 +17,7 @@ def card(register_map: RegisterMap) -> Card:
     return Card(
         id=register_map.id,
         family=tuple(map(str, index_row(register_map))),
-        sums=(family, *map(str, (found.errata, found.waivers, found.overrides, found.givens, found.examples))),
+        sums=(family, *map(str, counts(found))),
         facts=tuple((family, *_facts(model)) for model in found.models),
         addresses=tuple((family, *row) for row in _addresses(found)),
         remarks=tuple((family, *_remark(remark)) for remark in found.remarks),
@@ -26,19 +26,7 @@ def card(register_map: RegisterMap) -> Card:
 
 def _facts(model: ModelCoverage) -> tuple[str, ...]:
     """Return the cells of one model: how many registers have each fact."""
-    counts = (
-        model.registers,
-        model.ranged,
-        model.coded,
-        model.defaults,
-        model.units,
-        model.sections,
-        model.examples,
-        model.inferred,
-        model.open_limits,
-        model.raw,
-    )
-    return (escape(model.name), *map(str, counts))
+    return (escape(model.name), *map(str, counts(model)))
 
 
 def _addresses(found: MapCoverage) -> Iterator[tuple[str, ...]]:
@@ -48,8 +36,7 @@ def _addresses(found: MapCoverage) -> Iterator[tuple[str, ...]]:
         for addresses in model.addresses:
             models.setdefault(addresses, []).append(model.name)
     for item, names in models.items():
-        counts = (item.documented, item.mapped, item.aliases, item.commands, item.unused, item.reserved)
-        yield (escape(", ".join(names)), item.space, *map(str, counts))
+        yield (escape(", ".join(names)), item.space, *map(str, counts(item)))
 
 
 def _remark(remark: Remark) -> tuple[str, ...]:

@@ -86,22 +86,31 @@ def of_table(table: Table, columns: Columns, register_map: RegisterMap, model: s
         cells = {name: row.cells[index] for name, index in columns.at}
         if cells.get("map", register_map.id).strip() != register_map.id:
             continue
-        found = [f"column {name}: {fault}" for name, text in cells.items() if (fault := problem(name, text))]
-        stands = _stands(cells, register_map.notations, found)
-        models = _models(cells, register_map, model, found)
-        if not stands and not cells.get("id", "").strip() and not found:
-            found.append("there is neither an address nor an id, so nothing tells which register this is")
+        found: list[str] = []
+        rows_of_models = _entries(row, cells, register_map, model, found)
         faults += [f"{table.name}:{row.line}: {fault}" for fault in found]
         if not found:
-            for name in models:
-                yield from (_entry(row, {**cells, **written}, spots, name) for written, spots in stands or [({}, ())])
+            yield from rows_of_models
     if faults:
         more = f"\nand {len(faults) - MOST_PROBLEMS} more" if len(faults) > MOST_PROBLEMS else ""
         raise TableError("\n".join(faults[:MOST_PROBLEMS]) + more)
 
 
-def _entry(row: TableRow, cells: dict[str, str], spots: tuple[Spot, ...], model: str) -> ComparedRow:
-    return ComparedRow(model=model, id=cells.get("id", "").strip(), spots=spots, cells=cells, line=row.line)
+def _entries(
+    row: TableRow, cells: dict[str, str], register_map: RegisterMap, model: str, faults: list[str]
+) -> list[ComparedRow]:
+    """Return an entry for each model and address of a row; what is wrong with it goes to `faults`."""
+    faults += [f"column {name}: {fault}" for name, text in cells.items() if (fault := problem(name, text))]
+    stands = _stands(cells, register_map.notations, faults)
+    models = _models(cells, register_map, model, faults)
+    path = cells.get("id", "").strip()
+    if not stands and not path and not faults:
+        faults.append("there is neither an address nor an id, so nothing tells which register this is")
+    return [
+        ComparedRow(model=name, id=path, spots=spots, cells={**cells, **written}, line=row.line)
+        for name in models
+        for written, spots in stands or [({}, ())]
+    ]
 
 
 Stand = tuple[dict[str, str], tuple[Spot, ...]]
@@ -116,18 +125,22 @@ def _stands(cells: dict[str, str], notations: Sequence[Notation], faults: list[s
     if cells.get("address", "").strip():
         found = _addresses("address", cells["address"], faults)
         return [({"address": str(address)}, ((space, address),)) for address in found]
-    for notation in notations:
-        name = fold(notation.name)
-        if cells.get(name, "").strip():
-            offsets = [(one.space.value, one.offset) for one in notations if fold(one.name) == name]
-            if space and space not in dict(offsets):
-                faults.append(f"column {name}: the map has no notation {notation.name} for the space {space}")
-                return []
-            return [
-                ({name: str(written)}, tuple((own, written - offset) for own, offset in offsets if space in {"", own}))
-                for written in _addresses(name, cells[name], faults)
-            ]
-    return []
+    written = [one for one in notations if cells.get(fold(one.name), "").strip()]
+    return _in_notation(written[0].name, cells, notations, space, faults) if written else []
+
+
+def _in_notation(
+    notation: str, cells: dict[str, str], notations: Sequence[Notation], space: str, faults: list[str]
+) -> list[Stand]:
+    name = fold(notation)
+    offsets = [(one.space.value, one.offset) for one in notations if fold(one.name) == name]
+    if space and space not in dict(offsets):
+        faults.append(f"column {name}: the map has no notation {notation} for the space {space}")
+        return []
+    return [
+        ({name: str(written)}, tuple((own, written - offset) for own, offset in offsets if space in {"", own}))
+        for written in _addresses(name, cells[name], faults)
+    ]
 
 
 def _addresses(column: str, text: str, faults: list[str]) -> Iterable[int]:
@@ -144,12 +157,13 @@ def _models(cells: dict[str, str], register_map: RegisterMap, model: str, faults
     """Return the models that a row is about: one name, or several separated by commas, semicolons or blanks."""
     if "model" not in cells:
         return [model]
-    text = one_line(cells["model"])
-    names = {one_line(one.name): one.name for one in register_map.models}
-    for separators in (r"$^", r"\s*[,;]\s*", r"[,;\s]+"):
-        parts = [part for part in re.split(separators, text) if part]
-        if parts and all(part in names for part in parts):
-            break
+    parts = _named(one_line(cells["model"]), {one_line(one.name) for one in register_map.models})
     if not parts:
         faults.append("the cell of the column model is empty: name the models that have this register")
     return list(dict.fromkeys(part for part in parts if not model or part == model))
+
+
+def _named(text: str, known: set[str]) -> list[str]:
+    """Split a cell where all its parts are known names; the finest split where no one is."""
+    ways = [list(filter(None, re.split(separators, text))) for separators in (r"$^", r"\s*[,;]\s*", r"[,;\s]+")]
+    return next((parts for parts in ways if parts and known.issuperset(parts)), ways[-1])

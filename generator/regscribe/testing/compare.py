@@ -25,13 +25,18 @@ def report(differences: Iterable[str]) -> str:
     return f"{len(listed)} differences:\n  " + "\n  ".join(listed[:MOST_SHOWN]) + rest
 
 
+def expect_none(differences: Iterable[str]) -> None:
+    """Raise AssertionError with a report if there are differences."""
+    if listed := list(differences):
+        raise AssertionError(report(listed))
+
+
 def same(found: object, text: str) -> bool:
     """Tell whether a decoded value is what a vector spells; a float must be the nearest one."""
     if isinstance(found, str):
         return found == text
     if isinstance(found, float):
-        exactly = Fraction(text)
-        return found == exactly.numerator / exactly.denominator
+        return found == float(Fraction(text))
     return isinstance(found, (int, Fraction)) and found == Fraction(text)
 
 
@@ -48,30 +53,41 @@ def decoded(trial: Trial, vector: Json) -> Iterator[str]:
     except NotDecodable as error:
         yield from differs(where, "outcome", "not_decodable", vector.get("outcome", f"{expected} ({error})"))
     else:
-        named = "special" in vector and not isinstance(
-            found, str
-        )  # its number counts as the range does: by name, below
-        if "value" not in vector or not (named or same(found, vector["value"])):
-            yield f"{where}: value {found!r}, expected {expected!r}"
-        else:
-            yield from _named(where, trial, found, vector)
+        yield from _value(where, trial, found, vector, expected)
 
 
-def _named(where: str, trial: Trial, found: Any, vector: Json) -> Iterator[str]:  # noqa: ANN401 (any value)
+def _value(where: str, trial: Trial, found: Any, vector: Json, expected: object) -> Iterator[str]:  # noqa: ANN401 (any value)
+    named = "special" in vector and not isinstance(found, str)  # its number counts as the range does: by name
+    if "value" not in vector or not (named or same(found, vector["value"])):
+        yield f"{where}: value {found!r}, expected {expected!r}"
+    else:
+        yield from _details(where, trial, found, vector)
+
+
+def _details(where: str, trial: Trial, found: Any, vector: Json) -> Iterator[str]:  # noqa: ANN401 (as above)
     for key in ("member", "special"):
         if key in vector:
-            labels = trial.entry.get(f"{key}s", ())
-            label = next((one["label"] for one in labels if one["id"] == vector[key]), None)
-            yield from differs(where, key, getattr(found, "name", None), vector[key])
-            yield from differs(where, "label", getattr(found, "label", None), label) if label is not None else ()
+            yield from _named(where, key, found, vector[key], trial.entry.get(f"{key}s", ()))
     if "unknown" in vector:
         yield from differs(where, "known", getattr(found, "known", None), not vector["unknown"])
     if "flags" in vector:
-        members = list(type(found)) if isinstance(found, Flags) else []
-        names = {str(member.name).lower() for member in members if member in found} if found else set()
-        yield from differs(where, "flags", names, {name.lower() for name in vector["flags"]})
+        yield from differs(where, "flags", _flags(found), {name.lower() for name in vector["flags"]})
     for name, part in vector.get("fields", {}).items():
         yield from differs(where, name, getattr(found, name, None), int(part))
+
+
+def _named(where: str, key: str, found: object, name: str, members: Iterable[Json]) -> Iterator[str]:
+    yield from differs(where, key, getattr(found, "name", None), name)
+    label = next((one["label"] for one in members if one["id"] == name), None)
+    if label is not None:
+        yield from differs(where, "label", getattr(found, "label", None), label)
+
+
+def _flags(found: object) -> set[str]:
+    """The names of the flags that are set."""
+    if not isinstance(found, Flags):
+        return set()
+    return {str(member.name).lower() for member in type(found) if member in found}
 
 
 def written(trial: Trial, text: str) -> Any:  # noqa: ANN401 (a text or a number)

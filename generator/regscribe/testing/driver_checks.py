@@ -1,10 +1,10 @@
 """One model's driver on the bench: its registers beside their vectors, and checks that say what differs."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
 from typing import Any
 
-from regscribe.testing.compare import decoded, differs, encoded, refused, report, same
+from regscribe.testing.compare import decoded, differs, encoded, expect_none, refused, same
 from regscribe.testing.register_trial import Trial, known
 from regscribe.testing.vectors import Json, Vectors, number
 from regscribe_runtime.registers.register import Register
@@ -45,7 +45,7 @@ class DriverUnderTest:
         return [trial for trial in self.written if len(trial.register.view_names) > 1]
 
     def __repr__(self) -> str:
-        return f"<Bench {self.model}>"
+        return f"<DriverUnderTest {self.model}>"
 
     def _register(self, path: str) -> Register[Any] | None:
         found: Register[Any] | None = self.driver.registers.get(path)
@@ -64,8 +64,7 @@ class DriverUnderTest:
 
     def check_registers(self) -> None:
         """Assert that the driver has the registers of the model, no others, at their addresses in every view."""
-        differences = [*self._places(), *self._names()]
-        assert not differences, report(differences)  # noqa: S101 (this is a test library)
+        expect_none([*self._places(), *self._names()])
 
     def _names(self) -> Iterator[str]:
         expected, found = {place["path"] for place, _ in self.places}, set(self.driver.registers)
@@ -96,8 +95,7 @@ class DriverUnderTest:
             name: tuple(fact) if isinstance(fact, list) else fact for name, fact in self.vectors.protocol.items()
         }
         found = {name: getattr(self.driver.protocol, name, expected[name]) for name in expected}
-        wrong = [*differs(self.model, "protocol", found, expected), *self._commands()]
-        assert not wrong, report(wrong)  # noqa: S101 (as above)
+        expect_none([*differs(self.model, "protocol", found, expected), *self._commands()])
 
     def _commands(self) -> Iterator[str]:
         section = getattr(self.driver, "commands", None)
@@ -113,24 +111,20 @@ class DriverUnderTest:
 
     def check_decoding(self) -> None:
         """Assert that the words of every vector decode to its value, its fault or its outcome."""
-        differences = [
-            text for trial in self.trials for vector in trial.case.get("decode", ()) for text in decoded(trial, vector)
-        ]
-        assert not differences, report(differences)  # noqa: S101 (as above)
+        self._check("decode", decoded)
 
     def check_encoding(self) -> None:
         """Assert that the value of every vector encodes to its words."""
-        differences = [
-            text for trial in self.trials for vector in trial.case.get("encode", ()) for text in encoded(trial, vector)
-        ]
-        assert not differences, report(differences)  # noqa: S101 (as above)
+        self._check("encode", encoded)
 
     def check_refusals(self) -> None:
         """Assert that every value that has no words is refused."""
-        differences = [
-            text for trial in self.trials for vector in trial.case.get("refuse", ()) for text in refused(trial, vector)
-        ]
-        assert not differences, report(differences)  # noqa: S101 (as above)
+        self._check("refuse", refused)
+
+    def _check(self, key: str, judge: Callable[[Trial, Json], Iterator[str]]) -> None:
+        expect_none(
+            text for trial in self.trials for vector in trial.case.get(key, ()) for text in judge(trial, vector)
+        )
 
     def check_conditions_of_writing(self) -> None:
         """Assert that a register that can be written at times can be written then and at no other time."""
@@ -142,12 +136,11 @@ class DriverUnderTest:
                 when = register.writable[0] if register and register.writable else ()
                 allowed = all(test.holds(state, givens) for test in when)
                 differences += differs(f"{place['path']} with {state}", "allowed", allowed, vector["allowed"])
-        assert not differences, report(differences)  # noqa: S101 (as above)
+        expect_none(differences)
 
     def check_examples(self) -> None:
         """Assert that the driver reproduces the manual's worked examples."""
-        differences = [text for example in self.vectors.examples_of(self.model) for text in self._example(example)]
-        assert not differences, report(differences)  # noqa: S101 (as above)
+        expect_none(text for example in self.vectors.examples_of(self.model) for text in self._example(example))
 
     def _example(self, example: Json) -> Iterator[str]:
         state, givens = known(example)

@@ -110,8 +110,7 @@ def _situations(bench: DriverUnderTest, trial: Trial) -> Sequence[Trial]:
 
 def _equal(found: object, value: object) -> bool:
     if isinstance(found, float) and isinstance(value, (int, Fraction)):
-        exactly = Fraction(value)
-        return found == exactly.numerator / exactly.denominator
+        return found == float(Fraction(value))
     return found == value
 
 

@@ -1,7 +1,7 @@
 """Drive the read operation of a driver without a link, and judge the requests that it makes."""
 
 from collections import Counter, defaultdict
-from collections.abc import Callable, Container, Iterator, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 from regscribe_runtime import ValueNotDecodable
@@ -70,12 +70,18 @@ def wrong_requests(driver: Any, chosen: Sequence[Register[Any]]) -> list[str]:  
     requests = read_through(driver, chosen).requests
     asked = Counter(cell for request in requests for cell in _cells(READ_SPACES[request.function], request))
     found = [f"{register.path} is not asked for" for register in chosen if not _is_asked(register, asked)]
-    found += [f"{space} {address} is asked for again" for space, address in asked if asked[space, address] > 1]
-    if not driver.protocol.read_holes:
-        known = {cell for register in driver.registers.values() for cell in _places_of(register)}
-        known |= {(space, at) for space, first, last in unused_of(driver) for at in range(first, last + 1)}
-        found += [f"{space} {address} is no register" for space, address in asked if (space, address) not in known]
+    found += [f"{space} {address} is asked for again" for (space, address), times in asked.items() if times > 1]
+    found += [f"{space} {address} is no register" for space, address in sorted(_holes(driver, asked))]
     return found + [text for request in requests for text in _too_much(driver.protocol, request)]
+
+
+def _holes(driver: Any, asked: Iterable[Cell]) -> set[Cell]:  # noqa: ANN401 (as above)
+    """The addresses of no register, in no view, and not unused either; none where the device answers for holes."""
+    if driver.protocol.read_holes:
+        return set()
+    known = {cell for register in driver.registers.values() for cell in _places_of(register)}
+    known |= {(space, at) for space, first, last in unused_of(driver) for at in range(first, last + 1)}
+    return set(asked) - known
 
 
 def unused_of(driver: Any) -> tuple[tuple[Space, int, int], ...]:  # noqa: ANN401 (as above)

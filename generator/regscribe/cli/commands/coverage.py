@@ -11,7 +11,7 @@ from regscribe.cli.shared.map_arguments import find_maps
 from regscribe.cli.shared.output import print_json
 from regscribe.cli.shared.terminal import Piece, show, tell
 from regscribe.emit.docs_index import ADDRESSES, FACTS, coverage_text
-from regscribe.evidence import MapCoverage, Remark, card, coverage
+from regscribe.evidence import MapCoverage, Remark, card, counts, coverage
 from regscribe.visible import safe
 
 
@@ -47,14 +47,10 @@ def _text(found: MapCoverage) -> Iterator[Piece]:
         count(found.givens, "given"),
     )
     yield f"{', '.join(sums)}\n\n", ""
-    facts = [
-        tuple(str(value) for name, value in asdict(model).items() if name != "addresses") for model in found.models
-    ]
+    facts = [(model.name, *map(str, counts(model))) for model in found.models]
     yield from _table([FACTS[1:], *facts], left=1)
     addresses = [
-        (model.name, *(str(value) for value in asdict(item).values()))
-        for model in found.models
-        for item in model.addresses
+        (model.name, item.space, *map(str, counts(item))) for model in found.models for item in model.addresses
     ]
     yield from _table([("Model", *ADDRESSES[2:]), *addresses], left=2)
     for remark in found.remarks:
