@@ -5,7 +5,6 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from regscribe.cli.shared.chart import chart
-from regscribe.tools.live.reading import RegisterReading, reason
 from regscribe.tools.live.watch import Round
 from regscribe.visible import safe
 
@@ -13,6 +12,8 @@ if TYPE_CHECKING:
     from datetime import datetime
 
     from rich.console import RenderableType
+
+    from regscribe.tools.live.reading import RegisterReading
 
 MOST_POINTS = 5000
 """Points of a curve that are kept."""
@@ -95,5 +96,4 @@ def lines(one: Round) -> Iterator[str]:
         yield f"{one.moment}  {safe(str(one.error))}\n"
     for each in one.readings:
         if one.number == 1 or each.name in one.changed:
-            value = each.spelled if each.error is None else f"({reason(each.error, each.name)})"
-            yield f"{one.moment} {MARK if each.name in one.changed else ' '} {each.name} {safe(value)}\n"
+            yield f"{one.moment} {MARK if each.name in one.changed else ' '} {each.name} {safe(each.spelled)}\n"

@@ -8,9 +8,8 @@ from fractions import Fraction
 from regscribe.cli.shared.chart import empty_figure
 from regscribe.cli.shared.output import show_table
 from regscribe.cli.shared.terminal import tell
-from regscribe.tools.programs.axis import steps_of, time_scale
-from regscribe.tools.programs.profile import Profile, profile
-from regscribe.tools.programs.program import RAW, Program
+from regscribe.tools.programs.profile import Profile, profile, steps_of, time_scale
+from regscribe.tools.programs.program import RAW, SECONDS, Program
 from regscribe.tools.programs.program_file import plain
 
 BLANK = " \u2800"
@@ -21,8 +20,6 @@ PIPED = 80
 
 ROWS, COLUMNS, MARGIN, MOST = 16, 10, 16, 6
 """Rows of the curve at most, columns between two marks, columns of the scale beside it, marks of a unit of time."""
-
-SECONDS = {"s": 1, "min": 60, "h": 3600, "d": 86400, "": 1}
 
 
 def show_program(program: Program, *, first: int = 1) -> None:
@@ -52,18 +49,19 @@ def curve(found: Profile) -> None:
         return
     raw = found.time == RAW
     unit = time_scale(found.total, most=MOST, raw=raw).unit
+    seconds = Fraction(SECONDS.get(unit, 1))
     columns = shutil.get_terminal_size().columns if sys.stdout.isatty() else PIPED
     wide = max((columns - MARGIN) // COLUMNS, 2)
-    across = steps_of(found.total / SECONDS[unit], most=wide)
+    across = steps_of(found.total / seconds, most=wide)
     low, high = min(found.levels), max(found.levels)
     up = steps_of(max(high - low, Fraction(1)), most=ROWS - 2)
     bottom = low // up * up
-    marks, rows = -(-found.total // (across * SECONDS[unit])), -((bottom - high) // up) + 1
+    marks, rows = -(-found.total // (across * seconds)), -((bottom - high) // up) + 1
     figure = empty_figure(max(marks, 1) * COLUMNS, max(rows, 2), digits=6)
     figure.set_x_limits(0, float(across * figure.width / COLUMNS))
     figure.set_y_limits(float(bottom), float(bottom + up * figure.height))
     figure.x_label = f"raw ({found.counts_in})" if raw and found.counts_in else unit or RAW
     figure.y_label = found.level
-    points = [(leg.end / SECONDS[unit], leg.to) for leg in found.legs]
+    points = [(leg.end / seconds, leg.to) for leg in found.legs]
     figure.plot([float(time) for time, _ in points], [float(level) for _, level in points])
     tell("\n" + "".join(f"{line.rstrip(BLANK)}\n" for line in figure.show().splitlines()))

@@ -22,7 +22,7 @@ _WHOLE: dict[str, tuple[Container[int], str]] = {
     "stop_bits": (STOP_BITS, " or ".join(map(str, STOP_BITS))),
 }
 _WORDS = {"parity": PARITIES, "addressing": tuple(ADDRESSINGS), "framing": FRAMINGS}
-SERIAL_KEYS = frozenset({"baud", "parity", "data_bits", "stop_bits"})
+SERIAL_KEYS = ("baud", "data_bits", "parity", "stop_bits")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,21 +58,14 @@ class LinkName:
         """The keyword arguments of a driver's `tcp` or `rtu`, and of the links of the runtime, besides the timeout."""
         if not self.serial:
             return {"port": self.port, "framing": self.framing, "addressing": self.addressing}
-        line = {"baud": self.baud, "data_bits": self.data_bits, "parity": self.parity or None}
-        given = {key: value for key, value in {**line, "stop_bits": self.stop_bits}.items() if value is not None}
+        given = {key: value for key in SERIAL_KEYS if (value := getattr(self, key))}
         return {**given, "framing": self.framing, "addressing": self.addressing}
 
     def __str__(self) -> str:
-        given = {
-            "baud": self.baud,
-            "data_bits": self.data_bits,
-            "parity": self.parity,
-            "stop_bits": self.stop_bits,
-            "framing": "" if self.serial or self.framing == "tcp" else self.framing,
-            "addressing": "" if self.addressing == MODBUS else self.addressing,
-            "timeout": None if self.timeout is None else f"{self.timeout:g}",
-        }
-        query = urlencode({key: value for key, value in given.items() if value not in (None, "")})
+        usual = {"framing": self.framing if self.serial else "tcp", "addressing": MODBUS}
+        given = {key: getattr(self, key) for key in (*SERIAL_KEYS, *usual)}
+        told = {key: value for key, value in given.items() if value and value != usual.get(key)}
+        query = urlencode(told if self.timeout is None else {**told, "timeout": f"{self.timeout:g}"})
         host = f"[{self.host}]" if ":" in self.host else self.host
         start = f"{self.framing}:{self.device}" if self.serial else f"tcp:{host}:{self.port}"
         return f"{start}?{query}" if query else start
@@ -90,14 +83,20 @@ def split(text: str) -> tuple[LinkName, dict[str, str]]:
         message = f"`{text[:100]}`: `{scheme}` is no kind of link{meant(scheme, SCHEMES)}"
         raise TargetError(message)
     place, _, query = rest.partition("?")
-    pairs = parse_qsl(query, keep_blank_values=True)
-    given = dict(pairs)
-    if len(given) < len(pairs) or any(not value for value in given.values()) or (query and not pairs):
-        message = f"{text}: write `?key=value&key=value`, each key once"
-        raise TargetError(message)
+    given = _query(text, query)
     start = _tcp(text, place) if scheme == "tcp" else _serial(text, place, scheme)
     own = {key: value for key, value in given.items() if key in KEYS}
     return with_settings(start, own), {key: value for key, value in given.items() if key not in KEYS}
+
+
+def _query(text: str, query: str) -> dict[str, str]:
+    """The keys behind the `?` of a link."""
+    pairs = parse_qsl(query, keep_blank_values=True)
+    given = dict(pairs)
+    if len(given) < len(pairs) or not all(given.values()) or (query and not pairs):
+        message = f"{text}: write `?key=value&key=value`, each key once"
+        raise TargetError(message)
+    return given
 
 
 def parse(text: str) -> LinkName:
@@ -111,7 +110,11 @@ def parse(text: str) -> LinkName:
 
 def with_settings(link: LinkName, given: Mapping[str, str]) -> LinkName:
     """The link with settings as texts laid over it; TargetError for a value that is none."""
-    wrong = sorted(SERIAL_KEYS & set(given)) if not link.serial else [key for key in given if key == "framing"]
+    wrong = (
+        [key for key in sorted(given) if key in SERIAL_KEYS]
+        if not link.serial
+        else [key for key in given if key == "framing"]
+    )
     if wrong:
         why = "TCP has no serial line" if not link.serial else "the framing of a line is its first word, rtu or ascii"
         message = f"{link}: `{wrong[0]}` cannot stand here: {why}"
@@ -137,17 +140,17 @@ def _serial(text: str, place: str, framing: str) -> LinkName:
 def _setting(key: str, value: str) -> Any:  # noqa: ANN401 - each field has a type of its own
     if key in _WHOLE:
         allowed, said = _WHOLE[key]
-        return _whole(key, value, allowed, said)
+        if not re.fullmatch(r"[0-9]{1,9}", value) or int(value) not in allowed:
+            message = f"{key}={value}: `{key}` is {said}"
+            raise TargetError(message)
+        return int(value)
     if key in _WORDS:
-        return _one_of(key, value.upper() if key == "parity" else value, _WORDS[key])
+        word = value.upper() if key == "parity" else value
+        if word not in _WORDS[key]:
+            message = f"{key}={word}: `{key}` is {', '.join(_WORDS[key])}"
+            raise TargetError(message)
+        return word
     return _seconds(value)
-
-
-def _whole(key: str, value: str, allowed: Container[int], said: str) -> int:
-    if not re.fullmatch(r"[0-9]{1,9}", value) or int(value) not in allowed:
-        message = f"{key}={value}: `{key}` is {said}"
-        raise TargetError(message)
-    return int(value)
 
 
 def _seconds(value: str) -> float:
@@ -159,10 +162,3 @@ def _seconds(value: str) -> float:
         message = f"timeout={value}: a timeout is a number of seconds up to {LONGEST_TIMEOUT:g}, for example 1.5"
         raise TargetError(message)
     return seconds
-
-
-def _one_of(key: str, value: str, allowed: tuple[str, ...]) -> str:
-    if value not in allowed:
-        message = f"{key}={value}: `{key}` is {', '.join(allowed)}"
-        raise TargetError(message)
-    return value

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-from regscribe.tools.live.value_text import Plain, as_text, show
+from regscribe.tools.live.value_text import Plain, is_number, show, text_of
 from regscribe_runtime import Register, RegscribeError, Snapshot
 from regscribe_runtime.errors import ValueNotDecodable
 from regscribe_runtime.operations import tasks
@@ -30,15 +30,24 @@ class RegisterReading(NamedTuple):
 
 
 def readings(registers: Sequence[Register[Any]]) -> Task[tuple[RegisterReading, ...]]:
-    """Read registers in few requests, and with them those that decide their units."""
+    """Read registers in few requests, each in the unit that it stands in now."""
 
     def task(session: Session) -> Operation[tuple[RegisterReading, ...]]:
-        wanted = {register.path: register for register in registers}
-        for register in registers:
-            wanted.update((path, session.registers[path]) for path in unit_needs(register))
-        snapshot = yield from tasks.read_many(list(wanted.values()))(session)
+        snapshot = yield from with_units(registers)(session)
         state = snapshot.valid
         return tuple(_reading(register, snapshot, state, session.givens) for register in registers)
+
+    return task
+
+
+def with_units(registers: Sequence[Register[Any]]) -> Task[Snapshot]:
+    """Read registers in few requests, and with them those that decide their units."""
+    needs = [path for register in registers for path in unit_needs(register)]
+
+    def task(session: Session) -> Operation[Snapshot]:
+        wanted = {register.path: register for register in registers}
+        wanted.update((path, session.registers[path]) for path in needs)
+        return (yield from tasks.read_many(list(wanted.values()))(session))
 
     return task
 
@@ -92,9 +101,4 @@ def _reading(
     except RegscribeError as error:
         return RegisterReading(path, None, "", unit, error)
     plain = show(register, value)
-    return RegisterReading(path, plain, as_text(register, value), unit if _carries_unit(plain, value) else "", None)
-
-
-def _carries_unit(plain: Plain, value: object) -> bool:
-    """A number does; a special value (off, disabled) does not."""
-    return isinstance(plain, (int, float)) and not isinstance(value, bool)
+    return RegisterReading(path, plain, text_of(plain), unit if is_number(plain) else "", None)

@@ -63,17 +63,21 @@ def settings(link: LinkName, bauds: Sequence[int], formats: Sequence[str]) -> tu
 
     TargetError for a format that is none, and for speeds over TCP.
     """
-    if not link.serial:
-        if bauds or formats:
-            message = f"{link}: TCP has no speed and no character format"
-            raise TargetError(message)
-        return (link,)
-    speeds = bauds or ((link.baud,) if link.baud else USUAL_BAUDS)
+    if link.serial:
+        shapes = formats or _shapes(link)
+        speeds = bauds or ((link.baud,) if link.baud else USUAL_BAUDS)
+        return tuple(_with_format(replace(link, baud=baud), shape) for baud in speeds for shape in shapes)
+    if bauds or formats:
+        message = f"{link}: TCP has no speed and no character format"
+        raise TargetError(message)
+    return (link,)
+
+
+def _shapes(link: LinkName) -> tuple[str, ...]:
+    """The character format that a link's name says, else the usual ones."""
     told = link.parity or link.data_bits or link.stop_bits
-    shapes = formats or (
-        (f"{link.data_bits or 8}{link.parity or 'N'}{link.stop_bits or 1}",) if told else USUAL_FORMATS
-    )
-    return tuple(_with_format(replace(link, baud=baud), shape) for baud in speeds for shape in shapes)
+    own = f"{link.data_bits or 8}{link.parity or 'N'}{link.stop_bits or 1}"
+    return (own,) if told else USUAL_FORMATS
 
 
 def seconds_for(link: LinkName) -> float:

@@ -10,7 +10,7 @@ from regscribe.tools.live import catalogue, givens, link_names
 from regscribe.tools.live.config import Config
 from regscribe.tools.live.errors import TargetError, unknown
 from regscribe.tools.live.link_names import LinkName
-from regscribe_runtime import AsyncBareDevice, BareDevice, Link, LinkLost, NoAnswer, identify, tcp
+from regscribe_runtime import BareDevice, Link, LinkLost, NoAnswer, identify, tcp
 from regscribe_runtime.driver.identify import Identification, Known, identity_of
 from regscribe_runtime.link.links import serial
 from regscribe_runtime.link.trace import Tracer
@@ -94,14 +94,15 @@ def override(
 def connect(target: Target) -> BareDevice:
     """A synchronous driver of the target, not opened yet; TargetError if its model or its givens are wrong."""
     driver: Any = target.known().driver
-    device: BareDevice = _made(driver, driver, target)
-    return device
-
-
-def connect_async(target: Target) -> AsyncBareDevice:
-    """As `connect`, for asyncio."""
-    known = target.known()
-    device: AsyncBareDevice = _made(known.async_driver, known.driver, target)
+    link, given = target.link, givens.understood(driver, target.givens)
+    make, place = (driver.rtu, link.device) if link.serial else (driver.tcp, link.host)
+    try:
+        device: BareDevice = make(
+            place, unit=target.unit, timeout=link.timeout, trace=target.trace, **given, **link.settings()
+        )
+    except ValueError as error:
+        message = f"{target}: {error}"
+        raise TargetError(message) from None
     return device
 
 
@@ -192,18 +193,6 @@ def _nobody(text: str, config: Config) -> str:
     where = f"in {config.path}" if config.path else "and no configuration names devices (regscribe.yaml)"
     hint = "" if config.devices else ": write tcp:HOST:PORT or rtu:/dev/ttyUSB0"
     return f"{unknown('device', text, config.devices, where=where)}{hint}"
-
-
-def _made(driver: Any, typed: type[BareDevice], target: Target) -> Any:  # noqa: ANN401 - sync and async drivers alike
-    given = givens.understood(typed, target.givens)
-    link = target.link
-    make = driver.rtu if link.serial else driver.tcp
-    try:
-        place, settings = link.device if link.serial else link.host, link.settings()
-        return make(place, unit=target.unit, timeout=link.timeout, trace=target.trace, **given, **settings)
-    except ValueError as error:
-        message = f"{target}: {error}"
-        raise TargetError(message) from None
 
 
 def given_texts(texts: Sequence[str]) -> dict[str, str]:

@@ -39,19 +39,23 @@ def show(register: Register[Any], value: Any) -> Plain:  # noqa: ANN401 - a valu
 
 def as_text(register: Register[Any], value: Any) -> str:  # noqa: ANN401 - as above
     """A value of use for people: `150.5`, `RUN`, `HEATER, FAN`; the unit is none of it."""
-    plain = show(register, value)
-    if isinstance(plain, bool):
-        return str(plain).lower()
+    return text_of(show(register, value))
+
+
+def text_of(plain: Plain) -> str:
+    """A plain value for people; a whole number without a point, and with all its digits."""
     if isinstance(plain, list):
         return ", ".join(plain) or "none"
-    return spelled(plain)
-
-
-def spelled(plain: float | str) -> str:
-    """A number with all its digits, a whole one without a point: a counter of 64 bits has more than twelve."""
+    if isinstance(plain, bool):
+        return str(plain).lower()
     if isinstance(plain, float) and plain.is_integer() and abs(plain) < MOST_EXACT:
         return str(int(plain))
     return str(plain)
+
+
+def is_number(plain: object) -> bool:
+    """Whether a plain value is a number: only numbers stand in units."""
+    return isinstance(plain, (int, float)) and not isinstance(plain, bool)
 
 
 def parse(register: Register[Any], plain: Plain, *, unit: str = "", current_unit: str = "") -> Any:  # noqa: ANN401 - as above
@@ -123,23 +127,28 @@ def _number(register: Register[Any], plain: Plain, unit: str, current: str) -> A
     if special is not None and not _NUMBER.match(text):
         _same_unit(register, unit, current)
         return _member(register, special, text)
+    digits, beside = _digits(register, text)
+    if beside and unit and _unit(beside) != _unit(unit):
+        raise ValueRefused(register.path, f"`{text[:60]}` stands beside the unit {unit}: which one is meant?")
+    _same_unit(register, beside or unit, current)
+    return _exactly(register, digits)
+
+
+def _digits(register: Register[Any], text: str) -> tuple[str, str]:
+    """The number that a text begins with, and the unit behind it."""
     found = _WHOLE.fullmatch(text) or _NUMBER.match(text)
     if not found:
         raise ValueRefused(register.path, f"`{text[:60]}` is no number")
     if _MORE_DIGITS.match(text, found.end()):
-        raise ValueRefused(
-            register.path, f"`{text[:60]}` is no number of use: they look like 1500, 150.5, 2e-7 or 0x1F"
-        )
-    beside = text[found.end() :].strip()
-    if beside and unit and _unit(beside) != _unit(unit):
-        raise ValueRefused(register.path, f"`{text[:60]}` stands beside the unit {unit}: which one is meant?")
-    _same_unit(register, beside or unit, current)
-    return _exactly(register, found[0])
+        reason = f"`{text[:60]}` is no number of use: they look like 1500, 150.5, 2e-7 or 0x1F"
+        raise ValueRefused(register.path, reason)
+    return found[0], text[found.end() :].strip()
 
 
 def _exactly(register: Register[Any], text: str) -> int | float:
-    if _WHOLE.fullmatch(text):
-        return _whole(text)
+    whole = _whole(text)
+    if whole is not None:
+        return whole
     try:
         number = Decimal(text)
     except InvalidOperation:
@@ -150,8 +159,9 @@ def _exactly(register: Register[Any], text: str) -> int | float:
     return close if close != int(close) or register.kind == "number" else int(close)
 
 
-def _whole(text: str) -> int:
-    return int(text, 16 if "x" in text.lower() else 10)
+def _whole(text: str) -> int | None:
+    """The number of `1500` or `0x1F`; None for another text."""
+    return int(text, 16 if "x" in text.lower() else 10) if _WHOLE.fullmatch(text) else None
 
 
 def _same_unit(register: Register[Any], unit: str, current: str) -> None:
@@ -160,8 +170,7 @@ def _same_unit(register: Register[Any], unit: str, current: str) -> None:
     if not current:
         raise ValueRefused(register.path, f"the value is given in {unit}, but the register has no unit")
     raise ValueRefused(
-        register.path,
-        f"the value is given in {unit}, but the device works in {current}: convert it first",
+        register.path, f"the value is given in {unit}, but the device works in {current}: convert it first"
     )
 
 
@@ -175,17 +184,22 @@ def _member(register: Register[Any], members: type[Enum], plain: Plain) -> Any: 
         raise ValueRefused(register.path, f"{plain!r} names no member of {members.__name__}")
     text = str(int(plain) if isinstance(plain, float) else plain).strip()
     known: list[Any] = list(members)
-    by_name = [one for one in known if one.name.casefold() == text.casefold()]
-    by_label = [one for one in known if one.label.casefold() == text.casefold()]
-    by_code = [one for one in known if _WHOLE.fullmatch(text) and one.value == _whole(text)]
-    first_word = [one for one in known if one.label.casefold().split()[:1] == [text.casefold()]]
-    found = by_name or list(dict.fromkeys(by_label + by_code)) or first_word
+    found = _fitting(known, text)
     if len(found) == 1:
         return found[0]
     if found:
         which = " or ".join(f"{one.name} ({one.value} {one.label})" for one in found)
         raise ValueRefused(register.path, f"`{text[:60]}` may be {which}: write the name")
     raise ValueRefused(register.path, f"`{text[:60]}` is no member of {members.__name__}{_named(known, text)}")
+
+
+def _fitting(known: Sequence[Any], text: str) -> list[Any]:
+    """The members that have this name; else this label or code; else a label that begins with this word."""
+    wanted, code = text.casefold(), _whole(text)
+    by_name = [one for one in known if one.name.casefold() == wanted]
+    by_label_or_code = [one for one in known if one.label.casefold() == wanted or one.value == code]
+    by_first_word = [one for one in known if one.label.casefold().split()[:1] == [wanted]]
+    return by_name or by_label_or_code or by_first_word
 
 
 def _named(known: Sequence[Any], text: str) -> str:
@@ -198,10 +212,9 @@ def _named(known: Sequence[Any], text: str) -> str:
 
 def _flags(register: Register[Any], plain: Plain) -> Any:  # noqa: ANN401 - flags of the register
     members = _members_of(register)
-    if not isinstance(plain, (str, list)):
-        return members(_bits(register.path, plain))
-    if isinstance(plain, str) and _WHOLE.fullmatch(plain.strip()):
-        return members(_whole(plain.strip()))
+    bits = _bits(register.path, plain)
+    if bits is not None:
+        return members(bits)
     value = members(0)
     for name in _parts(plain):
         value |= _flag(register.path, members, name)
@@ -222,23 +235,23 @@ def _label(member: Any) -> str:  # noqa: ANN401 - a member of flags, which need 
     return str(getattr(member, "label", ""))
 
 
-def _parts(plain: str | list[str]) -> Iterable[str]:
-    given = plain.split(",") if isinstance(plain, str) else plain
+def _parts(plain: Plain) -> Iterable[str]:
+    given = plain if isinstance(plain, list) else str(plain).split(",")
     names = [str(name).strip() for name in given]
     return [name for name in names if name and name.casefold() != "none"]
 
 
 def _word(register: Register[Any], plain: Plain) -> Any:  # noqa: ANN401 - a word of the register
     members = _members_of(register)
-    if not isinstance(plain, (str, list)):
-        return members(_bits(register.path, plain))
-    if isinstance(plain, str) and _WHOLE.fullmatch(plain.strip()):
-        return members(_whole(plain.strip()))
+    bits = _bits(register.path, plain)
+    if bits is not None:
+        return members(bits)
     value = members(0)
     for text in _parts(plain):
         name, _, said = text.partition("=")
-        if name == "rest" and _WHOLE.fullmatch(said):
-            value = members(int(value) | _whole(said))
+        rest = _whole(said) if name == "rest" else None
+        if rest is not None:
+            value = members(int(value) | rest)
             continue
         if name not in members.parts or not said:
             hint = meant(name, members.parts) if name not in members.parts else ": write part=value"
@@ -252,18 +265,21 @@ def _part(register: Register[Any], part: Bit | Field[Any], said: str) -> int:
         return int(_boolean(register.path, said))
     if issubclass(part.kind, Choice):
         return int(_member(register, part.kind, said))
-    if not _WHOLE.fullmatch(said):
-        raise ValueRefused(register.path, f"`{said[:60]}` is no whole number")
     number = _whole(said)
+    if number is None:
+        raise ValueRefused(register.path, f"`{said[:60]}` is no whole number")
     if not 0 <= number < 1 << (part.high - part.low + 1):
         raise ValueRefused(register.path, f"{number} does not fit {part.high - part.low + 1} bits")
     return number
 
 
-def _bits(path: str, plain: object) -> int:
-    if isinstance(plain, bool) or not isinstance(plain, int):
+def _bits(path: str, plain: Plain) -> int | None:
+    """A pattern of bits that is given as a number; None where names are given."""
+    if isinstance(plain, str):
+        return _whole(plain.strip())
+    if isinstance(plain, (bool, float)):
         raise ValueRefused(path, f"{plain!r} is no pattern of bits: name them, or write a whole number")
-    return plain
+    return plain if isinstance(plain, int) else None
 
 
 def _boolean(path: str, plain: object) -> bool:

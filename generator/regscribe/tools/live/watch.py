@@ -1,7 +1,7 @@
 """Reading the same registers again and again: round by round, what changed, never faster than the line can carry."""
 
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from datetime import UTC, datetime
 from typing import Any, NamedTuple
 
@@ -70,7 +70,7 @@ def watch(
         moment, started = datetime.now(UTC), time.monotonic()
         found, error = _read(device, task)
         seconds = time.monotonic() - started
-        changed = frozenset(one.name for one in found if last and _differs(last.get(one.name), one))
+        changed = _changed(last, found)
         last.update((one.name, one) for one in found)
         yield Round(number, moment, seconds, found, changed, error, late=seconds > every)
         failed = failed + 1 if error else 0
@@ -87,5 +87,10 @@ def _read(device: BareDevice, task: Any) -> tuple[tuple[RegisterReading, ...], R
         return (), error
 
 
-def _differs(old: RegisterReading | None, new: RegisterReading) -> bool:
-    return old is None or (old.value, old.unit, str(old.error)) != (new.value, new.unit, str(new.error))
+def _changed(last: Mapping[str, RegisterReading], found: Sequence[RegisterReading]) -> frozenset[str]:
+    """The registers that are not as they were; none in the first round."""
+    return frozenset(one.name for one in found if last and _said(last.get(one.name)) != _said(one))
+
+
+def _said(one: RegisterReading | None) -> object:
+    return one and (one.value, one.unit, str(one.error))

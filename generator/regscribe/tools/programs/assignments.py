@@ -6,7 +6,7 @@ from decimal import Decimal
 from typing import Any, NamedTuple
 
 from regscribe.tools.live.errors import unknown
-from regscribe.tools.live.value_text import choices, spelled
+from regscribe.tools.live.value_text import choices, text_of
 from regscribe.tools.programs.program import FOREVER, Amount, Program, Segment, Setting
 from regscribe.tools.programs.slot import ProgramSlot
 from regscribe_runtime import Register
@@ -70,7 +70,7 @@ class _Structure:
         self._final()
         self._count()
         for path, code in self.place.spec.enable:
-            self._ask("enable", path, Amount(_decimal(code)), ("enable", path))
+            self._ask("enable", path, _amount(code), ("enable", path))
 
     def _wrong(self, where: Where, message: str) -> None:
         self.problems.append(Problem(where, label(self.place, where), message))
@@ -104,7 +104,7 @@ class _Structure:
         elif unit not in codes:
             self._wrong(("time_unit",), unknown("unit of time", unit, codes, where=f"in the {self.place.model}"))
         else:
-            self._ask("time_unit", path, Amount(_decimal(codes[unit])), ("time_unit",))
+            self._ask("time_unit", path, _amount(codes[unit]), ("time_unit",))
 
     def _cycles(self) -> None:
         cycles, spec = self.program.cycles, self.place.spec
@@ -115,11 +115,11 @@ class _Structure:
         elif cycles == FOREVER and spec.forever is None:
             self._wrong(("cycles",), f"the {self.place.model} has no program without end: give a number")
         elif cycles == FOREVER:
-            self._ask("cycles", spec.cycles, Amount(_decimal(spec.forever or 0)), ("cycles",))
+            self._ask("cycles", spec.cycles, _amount(spec.forever or 0), ("cycles",))
         elif cycles == spec.forever:
             self._wrong(("cycles",), f"{cycles} stands for a program without end: write `{FOREVER}` if that is meant")
         else:
-            self._ask("cycles", spec.cycles, Amount(_decimal(cycles)), ("cycles",))
+            self._ask("cycles", spec.cycles, _amount(cycles), ("cycles",))
 
     def _segments(self) -> None:
         segments, given = self.place.spec.segments, self.program.segments
@@ -140,7 +140,7 @@ class _Structure:
         self._ask("segments", spec.setpoint, segment.to, (*where, "to"), number)
         self._ask("segments", spec.ramp, segment.ramp, (*where, "ramp"), number, time=True)
         if spec.soak:
-            soak = Amount(_decimal(0), "s") if segment.soak is None else segment.soak
+            soak = _amount(0, "s") if segment.soak is None else segment.soak
             self._ask("segments", spec.soak, soak, (*where, "soak"), number, time=True)
         elif segment.soak is not None:
             advice = "a further segment to the same setpoint keeps it"
@@ -153,7 +153,7 @@ class _Structure:
         """Make a segment that is behind the last one do nothing."""
         spec, where = self.place.spec.segments, ("segments", number - self.place.spec.segments.first)
         for path in spec.idle:
-            self._ask("segments", path, Amount(_decimal(0), "s"), where, number, time=True)
+            self._ask("segments", path, _amount(0, "s"), where, number, time=True)
         for name, path in spec.outputs:
             state = _usual(self.place.register(path, number))
             if state:
@@ -172,17 +172,17 @@ class _Structure:
             if state:
                 self._ask(part, path, state, (*where, name), segment)
             else:
-                self._wrong(
-                    where, f"`{name}` is missing, and the manual has no default: give one of {_states(register)}"
-                )
+                states = ", ".join(choices(register))
+                self._wrong(where, f"`{name}` is missing, and the manual has no default: give one of {states}")
 
     def _final(self) -> None:
         spec, final = self.place.spec.final, self.program.final
-        if spec is None and final is not None:
-            self._lacks("final")
-        elif spec is not None and final is None:
+        if spec is None:
+            if final is not None:
+                self._lacks("final")
+        elif final is None:
             self._wrong(("final",), "it is missing: say what setpoint and outputs stay behind the last segment")
-        elif spec is not None and final is not None:
+        else:
             self._ask("final", spec.setpoint, final.to, ("final", "to"))
             self._outputs("final", dict(spec.outputs), final.outputs, ("final", "outputs"))
 
@@ -200,7 +200,7 @@ class _Structure:
                 ("number_of_segments",), f"{given}, but {have} segments are {counted} as the device counts them"
             )
         elif counted > 0 and have <= spec.segments.many:
-            self._ask("count", spec.number_of_segments, Amount(_decimal(counted)), ("number_of_segments",))
+            self._ask("count", spec.number_of_segments, _amount(counted), ("number_of_segments",))
 
     def _open_count(self, given: int | None, have: int) -> str:
         first = self.place.spec.segments.first
@@ -211,16 +211,10 @@ class _Structure:
         return f"{given} for {have} segments; {why}: {advice}"
 
 
-def _decimal(number: object) -> Decimal:
-    return Decimal(str(number))
+def _amount(number: object, unit: str = "") -> Amount:
+    return Amount(Decimal(str(number)), unit)
 
 
 def _usual(register: Register[Any]) -> str:
     """The default of an output as a name; empty if the manual gives none."""
-    if register.default is None:
-        return ""
-    return spelled(register.default)
-
-
-def _states(register: Register[Any]) -> str:
-    return ", ".join(choices(register))
+    return "" if register.default is None else text_of(register.default)

@@ -9,9 +9,8 @@ from regscribe.pictures.drawing import MARGIN, PLAIN, SMALL, WIDTH, Box, Canvas,
 from regscribe.pictures.style import tint
 from regscribe.pictures.svg import svg
 from regscribe.pictures.text_width import width
-from regscribe.tools.programs.axis import level_scale, time_scale
-from regscribe.tools.programs.profile import Leg, Profile, profile
-from regscribe.tools.programs.program import FOREVER, RAW, Program
+from regscribe.tools.programs.profile import Leg, Profile, level_scale, profile, time_scale
+from regscribe.tools.programs.program import FOREVER, RAW, SECONDS, Program
 
 LEFT, RIGHT = MARGIN + 84, WIDTH - MARGIN - 34
 HEIGHT = 260
@@ -81,13 +80,7 @@ def describe(program: Program, found: Profile) -> str:
 
 
 def _remarks(program: Program, found: Profile) -> Iterator[str]:
-    facts = [f"one cycle takes {_duration(found, found.total)}"] if found.legs else ["no segments"]
-    if program.cycles is not None:
-        facts.append("cycles without end" if program.cycles == FOREVER else f"cycles: {program.cycles}")
-    facts += [f"holdback {program.holdback}"] if program.holdback is not None else []
-    facts += [f"at the end {program.end}"] if program.end else []
-    facts += [f"after a power failure {program.power_failure}"] if program.power_failure else []
-    yield f"{'; '.join(facts)}."
+    yield f"{'; '.join(_facts(program, found))}."
     if found.legs:
         stays = ", and what stays behind the last segment" if found.final is not None else ""
         yield f"Dashed: from wherever the setpoint is when the program starts{stays}."
@@ -100,6 +93,18 @@ def _remarks(program: Program, found: Profile) -> Iterator[str]:
         yield f"Number of segments on the device: {number}; whether it counts the first one is not stated."
 
 
+def _facts(program: Program, found: Profile) -> Iterator[str]:
+    yield f"one cycle takes {_duration(found, found.total)}" if found.legs else "no segments"
+    if program.cycles is not None:
+        yield "cycles without end" if program.cycles == FOREVER else f"cycles: {program.cycles}"
+    if program.holdback is not None:
+        yield f"holdback {program.holdback}"
+    if program.end:
+        yield f"at the end {program.end}"
+    if program.power_failure:
+        yield f"after a power failure {program.power_failure}"
+
+
 def _level(found: Profile, level: Fraction) -> str:
     return f"{float(level):.10g} {found.level}".rstrip()
 
@@ -109,8 +114,8 @@ def _duration(found: Profile, time: Fraction) -> str:
     if found.time == RAW:
         return f"{float(time):.10g} raw"
     rest, parts = time, []
-    for unit, seconds in (("d", 86400), ("h", 3600), ("min", 60)):
-        count, rest = int(rest // seconds), rest % seconds
+    for unit in ("d", "h", "min"):
+        count, rest = divmod(rest, Fraction(SECONDS[unit]))
         parts += [f"{count} {unit}"] if count else []
     parts += [f"{float(rest):.10g} s"] if rest or not parts else []
     return " ".join(parts)
@@ -138,8 +143,8 @@ def _axes(canvas: Canvas, found: Profile) -> PlotArea:
 
 def _numbers(canvas: Canvas, frame: PlotArea, found: Profile) -> None:
     """Draw the numbers of the segments above the curve, as boxes as long as the segments."""
-    for number, legs in groupby(found.legs, key=lambda leg: leg.segment):
-        own = list(legs)
+    for own in _by_segment(found):
+        number = own[0].segment
         left, right = frame.x(own[0].start), frame.x(own[-1].end)
         tip = f"segment {number}: " + ", ".join(_leg(found, leg) for leg in own)
         canvas.add(Box(left, frame.top - 10 - BAND, max(right - left, THIN), BAND, "empty", tip, radius=2))
@@ -170,21 +175,12 @@ def _curve(canvas: Canvas, frame: PlotArea, found: Profile) -> None:
 def _lanes(canvas: Canvas, frame: PlotArea, program: Program, found: Profile) -> None:
     """Draw a lane for each output, with its state in each segment and behind the last one."""
     names = list(dict.fromkeys(name for one in program.segments for name in one.outputs))
-    states = list(dict.fromkeys(state for one in program.segments for state in one.outputs.values()))
-    if program.final:
-        states = list(dict.fromkeys((*states, *program.final.outputs.values())))
-    colours = {state: tint(number + FIRST_COLOUR) for number, state in enumerate(states)}
-    spans = {
-        number: (min(leg.start for leg in legs), max(leg.end for leg in legs))
-        for number, own in groupby(found.legs, key=lambda leg: leg.segment)
-        if (legs := list(own))
-    }
+    colours = _colours(program)
+    spans = [(legs[0].start, legs[-1].end) for legs in _by_segment(found)]
     for name in names:
         canvas.text(name, LEFT - 8, canvas.y + LANE / 2 + 4, LEFT - 8 - MARGIN, Text(0, 0, "", SMALL + 1, "end"))
-        runs = groupby(
-            zip(spans.values(), program.segments, strict=True), key=lambda pair: pair[1].outputs.get(name, "")
-        )
-        for state, run in runs:
+        states = [one.outputs.get(name, "") for one in program.segments]
+        for state, run in groupby(zip(spans, states, strict=True), key=lambda pair: pair[1]):
             ends = [span for span, _ in run]
             _state(canvas, frame.x(ends[0][0]), frame.x(ends[-1][1]), state, colours)
         if program.final:
@@ -192,6 +188,18 @@ def _lanes(canvas: Canvas, frame: PlotArea, program: Program, found: Profile) ->
         canvas.y += LANE + 4
     if names:
         _legend(canvas, colours)
+
+
+def _colours(program: Program) -> dict[str, str]:
+    """The colours of the states that outputs have, in the order in which they occur."""
+    outputs = [one.outputs for one in program.segments] + ([program.final.outputs] if program.final else [])
+    states = dict.fromkeys(state for one in outputs for state in one.values())
+    return {state: tint(number + FIRST_COLOUR) for number, state in enumerate(states)}
+
+
+def _by_segment(found: Profile) -> Iterator[list[Leg]]:
+    """The legs of each segment."""
+    return (list(legs) for _, legs in groupby(found.legs, key=lambda leg: leg.segment))
 
 
 def _state(canvas: Canvas, left: float, right: float, state: str, colours: Mapping[str, str]) -> None:

@@ -34,10 +34,6 @@ class ProgramSlot:
         """The register of a path of the declaration, for this program and a segment."""
         return self.registers[path.replace("{i}", str(self.number)).replace("{j}", str(segment))]
 
-    def maybe(self, path: str) -> Register[Any] | None:
-        """The same; None for an empty path."""
-        return self.register(path) if path else None
-
 
 def places(driver: Driver) -> tuple[ProgramSlot, ...]:
     """The programs of a device or a driver's class."""

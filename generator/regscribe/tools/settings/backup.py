@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
-from regscribe.tools.live.value_text import Plain, spelled
+from regscribe.tools.live.value_text import Plain, text_of
 
 FORMAT = 1
 NO_GROUP = "other"
@@ -37,8 +37,7 @@ class Saved:
         """For people: the value with its unit."""
         if self.value is None:
             return f"({self.error})"
-        shown = ", ".join(self.value) or "none" if isinstance(self.value, list) else _plain(self.value)
-        return f"{shown} {self.unit}".rstrip()
+        return f"{text_of(self.value)} {self.unit}".rstrip()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -67,9 +66,3 @@ class Backup:
     def settings(self) -> Iterator[tuple[str, Saved]]:
         """Every setting with its path."""
         return ((path, saved) for group in self.groups.values() for path, saved in group.items())
-
-
-def _plain(value: Plain) -> str:
-    if isinstance(value, bool):
-        return str(value).lower()
-    return str(value) if isinstance(value, list) else spelled(value)

@@ -41,17 +41,9 @@ def to_text(backup: Backup) -> str:
 
 
 def _entry(saved: Saved) -> OneLine:
-    entry = OneLine()
-    if saved.value is not None:
-        entry["value"] = saved.value
-    for key, value in (("unit", saved.unit), ("error", saved.error)):
-        if value:
-            entry[key] = value
-    if saved.raw:
-        entry["raw"] = list(saved.raw)
-    if saved.stays:
-        entry["stays"] = saved.stays
-    return entry
+    given = {"unit": saved.unit, "error": saved.error, "raw": list(saved.raw), "stays": saved.stays}
+    value = {} if saved.value is None else {"value": saved.value}
+    return OneLine(value | {key: what for key, what in given.items() if what})
 
 
 def save(path: Path, text: str) -> None:

@@ -6,9 +6,8 @@ from typing import Any, NamedTuple
 from regscribe.tools.live.errors import unknown
 from regscribe.tools.live.names import Driver
 from regscribe.tools.live.reading import unit_of
-from regscribe.tools.live.value_text import parse
+from regscribe.tools.live.value_text import is_number, parse
 from regscribe.tools.settings.backup import Backup, Saved
-from regscribe.tools.settings.take import is_number
 from regscribe_runtime import Register, ValueNotDecodable, ValueRefused
 from regscribe_runtime.registers import codec
 from regscribe_runtime.values.specs import View
@@ -50,15 +49,8 @@ def fit(
 
     `include` names kinds of settings that are to be written although they stay with their device.
     """
-    meant: dict[str, Any] = {}
-    misfits: list[Misfit] = []
-    for path, saved in backup.settings():
-        try:
-            meant[path] = _value(path, saved, driver)
-        except ValueRefused as refusal:
-            misfits.append(Misfit(path, refusal.reason))
-    stays = {path: kind for path, saved in backup.settings() if (kind := _kind(path, saved, driver)) not in include}
-    stays = {path: kind for path, kind in stays.items() if kind}
+    meant, misfits = _meant(backup, driver)
+    stays = _stays(backup, driver, include)
     values = {path: value for path, value in meant.items() if path not in stays}
     world = _World({**state, **meant}, {**state, **values}, givens)
     for path, saved in backup.settings():
@@ -66,9 +58,20 @@ def fit(
         if reason:
             misfits.append(Misfit(path, reason))
             del values[path]
-    return Fit(
-        values, tuple(one for one in misfits if one.path not in stays), stays, tuple(strangeness(backup, driver))
-    )
+    left = tuple(one for one in misfits if one.path not in stays)
+    return Fit(values, left, stays, tuple(strangeness(backup, driver)))
+
+
+def _meant(backup: Backup, driver: Driver) -> tuple[dict[str, Any], list[Misfit]]:
+    """The values of use that the settings mean, and the settings that mean none here."""
+    meant: dict[str, Any] = {}
+    misfits: list[Misfit] = []
+    for path, saved in backup.settings():
+        try:
+            meant[path] = _value(path, saved, driver)
+        except ValueRefused as refusal:
+            misfits.append(Misfit(path, refusal.reason))
+    return meant, misfits
 
 
 class _World(NamedTuple):
@@ -79,9 +82,11 @@ class _World(NamedTuple):
     givens: Mapping[str, Any]
 
 
-def _kind(path: str, saved: Saved, driver: Driver) -> str:
-    register = driver.registers.get(path)
-    return saved.stays or (register.stays if register else "")
+def _stays(backup: Backup, driver: Driver, include: Collection[str]) -> dict[str, str]:
+    """The settings that stay with the device that was saved, by the kind of each."""
+    own = {path: one.stays for path, one in driver.registers.items()}
+    kinds = {path: saved.stays or own.get(path, "") for path, saved in backup.settings()}
+    return {path: kind for path, kind in kinds.items() if kind and kind not in include}
 
 
 def strangeness(backup: Backup, driver: Driver) -> Iterator[str]:

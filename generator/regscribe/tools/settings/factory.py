@@ -5,9 +5,9 @@ from typing import Any
 
 from regscribe.tools.live.names import Driver
 from regscribe.tools.live.reading import unit_needs, unit_of
-from regscribe.tools.live.value_text import show
+from regscribe.tools.live.value_text import is_number, show
 from regscribe.tools.settings.backup import Saved
-from regscribe.tools.settings.take import is_number, writable
+from regscribe.tools.settings.take import writable
 from regscribe_runtime import Register
 from regscribe_runtime.values.numbers import exact
 

@@ -5,11 +5,10 @@ from datetime import UTC, datetime
 from typing import Any
 
 from regscribe.tools.live.names import Driver, groups_of, readable
-from regscribe.tools.live.reading import unit_needs, unit_of
-from regscribe.tools.live.value_text import show
+from regscribe.tools.live.reading import reason, unit_of, with_units
+from regscribe.tools.live.value_text import is_number, show
 from regscribe.tools.settings.backup import NO_GROUP, Backup, Origin, Saved
 from regscribe_runtime import Register, RegscribeError, Snapshot
-from regscribe_runtime.operations import tasks
 from regscribe_runtime.operations.session import Operation, Session, Task
 
 
@@ -62,10 +61,7 @@ def saved(registers: Sequence[Register[Any]]) -> Task[dict[str, Saved]]:
     """Read registers, and with them those that decide their units; plain values, units and words by path."""
 
     def task(session: Session) -> Operation[dict[str, Saved]]:
-        wanted = {register.path: register for register in registers}
-        for register in registers:
-            wanted.update((path, session.registers[path]) for path in unit_needs(register))
-        snapshot = yield from tasks.read_many(list(wanted.values()))(session)
+        snapshot = yield from with_units(registers)(session)
         state = snapshot.valid
         return {register.path: _saved(register, snapshot, state, session.givens) for register in registers}
 
@@ -77,12 +73,7 @@ def _saved(register: Register[Any], snapshot: Snapshot, state: Mapping[str, Any]
     try:
         value = snapshot[register.path]
     except RegscribeError as error:
-        return Saved(error=str(error).removeprefix(f"{register.path}: "), raw=raw, stays=register.stays)
+        return Saved(error=reason(error, register.path), raw=raw, stays=register.stays)
     plain = show(register, value)
     unit = unit_of(register, state, givens) if is_number(plain) else ""
     return Saved(value=plain, unit=unit, raw=raw, stays=register.stays)
-
-
-def is_number(plain: object) -> bool:
-    """Whether a plain value is a number: only numbers stand in units."""
-    return isinstance(plain, (int, float)) and not isinstance(plain, bool)

@@ -48,10 +48,6 @@ def test_a_given_that_is_missing_is_named() -> None:
         target.connect(target.parse("tcp:h?model=C21"))
 
 
-def test_the_asynchronous_driver_is_of_the_same_model() -> None:
-    assert type(target.connect_async(target.parse("tcp:h?model=16C"))).__name__ == "AsyncAthena16C"
-
-
 @pytest.mark.parametrize(
     ("text", "said"),
     [
