@@ -7,15 +7,7 @@ from decimal import Decimal
 from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any
 
-from regscribe.schema.rules import (
-    EXCLUSIVE_KEYS,
-    MISSING_KEY,
-    UNKNOWN_KEY,
-    VALUE_NOT_ALLOWED,
-    WRONG_COUNT,
-    WRONG_FORM,
-    WRONG_TYPE,
-)
+from regscribe.schema import rules
 from regscribe.schema.wording import describe, example, title
 
 if TYPE_CHECKING:
@@ -85,12 +77,12 @@ def complaints(error: Violation) -> Iterator[Complaint]:
         yield from (_missing_key(error, key) for key in _needed(error) if key not in error.instance)
     elif kind == "not":
         said = f"`{error.path[-1]}` {error.schema.get('description', 'cannot stand here')}"
-        yield Complaint(EXCLUSIVE_KEYS, error.path, said, "delete one of the two", at_key=True)
+        yield Complaint(rules.EXCLUSIVE_KEYS, error.path, said, "delete one of the two", at_key=True)
     elif kind == "type":
         yield _wrong_type(error)
     elif kind == "pattern":
         said = f"{describe(error.instance)} is not in the form of {title(error.schema)}: {_form(error.schema)}"
-        yield Complaint(WRONG_FORM, error.path, said, example(error.schema))
+        yield Complaint(rules.WRONG_FORM, error.path, said, example(error.schema))
     elif kind in _COUNTS or kind == "uniqueItems":
         yield _wrong_count(error)
     else:
@@ -106,10 +98,10 @@ def _unknown_keys(error: Violation) -> Iterator[Complaint]:
         if "x-key" in schema and not get_close_matches(key[:100].lower(), known, n=1):
             form = schema["x-key"]
             said = f"{shown} is not in the form of {form['title']}: {form['description']}"
-            yield Complaint(WRONG_FORM, path, said, example(form), at_key=True)
+            yield Complaint(rules.WRONG_FORM, path, said, example(form), at_key=True)
         else:
             said = f"unknown key {shown} in {title(schema)}"
-            yield Complaint(UNKNOWN_KEY, path, said, _meant(key, schema["properties"]), at_key=True)
+            yield Complaint(rules.UNKNOWN_KEY, path, said, _meant(key, schema["properties"]), at_key=True)
 
 
 def _unmatched(instance: Mapping[str, Any], known: Sequence[str], patterns: Sequence[str]) -> Iterator[str]:
@@ -138,7 +130,7 @@ def _missing_key(error: Violation, key: str) -> Complaint:
     details = error.schema.get("properties", {}).get(key, {})
     meaning = str(details.get("description", "")).split(". ")[0].rstrip(".")
     advice = ", ".join(filter(None, (f"add {said}{f' ({meaning})' if meaning else ''}", example(details))))
-    return Complaint(MISSING_KEY, error.path, f"{said} is missing{where}", advice, at_key=True, same=key)
+    return Complaint(rules.MISSING_KEY, error.path, f"{said} is missing{where}", advice, at_key=True, same=key)
 
 
 def _wrong_type(error: Violation) -> Complaint:
@@ -146,7 +138,7 @@ def _wrong_type(error: Violation) -> Complaint:
     allowed = [_TYPES[name] for name in types]
     wanted = " or ".join([", ".join(allowed[:-1]), allowed[-1]] if allowed[1:] else allowed)
     said = f"{title(error.schema)} must be {wanted}; this is {describe(error.instance)}"
-    return Complaint(WRONG_TYPE, error.path, said, _retype(error.instance, types) or example(error.schema))
+    return Complaint(rules.WRONG_TYPE, error.path, said, _retype(error.instance, types) or example(error.schema))
 
 
 def _retype(instance: object, types: Sequence[str]) -> str:
@@ -165,24 +157,24 @@ def _retype(instance: object, types: Sequence[str]) -> str:
 def _wrong_count(error: Violation) -> Complaint:
     if error.kind == "uniqueItems":
         said = f"an element of {title(error.schema)} is given twice"
-        return Complaint(WRONG_COUNT, error.path, said, "delete one of the two")
+        return Complaint(rules.WRONG_COUNT, error.path, said, "delete one of the two")
     bound, unit = _COUNTS[error.kind]
     limit, size = error.bound, len(error.instance)
     said = f"{title(error.schema)} must have {bound} {limit} {unit}{'' if limit == 1 else 's'}; this has {size}"
-    return Complaint(WRONG_COUNT, error.path, said, example(error.schema))
+    return Complaint(rules.WRONG_COUNT, error.path, said, example(error.schema))
 
 
 def _not_allowed(error: Violation) -> Complaint:
     kind, value = error.kind, error.bound
     if kind in _COMPARISONS:
         said = f"{title(error.schema)} must be {_COMPARISONS[kind]} {value}; this is {describe(error.instance)}"
-        return Complaint(VALUE_NOT_ALLOWED, error.path, said, example(error.schema))
+        return Complaint(rules.VALUE_NOT_ALLOWED, error.path, said, example(error.schema))
     choices = [str(choice) for choice in (value if kind == "enum" else [value])]
     near = get_close_matches(str(error.instance)[:100].lower(), choices, n=1) if isinstance(error.instance, str) else []
     allowed = ", ".join(f"`{choice}`" for choice in choices)
     said = f"{describe(error.instance)} is not allowed for {title(error.schema)}; allowed: {allowed}"
     advice = f"did you mean `{near[0]}`?" if near else "write one of the allowed words"
-    return Complaint(VALUE_NOT_ALLOWED, error.path, said, advice if kind == "enum" else f"write {allowed}")
+    return Complaint(rules.VALUE_NOT_ALLOWED, error.path, said, advice if kind == "enum" else f"write {allowed}")
 
 
 def _form(schema: Mapping[str, Any]) -> str:

@@ -5,35 +5,12 @@ from collections.abc import Iterator
 from decimal import Decimal
 
 import yaml
-from yaml.events import (
-    AliasEvent,
-    CollectionStartEvent,
-    DocumentEndEvent,
-    Event,
-    MappingEndEvent,
-    MappingStartEvent,
-    ScalarEvent,
-    SequenceEndEvent,
-)
+from yaml import events
 
+from regscribe.source import rules
 from regscribe.source.document import START, Plain, SourceNode, SourcePlace
 from regscribe.source.findings import Findings
 from regscribe.source.open_collection import OpenCollection, place_of
-from regscribe.source.rules import (
-    BAD_ALIAS,
-    CONTROL_CHARACTER,
-    DUPLICATE_KEY,
-    EMPTY,
-    KEY_NOT_TEXT,
-    MERGE_KEY,
-    NUMBER_FORM,
-    SEVERAL_DOCUMENTS,
-    SYNTAX,
-    TAG,
-    TEXT_TOO_LONG,
-    TOO_DEEP,
-    TOO_MANY_VALUES,
-)
 from regscribe.source.scalars import NUMBER_HELP, NumberFormError, resolve, shorten
 from regscribe.source.utf8 import find_invisible, place_at
 from regscribe.source.yaml_errors import explain
@@ -70,31 +47,31 @@ class NodeBuilder:
         """Return the top of the tree; raises StopReadingError if the file cannot be read to its end."""
         for event in self._events():
             self._take(event)
-            if isinstance(event, DocumentEndEvent):
+            if isinstance(event, events.DocumentEndEvent):
                 self._end_of_document(event)
                 break
         if self._root is None or self._root.value is None:
             advice = "start one with `regscribe new MAKER/FAMILY`"
-            raise self._findings.stop(EMPTY, "the file holds no map", START, advice=advice)
+            raise self._findings.stop(rules.EMPTY, "the file holds no map", START, advice=advice)
         return self._root
 
-    def _events(self) -> Iterator[Event]:
+    def _events(self) -> Iterator[events.Event]:
         try:
             yield from yaml.parse(self._text, Loader=_LOADER)
         except yaml.YAMLError as error:
             raise explain(error, self._text, self._findings) from None
 
-    def _take(self, event: Event) -> None:
-        if isinstance(event, ScalarEvent):
+    def _take(self, event: events.Event) -> None:
+        if isinstance(event, events.ScalarEvent):
             self._scalar(event)
-        elif isinstance(event, CollectionStartEvent):
+        elif isinstance(event, events.CollectionStartEvent):
             self._open(event)
-        elif isinstance(event, MappingEndEvent | SequenceEndEvent):
+        elif isinstance(event, events.MappingEndEvent | events.SequenceEndEvent):
             self._close(event)
-        elif isinstance(event, AliasEvent):
+        elif isinstance(event, events.AliasEvent):
             self._alias(event)
 
-    def _scalar(self, event: ScalarEvent) -> None:
+    def _scalar(self, event: events.ScalarEvent) -> None:
         place = place_of(event)
         size = 1 + len(event.value) // CHARACTERS_PER_VALUE
         self._count(size, place)
@@ -110,16 +87,16 @@ class NodeBuilder:
             self._anchors[event.anchor] = node
         self._attach(node)
 
-    def _check_text(self, event: ScalarEvent, place: SourcePlace) -> None:
+    def _check_text(self, event: events.ScalarEvent, place: SourcePlace) -> None:
         if len(event.value) > MAX_TEXT:
             message = f"a text of {len(event.value):,} characters; at most {MAX_TEXT:,} are read"
-            self._findings.add(TEXT_TOO_LONG, message, place, advice="is a quote missing before? else shorten it")
+            self._findings.add(rules.TEXT_TOO_LONG, message, place, advice="is a quote missing before? else shorten it")
         hidden = find_invisible(event.value) if event.style == '"' and not self._escapes else None
         if hidden:
             advice = "leave the escape out; only visible characters, \\n and \\t have a place in a map"
-            self._findings.add(CONTROL_CHARACTER, f"{hidden} written as an escape", place, advice=advice)
+            self._findings.add(rules.CONTROL_CHARACTER, f"{hidden} written as an escape", place, advice=advice)
 
-    def _value(self, event: ScalarEvent, place: SourcePlace) -> Plain:
+    def _value(self, event: events.ScalarEvent, place: SourcePlace) -> Plain:
         plain = not event.style
         tag = (event.tag or "").removeprefix(_CORE)
         if tag in {"", "!", "str"}:
@@ -133,17 +110,17 @@ class NodeBuilder:
         try:
             return resolve(text)
         except NumberFormError as error:
-            self._findings.add(NUMBER_FORM, str(error), place, advice=NUMBER_HELP)
+            self._findings.add(rules.NUMBER_FORM, str(error), place, advice=NUMBER_HELP)
             return text
 
-    def _key(self, frame: OpenCollection, event: ScalarEvent, place: SourcePlace) -> None:
+    def _key(self, frame: OpenCollection, event: events.ScalarEvent, place: SourcePlace) -> None:
         frame.awaits_value = True
         frame.key = key = self._key_text(event, place)
         if key is None:
             return
         if key in frame.keys:
             self._findings.add(
-                DUPLICATE_KEY,
+                rules.DUPLICATE_KEY,
                 f"the key `{shorten(key)}` is given twice",
                 place,
                 advice="delete one of the two, or give it its own name",
@@ -153,25 +130,25 @@ class NodeBuilder:
         else:
             frame.keys[key] = place
 
-    def _key_text(self, event: ScalarEvent, place: SourcePlace) -> str | None:
+    def _key_text(self, event: events.ScalarEvent, place: SourcePlace) -> str | None:
         """Return a key as text: codes in decimal whatever their notation, words as they stand."""
         if not event.style and event.value == "<<":
             advice = "write the keys out, or put what is common into the group's `each`"
-            self._findings.add(MERGE_KEY, "a merge key `<<`", place, advice=advice)
+            self._findings.add(rules.MERGE_KEY, "a merge key `<<`", place, advice=advice)
             return None
         value = self._value(event, place)
         if value is None or value == "":
             advice = "write the key before the `:`; put it in quotes if it is really `null`"
-            self._findings.add(KEY_NOT_TEXT, "an empty key", place, advice=advice)
+            self._findings.add(rules.KEY_NOT_TEXT, "an empty key", place, advice=advice)
             return None
         return str(value) if type(value) is int else event.value
 
-    def _open(self, event: CollectionStartEvent) -> None:
+    def _open(self, event: events.CollectionStartEvent) -> None:
         place = place_of(event)
         self._count(1, place)
         if len(self._stack) >= MAX_DEPTH:
             self._too_deep(place)
-        mapping = isinstance(event, MappingStartEvent)
+        mapping = isinstance(event, events.MappingStartEvent)
         if event.tag not in {None, "!", f"{_CORE}{'map' if mapping else 'seq'}"}:
             self._refuse_tag(event.tag, place)
         is_key = bool(self._stack) and self._stack[-1].awaits_key
@@ -184,7 +161,7 @@ class NodeBuilder:
         )
         self._stack.append(frame)
 
-    def _close(self, event: Event) -> None:
+    def _close(self, event: events.Event) -> None:
         frame = self._stack.pop()
         node = frame.close(event)
         if frame.anchor:
@@ -192,7 +169,7 @@ class NodeBuilder:
         if not frame.is_key:
             self._attach(node)
 
-    def _alias(self, event: AliasEvent) -> None:
+    def _alias(self, event: events.AliasEvent) -> None:
         place = place_of(event)
         if self._stack and self._stack[-1].awaits_key:
             self._refuse_key(place)
@@ -203,7 +180,7 @@ class NodeBuilder:
             reason = "stands inside its own" if anchor in self._anchors else "has no"
             message = f"the alias `*{shorten(anchor)}` {reason} anchor"
             advice = f"write `&{shorten(anchor)}` before a value above it, or quote a text that starts with `*`"
-            self._findings.add(BAD_ALIAS, message, place, advice=advice)
+            self._findings.add(rules.BAD_ALIAS, message, place, advice=advice)
             node = SourceNode(None, place)
         self._count(node.size, place)
         if len(self._stack) + node.height > MAX_DEPTH:
@@ -221,29 +198,33 @@ class NodeBuilder:
         if self._values > MAX_VALUES:
             message = f"more than {MAX_VALUES:,} values with all aliases expanded"
             advice = "write fewer aliases of aliases, or split the family into several maps"
-            raise self._findings.stop(TOO_MANY_VALUES, message, place, advice=advice)
+            raise self._findings.stop(rules.TOO_MANY_VALUES, message, place, advice=advice)
 
     def _too_deep(self, place: SourcePlace) -> None:
         message = f"more than {MAX_DEPTH} levels of nesting"
-        raise self._findings.stop(TOO_DEEP, message, place, advice="is a bracket not closed? a map needs about ten")
+        raise self._findings.stop(
+            rules.TOO_DEEP, message, place, advice="is a bracket not closed? a map needs about ten"
+        )
 
     def _refuse_tag(self, tag: str | None, place: SourcePlace) -> None:
         message = f"the tag `{shorten((tag or '').replace(_CORE, '!!'))}` does not fit"
-        self._findings.add(TAG, message, place, advice="leave the tag out; put a text in quotes to keep it a text")
+        self._findings.add(
+            rules.TAG, message, place, advice="leave the tag out; put a text in quotes to keep it a text"
+        )
 
     def _refuse_key(self, place: SourcePlace) -> None:
         frame = self._stack[-1]
         frame.awaits_value, frame.key = True, None
         advice = "write the key as a text; quote a text that starts with `[`, `{`, `?` or `*`"
-        self._findings.add(KEY_NOT_TEXT, "a key that is a list, a mapping or an alias", place, advice=advice)
+        self._findings.add(rules.KEY_NOT_TEXT, "a key that is a list, a mapping or an alias", place, advice=advice)
 
-    def _end_of_document(self, event: DocumentEndEvent) -> None:
+    def _end_of_document(self, event: events.DocumentEndEvent) -> None:
         rest = _BLANK_OR_COMMENT.match(self._text, event.end_mark.index if event.end_mark else 0)
         if rest and rest.end() < len(self._text):
             place = place_at(self._text, rest.end())
             if event.explicit or self._text.startswith("---", rest.end()):
                 raise self._findings.stop(
-                    SEVERAL_DOCUMENTS, "a second document", place, advice="keep one map in a file"
+                    rules.SEVERAL_DOCUMENTS, "a second document", place, advice="keep one map in a file"
                 )
             advice = "indent all keys of the map alike, and quote a text that starts with `&`, `*`, `!` or `%`"
-            raise self._findings.stop(SYNTAX, "the map has ended before this", place, advice=advice)
+            raise self._findings.stop(rules.SYNTAX, "the map has ended before this", place, advice=advice)

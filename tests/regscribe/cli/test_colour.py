@@ -2,7 +2,7 @@ import io
 
 import pytest
 
-from regscribe.cli.shared.terminal import show
+from regscribe.cli.shared.output import show
 
 
 class Terminal(io.StringIO):

@@ -172,4 +172,4 @@ def test_all_that_commands_print_goes_through_one_door() -> None:
     for path in Path(regscribe.cli.__file__).parent.rglob("*.py"):
         if used := raw & set(_writes(ast.parse(path.read_text(encoding="utf-8")))):
             found[path.name] = used
-    assert found == {"terminal.py": {"sys.stdout.write", "sys.stderr.write"}, "app.py": {"click.echo"}}
+    assert found == {"output.py": {"sys.stdout.write", "sys.stderr.write"}, "app.py": {"click.echo"}}

@@ -5,11 +5,10 @@ from pathlib import Path
 import click
 
 from regscribe.cli.shared.error_report import REFUSED, USAGE, Failure
-from regscribe.cli.shared.live_json import heading
-from regscribe.cli.shared.output import print_json, remark
+from regscribe.cli.shared.live_output import heading
+from regscribe.cli.shared.output import print_json, remark, tell
 from regscribe.cli.shared.settings_common import settings_reported, taken
 from regscribe.cli.shared.target_options import HELP, checked_identity, opened, target_options
-from regscribe.cli.shared.terminal import tell
 from regscribe.tools import settings
 from regscribe.tools.live.target import Target
 

@@ -7,8 +7,8 @@ import click
 from regscribe.cli.shared import diagnostic_text
 from regscribe.cli.shared.json_report import as_github, as_json
 from regscribe.cli.shared.map_arguments import find_maps
+from regscribe.cli.shared.output import show, tell
 from regscribe.cli.shared.sarif import as_sarif
-from regscribe.cli.shared.terminal import show, tell
 from regscribe.model import Diagnostic
 from regscribe.pipeline import compile_map, has_errors
 

@@ -9,9 +9,9 @@ from regscribe.cli.shared.error_report import REFUSED, UNKNOWN_STATE, Failure, r
 from regscribe.cli.shared.output import print_json, remark
 from regscribe.cli.shared.settings_common import backup_of, include_option, plain_restored, restoring, show_restored
 from regscribe.cli.shared.sigint import Shield, shielded
-from regscribe.cli.shared.target_options import CONFIG, JSON, PACKAGE, confirm_option, opened, understood
+from regscribe.cli.shared.target_options import CONFIG, JSON, PACKAGE, confirm_option, opened
 from regscribe.tools import settings
-from regscribe.tools.live.target import Target
+from regscribe.tools.live.target import Target, named
 from regscribe.tools.settings import Backup
 
 
@@ -59,7 +59,7 @@ def command(  # noqa: PLR0913 - the options of the command
     Ctrl-C does.
     """
     with reported():
-        wanted = [understood(text, config=config, packages=packages) for text in targets]
+        wanted = [named(text, config, packages) for text in targets]
     backup, _ = backup_of(source, packages, config)
     options = CloneOptions(include, partial, dry_run, confirm)
     with shielded() as shield:

@@ -4,11 +4,10 @@ import click
 
 from regscribe.cli.shared.completion_values import complete_command
 from regscribe.cli.shared.error_report import reported
-from regscribe.cli.shared.live_json import heading
+from regscribe.cli.shared.live_output import heading, plain_requests, show_requests
 from regscribe.cli.shared.output import print_json, remark, show_table
 from regscribe.cli.shared.sigint import shielded
 from regscribe.cli.shared.target_options import HELP, checked_identity, opened, target_options
-from regscribe.cli.shared.unsent_requests import plain_requests, show_requests
 from regscribe.tools.live import names
 from regscribe.tools.live import target as targets
 from regscribe.tools.live.dry_run import dry

@@ -3,7 +3,7 @@
 import click
 from click.shell_completion import get_completion_class
 
-from regscribe.cli.shared.terminal import tell
+from regscribe.cli.shared.output import tell
 
 WHERE = {
     "bash": 'eval "$(regscribe completion bash)"      # in ~/.bashrc',

@@ -8,8 +8,7 @@ import click
 from regscribe.cli.shared.compiled_maps import compiled_maps
 from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.map_arguments import find_maps
-from regscribe.cli.shared.output import print_json
-from regscribe.cli.shared.terminal import Piece, show, tell
+from regscribe.cli.shared.output import Piece, print_json, show, tell
 from regscribe.emit.docs_index import ADDRESSES, FACTS, coverage_text
 from regscribe.evidence import MapCoverage, Remark, card, counts, coverage
 from regscribe.visible import safe

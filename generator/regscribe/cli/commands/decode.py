@@ -9,9 +9,8 @@ import click
 from regscribe.cli.shared.completion_values import complete_model
 from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.error_report import REFUSED, reported
-from regscribe.cli.shared.output import print_json, remark
+from regscribe.cli.shared.output import print_json, remark, tell
 from regscribe.cli.shared.target_options import CONFIG, JSON, PACKAGE
-from regscribe.cli.shared.terminal import tell
 from regscribe.tools.live import catalogue, givens, names, value_text
 from regscribe.tools.live import config as configuration
 from regscribe.tools.live.capture import Captured, captured

@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from regscribe.cli.shared.live_json import heading, plain
+from regscribe.cli.shared.live_output import heading, plain
 from regscribe.cli.shared.output import print_json, remark, show_table
 from regscribe.cli.shared.target_options import HELP, opened, target_options
 from regscribe.tools.live import names

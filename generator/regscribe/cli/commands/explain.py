@@ -8,7 +8,7 @@ import click
 from regscribe.checks import catalogue
 from regscribe.checks.catalogue import Example
 from regscribe.cli.shared.diagnostic_text import STYLES
-from regscribe.cli.shared.terminal import Piece, show
+from regscribe.cli.shared.output import Piece, show
 from regscribe.model import Rule
 
 

@@ -8,7 +8,7 @@ import click
 from regscribe import plugins
 from regscribe.cli.shared.compiled_maps import compiled_maps
 from regscribe.cli.shared.map_arguments import find_maps
-from regscribe.cli.shared.terminal import tell
+from regscribe.cli.shared.output import tell
 from regscribe.emit.write import WriteError, write
 from regscribe.plugins import EXPORTERS, Exporter, Option, OptionError, PluginError
 from regscribe.visible import safe

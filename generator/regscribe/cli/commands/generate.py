@@ -11,7 +11,7 @@ import click
 from regscribe.cli.shared.diagnostic_text import count, findings, tally
 from regscribe.cli.shared.map_arguments import find_maps
 from regscribe.cli.shared.map_builds import Made, make_all
-from regscribe.cli.shared.terminal import show, tell, warn
+from regscribe.cli.shared.output import show, tell, warn
 from regscribe.emit import build_cache
 from regscribe.emit.build_cache import BuildRecord
 from regscribe.emit.docs_index import render_index

@@ -13,7 +13,7 @@ import click
 
 from regscribe import plugins
 from regscribe.cli.shared.diagnostic_text import findings, tally
-from regscribe.cli.shared.terminal import show, tell, warn
+from regscribe.cli.shared.output import show, tell, warn
 from regscribe.map_files import shipped
 from regscribe.model import Diagnostic, Severity
 from regscribe.plugins import IMPORTERS, PluginError

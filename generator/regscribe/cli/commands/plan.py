@@ -9,9 +9,8 @@ import click
 from regscribe.cli.shared.compiled_maps import compiled_maps
 from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.map_arguments import find_map
-from regscribe.cli.shared.output import print_json, remark, show_table
+from regscribe.cli.shared.output import print_json, remark, show_table, tell
 from regscribe.cli.shared.planning import PlannedModel
-from regscribe.cli.shared.terminal import tell
 from regscribe.model import RegisterMap
 from regscribe.tools.live.errors import unknown
 from regscribe_runtime.planning import plan

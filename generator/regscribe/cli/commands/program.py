@@ -8,34 +8,14 @@ import click
 
 from regscribe import files
 from regscribe.cli.shared.error_report import REFUSED, UNKNOWN_STATE, Failure, code_of, kind_of, reported
-from regscribe.cli.shared.live_json import heading
-from regscribe.cli.shared.output import print_json, remark, show_table
+from regscribe.cli.shared.live_output import heading
+from regscribe.cli.shared.output import print_json, remark, show_table, tell
 from regscribe.cli.shared.program_text import show_program
 from regscribe.cli.shared.target_options import HELP, JSON, checked_identity, confirm_option, opened, target_options
-from regscribe.cli.shared.terminal import tell
+from regscribe.tools import programs
 from regscribe.tools.live import catalogue
 from regscribe.tools.live.errors import TargetError
 from regscribe.tools.live.target import Target
-from regscribe.tools.programs import (
-    Checked,
-    Program,
-    ProgramFile,
-    ProgramRefused,
-    ProgramRuns,
-    ProgramSlot,
-    ProgramState,
-    ProgramUnfinished,
-    act,
-    check,
-    dump,
-    load,
-    place,
-    places,
-    plain,
-    read,
-    status,
-    write,
-)
 from regscribe.tools.programs.picture import picture
 from regscribe.tools.programs.run import Act
 from regscribe.tools.programs.write import WhileRunning
@@ -85,10 +65,10 @@ def live(name: str, about: str, epilog: str = "") -> Callable[[F], F]:
 def show(*, target: Target, as_json: bool, name: str, svg: Path | None) -> int:
     """Show a program of a device."""
     with opened(target) as device:
-        here = place(device, name)
-        found = device.run(read(here))
+        here = programs.place(device, name)
+        found = device.run(programs.read(here))
     if as_json:
-        print_json(**heading(device, target), program=plain(found))
+        print_json(**heading(device, target), program=programs.plain(found))
     else:
         show_program(found, first=here.spec.segments.first)
     if svg:
@@ -105,11 +85,11 @@ def show(*, target: Target, as_json: bool, name: str, svg: Path | None) -> int:
 def read_command(*, target: Target, as_json: bool, name: str, out: Path | None) -> int:
     """Read a program of a device."""
     with opened(target) as device:
-        found = device.run(read(place(device, name)))
+        found = device.run(programs.read(programs.place(device, name)))
     if as_json:
-        print_json(**heading(device, target), program=plain(found))
+        print_json(**heading(device, target), program=programs.plain(found))
         return 0
-    text = dump(found, remarks=(f"The program of {target}.",))
+    text = programs.dump(found, remarks=(f"The program of {target}.",))
     if out:
         _save(out, text)
     else:
@@ -123,15 +103,15 @@ def read_command(*, target: Target, as_json: bool, name: str, out: Path | None) 
 def validate(*, target: Target, as_json: bool, name: str, file: Path, beyond_limits: bool) -> int:
     """Check a file against a device."""
     with reported():
-        given = load(file)
+        given = programs.load(file)
     with opened(target) as device:
-        here = place(device, name)
+        here = programs.place(device, name)
         _fits(given, here)
-        checked = device.run(check(here, given.program, beyond_limits=beyond_limits))
+        checked = device.run(programs.check(here, given.program, beyond_limits=beyond_limits))
     if as_json:
         print_json(**heading(device, target), valid=not checked.problems, problems=_plain_problems(given, checked))
     elif checked.problems:
-        raise _refused(given, ProgramRefused(here, checked.problems))
+        raise _refused(given, programs.ProgramRefused(here, checked.problems))
     else:
         remark(f"{here.name} of the {here.model} can hold it: {len(checked.planned)} registers")
     return REFUSED if checked.problems else 0
@@ -166,19 +146,21 @@ def write_command(
 ) -> int:
     """Write a file to a device."""
     with reported():
-        given = load(file)
+        given = programs.load(file)
     with opened(target, identity=identity) as device:
-        here = place(device, name)
+        here = programs.place(device, name)
         _fits(given, here)
-        task = write(here, given.program, while_running=while_running, beyond_limits=beyond_limits, confirm=confirm)
+        task = programs.write(
+            here, given.program, while_running=while_running, beyond_limits=beyond_limits, confirm=confirm
+        )
         try:
             done = device.run(task)
-        except ProgramRefused as error:
+        except programs.ProgramRefused as error:
             raise _refused(given, error) from None
-        except ProgramRuns as error:
+        except programs.ProgramRuns as error:
             message = str(error).replace('pass while_running="reset"', "add --while-running reset")
             raise Failure(message, kind=kind_of(error), code=code_of(error)) from None
-        except ProgramUnfinished as error:
+        except programs.ProgramUnfinished as error:
             raise Failure(str(error), kind=kind_of(error), code=UNKNOWN_STATE) from None
     if as_json:
         print_json(**heading(device, target), written=done.written, registers=done.total)
@@ -191,7 +173,7 @@ def write_command(
 def status_command(*, target: Target, as_json: bool, name: str) -> int:
     """Read what a device does."""
     with opened(target) as device:
-        now = device.run(status(place(device, name)))
+        now = device.run(programs.status(programs.place(device, name)))
     _show_state(device, target, now, as_json=as_json)
     return 0
 
@@ -202,7 +184,7 @@ def _act(what: Act, about: str) -> None:
     @checked_identity
     def run(*, target: Target, as_json: bool, name: str, confirm: bool, identity: bool) -> int:
         with opened(target, identity=identity) as device:
-            now = device.run(act(place(device, name), what, confirm=confirm))
+            now = device.run(programs.act(programs.place(device, name), what, confirm=confirm))
         _show_state(device, target, now, as_json=as_json)
         return 0
 
@@ -224,22 +206,22 @@ _act("reset", "End a program that runs or is held.")
 def draw(*, file: Path, svg: Path | None, as_json: bool) -> int:
     """Draw a file."""
     with reported():
-        given = load(file).program
+        given = programs.load(file).program
     first = _first(given)
     if svg:
         _save(svg, picture(given, first=first))
     if as_json:
-        print_json(file=str(file), svg=str(svg or ""), program=plain(given))
+        print_json(file=str(file), svg=str(svg or ""), program=programs.plain(given))
     elif not svg:
         show_program(given, first=first)
     return 0
 
 
-def _first(given: Program) -> int:
+def _first(given: programs.Program) -> int:
     """The number of the first segment on the model that a file is for; 1 if it says nothing of it."""
     try:
         name = f"{given.map_id}:{given.model}" if given.map_id else given.model
-        return places(catalogue.find(name).driver)[0].spec.segments.first if given.model else 1
+        return programs.places(catalogue.find(name).driver)[0].spec.segments.first if given.model else 1
     except (TargetError, IndexError):
         return 1
 
@@ -252,24 +234,24 @@ def _save(path: Path, text: str) -> None:
         raise Failure(str(error), kind="file", code=REFUSED) from None
 
 
-def _fits(given: ProgramFile, here: ProgramSlot) -> None:
+def _fits(given: programs.ProgramFile, here: programs.ProgramSlot) -> None:
     """Say so if a file was made for another device; it may fit nevertheless, which the check tells."""
     made, own = (given.program.map_id, given.program.model), (here.map_id, here.model)
     if any(one and one != other for one, other in zip(made, own, strict=True)):
         remark(f"the file was made for {' '.join(filter(None, made))}; this is {' '.join(own)}")
 
 
-def _plain_problems(given: ProgramFile, checked: Checked) -> list[dict[str, str]]:
+def _plain_problems(given: programs.ProgramFile, checked: programs.Checked) -> list[dict[str, str]]:
     return [{"at": given.place(one.where), "where": one.label, "message": one.message} for one in checked.problems]
 
 
-def _refused(given: ProgramFile, error: ProgramRefused) -> Failure:
+def _refused(given: programs.ProgramFile, error: programs.ProgramRefused) -> Failure:
     lines = [f"{given.place(one.where)}: {one}" for one in error.problems]
     count = f"{len(lines)} mistakes" if len(lines) > 1 else "a mistake"
     return Failure("\n".join([f"{count}, so nothing is written", *lines]), kind=kind_of(error), code=code_of(error))
 
 
-def _show_state(device: BareDevice, target: Target, now: ProgramState, *, as_json: bool) -> None:
+def _show_state(device: BareDevice, target: Target, now: programs.ProgramState, *, as_json: bool) -> None:
     facts = {
         "state": now.state,
         "detail": now.detail,

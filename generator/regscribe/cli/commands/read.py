@@ -6,10 +6,9 @@ import click
 
 from regscribe.cli.shared.completion_values import complete_register
 from regscribe.cli.shared.error_report import REFUSED
-from regscribe.cli.shared.live_json import heading, plain
-from regscribe.cli.shared.output import hexadecimal, print_json, remark, show_table
+from regscribe.cli.shared.live_output import heading, plain
+from regscribe.cli.shared.output import hexadecimal, print_json, remark, show_table, tell
 from regscribe.cli.shared.target_options import HELP, opened, target_options
-from regscribe.cli.shared.terminal import tell
 from regscribe.tools.live import names
 from regscribe.tools.live.reading import RegisterReading, readings
 from regscribe.tools.live.target import Target

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from regscribe.cli.shared.live_json import heading
+from regscribe.cli.shared.live_output import heading
 from regscribe.cli.shared.output import print_json
 from regscribe.cli.shared.settings_common import include_option, loaded, plain_restored, restoring, show_restored
 from regscribe.cli.shared.sigint import shielded

@@ -10,11 +10,12 @@ from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.error_report import REFUSED, failure, reported
 from regscribe.cli.shared.output import print_json, remark, show_table
 from regscribe.cli.shared.progress import progress
-from regscribe.cli.shared.target_options import CONFIG, JSON, PACKAGE, quiet, understood
+from regscribe.cli.shared.target_options import CONFIG, JSON, PACKAGE, quiet
 from regscribe.tools.live import catalogue
 from regscribe.tools.live import scan as scanning
 from regscribe.tools.live.link_names import LinkName
 from regscribe.tools.live.scan import FoundDevice, Probe
+from regscribe.tools.live.target import named
 from regscribe_runtime import LinkLost
 
 INTERRUPTED = 130
@@ -60,7 +61,7 @@ def command(  # noqa: PLR0913 - the options of the command
     """
     quiet()
     with reported():
-        target = understood(link, config=config, packages=packages)
+        target = named(link, config, packages)
         catalogue.models(target.packages)  # a package that is none is told before the line is asked for minutes
         asked = scanning.units(units)
         links = scanning.settings(target.link, _numbers(bauds), [one for one in formats.split(",") if one])

@@ -9,6 +9,7 @@ from typing import Any, TypedDict, Unpack
 
 import click
 
+from regscribe.cli.shared.output import tell
 from regscribe.cli.shared.request_log import RequestLog, lines, table
 from regscribe.cli.shared.simulated_devices import (
     WantedDevice,
@@ -18,7 +19,6 @@ from regscribe.cli.shared.simulated_devices import (
     wanted_device,
     wanted_devices,
 )
-from regscribe.cli.shared.terminal import tell
 from regscribe.simulate import (
     Foreign,
     Patience,

@@ -11,9 +11,8 @@ import click
 from regscribe.cli.shared.completion_values import complete_register
 from regscribe.cli.shared.error_report import REFUSED, Failure, failure
 from regscribe.cli.shared.live_view import Screen, lines
-from regscribe.cli.shared.output import print_json_line
+from regscribe.cli.shared.output import print_json_line, tell
 from regscribe.cli.shared.target_options import HELP, opened, target_options
-from regscribe.cli.shared.terminal import tell
 from regscribe.tools.live import log as logs
 from regscribe.tools.live import names
 from regscribe.tools.live.target import Target

@@ -5,11 +5,10 @@ from typing import Any
 import click
 
 from regscribe.cli.shared.completion_values import complete_register, complete_value
-from regscribe.cli.shared.live_json import heading
+from regscribe.cli.shared.live_output import heading, plain_requests, show_requests
 from regscribe.cli.shared.output import print_json, remark, show_table
 from regscribe.cli.shared.sigint import shielded
 from regscribe.cli.shared.target_options import HELP, checked_identity, confirm_option, opened, target_options
-from regscribe.cli.shared.unsent_requests import plain_requests, show_requests
 from regscribe.tools.live import names, value_text
 from regscribe.tools.live.dry_run import DryWrite, dry
 from regscribe.tools.live.errors import TargetError, unknown

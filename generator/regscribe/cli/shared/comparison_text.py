@@ -3,10 +3,10 @@
 import csv
 import io
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 from regscribe.cli.shared.diagnostic_text import count
-from regscribe.cli.shared.terminal import Piece
+from regscribe.cli.shared.output import Piece
 from regscribe.evidence import CellDifference, Comparison, Location
 from regscribe.visible import cell, json_text, safe
 
@@ -99,14 +99,7 @@ def as_json(found: Comparison) -> str:
 
 
 def _plain(place: Location) -> dict[str, str | int | None]:
-    return {
-        "model": place.model,
-        "space": place.space,
-        "address": place.address,
-        "id": place.id,
-        "name": place.name,
-        "line": place.line or None,
-    }
+    return {**asdict(place), "line": place.line or None}
 
 
 def as_csv(found: Comparison) -> str:
@@ -123,4 +116,4 @@ def as_csv(found: Comparison) -> str:
 
 
 def _head(place: Location) -> tuple[str, ...]:
-    return (cell(place.model), cell(place.space), cell(place.address), cell(place.id), cell(place.name))
+    return tuple(map(cell, (place.model, place.space, place.address, place.id, place.name)))

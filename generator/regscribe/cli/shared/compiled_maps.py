@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from regscribe.cli.shared.diagnostic_text import findings, tally
-from regscribe.cli.shared.terminal import show, warn
+from regscribe.cli.shared.output import show, warn
 from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map
 

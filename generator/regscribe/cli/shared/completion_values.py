@@ -6,39 +6,25 @@ from contextlib import suppress
 import click
 from click.shell_completion import CompletionItem
 
+Finder = Callable[[click.Context, str], Iterable[tuple[str, str]]]
+"""Names with a hint for each, in the context of what is typed already; the text is what the name begins with."""
 
-def complete_target(context: click.Context, _: click.Parameter, typed: str) -> list[CompletionItem]:
+Completer = Callable[[click.Context, click.Parameter, str], list[CompletionItem]]
+"""What click calls to complete a parameter."""
+
+
+def _completer(find: Finder) -> Completer:
+    def complete(context: click.Context, _: click.Parameter, typed: str) -> list[CompletionItem]:
+        with suppress(Exception):  # a shell shows what a completion prints: it is better to complete nothing
+            return [CompletionItem(name, help=said) for name, said in find(context, typed) if name.startswith(typed)]
+        return []
+
+    return complete
+
+
+@_completer
+def complete_target(context: click.Context, typed: str) -> Iterable[tuple[str, str]]:
     """Names of the configuration, and the starts of links."""
-    return _completed(lambda: _targets(context, typed), typed)
-
-
-def complete_model(context: click.Context, _: click.Parameter, typed: str) -> list[CompletionItem]:
-    """Models of the drivers."""
-    return _completed(lambda: _models(context), typed)
-
-
-def complete_register(context: click.Context, _: click.Parameter, typed: str) -> list[CompletionItem]:
-    """Registers, groups and arrays of the target's model, once the target is typed and names its model."""
-    return _completed(lambda: _registers(context), typed)
-
-
-def complete_command(context: click.Context, _: click.Parameter, typed: str) -> list[CompletionItem]:
-    """Commands of the target's model."""
-    return _completed(lambda: _commands(context), typed)
-
-
-def complete_value(context: click.Context, _: click.Parameter, typed: str) -> list[CompletionItem]:
-    """The members or flags of the register that a write names."""
-    return _completed(lambda: _values(context), typed)
-
-
-def _completed(find: Callable[[], Iterable[tuple[str, str]]], typed: str) -> list[CompletionItem]:
-    with suppress(Exception):  # a shell shows what a completion prints: it is better to complete nothing
-        return [CompletionItem(name, help=said) for name, said in find() if name.startswith(typed)]
-    return []
-
-
-def _targets(context: click.Context, typed: str) -> Iterable[tuple[str, str]]:
     from regscribe.tools.live import config, link_names  # noqa: PLC0415 - a completion must be quick
 
     if ":" not in typed:
@@ -47,34 +33,41 @@ def _targets(context: click.Context, typed: str) -> Iterable[tuple[str, str]]:
         yield name, entry.note or entry.model
 
 
-def _models(context: click.Context) -> Iterable[tuple[str, str]]:
+@_completer
+def complete_model(context: click.Context, _: str) -> Iterable[tuple[str, str]]:
+    """Models of the drivers."""
     from regscribe.tools.live import catalogue  # noqa: PLC0415 - as above
 
     return [(one.model, catalogue.title(one)) for one in catalogue.models(tuple(context.params.get("packages") or ()))]
 
 
-def _registers(context: click.Context) -> Iterable[tuple[str, str]]:
+@_completer
+def complete_register(context: click.Context, _: str) -> Iterable[tuple[str, str]]:
+    """Registers, groups and arrays of the target's model, once the target is typed and names its model."""
     from regscribe.tools.live import names  # noqa: PLC0415 - as above
 
     return names.completions(_driver(context))
 
 
-def _commands(context: click.Context) -> Iterable[tuple[str, str]]:
+@_completer
+def complete_command(context: click.Context, _: str) -> Iterable[tuple[str, str]]:
+    """Commands of the target's model."""
     from regscribe.tools.live import names  # noqa: PLC0415 - as above
 
     return [(name, command.danger) for name, command in names.commands_of(_driver(context)).items()]
 
 
-def _values(context: click.Context) -> Iterable[tuple[str, str]]:
+@_completer
+def complete_value(context: click.Context, _: str) -> Iterable[tuple[str, str]]:
+    """The members or flags of the register that a write names."""
     from regscribe.tools.live import names, value_text  # noqa: PLC0415 - as above
 
     return [(one, "") for one in value_text.choices(names.register_named(_driver(context), context.params["name"]))]
 
 
 def _driver(context: click.Context) -> type:
-    from regscribe.tools.live import config, target  # noqa: PLC0415 - as above
+    from regscribe.tools.live import target  # noqa: PLC0415 - as above
 
     given = context.params
-    parsed = target.parse(given["target_text"], config.load(given.get("config")))
-    found = target.with_packages(parsed, tuple(given.get("packages") or ()))
+    found = target.named(given["target_text"], given.get("config"), tuple(given.get("packages") or ()))
     return target.override(found, model=given.get("model") or "").known().driver

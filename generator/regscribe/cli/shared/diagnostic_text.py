@@ -2,8 +2,8 @@
 
 from collections.abc import Iterable, Iterator
 
+from regscribe.cli.shared.output import Piece
 from regscribe.cli.shared.source_excerpt import Sources
-from regscribe.cli.shared.terminal import Piece
 from regscribe.model import Diagnostic, Severity, Span
 from regscribe.visible import safe
 

@@ -11,7 +11,7 @@ from typing import IO, Any
 
 import click
 
-from regscribe.cli.shared.terminal import tell
+from regscribe.cli.shared.output import tell
 from regscribe.tools.live.errors import TargetError
 from regscribe.visible import json_text
 from regscribe_runtime import ExceptionAnswer, LinkLost, NoAnswer, PartialWrite, RegscribeError

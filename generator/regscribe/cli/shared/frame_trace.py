@@ -2,7 +2,7 @@
 
 from datetime import UTC, datetime
 
-from regscribe.cli.shared.terminal import warn
+from regscribe.cli.shared.output import warn
 from regscribe.tools.live.capture import RECEIVED, SENT
 from regscribe.tools.live.captured_frames import frames
 from regscribe.tools.live.decode import Decoded, Decoder

@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from regscribe.cli.shared.chart import empty_figure
-from regscribe.cli.shared.output import show_table
-from regscribe.cli.shared.terminal import tell
+from regscribe.cli.shared.output import show_table, tell
 from regscribe.tools.programs.profile import Profile, profile, steps_of, time_scale
 from regscribe.tools.programs.program import RAW, SECONDS, Program
 from regscribe.tools.programs.program_file import plain

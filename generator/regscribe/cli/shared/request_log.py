@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
-from regscribe.cli.shared import terminal
+from regscribe.cli.shared import output
 from regscribe.simulate import Exchange, Service, SimulatedDevice, Told, tell
 from regscribe.visible import safe
 
@@ -55,7 +55,7 @@ def lines(requests: RequestLog) -> None:
         mark = "" if told.good else f": {told.outcome}"
         try:
             line = f"{_clock(time.time())} unit {told.unit} {told.verb} {told.what}{mark}"
-            terminal.tell(safe(line)[:LONGEST] + "\n")
+            output.tell(safe(line)[:LONGEST] + "\n")
             sys.stdout.flush()
         except BrokenPipeError:  # the reader went away; the clients stay
             requests.each = None

@@ -11,8 +11,9 @@ from regscribe.cli.shared.error_report import REFUSED, UNKNOWN_STATE, USAGE, Fai
 from regscribe.cli.shared.output import remark, show_table
 from regscribe.cli.shared.progress import progress
 from regscribe.cli.shared.sigint import Shield
-from regscribe.cli.shared.target_options import opened, understood
+from regscribe.cli.shared.target_options import opened
 from regscribe.tools import settings
+from regscribe.tools.live.target import named
 from regscribe.tools.live.value_text import as_text
 from regscribe_runtime import BareDevice, NotConfigured
 from regscribe_runtime.report import Change, Fate, Progress, Teller
@@ -74,7 +75,7 @@ def backup_of(text: str, packages: tuple[str, ...], config: str | None) -> tuple
     if text.endswith((".yaml", ".yml")) or Path(text).is_file():
         return loaded(Path(text)), text
     with reported():
-        target = understood(text, config=config, packages=packages)
+        target = named(text, config, packages)
     with opened(target, identity=True) as device:
         return taken(device, str(target.link)), str(target)
 

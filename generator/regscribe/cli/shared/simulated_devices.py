@@ -14,7 +14,7 @@ from regscribe import source
 from regscribe.cli.shared.compiled_maps import compiled_maps
 from regscribe.cli.shared.diagnostic_text import findings
 from regscribe.cli.shared.map_arguments import find_map
-from regscribe.cli.shared.terminal import show
+from regscribe.cli.shared.output import show
 from regscribe.model import GivenKind, RegisterMap
 from regscribe.simulate import SimulatedDevice, SimulatorError, ThermalProcess
 from regscribe.tools.live.givens import codes_in, flag_of

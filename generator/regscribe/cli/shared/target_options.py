@@ -12,7 +12,6 @@ import click
 from regscribe.cli.shared.completion_values import complete_model, complete_target
 from regscribe.cli.shared.error_report import REFUSED, Failure, reported
 from regscribe.cli.shared.frame_trace import Tracing
-from regscribe.tools.live import config as configuration
 from regscribe.tools.live import target as targets
 from regscribe.tools.live.errors import TargetError
 from regscribe.tools.live.target import Target
@@ -83,7 +82,7 @@ def target_options(function: F) -> F:
         **more: Any,  # noqa: ANN401 - as above
     ) -> Any:  # noqa: ANN401 - the command's own result
         with reported():
-            target = understood(target_text, config=config, packages=packages)
+            target = targets.named(target_text, config, packages)
             target = targets.override(target, unit=unit, model=model or "", given=targets.given_texts(givens))
             target = replace(target, trace=Tracing(target)) if trace else target
         return function(*args, target=target, **more)
@@ -93,11 +92,6 @@ def target_options(function: F) -> F:
         command = option(command)
     result: F = command
     return result
-
-
-def understood(text: str, *, config: str | None = None, packages: tuple[str, ...] = ()) -> Target:
-    """The target that a text names under a configuration and with more packages; TargetError."""
-    return targets.with_packages(targets.parse(text, configuration.load(config)), packages)
 
 
 @contextmanager

@@ -7,6 +7,7 @@ from typing import Any
 from urllib.parse import urlencode
 
 from regscribe.tools.live import catalogue, givens, link_names
+from regscribe.tools.live import config as configuration
 from regscribe.tools.live.config import Config
 from regscribe.tools.live.errors import TargetError, unknown
 from regscribe.tools.live.link_names import LinkName
@@ -74,6 +75,12 @@ def parse(text: str, config: Config | None = None) -> Target:
     link = link_names.with_settings(link, {"timeout": entry.timeout} if entry.timeout else {})
     found = _with(Target(link=link, name=text, packages=configured.packages), entry.link, more)
     return override(found, unit=entry.unit, model=entry.model, given=entry.givens)
+
+
+def named(text: str, config: str | None = None, packages: Sequence[str] = ()) -> Target:
+    """The device that a text names under a configuration, its model looked for in more packages; TargetError."""
+    target = parse(text, configuration.load(config))
+    return replace(target, packages=tuple(dict.fromkeys((*packages, *target.packages))))
 
 
 def override(
@@ -145,11 +152,6 @@ def identified(target: Target) -> Target:
     names = " or ".join(f"model={one.model}" for one in found.models)
     message = f"{target}: its answers fit {len(found.models)} models alike: write ?{names}"
     raise TargetError(message)
-
-
-def with_packages(target: Target, packages: Sequence[str]) -> Target:
-    """The target with more packages to look for its model in."""
-    return replace(target, packages=tuple(dict.fromkeys((*packages, *target.packages))))
 
 
 def check_identity(device: BareDevice, target: Target) -> None:
