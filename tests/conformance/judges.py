@@ -24,9 +24,9 @@ from regscribe.simulate.device import codec as simulated_codec
 from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.testing.driver_checks import DriverUnderTest
 from regscribe.testing.vectors import Vectors
-from regscribe.tools.live.captured_frames import CapturedFrame
 from regscribe.tools.live.decode import Decoder
 from regscribe_runtime import SensorFault, ValueNotDecodable, ValueRefused
+from regscribe_runtime.wire.capture import CapturedFrame
 
 from .suite import Built, Json, words_of
 

@@ -27,7 +27,6 @@ from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map
 from regscribe.reference import Surroundings
 from regscribe.simulate import simulate
-from regscribe.tools.live.captured_frames import CapturedFrame
 from regscribe.tools.live.decode import Decoder
 from regscribe.tools.live.errors import TargetError
 from regscribe.tools.live.log import open_log
@@ -40,6 +39,7 @@ from regscribe.tools.programs.program_file import load as load_program
 from regscribe.tools.settings import backup_file as backups
 from regscribe.tools.settings.take import backup
 from regscribe_runtime import tcp
+from regscribe_runtime.wire.capture import CapturedFrame
 
 from .test_hostile import CANARY, REFUSED, hostile_map, texts
 

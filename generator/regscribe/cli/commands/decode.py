@@ -14,13 +14,12 @@ from regscribe.cli.shared.target_options import CONFIG, JSON, PACKAGE
 from regscribe.tools.live import catalogue, givens, names, value_text
 from regscribe.tools.live import config as configuration
 from regscribe.tools.live.capture import Captured, captured
-from regscribe.tools.live.captured_frames import FRAMINGS
 from regscribe.tools.live.decode import Decoded, DecodedItem, Decoder
 from regscribe.tools.live.errors import TargetError
 from regscribe.tools.live.target import given_texts
 from regscribe.visible import safe
 from regscribe_runtime import BareDevice
-from regscribe_runtime.values.serial_line import ADDRESSINGS
+from regscribe_runtime.values.serial_line import ADDRESSINGS, FRAMINGS
 
 ARROWS = {"request": "->", "response": "<-"}
 PAIR = 2

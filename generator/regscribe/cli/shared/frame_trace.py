@@ -4,12 +4,12 @@ from datetime import UTC, datetime
 
 from regscribe.cli.shared.output import warn
 from regscribe.tools.live.capture import RECEIVED, SENT
-from regscribe.tools.live.captured_frames import frames
 from regscribe.tools.live.decode import Decoded, Decoder
 from regscribe.tools.live.names import Driver
 from regscribe.tools.live.target import Target
 from regscribe.visible import safe
 from regscribe_runtime.link.trace import Trace
+from regscribe_runtime.wire.capture import frames
 
 ARROWS = {SENT: "->", RECEIVED: "<-"}
 

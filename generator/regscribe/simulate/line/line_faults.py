@@ -12,8 +12,16 @@ from threading import Lock
 
 from regscribe.simulate.line.connection import Chunk, Exchange
 from regscribe_runtime.wire.framing import MBAP_HEAD, TCP, Frame, build, checked_framing
-from regscribe_runtime.wire.pdu import BIT_READS, BLOCK_WRITES, WORD_READS, encode_reply
-from regscribe_runtime.wire.requests import LOOPBACK, WRITE_COIL, WRITE_REGISTER, Reply
+from regscribe_runtime.wire.pdu import encode_reply
+from regscribe_runtime.wire.requests import (
+    BIT_READS,
+    BLOCK_WRITES,
+    LOOPBACK,
+    WORD_READS,
+    WRITE_COIL,
+    WRITE_REGISTER,
+    Reply,
+)
 
 STORM = 3
 """Requests in a row that are refused while the device is busy."""

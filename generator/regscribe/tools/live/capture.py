@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from regscribe.tools.live.captured_frames import CapturedFrame, frames
+from regscribe_runtime.wire.capture import CapturedFrame, frames
 
 SENT, RECEIVED = "sent", "received"
 MOST = 100_000

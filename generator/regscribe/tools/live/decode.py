@@ -1,38 +1,29 @@
 """What frames say in the names of a map: requests and their answers, registers with values, exceptions, commands."""
 
-import struct
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 from regscribe.tools.live.capture import RECEIVED, SENT
-from regscribe.tools.live.captured_frames import EXCEPTION, CapturedFrame
 from regscribe.tools.live.names import Driver, commands_of
 from regscribe.tools.live.reading import unit_of
 from regscribe.tools.live.value_text import Plain, as_text, show
 from regscribe_runtime import Register, RegscribeError, View
 from regscribe_runtime.errors import STANDARD
 from regscribe_runtime.registers import codec
+from regscribe_runtime.wire.capture import CapturedFrame
+from regscribe_runtime.wire.pdu import EXCEPTION_BIT, MalformedError, decode_reply, decode_request
 from regscribe_runtime.wire.requests import (
+    BIT_READS,
+    BLOCK_WRITES,
+    HEAD_SIZE,
     LOOPBACK,
-    READ_SPACES,
     READ_STATUS,
-    WRITE_COIL,
-    WRITE_COILS,
-    WRITE_REGISTER,
-    WRITE_REGISTERS,
+    SPACES,
+    WORD_READS,
+    WRITES,
+    Request,
+    sizes,
 )
-
-SPACES = READ_SPACES | {
-    WRITE_COIL: "coil",
-    WRITE_COILS: "coil",
-    WRITE_REGISTER: "holding",
-    WRITE_REGISTERS: "holding",
-}
-WRITES = frozenset({WRITE_COIL, WRITE_REGISTER, WRITE_COILS, WRITE_REGISTERS})
-BITS = frozenset({"coil", "discrete"})
-ON = 0xFF00
-HEAD = 4
-"""Bytes of an address with a quantity or a value."""
 
 
 class DecodedItem(NamedTuple):
@@ -66,16 +57,6 @@ class Decoded(NamedTuple):
     complaint: str
 
 
-class DecodedRequest(NamedTuple):
-    """A request that waits for its answer."""
-
-    unit: int
-    function: int
-    address: int
-    quantity: int
-    words: tuple[int, ...]
-
-
 class Decoder:
     """Decodes the frames of one line in their order; what it saw of a unit decides scales and units there later on.
 
@@ -93,94 +74,90 @@ class Decoder:
         self.driver, self.first = driver, first
         self._givens, self._known = dict(givens or {}), dict(state or {})
         self._states: dict[int, dict[str, Any]] = {}
-        self._asked: DecodedRequest | None = None
+        self._asked: tuple[int, Request] | None = None
+        """A request that waits for its answer, with its unit."""
         self._index = _index(driver)
 
     def feed(self, frame: CapturedFrame, direction: str = "") -> Decoded:
         """Decode the next frame; `direction` is sent, received, or "" where only the frames themselves tell."""
         if not frame.pdu:
             return self._strange("request", frame, "no function code")
-        asked = self._asked
-        if direction != SENT and asked and self._answers(frame, asked, sure=direction == RECEIVED):
+        asked = self._asked[1] if self._asked and self._asked[0] == frame.unit else None
+        if direction != SENT and asked and _answers(frame, asked, sure=direction == RECEIVED):
             self._asked = None
             return self._answer(frame, asked)
         if direction == RECEIVED or (direction != SENT and _is_answer(frame)):
             return self._unasked(frame)
-        self._asked = _asked(frame, self.first)
-        return self._request(frame, self._asked)
+        asked = _asked(frame, self.first)
+        self._asked = (frame.unit, asked) if asked else None
+        return self._request(frame, asked)
 
-    def _answers(self, frame: CapturedFrame, asked: DecodedRequest, *, sure: bool) -> bool:
-        if (frame.unit, frame.function) != (asked.unit, asked.function):
-            return False
-        return sure or bool(frame.pdu[0] & EXCEPTION) or len(frame.pdu) == _answer_size(asked)
-
-    def _request(self, frame: CapturedFrame, asked: DecodedRequest | None) -> Decoded:
+    def _request(self, frame: CapturedFrame, asked: Request | None) -> Decoded:
         if asked is None:
             return self._strange("request", frame, "of a form that is not known")
-        items = tuple(self._items(asked, asked.words if asked.function in WRITES else None))
+        items = tuple(self._items(frame.unit, asked, asked.words if asked.function in WRITES else None))
         return Decoded(
             "request", frame.unit, frame.function, self._verb(asked), asked.address, items, 0, frame.complaint
         )
 
-    def _answer(self, frame: CapturedFrame, asked: DecodedRequest) -> Decoded:
-        if frame.pdu[0] & EXCEPTION:
+    def _answer(self, frame: CapturedFrame, asked: Request) -> Decoded:
+        if frame.pdu[0] & EXCEPTION_BIT:
             return self._exception(frame, asked)
-        words = _words(frame.pdu, asked)
         if asked.function in WRITES:
-            self._learn(asked, asked.words)
+            self._learn(frame.unit, asked, asked.words)
             return Decoded("response", frame.unit, asked.function, "written", asked.address, (), 0, frame.complaint)
+        words = decode_reply(asked, frame.pdu).words
         if len(words) != asked.quantity:
             return self._strange("response", frame, f"{len(words)} values where {asked.quantity} were asked for")
-        self._learn(asked, words)
-        items = tuple(self._items(asked, words))
+        self._learn(frame.unit, asked, words)
+        items = tuple(self._items(frame.unit, asked, words))
         return Decoded("response", frame.unit, asked.function, "", asked.address, items, 0, frame.complaint)
 
     def _unasked(self, frame: CapturedFrame) -> Decoded:
-        if frame.pdu[0] & EXCEPTION:
+        if frame.pdu[0] & EXCEPTION_BIT:
             return self._exception(frame, None)
         return self._strange("response", frame, "to a request that is not in the capture")
 
-    def _exception(self, frame: CapturedFrame, asked: DecodedRequest | None) -> Decoded:
+    def _exception(self, frame: CapturedFrame, asked: Request | None) -> Decoded:
         code = frame.pdu[1] if len(frame.pdu) > 1 else 0
         _, name, meaning = self.driver.protocol.exception(code)
         said = f"exception {code:02d} ({name or STANDARD.get(code, 'unknown')}{f': {meaning}' if meaning else ''})"
         address = asked.address if asked else None
-        items = tuple(self._items(asked, None)) if asked else ()
+        items = tuple(self._items(frame.unit, asked, None)) if asked else ()
         return Decoded("response", frame.unit, frame.function, said, address, items, code, frame.complaint)
 
     def _strange(self, kind: str, frame: CapturedFrame, said: str) -> Decoded:
         function = frame.function if frame.pdu else 0
         return Decoded(kind, frame.unit, function, f"function {function:02d}, {said}", None, (), 0, frame.complaint)
 
-    def _verb(self, asked: DecodedRequest) -> str:
+    def _verb(self, asked: Request) -> str:
         if asked.function == LOOPBACK:
             return "loopback"
         if asked.function == READ_STATUS:
             return "read the exception status"
         space, end = SPACES[asked.function], asked.address + asked.quantity - 1
         where = f"{space} {asked.address}" + (f" to {end}" if end > asked.address else "")
-        acts = [name for name, command in commands_of(self.driver).items() if _step(asked) in command.steps]
+        step = (asked.function, asked.address, asked.words)
+        acts = [name for name, command in commands_of(self.driver).items() if step in command.steps]
         told = f" (command {' or '.join(acts)})" if acts else ""
         return f"{'write' if asked.function in WRITES else 'read'} {where}{told}"
 
     def _state(self, unit: int) -> dict[str, Any]:
         return self._states.setdefault(unit, dict(self._known))
 
-    def _learn(self, asked: DecodedRequest, words: tuple[int, ...]) -> None:
+    def _learn(self, unit: int, asked: Request, words: tuple[int, ...]) -> None:
         """Keep what registers hold now; those first whose values others need."""
-        state = self._state(asked.unit)
+        state = self._state(unit)
         for register, view, part in list(self._found(asked, words)) * 2:
             try:
                 state[register.path] = codec.decode(register, view, part, state, self._givens, named=False)
             except (RegscribeError, KeyError, ValueError):
                 state.pop(register.path, None)
 
-    def _items(self, asked: DecodedRequest, words: tuple[int, ...] | None) -> Iterator[DecodedItem]:
+    def _items(self, unit: int, asked: Request, words: tuple[int, ...] | None) -> Iterator[DecodedItem]:
         for register, view, part in self._found(asked, words):
             yield (
-                self._item(asked.unit, register, view, part)
-                if words is not None
-                else DecodedItem(register.path, view.name)
+                self._item(unit, register, view, part) if words is not None else DecodedItem(register.path, view.name)
             )
 
     def _item(self, unit: int, register: Register[Any], view: View, words: tuple[int, ...]) -> DecodedItem:
@@ -198,7 +175,7 @@ class Decoder:
         return item._replace(value=show(register, value), text=as_text(register, value), unit=unit_name)
 
     def _found(
-        self, asked: DecodedRequest, words: tuple[int, ...] | None
+        self, asked: Request, words: tuple[int, ...] | None
     ) -> Iterator[tuple[Register[Any], View, tuple[int, ...]]]:
         space = SPACES.get(asked.function, "")
         for address in range(asked.address, asked.address + asked.quantity):
@@ -220,64 +197,29 @@ def _index(driver: Driver) -> dict[tuple[str, int], list[tuple[Register[Any], Vi
 def _is_answer(frame: CapturedFrame) -> bool:
     """Whether a frame can be nothing but an answer, by its form."""
     function, data = frame.pdu[0], frame.pdu[1:]
-    if function & EXCEPTION or function == READ_STATUS:
+    if function & EXCEPTION_BIT or function == READ_STATUS:
         return bool(data)
-    if function in {WRITE_COILS, WRITE_REGISTERS}:
-        return len(data) == HEAD
+    if function in BLOCK_WRITES:
+        return len(data) == HEAD_SIZE
     counted = bool(data) and data[0] == len(data) - 1
-    return function in SPACES and function not in WRITES and len(data) != HEAD and counted
+    return function in (*BIT_READS, *WORD_READS) and len(data) != HEAD_SIZE and counted
 
 
-def _asked(frame: CapturedFrame, first: int) -> DecodedRequest | None:
+def _answers(frame: CapturedFrame, asked: Request, *, sure: bool) -> bool:
+    """Whether a frame of the same unit is the answer to a request; `sure` if it is known to be an answer."""
+    if frame.function != asked.function:
+        return False
+    return sure or bool(frame.pdu[0] & EXCEPTION_BIT) or len(frame.pdu) == sizes(asked)[1]
+
+
+def _asked(frame: CapturedFrame, first: int) -> Request | None:
     """The request of a frame; None for one of another form."""
-    function, data = frame.pdu[0], frame.pdu[1:]
-    if function == READ_STATUS:
-        return DecodedRequest(frame.unit, function, 0, 1, ())
-    short, exact = len(data) < HEAD, len(data) == HEAD or function in {WRITE_COILS, WRITE_REGISTERS, LOOPBACK}
-    if short or not exact or function not in {*SPACES, LOOPBACK}:
+    try:
+        request = decode_request(frame.pdu).shifted(-first)
+    except MalformedError:
         return None
-    address, number = struct.unpack(">HH", data[:4])
-    if function == LOOPBACK:
-        return DecodedRequest(frame.unit, function, address, 1, (number,))
-    address = max(address - first, 0)
-    if function in {WRITE_COIL, WRITE_REGISTER}:
-        return DecodedRequest(
-            frame.unit, function, address, 1, (int(number == ON) if function == WRITE_COIL else number,)
-        )
-    words = _unpacked(data[5:], number, bits=function == WRITE_COILS) if function in WRITES else ()
-    return (
-        None
-        if function in WRITES and len(words) != number
-        else DecodedRequest(frame.unit, function, address, number, words)
-    )
-
-
-def _unpacked(data: bytes, count: int, *, bits: bool) -> tuple[int, ...]:
-    if not bits:
-        return struct.unpack(f">{len(data) // 2}H", data[: len(data) // 2 * 2])
-    packed = int.from_bytes(data, "little")
-    return tuple(packed >> at & 1 for at in range(min(count, 8 * len(data))))
-
-
-def _words(pdu: bytes, asked: DecodedRequest) -> tuple[int, ...]:
-    if asked.function in {LOOPBACK, *WRITES}:
-        return asked.words
-    if asked.function == READ_STATUS:
-        return tuple(pdu[1:2])
-    return _unpacked(pdu[2:], asked.quantity, bits=SPACES[asked.function] in BITS)
-
-
-def _answer_size(asked: DecodedRequest) -> int:
-    """How many bytes the answer has behind the unit, before the CRC."""
-    if asked.function == READ_STATUS:
-        return 2
-    if asked.function in {LOOPBACK, *WRITES}:
-        return 5
-    return 2 + (-(-asked.quantity // 8) if SPACES[asked.function] in BITS else 2 * asked.quantity)
-
-
-def _step(asked: DecodedRequest) -> tuple[int, int, tuple[int, ...]]:
-    return asked.function, asked.address, asked.words
+    known = request.function in {*SPACES, LOOPBACK}
+    return request._replace(address=max(request.address, 0)) if known else None
 
 
 def _hexadecimal(words: tuple[int, ...]) -> str:

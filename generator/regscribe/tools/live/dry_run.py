@@ -3,19 +3,7 @@
 from typing import Any, NamedTuple, cast
 
 from regscribe_runtime import BareDevice, Link
-from regscribe_runtime.wire.requests import (
-    READ_SPACES,
-    WRITE_COIL,
-    WRITE_COILS,
-    WRITE_REGISTER,
-    WRITE_REGISTERS,
-    Reply,
-    Request,
-)
-
-WRITES = frozenset({WRITE_COIL, WRITE_REGISTER, WRITE_COILS, WRITE_REGISTERS})
-_COUNTED = frozenset({WRITE_COILS, WRITE_REGISTERS})
-_BITS = frozenset({WRITE_COIL, WRITE_COILS})
+from regscribe_runtime.wire.requests import BLOCK_WRITES, READ_SPACES, SPACES, WRITES, Reply, Request
 
 
 class DryWrite(NamedTuple):
@@ -51,10 +39,10 @@ class DryLink:
         if request.function not in WRITES:
             return self._overlaid(unit, request, self._link.call(unit, request))
         self.written.append(DryWrite(unit, request))
-        space = "coil" if request.function in _BITS else "holding"
+        space = SPACES[request.function]
         for offset, word in enumerate(request.words):
             self._held[unit, space, request.address + offset] = word
-        words = () if request.function in _COUNTED else request.words
+        words = () if request.function in BLOCK_WRITES else request.words
         return Reply(request.function, words, request.address, len(request.words))
 
     def _overlaid(self, unit: int, request: Request, reply: Reply) -> Reply:

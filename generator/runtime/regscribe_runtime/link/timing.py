@@ -6,8 +6,7 @@ and the answer's characters. Over TCP nobody knows the line behind a gateway: th
 
 from regscribe_runtime.values.protocol import Latency, Protocol
 from regscribe_runtime.values.serial_line import SerialLine
-from regscribe_runtime.wire import requests as functions
-from regscribe_runtime.wire.requests import Request
+from regscribe_runtime.wire.requests import Request, sizes
 
 MARGIN_SECONDS = 0.3
 """For the operating system and the buffers of a USB adapter (16 ms each way), on a busy machine."""
@@ -18,28 +17,14 @@ GATEWAY_SECONDS = 0.5
 ASCII_MARKS = 2
 """An ASCII frame has twice the characters of RTU and one more (colon and line end, a check of one byte): two frames."""
 
-RTU_FRAME = 4
-"""Unit, function code and CRC."""
-BITS_IN_BYTE, BYTES_IN_WORD = 8, 2
+RTU_FRAME = 3
+"""Unit and CRC."""
 
 
 def characters(request: Request) -> tuple[int, int]:
     """Characters of an RTU request and of its longest good answer."""
-    count, function = request.quantity, request.function
-    packed = -(-count // BITS_IN_BYTE)
-    match function:
-        case functions.READ_COILS | functions.READ_DISCRETE_INPUTS:
-            return RTU_FRAME + 4, RTU_FRAME + 1 + packed
-        case functions.READ_HOLDING | functions.READ_INPUT:
-            return RTU_FRAME + 4, RTU_FRAME + 1 + BYTES_IN_WORD * count
-        case functions.WRITE_COILS:
-            return RTU_FRAME + 5 + packed, RTU_FRAME + 4
-        case functions.WRITE_REGISTERS:
-            return RTU_FRAME + 5 + BYTES_IN_WORD * count, RTU_FRAME + 4
-        case functions.READ_STATUS:
-            return RTU_FRAME, RTU_FRAME + 1
-        case _:
-            return RTU_FRAME + 4, RTU_FRAME + 4
+    asked, answered = sizes(request)
+    return asked + RTU_FRAME, answered + RTU_FRAME
 
 
 def longest_latency(latency: Latency, words: int, line: SerialLine) -> float:

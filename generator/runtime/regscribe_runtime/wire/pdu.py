@@ -8,21 +8,24 @@ import struct
 from collections.abc import Sequence
 
 from regscribe_runtime.wire import requests as functions
-from regscribe_runtime.wire.requests import Reply, Request
+from regscribe_runtime.wire.requests import (
+    BIT_READS,
+    BITS_IN_BYTE,
+    BLOCK_HEAD_SIZE,
+    BLOCK_WRITES,
+    BYTES_IN_WORD,
+    WORD_READS,
+    Reply,
+    Request,
+    bytes_of_bits,
+)
 
 EXCEPTION_BIT = 0x80
 ON, OFF = 0xFF00, 0x0000
-BITS_IN_BYTE, BYTES_IN_WORD = 8, 2
-WORD_READS = (functions.READ_HOLDING, functions.READ_INPUT)
-BIT_READS = (functions.READ_COILS, functions.READ_DISCRETE_INPUTS)
-BLOCK_WRITES = (functions.WRITE_COILS, functions.WRITE_REGISTERS)
-"""What writes several values: a byte count announces them, and the answer tells only how many."""
 ADDRESSED = struct.Struct(">BHH")
 HEAD = struct.Struct(">BH")
 WORDS = tuple(struct.Struct(f">{count}H") for count in range(128))
 
-_BLOCK_HEAD = 5
-"""Bytes of address, quantity and byte count."""
 _DATA_SIZES = {
     **dict.fromkeys((*BIT_READS, *WORD_READS), 4),
     **dict.fromkeys((functions.WRITE_COIL, functions.WRITE_REGISTER, functions.LOOPBACK), 4),
@@ -86,12 +89,12 @@ def decode_request(pdu: bytes) -> Request:
 
 
 def _block_write(function: int, data: bytes) -> Request:
-    head, values = data[:_BLOCK_HEAD], data[_BLOCK_HEAD:]
-    expect_bytes(head, _BLOCK_HEAD)
-    expect_bytes(data, _BLOCK_HEAD + head[-1])
+    head, values = data[:BLOCK_HEAD_SIZE], data[BLOCK_HEAD_SIZE:]
+    expect_bytes(head, BLOCK_HEAD_SIZE)
+    expect_bytes(data, BLOCK_HEAD_SIZE + head[-1])
     address, quantity = unpack_words(head[:-1])
     bits = function == functions.WRITE_COILS
-    if len(values) != (_packed(quantity) if bits else BYTES_IN_WORD * quantity):
+    if len(values) != (bytes_of_bits(quantity) if bits else BYTES_IN_WORD * quantity):
         message = f"{quantity} {'bits' if bits else 'words'} are announced, but {len(values)} bytes"
         raise MalformedError(message)
     return Request(function, address, quantity, unpack_bits(values, quantity) if bits else unpack_words(values))
@@ -156,7 +159,7 @@ def _bits_read(code: int, data: bytes, count: int) -> Reply:
     if not data or data[0] != len(data) - 1:
         return Reply(code)
     # bits come in whole bytes: more or fewer bytes than asked for must not look like a good answer
-    return Reply(code, unpack_bits(data[1:], count if data[0] == _packed(count) else data[0] * BITS_IN_BYTE))
+    return Reply(code, unpack_bits(data[1:], count if data[0] == bytes_of_bits(count) else data[0] * BITS_IN_BYTE))
 
 
 def _echoed(code: int, data: bytes) -> Reply:
@@ -185,15 +188,10 @@ def unpack_words(data: bytes) -> tuple[int, ...]:
 def pack_bits(bits: Sequence[int]) -> bytes:
     """Bits as they are sent: the first is the least significant of the first byte."""
     number = sum(bool(bit) << place for place, bit in enumerate(bits))
-    return number.to_bytes(_packed(len(bits)), "little")
+    return number.to_bytes(bytes_of_bits(len(bits)), "little")
 
 
 def unpack_bits(data: bytes, count: int) -> tuple[int, ...]:
     """The first `count` bits of `data`."""
     number = int.from_bytes(data, "little")
     return tuple(number >> place & 1 for place in range(count))
-
-
-def _packed(count: int) -> int:
-    """Bytes of so many bits."""
-    return -(-count // BITS_IN_BYTE)

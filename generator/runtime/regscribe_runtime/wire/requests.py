@@ -18,7 +18,14 @@ READS = frozenset(READ_SPACES)
 WRITES = frozenset(function for space in Space for function in space.write_functions)
 SPACES = READ_SPACES | {function: space for space in Space for function in space.write_functions}
 """By function: the space that it reads or writes."""
+WORD_READS, BIT_READS = (READ_HOLDING, READ_INPUT), (READ_COILS, READ_DISCRETE_INPUTS)
+BLOCK_WRITES = (WRITE_COILS, WRITE_REGISTERS)
+"""What writes several values: a byte count announces them, and the answer tells only how many."""
 UNADDRESSED = frozenset({READ_STATUS, LOOPBACK})
+
+BITS_IN_BYTE, BYTES_IN_WORD = 8, 2
+HEAD_SIZE, BLOCK_HEAD_SIZE = 4, 5
+"""Bytes of an address with a quantity or a value, and of both with a byte count."""
 
 
 class Request(NamedTuple):
@@ -51,6 +58,22 @@ class Reply(NamedTuple):
     address: int = 0
     quantity: int = 0
     exception: int | None = None
+
+
+def bytes_of_bits(count: int) -> int:
+    """The bytes that hold so many bits."""
+    return -(-count // BITS_IN_BYTE)
+
+
+def sizes(request: Request) -> tuple[int, int]:
+    """Bytes of a request and of its longest good answer, function code included."""
+    function, count = request.function, request.quantity
+    values = bytes_of_bits(count) if function in (*BIT_READS, WRITE_COILS) else BYTES_IN_WORD * count
+    if function in BLOCK_WRITES:
+        return 1 + BLOCK_HEAD_SIZE + values, 1 + HEAD_SIZE
+    if function == READ_STATUS:
+        return 1, 2
+    return 1 + HEAD_SIZE, 2 + values if request.reads else 1 + HEAD_SIZE
 
 
 def fits(request: Request, reply: Reply) -> bool:
@@ -91,7 +114,7 @@ def _verify_echo(request: Request, reply: Reply, *, unit: int, asked: str) -> No
     if reply.address != request.address:
         message = f"{asked}: the answer names address {reply.address}"
         raise WrongAnswer(message)
-    if request.function in (WRITE_REGISTERS, WRITE_COILS):
+    if request.function in BLOCK_WRITES:
         if reply.quantity < len(request.words):
             raise PartialWrite(unit=unit, address=request.address, sent=len(request.words), written=reply.quantity)
         if reply.quantity > len(request.words):

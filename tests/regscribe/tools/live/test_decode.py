@@ -8,16 +8,17 @@ from hypothesis import strategies as st
 from regscribe.cli.commands.decode import command
 from regscribe.tools.live import catalogue
 from regscribe.tools.live.capture import RECEIVED, SENT, captured
-from regscribe.tools.live.captured_frames import crc, frames
 from regscribe.tools.live.decode import Decoded, Decoder
+from regscribe_runtime.wire.capture import frames
+from regscribe_runtime.wire.framing import build
 
 OVEN = catalogue.find("16C").driver
 STATE = {"input_type": 3, "display_unit_of_measure": 1, "ieee_register_ordering": 0}
 
 
 def rtu(digits: str) -> bytes:
-    data = bytes.fromhex(digits)
-    return data + crc(data).to_bytes(2, "little")
+    data = bytes.fromhex(digits) or b"\0"
+    return build("rtu", data[0], data[1:])
 
 
 def ascii_frame(digits: str) -> str:
@@ -58,23 +59,6 @@ def test_a_frame_is_found_in_the_log_of_any_program(line: str) -> None:
 def test_a_line_says_which_way_its_frame_went() -> None:
     lines = [f"{word} {rtu('0107').hex(' ')}" for word in ("TX", "recv:", "->", "<-", "")]
     assert [one.direction for one in captured(lines)] == [SENT, RECEIVED, SENT, RECEIVED, ""]
-
-
-def test_frames_that_follow_each_other_without_a_mark_are_told_apart() -> None:
-    both = rtu("01101F44000204000042C6") + rtu("01101F440002")
-    assert [len(frame.pdu) for frame in frames(both)] == [10, 5]
-
-
-def test_a_frame_of_rtu_whose_bytes_look_like_a_tcp_header_is_one_of_rtu() -> None:
-    (frame,) = frames(rtu("010300000002"))
-    assert (frame.framing, frame.unit) == ("rtu", 1)
-
-
-def test_a_wrong_check_is_told_with_the_right_one() -> None:
-    (frame,) = frames(rtu("010300000002")[:-1] + b"\0")
-    assert re.search(r"its CRC is C4 00, but C4 0B would be right", frame.complaint)
-    (frame,) = frames(ascii_frame("010300000002").replace("FA", "FB").encode())
-    assert frame.complaint == "its LRC is FB, but FA would be right"
 
 
 def test_an_answer_has_the_names_of_its_request() -> None:

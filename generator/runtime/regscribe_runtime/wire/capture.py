@@ -1,0 +1,103 @@
+"""Frames in captured bytes, of every framing; requests and answers alike, and broken ones with what is wrong."""
+
+import re
+from typing import NamedTuple
+
+from regscribe_runtime.wire.framing import (
+    ANSWERS,
+    ASCII,
+    COLON,
+    MBAP_HEAD,
+    REQUESTS,
+    RTU,
+    SHORTEST_RTU,
+    TCP,
+    build,
+    has_crc,
+    rtu_end,
+)
+from regscribe_runtime.wire.pdu import EXCEPTION_BIT
+
+_FUNCTIONS = frozenset({*range(1, 9), 11, 12, 15, 16, 17, *range(20, 25), 43})
+"""The public function codes: in captured bytes another one says that what looks like a header is none."""
+_LEAST = 3
+"""Bytes of an ASCII frame: unit, function code, LRC."""
+
+
+class CapturedFrame(NamedTuple):
+    """One frame: `pdu` is function code and data; `complaint` says what is wrong with the frame itself."""
+
+    framing: str
+    unit: int
+    pdu: bytes
+    raw: bytes
+    complaint: str = ""
+
+    @property
+    def function(self) -> int:
+        """The function code, without the mark of an exception."""
+        return self.pdu[0] & ~EXCEPTION_BIT
+
+
+def frames(raw: bytes, framing: str = "") -> list[CapturedFrame]:
+    """The frames in bytes that were captured together; without `framing` the one that fits is found.
+
+    Bytes that are no frame of any kind become one frame of RTU with a complaint; none come from fewer than 2 bytes.
+    """
+    if framing == ASCII or (not framing and raw.startswith(COLON)):
+        return [_ascii(line) for line in re.findall(rb":[0-9A-Fa-f]*", raw) or [raw]]
+    if framing == TCP:
+        return _mbap(raw) or _broken(raw, TCP, "no header of Modbus TCP that fits its length")
+    if len(raw) >= SHORTEST_RTU and has_crc(raw):  # first: a header that fits by chance is likelier than a CRC
+        return [CapturedFrame(RTU, raw[0], raw[1:-2], raw)]
+    found = [] if framing else _mbap(raw)
+    return found or _rtu(raw) or _wrong_crc(raw)
+
+
+def _mbap(raw: bytes) -> list[CapturedFrame]:
+    """Frames of TCP, if the bytes are nothing else."""
+    found = []
+    while len(raw) > MBAP_HEAD.size:
+        _, protocol, length, unit = MBAP_HEAD.unpack_from(raw)
+        end = MBAP_HEAD.size - 1 + length
+        if protocol or not MBAP_HEAD.size < end <= len(raw):
+            return []
+        found.append(CapturedFrame(TCP, unit, raw[MBAP_HEAD.size : end], raw[:end]))
+        raw = raw[end:]
+    return [] if raw or any(one.function not in _FUNCTIONS for one in found) else found
+
+
+def _rtu(raw: bytes) -> list[CapturedFrame]:
+    """Frames of RTU that follow each other without a mark, if the bytes are nothing else."""
+    found, at = [], 0
+    while at < len(raw):
+        end = rtu_end(raw, at, REQUESTS) or rtu_end(raw, at, ANSWERS)
+        if not end:
+            return []
+        found.append(CapturedFrame(RTU, raw[at], raw[at + 1 : end - 2], raw[at:end]))
+        at = end
+    return found
+
+
+def _wrong_crc(raw: bytes) -> list[CapturedFrame]:
+    if len(raw) < SHORTEST_RTU:
+        return _broken(raw, RTU, "too short for a frame")
+    unit, pdu = raw[0], raw[1:-2]
+    should = build(RTU, unit, pdu)[-2:].hex(" ").upper()
+    said = f"its CRC is {raw[-2:].hex(' ').upper()}, but {should} would be right"
+    return [CapturedFrame(RTU, unit, pdu, raw, said)]
+
+
+def _broken(raw: bytes, framing: str, said: str) -> list[CapturedFrame]:
+    return [CapturedFrame(framing, raw[0], raw[1:], raw, said)] if len(raw) > 1 else []
+
+
+def _ascii(line: bytes) -> CapturedFrame:
+    digits = line.removeprefix(COLON)
+    if len(digits) % 2 or len(digits) < 2 * _LEAST or re.search(rb"[^0-9A-Fa-f]", digits):
+        said = "no frame of Modbus ASCII: a colon and pairs of hexadecimal digits"
+        return CapturedFrame(ASCII, 0, b"\0", line, said)
+    unit, *pdu, lrc = bytes.fromhex(digits.decode("ascii"))
+    should = int(build(ASCII, unit, bytes(pdu))[-4:-2], 16)
+    said = f"its LRC is {lrc:02X}, but {should:02X} would be right" if lrc != should else ""
+    return CapturedFrame(ASCII, unit, bytes(pdu), line, said)
