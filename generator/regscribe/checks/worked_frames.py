@@ -1,6 +1,6 @@
-"""Worked examples that are frames of Modbus RTU, read byte by byte as the standard defines them."""
+"""Worked examples that are frames of Modbus RTU: the check, the fields and the values that they carry."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -9,18 +9,36 @@ from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule
 from regscribe.checks.worked_values import compare, hexadecimal, printed, unsigned
 from regscribe.model import FrameExample, Register, Rule, Space, View
 from regscribe.reference import RefusedError, Surroundings, UnknownValueError
+from regscribe_runtime.wire.pdu import (
+    EXCEPTION_BIT,
+    OFF,
+    ON,
+    MalformedError,
+    decode_reply,
+    decode_request,
+    expect_bytes,
+)
+from regscribe_runtime.wire.requests import (
+    BIT_READS,
+    BLOCK_WRITES,
+    READ_HOLDING,
+    WORD_READS,
+    WRITE_COIL,
+    WRITES,
+    Request,
+)
 
 CRC_LENGTH = 2
 SHORTEST = 2
-EXCEPTION = 0x80
-BIT_WORDS = {0xFF00: 1, 0x0000: 0}
+COMPARED = frozenset({*BIT_READS, *WORD_READS, *WRITES})
+"""Functions whose fields are compared (application protocol V1.1b3, 6); of others unit and function only."""
 
 
 @dataclass(frozen=True, slots=True)
-class Frame:
+class FrameFields:
     """What a frame says; None where it has no such field (`address` of the answer to a read).
 
-    `bits` are what it writes to coils, of which function 05 sends each as a word of its own (FF00 or 0000).
+    `carried` is what registers or coils hold after it, `words` how it is printed: function 05 sends FF00 or 0000.
     """
 
     unit: int
@@ -28,123 +46,53 @@ class Frame:
     address: int | None = None
     count: int | None = None
     words: tuple[int, ...] | None = None
-    bits: tuple[int, ...] | None = None
-
-    @property
-    def carried(self) -> tuple[int, ...]:
-        """What it carries, as registers hold it."""
-        return (self.words if self.bits is None else self.bits) or ()
+    carried: tuple[int, ...] = ()
 
 
-class MalformedError(ValueError):
-    """Bytes that are no frame of this function."""
-
-
-def crc16(data: bytes) -> int:
-    """The CRC-16 of Modbus (serial line V1.02, 6.2.2); sent with the low byte first."""
-    crc = 0xFFFF
-    for byte in data:
-        crc ^= byte
-        for _ in range(8):
-            crc = crc >> 1 ^ 0xA001 if crc & 1 else crc >> 1
-    return crc
-
-
-def parse(data: bytes, *, answer: bool) -> Frame:
+def parse(data: bytes, *, answer: bool) -> FrameFields:
     """Read a frame without its CRC. Raises MalformedError if it is too short or too long for what it says."""
     if len(data) < SHORTEST:
         message = f"{len(data)} bytes are no frame"
         raise MalformedError(message)
-    head, body = Frame(data[0], data[1]), data[2:]
-    if answer and head.function & EXCEPTION:
-        _length(body, 1)
-        return replace(head, function=head.function & ~EXCEPTION)
-    read = (ANSWERS if answer else REQUESTS).get(head.function)
-    return read(head, body) if read else head
+    unit, function, pdu = data[0], data[1], data[1:]
+    head = FrameFields(unit, function & ~EXCEPTION_BIT if answer else function)
+    if answer and function & EXCEPTION_BIT:
+        expect_bytes(pdu[1:], 1)
+        return head
+    return _answer(head, pdu) if answer else _request(head, pdu)
 
 
-def _length(body: bytes, expected: int) -> None:
-    if len(body) != expected:
-        message = f"{len(body)} bytes after the function code, {expected} expected"
+def _answer(head: FrameFields, pdu: bytes) -> FrameFields:
+    if head.function in WORD_READS:
+        words = _words_read(pdu)
+        return replace(head, count=len(words), words=words, carried=words)
+    if head.function in BLOCK_WRITES:  # address and count, as a read asks for them
+        told = decode_request(bytes([READ_HOLDING]) + pdu[1:])
+        return replace(head, address=told.address, count=told.quantity)
+    return _request(head, pdu) if head.function in WRITES else head
+
+
+def _words_read(pdu: bytes) -> tuple[int, ...]:
+    expected = pdu[1] if len(pdu) > 1 else 0
+    expect_bytes(pdu[1:], 1 + expected)
+    if expected % 2:
+        message = f"{expected} bytes are no whole number of words"
         raise MalformedError(message)
+    return decode_reply(Request(pdu[0], 0), pdu).words
 
 
-def _words(data: bytes) -> tuple[int, ...]:
-    return tuple(int.from_bytes(data[place : place + 2], "big") for place in range(0, len(data) - 1, 2))
-
-
-def _address_and_count(head: Frame, body: bytes) -> Frame:
-    _length(body, 4)
-    address, count = _words(body)
-    return replace(head, address=address, count=count)
-
-
-def _one_word(head: Frame, body: bytes) -> Frame:
-    _length(body, 4)
-    address, word = _words(body)
-    return replace(head, address=address, count=1, words=(word,))
-
-
-def _one_bit(head: Frame, body: bytes) -> Frame:
-    _length(body, 4)
-    address, word = _words(body)
-    if word not in BIT_WORDS:
-        message = f"{word:04X} is no state of a coil: FF00 is on, 0000 is off"
-        raise MalformedError(message)
-    return replace(head, address=address, count=1, words=(word,), bits=(BIT_WORDS[word],))
-
-
-def _many_bits(head: Frame, body: bytes) -> Frame:
-    address, count, data = _block(body)
-    if len(data) != (count + 7) // 8:
-        message = f"{count} bits are announced, but {len(data)} bytes"
-        raise MalformedError(message)
-    bits = tuple(data[place // 8] >> place % 8 & 1 for place in range(count))
-    return replace(head, address=address, count=count, words=bits, bits=bits)
-
-
-def _many_words(head: Frame, body: bytes) -> Frame:
-    address, count, data = _block(body)
-    if len(data) != 2 * count:
-        message = f"{count} words are announced, but {len(data)} bytes"
-        raise MalformedError(message)
-    return replace(head, address=address, count=count, words=_words(data))
-
-
-def _block(body: bytes) -> tuple[int, int, bytes]:
-    """Address, count and data of a write of several; at least one is written."""
-    if len(body) < 5:  # noqa: PLR2004 (address, count, number of bytes)
-        _length(body, 5)
-    address, count = _words(body[:4])
-    _length(body, 5 + body[4])
-    if not count:
+def _request(head: FrameFields, pdu: bytes) -> FrameFields:
+    if head.function not in COMPARED:
+        return head
+    told = decode_request(pdu)
+    head = replace(head, address=told.address, count=told.quantity)
+    if told.reads:
+        return head
+    if not told.quantity:
         message = "it writes nothing"
         raise MalformedError(message)
-    return address, count, body[5:]
-
-
-def _words_read(head: Frame, body: bytes) -> Frame:
-    _length(body, 1 + body[0] if body else 1)
-    if body[0] % 2:
-        message = f"{body[0]} bytes are no whole number of words"
-        raise MalformedError(message)
-    return replace(head, count=body[0] // 2, words=_words(body[1:]))
-
-
-REQUESTS: dict[int, Callable[[Frame, bytes], Frame]] = {
-    **dict.fromkeys((1, 2, 3, 4), _address_and_count),
-    5: _one_bit,
-    6: _one_word,
-    15: _many_bits,
-    16: _many_words,
-}
-ANSWERS: dict[int, Callable[[Frame, bytes], Frame]] = {
-    **dict.fromkeys((3, 4), _words_read),
-    5: _one_bit,
-    6: _one_word,
-    **dict.fromkeys((15, 16), _address_and_count),
-}
-"""Functions whose fields are compared (application protocol V1.1b3, 6); of others unit and function only."""
+    words = tuple(ON if bit else OFF for bit in told.words) if head.function == WRITE_COIL else told.words
+    return replace(head, words=words, carried=told.words)
 
 
 Alike = tuple[tuple[int, ...], ...]
@@ -176,8 +124,8 @@ def frame_fields(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
 
 def _problems(example: FrameExample) -> Iterator[str]:
     body = _body(example)
-    if example.crc and (told := int.from_bytes(example.frame[-CRC_LENGTH:], "little")) != (crc := crc16(body)):
-        yield f"its CRC is {_swapped(told)}, computed {_swapped(crc)}"
+    if example.crc and (wrong := _wrong_crc(example.frame)):
+        yield wrong
         return
     try:
         frame = parse(body, answer=example.answer)
@@ -186,7 +134,7 @@ def _problems(example: FrameExample) -> Iterator[str]:
         return
     stated: tuple[tuple[str, object, object], ...] = (
         ("unit", example.unit, frame.unit),
-        ("function", example.function & ~EXCEPTION, frame.function),
+        ("function", example.function & ~EXCEPTION_BIT, frame.function),
         ("address", example.address, frame.address),
         ("count", example.count, frame.count),
         ("words", None if example.words is None else unsigned(example.words), frame.words),
@@ -196,8 +144,12 @@ def _problems(example: FrameExample) -> Iterator[str]:
             yield f"its {name} is {found}, the map says {said}"
 
 
-def _swapped(crc: int) -> str:
-    return crc.to_bytes(CRC_LENGTH, "little").hex(" ").upper()
+def _wrong_crc(frame: bytes) -> str:
+    from regscribe_runtime.wire.framing import RTU, build  # noqa: PLC0415 (pymodbus loads only for a map with frames)
+
+    should = build(RTU, frame[0], frame[1:-CRC_LENGTH])
+    told, computed = (one[-CRC_LENGTH:].hex(" ").upper() for one in (frame, should))
+    return f"its CRC is {told}, computed {computed}" if told != computed else ""
 
 
 @map_rule(
@@ -217,7 +169,7 @@ def frame_values(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
             yield Finding(MAP, example.span, f"{printed('the frame', example)}: {problem}", help_text)
 
 
-def _values(example: FrameExample, frame: Frame, scope: RuleScope) -> Iterator[str]:
+def _values(example: FrameExample, frame: FrameFields, scope: RuleScope) -> Iterator[str]:
     said = (*example.state, *example.writes)
     known = in_example(scope.register_map, scope.model, scope.beginning, said)
     for path, value in example.writes:
@@ -229,7 +181,12 @@ def _values(example: FrameExample, frame: Frame, scope: RuleScope) -> Iterator[s
 
 
 def _value(
-    example: FrameExample, frame: Frame, register: Register, value: Fraction, known: Surroundings, alike: Alike
+    example: FrameExample,
+    frame: FrameFields,
+    register: Register,
+    value: Fraction,
+    known: Surroundings,
+    alike: Alike,
 ) -> str:
     start = frame.address if frame.address is not None else example.address
     if start is None:
@@ -274,7 +231,7 @@ def _places(register: Register, name: str) -> Iterator[tuple[View, int]]:
         yield from ((register.base, alias) for alias in register.aliases)
 
 
-def _command(example: FrameExample, frame: Frame, scope: RuleScope) -> Iterator[str]:
+def _command(example: FrameExample, frame: FrameFields, scope: RuleScope) -> Iterator[str]:
     if not example.command:
         return
     command = next((one for one in scope.model.commands if one.id == example.command), None)

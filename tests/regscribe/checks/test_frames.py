@@ -4,34 +4,29 @@ from collections.abc import Callable
 
 import pytest
 
-from regscribe.checks.worked_frames import Frame, MalformedError, crc16, parse
+from regscribe.checks.worked_frames import FrameFields, parse
 from regscribe.checks.worked_values import bits_per_character
 from regscribe.model import Diagnostic
-
-
-@pytest.mark.parametrize("frame", ["01 03 00 00 00 04 44 09", "9C 06 0F A9 00 32 C7 66"])
-def test_the_crc_of_a_known_frame_is_as_printed(frame: str) -> None:
-    data = bytes.fromhex(frame)
-    assert crc16(data[:-2]).to_bytes(2, "little") == data[-2:]
+from regscribe_runtime.wire.pdu import MalformedError
 
 
 @pytest.mark.parametrize(
     ("text", "answer", "frame"),
     [
-        ("01 03 00 40 00 04", False, Frame(1, 3, 64, 4)),
-        ("01 03 04 43 7A 00 00", True, Frame(1, 3, None, 2, (0x437A, 0))),
-        ("01 06 00 48 68 25", False, Frame(1, 6, 72, 1, (26661,))),
-        ("01 10 1B 58 00 02 04 00 55 00 5C", False, Frame(1, 16, 7000, 2, (85, 92))),
-        ("01 10 1B 58 00 02", True, Frame(1, 16, 7000, 2)),
-        ("01 05 00 14 FF 00", False, Frame(1, 5, 20, 1, (0xFF00,), (1,))),
-        ("01 05 00 14 00 00", True, Frame(1, 5, 20, 1, (0,), (0,))),
-        ("01 0F 00 14 00 0A 02 CD 01", False, Frame(1, 15, 20, 10, *[(1, 0, 1, 1, 0, 0, 1, 1, 1, 0)] * 2)),
-        ("01 0F 00 14 00 0A", True, Frame(1, 15, 20, 10)),
-        ("01 83 02", True, Frame(1, 3)),
-        ("01 07", False, Frame(1, 7)),
+        ("01 03 00 40 00 04", False, FrameFields(1, 3, 64, 4)),
+        ("01 03 04 43 7A 00 00", True, FrameFields(1, 3, None, 2, *[(0x437A, 0)] * 2)),
+        ("01 06 00 48 68 25", False, FrameFields(1, 6, 72, 1, *[(26661,)] * 2)),
+        ("01 10 1B 58 00 02 04 00 55 00 5C", False, FrameFields(1, 16, 7000, 2, *[(85, 92)] * 2)),
+        ("01 10 1B 58 00 02", True, FrameFields(1, 16, 7000, 2)),
+        ("01 05 00 14 FF 00", False, FrameFields(1, 5, 20, 1, (0xFF00,), (1,))),
+        ("01 05 00 14 00 00", True, FrameFields(1, 5, 20, 1, (0,), (0,))),
+        ("01 0F 00 14 00 0A 02 CD 01", False, FrameFields(1, 15, 20, 10, *[(1, 0, 1, 1, 0, 0, 1, 1, 1, 0)] * 2)),
+        ("01 0F 00 14 00 0A", True, FrameFields(1, 15, 20, 10)),
+        ("01 83 02", True, FrameFields(1, 3)),
+        ("01 07", False, FrameFields(1, 7)),
     ],
 )
-def test_a_frame_says_unit_function_address_count_and_words(text: str, answer: bool, frame: Frame) -> None:  # noqa: FBT001 (a column of the table)
+def test_a_frame_says_unit_function_address_count_and_words(text: str, answer: bool, frame: FrameFields) -> None:  # noqa: FBT001 (a column of the table)
     assert parse(bytes.fromhex(text), answer=answer) == frame
 
 
@@ -54,6 +49,37 @@ def test_a_frame_says_unit_function_address_count_and_words(text: str, answer: b
 def test_a_frame_that_no_device_takes_is_refused(text: str) -> None:
     with pytest.raises(MalformedError):
         parse(bytes.fromhex(text), answer=False)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("01 03", "0 bytes after the function code, 1 expected"),
+        ("01 03 04 43 7A", "3 bytes after the function code, 5 expected"),
+        ("01 03 03 43 7A 00", "3 bytes are no whole number of words"),
+        ("01 06 00 48 68", "3 bytes after the function code, 4 expected"),
+        ("01 05 00 14 12 34", "1234 is no state of a coil: FF00 is on, 0000 is off"),
+        ("01 10 1B 58 00", "3 bytes after the function code, 4 expected"),
+        ("01 83 02 00", "2 bytes after the function code, 1 expected"),
+    ],
+)
+def test_an_answer_that_no_device_gives_is_refused(text: str, said: str) -> None:
+    with pytest.raises(MalformedError, match=said):
+        parse(bytes.fromhex(text), answer=True)
+
+
+@pytest.mark.parametrize(
+    ("frame", "said"),
+    [
+        ("9C 06 0F A9 00 32 C7 66", ""),
+        ("9C 06 0F A9 00 32 66 C7", "the frame: its CRC is 66 C7, computed C7 66"),
+    ],
+)
+def test_the_crc_of_a_printed_frame_is_computed(
+    frame: str, said: str, diagnose: Callable[[str], list[Diagnostic]], small: Callable[..., str]
+) -> None:
+    found = diagnose(small("at: 4009, name: Word", tail=f"examples: [{{frame: {frame}}}]\n"))
+    assert [one.message for one in found if one.rule == "RS0447"] == ([said] if said else [])
 
 
 @pytest.mark.parametrize(("line", "bits"), [("8N1", 10), ("8E1", 11), ("8O1", 11), ("7E2", 11)])
