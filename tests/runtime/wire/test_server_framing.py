@@ -121,6 +121,7 @@ def test_with_silence_as_the_mark_only_one_whole_request_counts() -> None:
     assert framer.feed(frame(RTU, READ)) == [READ]
     assert framer.feed(frame(RTU, READ) * 2) == []
     assert framer.feed(frame(RTU, READ) + b"\0") == []
+    assert framer.feed(frame(RTU, READ)[:-1]) == []
     assert framer.feed(frame(RTU, READ)) == [READ]
 
 

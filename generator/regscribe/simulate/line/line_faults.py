@@ -64,6 +64,7 @@ class LineFault(StrEnum):
 
 
 UNDETECTABLE = frozenset({LineFault.FALSIFIED})
+FORGERIES = frozenset({LineFault.FORGED, LineFault.FALSIFIED})
 USUAL = tuple(fault for fault in LineFault if fault not in UNDETECTABLE)
 
 
@@ -183,23 +184,20 @@ class LineFaults:
         return (mine.unit, mine.pdu[0]) == (its.unit, its.pdu[0])
 
     def _rewritten(self, fault: LineFault, exchange: Exchange, at: int | None) -> Sequence[Chunk] | None:
-        request, answer = exchange.request, exchange.answer or b""
-        unit, transaction, chance = request.unit, request.transaction, self._random
+        to, answer, chance = exchange.request, exchange.answer or b"", self._random
         if fault is LineFault.FOREIGN_UNIT:
-            unit = chance.choice([one for one in range(1, 248) if one != unit])
+            to = to._replace(unit=_other(range(1, 248), to.unit, chance))
         elif fault is LineFault.FOREIGN_TRANSACTION and self._framing == TCP:
-            transaction = (transaction + chance.randrange(1, 1 << 16)) % (1 << 16)
+            to = to._replace(transaction=(to.transaction + chance.randrange(1, 1 << 16)) % (1 << 16))
         elif fault is LineFault.FOREIGN_FUNCTION:
-            answer = bytes([chance.choice([one for one in FUNCTIONS if one != request.pdu[0]])]) + answer[1:]
-        elif fault in {LineFault.FORGED, LineFault.FALSIFIED} and (
-            places := _places(answer, compared=fault is LineFault.FORGED)
-        ):
+            answer = bytes([_other(FUNCTIONS, to.pdu[0], chance)]) + answer[1:]
+        elif fault in FORGERIES and (places := _places(answer, compared=fault is LineFault.FORGED)):
             answer = _flip(answer, chance.choice(places) if at is None else places[at % len(places)], chance)
         else:
             return None
         if fault in UNDETECTABLE:
             self.forgeries.append(exchange)
-        return (Chunk(build(self._framing, unit, answer, transaction)),)
+        return (Chunk(build(self._framing, to.unit, answer, to.transaction)),)
 
 
 CUTS: dict[LineFault, Callable[[LineFaults, bytes, int], Sequence[Chunk]]] = {
@@ -214,6 +212,10 @@ CUTS: dict[LineFault, Callable[[LineFaults, bytes, int], Sequence[Chunk]]] = {
     LineFault.HANGUP: lambda _, frame, at: (Chunk(frame[:at], hangup=True),),
 }
 """What needs nothing but the frame: what is sent, given a place in it."""
+
+
+def _other(candidates: Sequence[int], than: int, chance: Random) -> int:
+    return chance.choice([one for one in candidates if one != than])
 
 
 def _flip(answer: bytes, place: int, chance: Random) -> bytes:

@@ -82,15 +82,19 @@ class Decoder:
         """Decode the next frame; `direction` is sent, received, or "" where only the frames themselves tell."""
         if not frame.pdu:
             return self._strange("request", frame, "no function code")
-        asked = self._asked[1] if self._asked and self._asked[0] == frame.unit else None
-        if direction != SENT and asked and _answers(frame, asked, sure=direction == RECEIVED):
-            self._asked = None
-            return self._answer(frame, asked)
-        if direction == RECEIVED or (direction != SENT and _is_answer(frame)):
-            return self._unasked(frame)
+        if direction != SENT and (answer := self._as_answer(frame, sure=direction == RECEIVED)):
+            return answer
         asked = _asked(frame, self.first)
         self._asked = (frame.unit, asked) if asked else None
         return self._request(frame, asked)
+
+    def _as_answer(self, frame: CapturedFrame, *, sure: bool) -> Decoded | None:
+        """What a frame says if it is an answer; `sure` if it can be nothing else."""
+        unit, asked = self._asked or (frame.unit, None)
+        if asked and unit == frame.unit and _answers(frame, asked, sure=sure):
+            self._asked = None
+            return self._answer(frame, asked)
+        return self._unasked(frame) if sure or _is_answer(frame) else None
 
     def _request(self, frame: CapturedFrame, asked: Request | None) -> Decoded:
         if asked is None:

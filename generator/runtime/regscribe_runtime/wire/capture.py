@@ -44,14 +44,22 @@ def frames(raw: bytes, framing: str = "") -> list[CapturedFrame]:
 
     Bytes that are no frame of any kind become one frame of RTU with a complaint; none come from fewer than 2 bytes.
     """
-    if framing == ASCII or (not framing and raw.startswith(COLON)):
+    kind = framing or _kind(raw)
+    if kind == ASCII:
         return [_ascii(line) for line in re.findall(rb":[0-9A-Fa-f]*", raw) or [raw]]
-    if framing == TCP:
+    if kind == TCP:
         return _mbap(raw) or _broken(raw, TCP, "no header of Modbus TCP that fits its length")
-    if len(raw) >= SHORTEST_RTU and has_crc(raw):  # first: a header that fits by chance is likelier than a CRC
-        return [CapturedFrame(RTU, raw[0], raw[1:-2], raw)]
-    found = [] if framing else _mbap(raw)
-    return found or _rtu(raw) or _wrong_crc(raw)
+    return _rtu(raw) or _wrong_crc(raw)
+
+
+def _kind(raw: bytes) -> str:
+    if raw.startswith(COLON):
+        return ASCII
+    return TCP if not _is_rtu(raw) and _mbap(raw) else RTU  # a header that fits by chance is likelier than a CRC
+
+
+def _is_rtu(raw: bytes) -> bool:
+    return len(raw) >= SHORTEST_RTU and has_crc(raw)
 
 
 def _mbap(raw: bytes) -> list[CapturedFrame]:
@@ -68,7 +76,9 @@ def _mbap(raw: bytes) -> list[CapturedFrame]:
 
 
 def _rtu(raw: bytes) -> list[CapturedFrame]:
-    """Frames of RTU that follow each other without a mark, if the bytes are nothing else."""
+    """A frame of RTU of any length, or several that follow each other without a mark, if the bytes are nothing else."""
+    if _is_rtu(raw):
+        return [CapturedFrame(RTU, raw[0], raw[1:-2], raw)]
     found, at = [], 0
     while at < len(raw):
         end = rtu_end(raw, at, REQUESTS) or rtu_end(raw, at, ANSWERS)

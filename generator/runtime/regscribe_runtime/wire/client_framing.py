@@ -1,12 +1,12 @@
 """Where an answer begins and ends in the bytes that come to a client, and what an answer it waits for looks like."""
 
-from abc import abstractmethod
-from typing import Protocol
+from abc import ABC, abstractmethod
 
 from regscribe_runtime.wire.framing import (
     ANSWERS,
     ASCII,
     LINE_END,
+    LONGEST_ASCII,
     MBAP_HEAD,
     RTU,
     SHORTEST_RTU,
@@ -19,22 +19,23 @@ from regscribe_runtime.wire.framing import (
 )
 from regscribe_runtime.wire.pdu import EXCEPTION_BIT
 
-LONGEST = 520
-"""No frame is longer (ASCII: 2 x 255 characters, colon, line end); what does not become one by then is noise."""
+LONGEST = LONGEST_ASCII + len(LINE_END)
+"""Bytes of the longest frame; what does not become one by then is noise."""
 
 
-class Framing(Protocol):
+class Framing(ABC):
     """One kind of frame. `decisive`: an answer names its request, so one that does not fit needs no waiting.
 
     `transaction` is that of the last request, and of its answer; 0 where frames have none.
     """
 
-    decisive: bool
-    transaction: int
+    decisive = False
+    transaction = 0
+    _NAME: str
 
-    @abstractmethod
     def build(self, unit: int, pdu: bytes) -> bytes:
         """The frame of a request."""
+        return build(self._NAME, unit, pdu, self.transaction)
 
     @abstractmethod
     def find(self, buffer: bytearray, unit: int, function: int) -> Frame | None:
@@ -48,19 +49,17 @@ class Framing(Protocol):
         """The unit of a sound frame anywhere in bytes that are no answer."""
 
 
-class Mbap:
+class Mbap(Framing):
     """Frames of Modbus TCP: a header with a transaction id, which tells an answer from a late or repeated one."""
 
     decisive = True
+    _NAME = TCP
     _LENGTHS = range(3, 256)
-
-    def __init__(self) -> None:
-        self.transaction = 0
 
     def build(self, unit: int, pdu: bytes) -> bytes:
         """The frame of a request, with the next transaction id."""
         self.transaction = self.transaction % 0xFFFF + 1
-        return build(TCP, unit, pdu, self.transaction)
+        return super().build(unit, pdu)
 
     def find(self, buffer: bytearray, unit: int, function: int) -> Frame | None:  # noqa: ARG002 (the id tells more)
         """The next frame, whosever it is; ValueError for a header that is none."""
@@ -82,19 +81,7 @@ class Mbap:
         return None
 
 
-class _Marked:
-    """What is common to frames without a transaction id: unit and function are all that tells them apart."""
-
-    decisive = False
-    transaction = 0
-    _NAME: str
-
-    def build(self, unit: int, pdu: bytes) -> bytes:
-        """The frame of a request."""
-        return build(self._NAME, unit, pdu)
-
-
-class Rtu(_Marked):
+class Rtu(Framing):
     """Frames with a CRC. They have no mark at the beginning, so a sound one of the right unit is looked for."""
 
     _NAME = RTU
@@ -116,7 +103,7 @@ class Rtu(_Marked):
         return next((buffer[at] for at in places if rtu_end(buffer, at, ANSWERS)), None)
 
 
-class Ascii(_Marked):
+class Ascii(Framing):
     """Frames in hexadecimal text between a colon and a line end, with an LRC."""
 
     _NAME = ASCII

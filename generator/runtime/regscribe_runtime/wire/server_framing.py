@@ -1,7 +1,6 @@
 """Where requests begin and end in the bytes that come to a server: pipelined, halved, garbled or foreign ones."""
 
-from abc import abstractmethod
-from typing import Protocol
+from abc import ABC, abstractmethod
 
 from regscribe_runtime.wire.framing import (
     ASCII,
@@ -25,29 +24,8 @@ from regscribe_runtime.wire.framing import (
 )
 
 
-class Framer(Protocol):
+class Framer(ABC):
     """Finds requests in the bytes of one connection; keeps at most one frame of them between calls."""
-
-    @property
-    @abstractmethod
-    def pending(self) -> bool:
-        """Whether bytes wait for the rest of their frame."""
-
-    @abstractmethod
-    def feed(self, data: bytes) -> list[Frame]:
-        """Add bytes and return every request that they complete, in order; garbage is skipped."""
-
-    @abstractmethod
-    def expire(self) -> list[Frame]:
-        """Give up waiting for the rest of a frame; return what could be made out behind it."""
-
-    @abstractmethod
-    def answer(self, request: Frame, pdu: bytes) -> bytes:
-        """Return the frame that answers `request` with `pdu`."""
-
-
-class _Buffered:
-    """Bytes that wait for the rest of their frame."""
 
     __slots__ = ("_buffer",)
     _NAME: str
@@ -57,17 +35,24 @@ class _Buffered:
 
     @property
     def pending(self) -> bool:
+        """Whether bytes wait for the rest of their frame."""
         return bool(self._buffer)
 
+    @abstractmethod
+    def feed(self, data: bytes) -> list[Frame]:
+        """Add bytes and return every request that they complete, in order; garbage is skipped."""
+
     def expire(self) -> list[Frame]:
+        """Give up waiting for the rest of a frame; return what could be made out behind it."""
         self._buffer.clear()
         return []
 
     def answer(self, request: Frame, pdu: bytes) -> bytes:
+        """Return the frame that answers `request` with `pdu`."""
         return build(self._NAME, request.unit, pdu, request.transaction)
 
 
-class MbapFramer(_Buffered):
+class MbapFramer(Framer):
     """Requests with an MBAP header, for Modbus TCP.
 
     A frame of a foreign protocol is skipped by its length; without a possible length, byte by byte to the next
@@ -97,7 +82,7 @@ class MbapFramer(_Buffered):
         return found
 
 
-class RtuFramer(_Buffered):
+class RtuFramer(Framer):
     """Requests with a CRC, for serial lines and for RTU over TCP.
 
     RTU marks the end of a frame by silence, which pipes and networks do not keep; so the length follows from the
@@ -183,10 +168,10 @@ class SilenceFramer(RtuFramer):
         """Return the request that `data` is, if it is one."""
         self._buffer[:] = data
         found = self.expire()
-        return found if len(found) == 1 and len(data) == len(found[0].pdu) + 3 else []
+        return found if found and len(data) == len(found[0].pdu) + 3 else []
 
 
-class AsciiFramer(_Buffered):
+class AsciiFramer(Framer):
     """Requests in hexadecimal text between a colon and a line end, with an LRC."""
 
     __slots__ = ()
