@@ -117,9 +117,9 @@ def _build(file: LoadedFile, loader: FileLoader, chain: tuple[LoadedFile, ...]) 
     own = with_libraries(file.root, libraries, loader.findings)
     every = (*below, *libraries)
     if base is None:
-        return _Part(_plain(own), every)
+        return _Part(cut(own, *COMPOSING), every)
     root, overrides = extended(base.root, own, loader.findings)
-    return _Part(_plain(root), every, overrides)
+    return _Part(cut(root, *COMPOSING), every, overrides)
 
 
 def _libraries(file: LoadedFile, loader: FileLoader, known: set[str]) -> list[LoadedFile] | None:
@@ -148,9 +148,3 @@ def _refuse_cycle(found: LoadedFile, loader: FileLoader, chain: tuple[LoadedFile
     loader.findings.add(
         CYCLE, f"maps extend each other, or too many: {names}", steps[0][1].place, "let one stand alone", *others
     )
-
-
-def _plain(root: SourceNode) -> SourceNode:
-    for key in COMPOSING:
-        root = cut(root, key) if root.child(key) is not None else root
-    return root

@@ -76,9 +76,9 @@ def put(node: SourceNode, key: str, value: SourceNode, place: SourcePlace) -> So
     return mapping({**(node.members or {}), key: value}, {**(node.keys or {}), key: place}, node.place)
 
 
-def cut(node: SourceNode, key: str) -> SourceNode:
-    """The mapping without a key."""
-    rest = {name: member for name, member in (node.members or {}).items() if name != key}
+def cut(node: SourceNode, *keys: str) -> SourceNode:
+    """The mapping without some keys."""
+    rest = {name: member for name, member in (node.members or {}).items() if name not in keys}
     return mapping(rest, node.keys or {}, node.place)
 
 

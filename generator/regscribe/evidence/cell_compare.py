@@ -124,17 +124,13 @@ def _json_object(text: str) -> dict[str, object] | None:
 
 
 def _objects(ours: str, theirs: str, same: Same) -> tuple[str, str] | None:
-    left, right = (_by_code(objects(text) or {}) for text in (ours, theirs))
+    left, right = ({_code(key): value for key, value in (objects(text) or {}).items()} for text in (ours, theirs))
     wrong = [key for key in {**left, **right} if not _entry(left.get(key), right.get(key), same)]
     return (_shown(left, wrong), _shown(right, wrong)) if wrong else None
 
 
-def _by_code(found: Mapping[str, object]) -> dict[str, object]:
-    """Return the entries with their codes written one way: 3 for `03` and 3.0, `8..11` for 8-11."""
-    return {_code(key): value for key, value in found.items()}
-
-
 def _code(key: str) -> str:
+    """Return a code written in one way: 3 for `03` and 3.0, `8..11` for 8-11."""
     bits = re.fullmatch(r"\s*(\d+)\s*(?:\.\.+|-|to)\s*(\d+)\s*", key)
     code = number(key)
     return f"{bits[1]}..{bits[2]}" if bits else key.strip() if code is None else str(code)

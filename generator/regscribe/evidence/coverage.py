@@ -53,7 +53,7 @@ def _model(register_map: RegisterMap, model: Model) -> ModelCoverage:
         examples=number(lambda register: register.path in shown),
         inferred=number(lambda register: register.inferred),
         open_limits=number(open_limits),
-        raw=number(_is_raw),
+        raw=number(lambda register: register.kind is Kind.RAW),
     )
 
 
@@ -115,10 +115,6 @@ def open_limits(register: Register) -> tuple[str, ...]:
     intervals = (interval for case in register.range for interval in case.then.intervals)
     limits = (limit for interval in intervals for limit in (interval.low, interval.high))
     return tuple(dict.fromkeys(one_line(limit.text) for limit in limits if isinstance(limit, Open)))
-
-
-def _is_raw(register: Register) -> bool:
-    return register.kind is Kind.RAW
 
 
 def _addresses(register_map: RegisterMap, model: Model) -> Iterator[Addresses]:
@@ -196,5 +192,5 @@ def _of_register(register: Register) -> Iterator[tuple[str, str]]:
         yield INFERRED, f"{one_line(item.what)}: {one_line(item.why)}"
     for text in open_limits(register):
         yield OPEN_LIMIT, text
-    if _is_raw(register):
+    if register.kind is Kind.RAW:
         yield NOT_STATED, ""

@@ -82,7 +82,7 @@ def _rows(text: str, name: str) -> Iterator[TableRow]:
     first, _, rest = text.partition("\n")
     hint = first.strip().strip('"')
     told = hint.lower().startswith("sep=") and len(hint) == len("sep=;")
-    separator = hint[-1] if told else _separator(first)
+    separator = hint[-1] if told else max(SEPARATORS, key=first.count)  # a comma where the header has none
     reader = csv.reader(io.StringIO(rest if told else text, newline=""), delimiter=separator, strict=True)
     before = int(told)
     line = before + 1
@@ -97,11 +97,6 @@ def _rows(text: str, name: str) -> Iterator[TableRow]:
             "into quotes, and double the quotes in it"
         )
         raise TableError(message) from None
-
-
-def _separator(header: str) -> str:
-    """Return the separator that the header uses most; a comma where it has none."""
-    return max(SEPARATORS, key=header.count)
 
 
 def _fitted(row: TableRow, header: tuple[str, ...], name: str) -> TableRow:

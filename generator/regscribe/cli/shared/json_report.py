@@ -2,8 +2,9 @@
 
 import json
 from collections.abc import Iterable
+from dataclasses import asdict
 
-from regscribe.model import Diagnostic, Severity, Span
+from regscribe.model import Diagnostic, Severity
 
 
 def as_json(diagnostics: Iterable[Diagnostic]) -> str:
@@ -23,19 +24,9 @@ def _plain(diagnostic: Diagnostic) -> dict[str, object]:
         "rule": diagnostic.rule,
         "severity": diagnostic.severity.value,
         "message": diagnostic.message,
-        **_place(diagnostic.span),
+        **asdict(diagnostic.span),
         "help": diagnostic.help,
-        "related": [{"message": related.message, **_place(related.span)} for related in diagnostic.related],
-    }
-
-
-def _place(span: Span) -> dict[str, str | int]:
-    return {
-        "file": span.file,
-        "line": span.line,
-        "column": span.column,
-        "end_line": span.end_line,
-        "end_column": span.end_column,
+        "related": [{"message": related.message, **asdict(related.span)} for related in diagnostic.related],
     }
 
 

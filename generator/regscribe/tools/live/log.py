@@ -43,11 +43,8 @@ def open_log(path: Path, device: str) -> Log:
     """A log at `path`, new or continued; TargetError for another ending, a file of another kind, or no access."""
     makers: dict[str, Any] = {
         ".csv": _Csv,
-        ".jsonl": _JsonLines,
-        ".ndjson": _JsonLines,
-        ".sqlite": _Sqlite,
-        ".sqlite3": _Sqlite,
-        ".db": _Sqlite,
+        **dict.fromkeys((".jsonl", ".ndjson"), _JsonLines),
+        **dict.fromkeys((".sqlite", ".sqlite3", ".db"), _Sqlite),
     }
     ending = path.suffix.lower()
     if ending not in makers:

@@ -14,7 +14,7 @@ def groups_of(driver: Driver) -> dict[str, Group]:
     """The groups of a driver by id, in the manual's order, without those that are empty for its model."""
     declared = getattr(driver, "groups", None)
     found = {name: value for name, value in vars(declared).items() if isinstance(value, Group)} if declared else {}
-    return {name: group for name, group in found.items() if _members(driver, group)}
+    return {name: group for name, group in found.items() if group.registers(driver)}
 
 
 def commands_of(driver: Driver) -> dict[str, Command]:
@@ -73,16 +73,12 @@ def _chosen(driver: Driver, name: str) -> Sequence[Register[Any]]:
         return [driver.registers[name]]
     groups = groups_of(driver)
     if name in groups:
-        return _members(driver, groups[name])
+        return groups[name].registers(driver)
     below = [one for one in readable(driver) if one.path.startswith((f"{name}.", f"{name}["))] if name else []
     if not below:
         known = [*_nearest(name, driver.registers), *groups]
         raise TargetError(unknown("register or group", name, known, where=f"in {driver.model}"))
     return below
-
-
-def _members(driver: Driver, group: Group) -> list[Register[Any]]:
-    return group.registers(driver)
 
 
 def _nearest(name: str, registers: Mapping[str, Register[Any]]) -> Iterable[str]:

@@ -4,10 +4,9 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from regscribe.tools.programs.program import FOREVER, Final, Program, Segment, Setting
-from regscribe.tools.programs.settings import SettingConverter, needs
+from regscribe.tools.programs.settings import SettingConverter, read_with_needs
 from regscribe.tools.programs.slot import ProgramSlot
 from regscribe_runtime import Register, Snapshot
-from regscribe_runtime.operations import tasks
 from regscribe_runtime.operations.session import Operation, Session, Task
 
 
@@ -15,9 +14,7 @@ def read(place: ProgramSlot) -> Task[Program]:
     """Read a program: the segments that are in use, or that may be where the manual leaves their number open."""
 
     def task(session: Session) -> Operation[Program]:
-        own = {register.path: register for register in _registers(place)}
-        others = {path: session.registers[path] for one in own.values() for path in sorted(needs(one))}
-        snapshot = yield from tasks.read_many(list({**others, **own}.values()))(session)
+        snapshot = yield from read_with_needs(_registers(place))(session)
         unit = _time_unit(place, snapshot)
         return _Reader(place, snapshot, SettingConverter(place, snapshot.valid, session.givens, unit)).program()
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from regscribe.tools.programs.program import Setting
-from regscribe.tools.programs.settings import SettingConverter, needs
+from regscribe.tools.programs.settings import SettingConverter, read_with_needs
 from regscribe.tools.programs.slot import ProgramSlot
 from regscribe_runtime import ProgramAction, RegscribeError, ValueRefused
 from regscribe_runtime.operations import tasks
@@ -41,11 +41,7 @@ def status(place: ProgramSlot) -> Task[ProgramState]:
         spec = place.spec
         told = (spec.status.register if spec.status else "", spec.program_now, spec.segment_now, spec.setpoint_now)
         registers = {path: place.register(path) for path in told if path}
-        paths = {path for one in registers.values() for path in needs(one)}
-        wanted = {path: session.registers[path] for path in sorted(paths)} | {
-            one.path: one for one in registers.values()
-        }
-        snapshot = yield from tasks.read_many(list(wanted.values()))(session)
+        snapshot = yield from read_with_needs(registers.values())(session)
         found = snapshot.valid
         bench = SettingConverter(place, found, session.givens)
         values = {path: found.get(one.path) for path, one in registers.items()}
@@ -63,7 +59,7 @@ def status(place: ProgramSlot) -> Task[ProgramState]:
 
 
 def _whole(value: object) -> int | None:
-    return None if not isinstance(value, int) else int(value)
+    return int(value) if isinstance(value, int) else None
 
 
 def _state(place: ProgramSlot, code: int | None) -> str:

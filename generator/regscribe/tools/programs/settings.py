@@ -1,6 +1,6 @@
 """Values of registers as settings of a program, and settings as values: units of time converted, others compared."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
@@ -10,20 +10,29 @@ from regscribe.tools.live import value_text
 from regscribe.tools.live.reading import unit_needs, unit_of
 from regscribe.tools.programs.program import RAW, SECONDS, Amount, Setting
 from regscribe.tools.programs.slot import ProgramSlot
-from regscribe_runtime import Register, ValueRefused
+from regscribe_runtime import Register, Snapshot, ValueRefused
+from regscribe_runtime.operations import tasks
+from regscribe_runtime.operations.session import Operation, Session, Task
 from regscribe_runtime.values.specs import Givens
 
 NO_UNIT = "the number has no unit"
 
 
-def is_raw(register: Register[Any]) -> bool:
-    """Whether the manual leaves the scale of the register open."""
-    return register.kind == "raw"
-
-
 def needs(register: Register[Any]) -> set[str]:
     """The registers that decide the unit, the scale and the limits of a register."""
     return {*unit_needs(register), *register.needs(register.read_view()), *register.limit_needs}
+
+
+def read_with_needs(registers: Iterable[Register[Any]]) -> Task[Snapshot]:
+    """Read registers, and with them those that decide their units, scales and limits."""
+
+    def task(session: Session) -> Operation[Snapshot]:
+        own = {one.path: one for one in registers}
+        paths = sorted({path for one in own.values() for path in needs(one)})
+        wanted = {path: session.registers[path] for path in paths} | own
+        return (yield from tasks.read_many(list(wanted.values()))(session))
+
+    return task
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +46,7 @@ class SettingConverter:
 
     def unit(self, register: Register[Any], *, time: bool = False) -> str:
         """The unit in which a register is given."""
-        if is_raw(register):
+        if register.kind == "raw":
             return RAW
         return (self.time_unit if time else "") or unit_of(register, self.state, self.givens)
 
@@ -56,7 +65,7 @@ class SettingConverter:
         if isinstance(setting, str):
             return value_text.parse(register, setting)
         unit = self.unit(register, time=time)
-        if is_raw(register):
+        if register.kind == "raw":
             return value_text.parse(register, str(_raw(register, setting, self.time_unit if time else "").number))
         if setting.unit == RAW:
             message = f"`{setting}`: the scale is known here: write it in {unit or 'the plain number'}"

@@ -1,6 +1,6 @@
 """What differs between two sets of settings: devices, backups, the manual's defaults."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from regscribe.tools.settings.backup import Backup, Saved
@@ -36,15 +36,12 @@ def differences(left: Side, right: Side, *, stays: bool = False, missing: bool =
     transmit the same value in other words.
     """
     paths = dict.fromkeys((*left.settings, *right.settings))
+    pairs = (SettingDifference(path, left.settings.get(path), right.settings.get(path)) for path in paths)
     return tuple(
         one
-        for one in _pairs(left, right, paths)
+        for one in pairs
         if _differs(one) and (missing or (one.left and one.right)) and (stays or not _personal(one))
     )
-
-
-def _pairs(left: Side, right: Side, paths: Mapping[str, None]) -> Iterator[SettingDifference]:
-    return (SettingDifference(path, left.settings.get(path), right.settings.get(path)) for path in paths)
 
 
 def _personal(one: SettingDifference) -> bool:
