@@ -52,7 +52,7 @@ soak: $(INSTALLED) ## drive the drivers over bad lines for MINUTES=.. and report
 	@SOAK_MINUTES=$(MINUTES) $(BIN)/pytest -q tests/system/bad_lines/test_soak.py
 
 sessions: $(INSTALLED) ## carry out the sessions of docs/cli.md, settings.md and programs.md anew and write what they print
-	$(BIN)/python tests/regscribe/tools/live/sessions.py
+	$(BIN)/python tests/regscribe/cli/live/sessions.py
 
 lock: $(INSTALLED) ## pin the newest versions that requirements.in allows
 	$(BIN)/pip install --quiet uv

@@ -1,14 +1,18 @@
-"""Small maps, and what all phases say of them."""
+"""Small maps, and what all phases say of them; shipped maps, compiled once, and their devices on loopback."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
+from functools import cache
 from pathlib import Path
 
 import pytest
 
 from regscribe import checks, lower, schema, source
 from regscribe.checks.catalogue import Example
+from regscribe.map_files import shipped
 from regscribe.model import Diagnostic, RegisterMap, Severity
 from regscribe.pipeline import compile_map
+from regscribe.simulate import Running, simulate
 
 HEAD = """\
 format: 1
@@ -85,3 +89,38 @@ def small() -> Callable[..., str]:
         return HEAD.format(models=models, top=top or "description: Small") + lines + tail
 
     return text
+
+
+@cache
+def shipped_map(name: str) -> RegisterMap:
+    found = compile_map(shipped() / f"{name}.yaml").map
+    assert found is not None
+    return found
+
+
+@pytest.fixture(scope="session", name="compiled")
+def compiled_fixture() -> Callable[[str], RegisterMap]:
+    """Compiles a shipped map, once."""
+    return shipped_map
+
+
+Serve = Callable[..., AbstractContextManager[Running]]
+
+
+@pytest.fixture(scope="session")
+def serve() -> Serve:
+    """Serves a model of a shipped map while a `with` block runs."""
+
+    @contextmanager
+    def served(name: str = "athena/series-c", model: str = "16C", **more: object) -> Iterator[Running]:
+        with simulate(shipped_map(name), model, **more) as running:  # type: ignore[arg-type]  # keywords of `simulate`
+            yield running
+
+    return served
+
+
+@pytest.fixture(scope="module")
+def running(serve: Serve) -> Iterator[Running]:
+    """A 16C over TCP, shared by the tests of a module."""
+    with serve() as found:
+        yield found

@@ -1,29 +1,15 @@
-"""Real maps, compiled once, and their devices served on loopback."""
+"""The command line before a simulated device, in this process and in one of its own."""
 
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 
 import pytest
 
-import regscribe
 from regscribe.cli.app import run
-from regscribe.model import RegisterMap
-from regscribe.pipeline import compile_map
-from regscribe.simulate import Running, simulate
-
-ROOT = Path(regscribe.__file__).parents[2]
-
-
-@cache
-def compiled(name: str) -> RegisterMap:
-    found = compile_map(ROOT / "maps" / f"{name}.yaml").map
-    assert found is not None
-    return found
+from regscribe.simulate import Running
 
 
 @dataclass(frozen=True)
@@ -63,34 +49,6 @@ def cli(folder: Path, capsys: pytest.CaptureFixture[str]) -> Callable[..., Resul
         return Result(code, captured.out, captured.err)
 
     return call
-
-
-@pytest.fixture(scope="session", name="compiled")
-def compiled_fixture() -> Callable[[str], RegisterMap]:
-    """Compiles a shipped map, once."""
-    return compiled
-
-
-Serve = Callable[..., AbstractContextManager[Running]]
-
-
-@pytest.fixture(scope="session")
-def serve() -> Serve:
-    """Serves a model of a shipped map while a `with` block runs."""
-
-    @contextmanager
-    def served(name: str = "athena/series-c", model: str = "16C", **more: object) -> Iterator[Running]:
-        with simulate(compiled(name), model, **more) as running:  # type: ignore[arg-type]  # keywords of `simulate`
-            yield running
-
-    return served
-
-
-@pytest.fixture(scope="module")
-def running(serve: Serve) -> Iterator[Running]:
-    """A 16C over TCP, shared by the tests of a module."""
-    with serve() as found:
-        yield found
 
 
 @pytest.fixture
