@@ -1,4 +1,4 @@
-"""What has lost what it was about: groups without registers, examples and waivers of registers that are gone."""
+"""Removes what refers to dropped registers: empty groups, and examples and waivers of registers that are gone."""
 
 import re
 
@@ -8,8 +8,8 @@ from regscribe.source import SourceNode
 _INDEX = re.compile(r"\[[0-9]+\]")
 
 
-def without_orphans(root: SourceNode, before: set[str]) -> SourceNode:
-    """A map that had registers of the paths `before`, less what was about those of them that it lacks now."""
+def without_dangling(root: SourceNode, before: set[str]) -> SourceNode:
+    """The map without what refers to registers that it had (their paths are `before`) and has no more."""
     for number, group in reversed(list(enumerate(elements(root.child("groups"))))):
         if not elements(group.child("registers")):
             root = edit(root, ("groups", number), lambda _: None)

@@ -1,6 +1,6 @@
 """A map on the basis of another: the base with its models renamed, less what is dropped, changed, and added to."""
 
-from regscribe.compose.dangling_refs import without_orphans
+from regscribe.compose.dangling_refs import without_dangling
 from regscribe.compose.findings import ComposeFindings, meant
 from regscribe.compose.merge import LISTS, append, laid_over, replace
 from regscribe.compose.overrides import Changes
@@ -22,7 +22,7 @@ def extended(base: SourceNode, own: SourceNode, findings: ComposeFindings) -> tu
     drop = own.child("drop")
     if drop is not None:
         changes.drop(drop)
-    changes.root = without_orphans(changes.root, before)
+    changes.root = without_dangling(changes.root, before)
     changes.root = _renumbered(changes.root, own.child("renumber"), findings, _place_of(base))
     for each in elements(own.child("override")):
         changes.override(each)

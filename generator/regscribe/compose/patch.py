@@ -11,8 +11,11 @@ _NOTHING = "nothing"
 
 
 @dataclass(frozen=True, slots=True)
-class Idle:
-    """A key that changes nothing: its path, its place, that of the value below; or null for a default's key."""
+class IdleKey:
+    """A key that changes nothing: its path, its place, and that of the equal value below.
+
+    `is_default`: it is null, and the value below is a default, which only its own mapping can lose.
+    """
 
     path: str
     place: SourcePlace
@@ -22,14 +25,14 @@ class Idle:
 
 @dataclass(slots=True)
 class Patch:
-    """What came of it: `changed` in words, and what was `idle`.
+    """Lays mappings over others, and keeps what came of it: `changed` in words, and the keys that were `idle`.
 
     `defaults` are the keys that count where the mapping below has none of its own, the innermost first.
     """
 
     defaults: tuple[SourceNode, ...] = ()
     changed: list[str] = field(default_factory=list)
-    idle: list[Idle] = field(default_factory=list)
+    idle: list[IdleKey] = field(default_factory=list)
 
     def lay(self, below: SourceNode, above: SourceNode, path: str = "") -> SourceNode:
         """`below` with the keys of `above`; mappings in both are merged in turn."""
@@ -44,7 +47,7 @@ class Patch:
         holder = below if path else self._holder(below, key)
         removes_default = holder is not below and new.value is None
         if removes_default or _same(holder.child(key), new):
-            self.idle.append(Idle(name, where, key_place(holder, key), is_default=removes_default))
+            self.idle.append(IdleKey(name, where, key_place(holder, key), is_default=removes_default))
             return below
         self.changed.append(f"{name}: {_shown(holder.child(key))} -> {_shown(new)}")
         return cut(below, key) if new.value is None else put(below, key, _clean(new), where)

@@ -1,4 +1,4 @@
-"""The models of a base under their new names; what only models have that nobody names goes with them."""
+"""Renames the models of a base map; what only models have that are dropped is removed with them."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

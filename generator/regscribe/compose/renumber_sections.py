@@ -1,4 +1,4 @@
-"""Chapters under another number: the sections of a base as the manual of the extension numbers them."""
+"""Renumbers the sections of a base map, where the manual of the extension has its chapters under other numbers."""
 
 import re
 from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""Which columns of a table are compared with which of the export; docs/evidence.md lists the other names."""
+"""Finds the columns of the export in the header of a table; docs/evidence.md lists their other names."""
 
 import re
 from collections.abc import Iterable, Sequence

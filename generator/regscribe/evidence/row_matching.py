@@ -1,4 +1,4 @@
-"""Which row of a table is about which row of a map: by id and place, by place alone, by id alone; aliases besides."""
+"""Pairs the rows of a table with those of a map: by id and address, by address, by id; aliases last."""
 
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
@@ -21,7 +21,7 @@ class Matching:
     only_theirs: list[ComparedRow] = field(default_factory=list)
 
 
-class _Index:
+class _RowIndex:
     """Our entries by place and by id; `free` are those without a counterpart yet."""
 
     def __init__(self, entries: Sequence[ComparedRow]) -> None:
@@ -32,17 +32,14 @@ class _Index:
         self.by_id: dict[tuple[str, str], list[int]] = defaultdict(list)
         for place, entry in enumerate(entries):
             self.by_id[entry.model, entry.id].append(place)
-            for space, address in entry.spots:
-                for spot in ((space, address), ("", address)):
-                    self.at[entry.model, spot].append(place)
-            for space, address in entry.aliases:
-                for spot in ((space, address), ("", address)):
-                    self.aliases[entry.model, spot].append(place)
+            for spots, found in ((entry.spots, self.at), (entry.aliases, self.aliases)):
+                for space, address in spots:
+                    found[entry.model, (space, address)].append(place)
+                    found[entry.model, ("", address)].append(place)
 
     def exact(self, row: ComparedRow) -> list[int]:
         """Return free entries of the row's id at the row's place (if it has one)."""
-        named = self._free(self.by_id.get((row.model, row.id), ()), row) if row.id else []
-        return [place for place in named if not row.spots or place in self._standing(row)]
+        return [place for place in self.named(row) if not row.spots or place in self._standing(row)]
 
     def at_place(self, row: ComparedRow) -> list[int]:
         """Return free entries at the row's place; a command only for a row without id, where no register stands."""
@@ -81,7 +78,7 @@ class _Index:
 def match(ours: Sequence[ComparedRow], theirs: Sequence[ComparedRow], *, name: str) -> Matching:
     """Pair the entries of two sides. Raises TableError for doubled rows and those that fit several of our entries."""
     _refuse_doubles(theirs, name)
-    index = _Index(ours)
+    index = _RowIndex(ours)
     found: dict[int, int] = {}
     for candidates in (index.exact, index.at_place, index.named):
         for number, row in enumerate(theirs):

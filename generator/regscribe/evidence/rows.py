@@ -1,4 +1,4 @@
-"""The rows of both sides in one form: what a map says of one value of one model, and what a table says."""
+"""The rows of a map and of a table in one form: what each says of one register of one model."""
 
 import re
 from collections.abc import Iterable, Iterator, Sequence

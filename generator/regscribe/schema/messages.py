@@ -1,4 +1,4 @@
-"""What is wrong with the shape, said for people who write maps; never with the value as a whole in it."""
+"""Violations of the JSON Schema as messages for people who write maps; a message never holds a whole value."""
 
 import re
 from collections.abc import Iterator, Mapping, Sequence

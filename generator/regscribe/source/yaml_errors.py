@@ -1,4 +1,4 @@
-"""What the YAML parser dislikes, said for people who write maps."""
+"""Errors of the YAML parser as messages for people who write maps."""
 
 import yaml
 

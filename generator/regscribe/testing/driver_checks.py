@@ -1,4 +1,4 @@
-"""One model's driver on the bench: its registers beside their vectors, and checks that say what differs."""
+"""Checks of one model's generated driver against the vectors of its map; each says what differs."""
 
 from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property

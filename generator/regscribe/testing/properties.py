@@ -29,17 +29,17 @@ SIGNIFICANT = 6
 NUMERIC = frozenset({"number", "integer", "raw"})
 
 
-def round_trip(bench: DriverUnderTest, data: st.DataObject) -> None:
+def round_trip(checked: DriverUnderTest, data: st.DataObject) -> None:
     """Assert decode(encode(v)) == v for values of the domain."""
-    trial = data.draw(st.sampled_from(bench.written), label="register")
+    trial = data.draw(st.sampled_from(checked.written), label="register")
     value = data.draw(values(trial), label="value")
     words = trial.encode(value)
     assert _equal(trial.decode(words), value), f"{trial}: {value!r} became {trial.decode(words)!r} through {words}"  # noqa: S101 (a test library)
 
 
-def refusal(bench: DriverUnderTest, data: st.DataObject) -> None:
+def refusal(checked: DriverUnderTest, data: st.DataObject) -> None:
     """Assert that what lies outside the domain is refused before anything is sent."""
-    trial = data.draw(st.sampled_from(bench.written), label="register")
+    trial = data.draw(st.sampled_from(checked.written), label="register")
     value = data.draw(others(trial), label="no value")
     try:
         words = trial.encode(value)
@@ -49,9 +49,9 @@ def refusal(bench: DriverUnderTest, data: st.DataObject) -> None:
     raise AssertionError(message)
 
 
-def total_decoding(bench: DriverUnderTest, data: st.DataObject) -> None:
+def total_decoding(checked: DriverUnderTest, data: st.DataObject) -> None:
     """Assert that any words give a value or a ValueNotDecodable, and that a value that can be written comes back."""
-    trial = data.draw(st.sampled_from(bench.trials), label="register")
+    trial = data.draw(st.sampled_from(checked.trials), label="register")
     words = tuple(data.draw(st.lists(_word(trial), min_size=_size(trial), max_size=_size(trial)), label="words"))
     try:
         value = trial.decode(words)
@@ -61,11 +61,11 @@ def total_decoding(bench: DriverUnderTest, data: st.DataObject) -> None:
     assert _equal(again, value), f"{trial}: {words} is {value!r}, which was sent and came back as {again!r}"  # noqa: S101 (as above)
 
 
-def agreement(bench: DriverUnderTest, data: st.DataObject) -> None:
+def agreement(checked: DriverUnderTest, data: st.DataObject) -> None:
     """Assert that a value written through one view is the same value in every other view that can carry it."""
-    trial = data.draw(st.sampled_from(bench.mirrored), label="register")
+    trial = data.draw(st.sampled_from(checked.mirrored), label="register")
     value = data.draw(values(trial), label="value")
-    for other in _situations(bench, trial):
+    for other in _situations(checked, trial):
         try:
             words = other.encode(value)
         except (ValueRefused, ValueNotDecodable):
@@ -73,33 +73,33 @@ def agreement(bench: DriverUnderTest, data: st.DataObject) -> None:
         assert _equal(other.decode(words), value), f"{other}: {value!r} became {other.decode(words)!r}"  # noqa: S101 (as above)
 
 
-def covering_reads(bench: DriverUnderTest, data: st.DataObject) -> None:
+def covering_reads(checked: DriverUnderTest, data: st.DataObject) -> None:
     """Assert that reading some registers asks for each exactly once, for no hole, and never for too much."""
-    wrong = wrong_requests(bench.driver, data.draw(_several(bench), label="registers"))
+    wrong = wrong_requests(checked.driver, data.draw(_several(checked), label="registers"))
     assert not wrong, "\n".join(wrong)  # noqa: S101 (as above)
 
 
-def batches(bench: DriverUnderTest, data: st.DataObject) -> None:
+def batches(checked: DriverUnderTest, data: st.DataObject) -> None:
     """Assert that registers read together have the values that they have alone, whatever the words."""
-    chosen = data.draw(_several(bench), label="registers")
+    chosen = data.draw(_several(checked), label="registers")
     seed, code = data.draw(st.integers(0, 65535), label="words"), data.draw(st.integers(0, 3), label="state")
-    wrong = wrong_values(bench.driver, chosen, seed=seed, code=code)
+    wrong = wrong_values(checked.driver, chosen, seed=seed, code=code)
     assert not wrong, "\n".join(wrong)  # noqa: S101 (as above)
 
 
-def _several(bench: DriverUnderTest) -> st.SearchStrategy[list[Register[Any]]]:
+def _several(checked: DriverUnderTest) -> st.SearchStrategy[list[Register[Any]]]:
     """Return a strategy of registers to read together: all, neighbours, or any."""
-    readable = bench.readable
+    readable = checked.readable
     ends = st.tuples(st.integers(0, len(readable) - 1), st.integers(1, len(readable)))
     neighbours = ends.map(lambda one: sorted(readable, key=lambda register: register.at)[one[0] : one[0] + one[1]])
     scattered = st.lists(st.sampled_from(readable), unique_by=lambda one: one.path, min_size=1, max_size=40)
     return st.one_of(st.just(readable), neighbours, scattered)
 
 
-def _situations(bench: DriverUnderTest, trial: Trial) -> Sequence[Trial]:
+def _situations(checked: DriverUnderTest, trial: Trial) -> Sequence[Trial]:
     """Return the other views of the register where nothing that the trial says is said differently."""
     found = []
-    for other in bench.trials:
+    for other in checked.trials:
         if other.register is trial.register and other.view != trial.view:
             state = {**other.state, **trial.state}
             givens = {**other.givens, **trial.givens}

@@ -16,7 +16,7 @@ from planning import subjects
 from rivals import Task, fixed_gap
 
 from regscribe.cli.shared.map_arguments import find_map
-from regscribe.cli.shared.planning import PlannedModel
+from regscribe.cli.shared.planned_model import PlannedModel
 from regscribe.model import GivenKind
 from regscribe.pipeline import compile_map
 from regscribe.simulate import SerialLine, simulate

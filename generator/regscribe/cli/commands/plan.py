@@ -10,7 +10,7 @@ from regscribe.cli.shared.compiled_maps import compiled_maps
 from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.map_arguments import find_map
 from regscribe.cli.shared.output import print_json, remark, show_table, tell
-from regscribe.cli.shared.planning import PlannedModel
+from regscribe.cli.shared.planned_model import PlannedModel
 from regscribe.model import RegisterMap
 from regscribe.tools.live.errors import unknown
 from regscribe_runtime.planning import plan
@@ -70,7 +70,7 @@ def command(  # noqa: PLR0913 - one parameter an option
     terms = subject.terms(_cost(subject, baud, form, framing, tcp=tcp))
     layout = subject.layout(wanted, terms, fresh=not remembered)
     single = [terms.cost.tariff(item.space).of(item.words) for item in (subject.places(path)[0].span for path in asked)]
-    told = _Told(layout, asked, terms, milliseconds(sum(single)))
+    told = _PlanReport(layout, asked, terms, milliseconds(sum(single)))
     if as_json:
         print_json(map=register_map.id, model=subject.model.name, also=asked[len(wanted) :], **told.plain())
     else:
@@ -136,8 +136,8 @@ def _remark_unlisted(what: str, value: object, listed: Sequence[object]) -> None
         remark(f"the manual does not list {value} {what}: {', '.join(map(str, listed))}")
 
 
-class _Told:
-    """A plan in words and in JSON."""
+class _PlanReport:
+    """A plan as a table for people, and as JSON."""
 
     def __init__(self, layout: ReadOrder, paths: Sequence[str], terms: Terms, single_ms: float) -> None:
         self.terms, self.single_ms, self.paths = terms, single_ms, paths

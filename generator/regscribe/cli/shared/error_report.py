@@ -1,4 +1,4 @@
-"""What becomes of an error of a live command: one clear message, an exit code for scripts, JSON where it was asked for.
+"""Errors of live commands as one clear message, an exit code for scripts, and JSON where it was asked for.
 
 Exit codes: 0 done, 1 the device refuses or something differs, 2 the command line or a name in it is wrong,
 3 nobody answers (or the link was lost, or the port cannot be opened), 4 a write broke off and what the device holds is

@@ -1,4 +1,4 @@
-"""Ctrl-C while something is written: what is under way is finished first, and told."""
+"""Holds Ctrl-C back while something is written: the request under way is finished first."""
 
 import signal
 import threading
@@ -11,7 +11,7 @@ INTERRUPTED = 130
 
 
 class Shield:
-    """Whether Ctrl-C came meanwhile."""
+    """Whether Ctrl-C came while the block ran."""
 
     def __init__(self) -> None:
         self.interrupted = False

@@ -1,4 +1,4 @@
-"""What can be wrong with a name that a person gave: of a link, a device, a model, a register, a configuration."""
+"""Errors in names that people give (links, devices, models, registers), with the name that was probably meant."""
 
 from collections.abc import Iterable
 from difflib import get_close_matches

@@ -1,4 +1,4 @@
-"""The structure of a program: which registers a setting belongs to, and what a device has no place for. No I/O."""
+"""The settings of a program by register, and the settings that a device has no register for; without I/O."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field

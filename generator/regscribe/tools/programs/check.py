@@ -43,16 +43,16 @@ def check(place: ProgramSlot, program: Program, *, beyond_limits: bool = False) 
         asked, problems = wanted(place, program)
         paths = {path for one in asked for path in needs(one.register)} | set(place.spec.setpoint_limits or ())
         snapshot = yield from tasks.read_many([session.registers[path] for path in sorted(paths)])(session)
-        bench = SettingConverter(place, snapshot.valid, session.givens, program.time_unit or "")
+        converter = SettingConverter(place, snapshot.valid, session.givens, program.time_unit or "")
         planned = []
         for one in asked:
             if one.time and not _countable(place, program):
                 continue  # what the times count in is wrong already, so nothing can be said of them
             try:
-                value = bench.value(one.register, one.setting, time=one.time)
+                value = converter.value(one.register, one.setting, time=one.time)
                 if one.limited and not beyond_limits:
-                    _within(place, bench, one.register, value)
-                bench.words(one.register, value)
+                    _within(place, converter, one.register, value)
+                converter.words(one.register, value)
             except ValueRefused as error:
                 problems.append(Problem(one.where, label(place, one.where), error.reason))
             except RegscribeError as error:
@@ -87,9 +87,9 @@ def _rank(part: str | int) -> tuple[int, str]:
     return (ORDER.index(part), "") if part in ORDER else (len(ORDER), part)
 
 
-def _within(place: ProgramSlot, bench: SettingConverter, register: Register[Any], value: Any) -> None:  # noqa: ANN401 - a value of any register
+def _within(place: ProgramSlot, converter: SettingConverter, register: Register[Any], value: Any) -> None:  # noqa: ANN401 - a value of any register
     """ValueRefused for a setpoint beyond the controller's present setpoint limits."""
-    low, high = (bench.state.get(path) for path in place.spec.setpoint_limits or ("", ""))
+    low, high = (converter.state.get(path) for path in place.spec.setpoint_limits or ("", ""))
     if low is not None and high is not None and not low <= value <= high:
         names = " and ".join(place.spec.setpoint_limits or ())
         message = f"{value} lies outside {low} to {high}, the present {names}: change one of them"

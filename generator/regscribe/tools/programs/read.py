@@ -43,8 +43,8 @@ def _time_unit(place: ProgramSlot, snapshot: Snapshot) -> str:
 class _Reader:
     """A program out of what was read."""
 
-    def __init__(self, place: ProgramSlot, snapshot: Snapshot, bench: SettingConverter) -> None:
-        self.place, self.snapshot, self.bench = place, snapshot, bench
+    def __init__(self, place: ProgramSlot, snapshot: Snapshot, converter: SettingConverter) -> None:
+        self.place, self.snapshot, self.converter = place, snapshot, converter
 
     def program(self) -> Program:
         spec = self.place.spec
@@ -57,7 +57,7 @@ class _Reader:
             else None,
             number_of_segments=int(count) if spec.counts == "not_stated" and count is not None else None,
             cycles=self._cycles(),
-            time_unit=self.bench.time_unit or None,
+            time_unit=self.converter.time_unit or None,
             holdback=self._maybe(spec.holdback),
             power_failure=self._name(spec.power_failure),
             end=self._name(spec.end),
@@ -71,7 +71,7 @@ class _Reader:
 
     def _setting(self, path: str, segment: int = 0, *, time: bool = False) -> Setting:
         register = self.place.register(path, segment)
-        return self.bench.setting(register, self.snapshot[register.path], time=time)
+        return self.converter.setting(register, self.snapshot[register.path], time=time)
 
     def _maybe(self, path: str) -> Setting | None:
         return self._setting(path) if path else None

@@ -43,7 +43,7 @@ def status(place: ProgramSlot) -> Task[ProgramState]:
         registers = {path: place.register(path) for path in told if path}
         snapshot = yield from read_with_needs(registers.values())(session)
         found = snapshot.valid
-        bench = SettingConverter(place, found, session.givens)
+        converter = SettingConverter(place, found, session.givens)
         values = {path: found.get(one.path) for path, one in registers.items()}
         code = values.get(spec.status.register) if spec.status else None
         setpoint = values.get(spec.setpoint_now)
@@ -52,7 +52,7 @@ def status(place: ProgramSlot) -> Task[ProgramState]:
             detail=getattr(code, "name", "") or "",
             program=_whole(values.get(spec.program_now)),
             segment=_whole(values.get(spec.segment_now)),
-            setpoint=None if setpoint is None else bench.setting(registers[spec.setpoint_now], setpoint),
+            setpoint=None if setpoint is None else converter.setting(registers[spec.setpoint_now], setpoint),
         )
 
     return task

@@ -1,4 +1,4 @@
-"""A place for a program in a device: which of the device's programs it is, and its registers."""
+"""A program of a device by its number (recipe 2 of 4), and the registers that hold it."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -3,10 +3,10 @@
 Operations are tasks for both kinds of driver: `device.run(backup(type(device)))`, awaited for an asyncio driver.
 """
 
-from regscribe.tools.settings.backup import Backup, BackupError, Origin, Saved, UnfitError
+from regscribe.tools.settings.backup import Backup, BackupError, BackupOrigin, Saved, UnfitError
 from regscribe.tools.settings.backup_file import load, save, to_text
 from regscribe.tools.settings.compare import SettingDifference, Side, differences, side
-from regscribe.tools.settings.compatibility import KINDS, Fit, Misfit, fit
+from regscribe.tools.settings.compatibility import KINDS, BackupFit, Misfit, fit
 from regscribe.tools.settings.factory import factory
 from regscribe.tools.settings.restore import Restored, restore
 from regscribe.tools.settings.take import backup, saved
@@ -15,9 +15,9 @@ __all__ = [
     "KINDS",
     "Backup",
     "BackupError",
-    "Fit",
+    "BackupFit",
+    "BackupOrigin",
     "Misfit",
-    "Origin",
     "Restored",
     "Saved",
     "SettingDifference",

@@ -41,7 +41,7 @@ class Saved:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Origin:
+class BackupOrigin:
     """Which device was saved: map and its content hash, model, unit, link, and when (RFC 3339, UTC).
 
     `identification` is what the device answered that tells its model, for the record.
@@ -60,7 +60,7 @@ class Origin:
 class Backup:
     """The settings of one device: saved values by path, in groups, in the manual's order."""
 
-    origin: Origin
+    origin: BackupOrigin
     groups: Mapping[str, Mapping[str, Saved]]
 
     def settings(self) -> Iterator[tuple[str, Saved]]:

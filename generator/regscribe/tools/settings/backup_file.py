@@ -7,7 +7,7 @@ from typing import Any
 
 from regscribe import files
 from regscribe.files import FileError, OneLine, dump, read
-from regscribe.tools.settings.backup import FORMAT, Backup, BackupError, Origin, Saved
+from regscribe.tools.settings.backup import FORMAT, Backup, BackupError, BackupOrigin, Saved
 
 _HEAD = "Settings of a device, written by regscribe; `regscribe restore` writes them back."
 
@@ -64,7 +64,7 @@ def load(path: Path) -> Backup:
 
 def _backup(data: Mapping[str, Any]) -> Backup:
     head = data["backup"]
-    origin = Origin(
+    origin = BackupOrigin(
         map_id=head["map"],
         map_sha256=head["map_sha256"],
         model=head["model"],

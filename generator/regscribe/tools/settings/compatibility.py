@@ -23,8 +23,8 @@ class Misfit(NamedTuple):
     reason: str
 
 
-class Fit(NamedTuple):
-    """What a backup means for a device.
+class BackupFit(NamedTuple):
+    """What of a backup a device can take.
 
     `values` are what can be written, values of use by path, in the order of the file; `misfits` what cannot;
     `stays` what is left out because it belongs to the saved device alone, by its kind. `strange` says in what the file
@@ -44,7 +44,7 @@ def fit(
     state: Mapping[str, Any],
     givens: Mapping[str, Any],
     include: Collection[str] = (),
-) -> Fit:
+) -> BackupFit:
     """Hold a backup against a driver; `state` has the device's present values where the file has none.
 
     `include` names kinds of settings that are to be written although they stay with their device.
@@ -59,7 +59,7 @@ def fit(
             misfits.append(Misfit(path, reason))
             del values[path]
     left = tuple(one for one in misfits if one.path not in stays)
-    return Fit(values, left, stays, tuple(strangeness(backup, driver)))
+    return BackupFit(values, left, stays, tuple(strangeness(backup, driver)))
 
 
 def _meant(backup: Backup, driver: Driver) -> tuple[dict[str, Any], list[Misfit]]:

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 from regscribe.tools.live.names import Driver
 from regscribe.tools.live.reading import unit_needs
 from regscribe.tools.settings.backup import Backup, UnfitError
-from regscribe.tools.settings.compatibility import Fit, Misfit, fit
+from regscribe.tools.settings.compatibility import BackupFit, Misfit, fit
 from regscribe.tools.settings.take import writable
 from regscribe_runtime import ValueRefused
 from regscribe_runtime.errors import ValuesRefused
@@ -21,7 +21,7 @@ MOST_NAMED = 8
 class Restored(NamedTuple):
     """What a restore did, or would do: how the file fits, and what became of each value."""
 
-    fit: Fit
+    fit: BackupFit
     report: WriteReport
 
 
@@ -74,7 +74,7 @@ def _present(session: Session, driver: Driver) -> Operation[dict[str, Any]]:
     return snapshot.valid
 
 
-def _refuse(found: Fit) -> None:
+def _refuse(found: BackupFit) -> None:
     if not found.strange and not found.misfits:
         return
     lines = [*found.strange, *(f"{one.path}: {one.reason}" for one in found.misfits[:MOST_NAMED])]
@@ -84,7 +84,7 @@ def _refuse(found: Fit) -> None:
     raise UnfitError("\n".join(lines))
 
 
-def _without(found: Fit, refusal: ValueRefused) -> Fit:
+def _without(found: BackupFit, refusal: ValueRefused) -> BackupFit:
     """The fit without the values that the device cannot take now."""
     refused = refusal.refusals if isinstance(refusal, ValuesRefused) else (refusal,)
     gone = {one.register: one.reason for one in refused if one.register in found.values}

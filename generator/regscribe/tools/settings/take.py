@@ -1,4 +1,4 @@
-"""Reading the settings of a device: one consistent snapshot, by group and name."""
+"""Reads all settings of a device in one snapshot, as a backup: by group and name."""
 
 from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
@@ -7,7 +7,7 @@ from typing import Any
 from regscribe.tools.live.names import Driver, groups_of, readable
 from regscribe.tools.live.reading import reason, unit_of, with_units
 from regscribe.tools.live.value_text import is_number, show
-from regscribe.tools.settings.backup import NO_GROUP, Backup, Origin, Saved
+from regscribe.tools.settings.backup import NO_GROUP, Backup, BackupOrigin, Saved
 from regscribe_runtime import Register, RegscribeError, Snapshot
 from regscribe_runtime.operations.session import Operation, Session, Task
 
@@ -42,7 +42,7 @@ def backup(driver: Driver, *, link: str = "", now: datetime | None = None) -> Ta
 
     def task(session: Session) -> Operation[Backup]:
         found = yield from saved([*writable(driver), *identity_of(driver)])(session)
-        origin = Origin(
+        origin = BackupOrigin(
             map_id=driver.map_id,
             map_sha256=driver.map_sha256,
             model=driver.model,

@@ -1,4 +1,4 @@
-"""A compiled model as its driver sees it: the driver is made in memory, so that its own planner speaks of it."""
+"""A compiled model with its driver, made in memory, so that plans are those of the driver's own planner."""
 
 import sys
 from collections.abc import Iterable, Iterator
