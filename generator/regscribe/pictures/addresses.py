@@ -10,7 +10,7 @@ from regscribe.model import RegisterMap
 from regscribe.pictures.address_rows import AddressRow, AddressSection, Cell, Fold, Grid, choose, layout, sections
 from regscribe.pictures.address_use import places, unused
 from regscribe.pictures.cell_style import Looks, draw, looks, tip
-from regscribe.pictures.drawing import MARGIN, PLAIN, SMALL, WIDTH, Box, Canvas, Drawing, DrawnLine, Text
+from regscribe.pictures.drawing import MARGIN, PLAIN, SMALL, WIDTH, Box, Canvas, Drawing, DrawnLine, Text, TextStyle
 from regscribe.pictures.legend import legend
 from regscribe.pictures.text_width import shorten, width
 
@@ -68,7 +68,7 @@ def _section(
 ) -> None:
     canvas.y += 24
     room = WIDTH - 2 * MARGIN
-    canvas.text(_heading(section, several=several), MARGIN, canvas.y, room, Text(0, 0, "", PLAIN, bold=True))
+    canvas.text(_heading(section, several=several), MARGIN, canvas.y, room, TextStyle(bold=True))
     canvas.y += 8
     _numbers(canvas, grid, max((_end(row) for row in rows if isinstance(row, AddressRow)), default=0))
     for row in rows:

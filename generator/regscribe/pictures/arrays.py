@@ -7,7 +7,7 @@ from regscribe.emit.outline import Branch, Leaf, formula, leaves
 from regscribe.emit.words import one_line
 from regscribe.model import RegisterMap
 from regscribe.pictures.cell_style import set_words
-from regscribe.pictures.drawing import MARGIN, PLAIN, WIDTH, Box, Canvas, Drawing, DrawnLine, Text
+from regscribe.pictures.drawing import MARGIN, PLAIN, WIDTH, Box, Canvas, Drawing, DrawnLine, Text, TextStyle
 from regscribe.pictures.structure import SHOWN, Level, lettered_name, levels
 from regscribe.pictures.style import tint
 from regscribe.pictures.text_width import clean, wrap
@@ -35,9 +35,9 @@ MOST_DEPTH = 4
 MOST_VIEWS = 6
 """What is drawn at most."""
 
-BOLD = Text(0, 0, "", PLAIN, bold=True)
-DIM = Text(0, 0, "", NOTE, style="dim")
-INDEX = Text(0, 0, "", PLAIN, "middle", bold=True)
+BOLD = TextStyle(bold=True)
+DIM = TextStyle(NOTE, style="dim")
+INDEX = TextStyle(PLAIN, "middle", bold=True)
 
 
 def array(register_map: RegisterMap, branch: Branch) -> Drawing:
@@ -119,7 +119,7 @@ def _heads(canvas: Canvas, level: Level) -> None:
 
 def _arrow(canvas: Canvas, text: str, y: float) -> None:
     start, end = CELLS + CELL / 2, CELLS + CELL * 1.5
-    canvas.text(text, (start + end) / 2, y + 2, CELL, Text(0, 0, "", NOTE, "middle", "dim"))
+    canvas.text(text, (start + end) / 2, y + 2, CELL, TextStyle(NOTE, "middle", "dim"))
     canvas.add(DrawnLine(((start, y + 10), (start, y + 6), (end, y + 6), (end, y + 10))))
     canvas.add(DrawnLine(((end - 3, y + 6.5), (end, y + 10), (end + 3, y + 6.5))))
 
@@ -135,16 +135,16 @@ def _member(canvas: Canvas, level: Level, child: Leaf | Branch, number: int, lef
         canvas.text(part, left + 12, canvas.y + 13 + LINE * line, room)
     canvas.text(note, left + 12, canvas.y + 13 + LINE * len(names), room, DIM)
     if level.start is not None:
-        offset = Text(0, 0, "", PLAIN, "end")
+        offset = TextStyle(PLAIN, "end")
         canvas.text(f"+{level.span(child, 0)[0] - level.start}", OFFSETS, canvas.y + 13, 44, offset)
     for column, element in enumerate(level.elements):
         canvas.add(Box(_x(level, column) + 1, canvas.y + 1, CELL - 4, height - 4, tint(number), radius=2))
         words = _span(*level.span(child, element))
         size = PLAIN if ".." not in words else NOTE
-        like = Text(0, 0, "", size, "middle")
+        like = TextStyle(size, "middle")
         canvas.text(words, _x(level, column) + CELL / 2 - 1, canvas.y + height / 2 + 3, CELL - 6, like)
     for line, rule in enumerate(rules):
-        like = Text(0, 0, "", PLAIN - 1) if line == 0 else DIM
+        like = TextStyle(PLAIN - 1) if line == 0 else DIM
         canvas.text(rule, FORMULAS, canvas.y + 13 + LINE * line, WIDTH - MARGIN - FORMULAS, like)
     canvas.y += height
 

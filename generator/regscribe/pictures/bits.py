@@ -10,7 +10,7 @@ from regscribe.emit.outline import Leaf, formula, lettered
 from regscribe.emit.words import bits_words, listed, one_line
 from regscribe.model import BitField, Register, RegisterMap, Space
 from regscribe.pictures.cell_style import set_words
-from regscribe.pictures.drawing import MARGIN, PLAIN, SMALL, WIDTH, Box, Canvas, Drawing, DrawnLine, Text
+from regscribe.pictures.drawing import MARGIN, PLAIN, SMALL, WIDTH, Box, Canvas, Drawing, DrawnLine, Text, TextStyle
 from regscribe.pictures.structure import lettered_name
 from regscribe.pictures.style import tint
 from regscribe.pictures.text_width import clean, width, wrap
@@ -107,7 +107,7 @@ def _slots(shared: Shared[Register]) -> tuple[Slot, ...]:
 def _strip(canvas: Canvas, strip: Strip) -> None:
     if strip.title:
         canvas.y += 12
-        canvas.text(strip.title, MARGIN, canvas.y, WIDTH - 2 * MARGIN, Text(0, 0, "", PLAIN, bold=True))
+        canvas.text(strip.title, MARGIN, canvas.y, WIDTH - 2 * MARGIN, TextStyle(bold=True))
         canvas.y += 10
     highest = max([strip.width - 1, *(slot.field.high for slot in strip.slots)])
     for low in range(highest // WORD * WORD, -1, -WORD):
@@ -168,7 +168,7 @@ def _meanings(canvas: Canvas, slots: Sequence[Slot], middle: float, bottom: floa
             canvas.text(line, LABELS + indent, canvas.y, ROOM - indent)
         for line in _remarks(slot):
             canvas.y += LINE - 2
-            canvas.text(line, LABELS + indent, canvas.y, ROOM - indent, Text(0, 0, "", SMALL + 2, style="dim"))
+            canvas.text(line, LABELS + indent, canvas.y, ROOM - indent, TextStyle(SMALL + 2, style="dim"))
 
 
 def _remarks(slot: Slot) -> Iterator[str]:

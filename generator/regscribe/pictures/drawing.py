@@ -42,6 +42,17 @@ class DrawnLine:
 
 
 @dataclass(frozen=True, slots=True)
+class TextStyle:
+    """How a text is drawn: font size, whether x is its start, middle or end, classes of `style`, and its tooltip."""
+
+    size: float = PLAIN
+    anchor: str = "start"
+    style: str = "ink"
+    bold: bool = False
+    tip: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class Text:
     """One line of text: `x` is where it starts, or its middle or end by `anchor`; `y` is its base line."""
 
@@ -61,6 +72,9 @@ class Text:
         left = {"start": self.x, "middle": self.x - wide / 2, "end": self.x - wide}[self.anchor]
         return Box(left, self.y - ASCENT * self.size, wide, (ASCENT + DESCENT) * self.size, "")
 
+
+USUAL = TextStyle()
+"""Ink, plain size, from x on."""
 
 Item = Box | DrawnLine | Text
 
@@ -87,8 +101,8 @@ class Canvas:
         """Draw."""
         self.items += items
 
-    def text(self, text: str, x: float, y: float, room: float, like: Text = Text(0, 0, "")) -> None:
-        """Draw text that is untrusted, in the looks of `like`; if it is cut to `room`, the tooltip has all of it."""
+    def text(self, text: str, x: float, y: float, room: float, like: TextStyle = USUAL) -> None:
+        """Draw text that is untrusted, in the style of `like`; if it is cut to `room`, the tooltip has all of it."""
         whole = clean(text)
         shown = shorten(whole, room, like.size, bold=like.bold)
         tip = like.tip or (whole if shown != whole else "")
@@ -99,10 +113,10 @@ class Canvas:
         """Draw the title and lines of explanation at the top."""
         room = WIDTH - 2 * MARGIN
         self.y += LARGE
-        self.text(title, MARGIN, self.y, room, Text(0, 0, "", LARGE, bold=True))
+        self.text(title, MARGIN, self.y, room, TextStyle(LARGE, bold=True))
         for line in (line for remark in remarks for line in wrap(clean(remark), room, PLAIN, lines=3)):
             self.y += 18
-            self.text(line, MARGIN, self.y, room, Text(0, 0, "", PLAIN, style="dim"))
+            self.text(line, MARGIN, self.y, room, TextStyle(style="dim"))
         self.y += MARGIN
 
     def finish(self, title: str, description: str) -> Drawing:

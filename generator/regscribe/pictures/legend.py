@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from regscribe.model import Access
 from regscribe.pictures.cell_style import MANY, OTHERWISE, SEVERAL, Look, Looks, draw, set_words
-from regscribe.pictures.drawing import MARGIN, PLAIN, WIDTH, Box, Canvas, Text
+from regscribe.pictures.drawing import MARGIN, PLAIN, WIDTH, Box, Canvas, Text, TextStyle
 from regscribe.pictures.text_width import clean, width, wrap
 
 COLUMNS = 3
@@ -103,5 +103,5 @@ def _entry(canvas: Canvas, entry: LegendEntry, x: float, y: float, room: float) 
     size = PLAIN if width(text, PLAIN) <= room else SMALLER
     lines = wrap(text, room, size, lines=2)
     for number, line in enumerate(lines):
-        like = Text(0, 0, "", size, tip=text if lines != (text,) else "")
+        like = TextStyle(size, tip=text if lines != (text,) else "")
         canvas.text(line, x + SAMPLE + 8, y + (15 if len(lines) == 1 else 9 + 12 * number), room, like)
