@@ -1,4 +1,4 @@
-"""What a user's template can say in words: the public part of `text`, under the names of docs/templates.md.
+"""What a user's template can say in words: the public part of `words`, under the names of docs/templates.md.
 
 All results are plain text on one line; nothing is escaped for the language that the template writes.
 """

@@ -7,7 +7,14 @@ from itertools import islice
 
 from regscribe.emit.vectors.limit_values import limit_values
 from regscribe.emit.vectors.present_scale import cases_of, numbers_of
-from regscribe.emit.vectors.tried_values import GivenTry, Questions, Tries, Values, questions_of, tries_of
+from regscribe.emit.vectors.tried_values import (
+    Dependencies,
+    GivenTry,
+    TriedValues,
+    Values,
+    dependencies_of,
+    tried_values,
+)
 from regscribe.model import Model, Register, RegisterMap, View
 from regscribe.reference import Surroundings, holds, word_order
 from regscribe.reference.states import combinations
@@ -57,25 +64,25 @@ class Finder:
         Full ones: each combination of a case of the scale, a case of the range and their decimals, and each word order;
         besides, one for each code that decides between the cases.
         """
-        tries = tries_of(self._map, model, questions_of(register, view))
-        asked = tuple(tries.values.items()), tuple(tries.givens.items()), tuple(tries.parts.items())
+        tried = tried_values(self._map, model, dependencies_of(register, view))
+        asked = tuple(tried.values.items()), tuple(tried.givens.items()), tuple(tried.parts.items())
         ranges = register.range if register.access.writable else ()
         key = (register.scale, register.special_scale, ranges, register.kind, view.word_order, view.words, asked)
         if key not in self._known:
-            self._known[key] = _situations(tries, register, view)
+            self._known[key] = _situations(tried, register, view)
         return self._known[key]
 
 
-def _situations(tries: Tries, register: Register, view: View) -> tuple[Situation, ...]:
+def _situations(tried: TriedValues, register: Register, view: View) -> tuple[Situation, ...]:
     seen: dict[object, Situation] = {}
-    every = _combinations(tries)
+    every = _combinations(tried)
     for situation in every:
         known = situation.known
         seen.setdefault(cases_of(register, known), situation)
         if view.words > 1:
             seen.setdefault(word_order(view, known), situation)
     full = list(dict.fromkeys(seen.values()))
-    found = [*full, *_missing(tries.values, full, every, lambda known: numbers_of(register, known))]
+    found = [*full, *_missing(tried.values, full, every, lambda known: numbers_of(register, known))]
     return tuple(_with_limits(register, situation) for situation in found)
 
 
@@ -86,34 +93,34 @@ def writable_situations(
     if register.writable is None:
         return ()
     condition = register.writable.when
-    tries = tries_of(register_map, model, Questions((condition,)))
-    every = _combinations(tries)
+    tried = tried_values(register_map, model, Dependencies((condition,)))
+    every = _combinations(tried)
     seen = {holds(condition, situation.known): situation for situation in reversed(every)}
     full = list(seen.values())
-    found = [*full, *_missing(tries.values, full, every, lambda known: holds(condition, known))]
+    found = [*full, *_missing(tried.values, full, every, lambda known: holds(condition, known))]
     return tuple((situation, holds(condition, situation.known)) for situation in found)
 
 
-def _combinations(tries: Tries) -> list[Situation]:
+def _combinations(tried: TriedValues) -> list[Situation]:
     """Return the combinations of all that is to be tried, as many as there is time for."""
-    every = ((values, givens) for values in combinations(tries.values) for givens in combinations(tries.givens))
-    return [_situation(tries, values, givens) for values, givens in islice(every, MOST_COMBINATIONS)]
+    every = ((values, givens) for values in combinations(tried.values) for givens in combinations(tried.givens))
+    return [_situation(tried, values, givens) for values, givens in islice(every, MOST_COMBINATIONS)]
 
 
-def _situation(tries: Tries, values: dict[str, Fraction], givens: dict[str, GivenTry]) -> Situation:
+def _situation(tried: TriedValues, values: dict[str, Fraction], givens: dict[str, GivenTry]) -> Situation:
     return Situation(
-        (*values.items(), *_words(tries, values)),
+        (*values.items(), *_words(tried, values)),
         tuple((name, codes) for name, codes in givens.items() if isinstance(codes, frozenset)),
         tuple((name, fact) for name, fact in givens.items() if isinstance(fact, bool)),
-        tuple(tries.parts),
-        tuple(register for register, _ in tries.parts.values()),
+        tuple(tried.parts),
+        tuple(register for register, _ in tried.parts.values()),
     )
 
 
-def _words(tries: Tries, values: dict[str, Fraction]) -> tuple[tuple[str, Fraction], ...]:
+def _words(tried: TriedValues, values: dict[str, Fraction]) -> tuple[tuple[str, Fraction], ...]:
     """Put fields together to the words that they are parts of."""
     words: dict[str, int] = {}
-    for name, (register, low) in tries.parts.items():
+    for name, (register, low) in tried.parts.items():
         words[register] = words.get(register, 0) | int(values[name]) << low
     return tuple((register, Fraction(word)) for register, word in words.items() if register not in values)
 

@@ -16,17 +16,16 @@ from regscribe.model import (
     Test,
     View,
 )
+from regscribe.reference.settled_scales import MOST_DECIMALS
 from regscribe.reference.states import domain, listed, representatives
 
 GivenTry = frozenset[Fraction] | bool
 Values = dict[str, tuple[Fraction, ...]]
 Domain = tuple[CodeRange, ...]
-MOST_DECIMALS = 3
-"""Decimals tried where the map sets no limit."""
 
 
 @dataclass(frozen=True, slots=True)
-class Tries:
+class TriedValues:
     """Values to try by `register` or `register.field`, and what the givens may be, by id.
 
     `parts` tells of a `register.field` which register it is a part of and at which bit it begins.
@@ -38,7 +37,7 @@ class Tries:
 
 
 @dataclass(frozen=True, slots=True)
-class Questions:
+class Dependencies:
     """What the meaning of a register depends on: conditions, numbers of decimals and perhaps the word order."""
 
     conditions: tuple[Condition, ...]
@@ -51,7 +50,7 @@ class Questions:
         return tuple(test for condition in self.conditions for test in condition.tests)
 
 
-def questions_of(register: Register, view: View) -> Questions:
+def dependencies_of(register: Register, view: View) -> Dependencies:
     """Return what must be known to read `view`, and to write it if it can be written."""
     conditions = [case.when for case in (*register.scale, *register.special_scale)]
     decimals = [case.then.decimals for case in (*register.scale, *register.special_scale)]
@@ -60,34 +59,34 @@ def questions_of(register: Register, view: View) -> Questions:
         decimals += [case.then.decimals for case in register.range]
         decimals += [case.then.places for case in register.scale]
     order = view.word_order if isinstance(view.word_order, OrderFromRegister) and view.words > 1 else None
-    return Questions(tuple(conditions), tuple(filter(None, decimals)), order)
+    return Dependencies(tuple(conditions), tuple(filter(None, decimals)), order)
 
 
-def tries_of(register_map: RegisterMap, model: Model, questions: Questions) -> Tries:
-    """Return the values to try for everything that `questions` ask."""
+def tried_values(register_map: RegisterMap, model: Model, dependencies: Dependencies) -> TriedValues:
+    """Return the values to try for everything that `dependencies` ask."""
     sets = {given.id for given in register_map.givens if given.kind is GivenKind.CODES}
     values: dict[str, set[Fraction]] = {}
-    for subject, found in _values(model, questions, sets):
+    for subject, found in _values(model, dependencies, sets):
         values.setdefault(subject, set()).update(found)
-    return Tries(
+    return TriedValues(
         {subject: tuple(sorted(found)) for subject, found in values.items()},
-        {test.given: _given(model, test, sets) for test in questions.tests if test.given},
-        {test.subject: _part(model, test) for test in questions.tests if test.field},
+        {test.given: _given(model, test, sets) for test in dependencies.tests if test.given},
+        {test.subject: _part(model, test) for test in dependencies.tests if test.field},
     )
 
 
-def _values(model: Model, questions: Questions, sets: set[str]) -> Iterator[tuple[str, Iterable[Fraction]]]:
-    for test in questions.tests:
+def _values(model: Model, dependencies: Dependencies, sets: set[str]) -> Iterator[tuple[str, Iterable[Fraction]]]:
+    for test in dependencies.tests:
         if test.given in sets:
             yield test.subject, _first_two(_domain(model, test))
         elif not test.given:
-            codes = [code for other in questions.tests if other.subject == test.subject for code in other.codes]
+            codes = [code for other in dependencies.tests if other.subject == test.subject for code in other.codes]
             yield test.subject, representatives(_domain(model, test), codes)
-    for decimals in questions.decimals:
+    for decimals in dependencies.decimals:
         yield decimals.register, _places(decimals, domain(model.register(decimals.register)))
-    if questions.order is not None:
-        known = [Fraction(code) for code, _ in questions.order.codes]
-        yield questions.order.register, (*known, max(known) + 1)
+    if dependencies.order is not None:
+        known = [Fraction(code) for code, _ in dependencies.order.codes]
+        yield dependencies.order.register, (*known, max(known) + 1)
 
 
 def _given(model: Model, test: Test, sets: set[str]) -> tuple[GivenTry, ...]:
