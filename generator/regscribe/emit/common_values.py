@@ -19,7 +19,7 @@ class Stated(Generic[T]):
 
 
 @dataclass(frozen=True, slots=True)
-class Shared(Generic[T]):
+class Merged(Generic[T]):
     """One thing of a family: its key and what each model that has it makes of it, in the order of the models."""
 
     key: str
@@ -53,13 +53,13 @@ def models_by(pairs: Iterable[tuple[str, T]]) -> dict[T, list[str]]:
     return found
 
 
-def merge(models: Sequence[Model], parts: Callable[[Model], Iterable[T]], key: Callable[[T], str]) -> list[Shared[T]]:
+def merge(models: Sequence[Model], parts: Callable[[Model], Iterable[T]], key: Callable[[T], str]) -> list[Merged[T]]:
     """Merge the parts of all models by key, in the order of the first model; others stand after their predecessor."""
     versions: dict[str, list[tuple[Model, T]]] = {}
     order: list[str] = []
     for model in models:
         order = _insert(order, _collect(model, parts(model), key, versions))
-    return [Shared(name, tuple(versions[name])) for name in order]
+    return [Merged(name, tuple(versions[name])) for name in order]
 
 
 def _collect(

@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from regscribe.emit.common_values import Shared, merge
+from regscribe.emit.common_values import Merged, merge
 from regscribe.emit.words import LETTERS
 from regscribe.model import Array, Model, Register, View
 
@@ -15,7 +15,7 @@ INDEX = re.compile(r"\[\d+\]")
 class Leaf:
     """One register of the family; `arrays` are those it stands in, outermost first (its first element is shown)."""
 
-    register: Shared[Register]
+    register: Merged[Register]
     arrays: tuple[Array, ...] = ()
 
     @property
@@ -28,7 +28,7 @@ class Leaf:
 class Branch:
     """An array with what it repeats."""
 
-    array: Shared[Array]
+    array: Merged[Array]
     arrays: tuple[Array, ...]
     children: tuple["Leaf | Branch", ...]
 
@@ -77,14 +77,14 @@ def _key(member: Register | Array) -> str:
     return pattern(member.path) if isinstance(member, Register) else f"array {member.id}"
 
 
-def _node(shared: Shared[Register | Array], arrays: tuple[Array, ...]) -> Node:
+def _node(shared: Merged[Register | Array], arrays: tuple[Array, ...]) -> Node:
     registers = tuple((model, item) for model, item in shared.versions if isinstance(item, Register))
     if registers:
-        return Leaf(Shared(shared.key, registers), arrays)
+        return Leaf(Merged(shared.key, registers), arrays)
     versions = tuple((model, item) for model, item in shared.versions if isinstance(item, Array))
     members = {model.name: array.members for model, array in versions}
     inner = (*arrays, versions[0][1])
-    return Branch(Shared(shared.key, versions), arrays, _nodes([model for model, _ in versions], members, inner))
+    return Branch(Merged(shared.key, versions), arrays, _nodes([model for model, _ in versions], members, inner))
 
 
 def aliases(register: Register) -> tuple[View, ...]:

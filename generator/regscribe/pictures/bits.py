@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from regscribe.emit.common_values import Shared, models_by
+from regscribe.emit.common_values import Merged, models_by
 from regscribe.emit.markdown import alt_text
 from regscribe.emit.outline import Leaf, formula, lettered
 from regscribe.emit.words import bits_words, listed, one_line
@@ -78,7 +78,7 @@ def _where(leaf: Leaf) -> str:
     return listed([f"{NAMES[space]}{'' if space is Space.STATUS else f' {address}'}" for space, address in spots])
 
 
-def strips(shared: Shared[Register]) -> tuple[Strip, ...]:
+def strips(shared: Merged[Register]) -> tuple[Strip, ...]:
     """Return one strip of the fields of all models, unless they cut the word differently: then one for each cut."""
     cuts = shared.states(lambda _, register: (register.bits, register.fields))
     widths = {width for width, _ in (cut.value for cut in cuts)}
@@ -96,7 +96,7 @@ def _alike(fields: Iterable[BitField]) -> bool:
     return all(one[1] < other[0] for one, other in pairwise(spans))
 
 
-def _slots(shared: Shared[Register]) -> tuple[Slot, ...]:
+def _slots(shared: Merged[Register]) -> tuple[Slot, ...]:
     models = models_by((model.name, part) for model, register in shared.versions for part in register.fields)
     every = len(shared.versions)
     return tuple(

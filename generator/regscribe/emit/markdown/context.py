@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
-from regscribe.emit.common_values import Shared, Stated, T
+from regscribe.emit.common_values import Merged, Stated, T
 from regscribe.emit.markdown.escape import Md, code, escape, lines, link, md, slug
 from regscribe.emit.outline import Node, leaves, outline, pattern
 from regscribe.emit.words import Wording, condition_words, one_line, spelled
@@ -177,7 +177,7 @@ def stated(facts: Iterable[Stated[Md]]) -> Md:
     )
 
 
-def by_model(shared: Shared[T], fact: Callable[[Model, T], Md]) -> Md:
+def by_model(shared: Merged[T], fact: Callable[[Model, T], Md]) -> Md:
     """Return a fact of something shared, once or by model."""
     if len(shared.versions) == 1:
         return fact(*shared.versions[0])
@@ -195,7 +195,7 @@ def only(context: PageContext, models: Iterable[str]) -> Md:
     return md("only ", names) if names else Md()
 
 
-def conclusions(shared: Shared[Register] | Shared[SetpointProgram]) -> tuple[Md, ...]:
+def conclusions(shared: Merged[Register] | Merged[SetpointProgram]) -> tuple[Md, ...]:
     """Return what was concluded and not read in the manual."""
     found = dict.fromkeys(item for _, version in shared.versions for item in version.inferred)
     return tuple(md("Inferred: ", item.what, " (", item.why, ")") for item in found)

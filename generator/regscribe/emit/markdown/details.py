@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable
 
-from regscribe.emit.common_values import Shared, Stated, models_by
+from regscribe.emit.common_values import Merged, Stated, models_by
 from regscribe.emit.markdown.context import PageContext
 from regscribe.emit.markdown.escape import Md, code, escape, md, prose
 from regscribe.emit.markdown.page_values import Titled, table
@@ -134,7 +134,7 @@ def _codes(enum: Enum | None) -> str:
     return ", ".join(f"{member.code} = {one_line(member.label)}" for member in enum.members) if enum else ""
 
 
-def _by_model(shared: Shared[Register], rows: Callable[[Register], Rows]) -> list[tuple[Md, ...]]:
+def _by_model(shared: Merged[Register], rows: Callable[[Register], Rows]) -> list[tuple[Md, ...]]:
     """Return the rows of all models, each once, with the models that have it where not all have."""
     found = models_by((model.name, row) for model, register in shared.versions for row in rows(register))
     every = len(shared.versions)

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 
-from regscribe.emit.common_values import Shared, merge
+from regscribe.emit.common_values import Merged, merge
 from regscribe.emit.markdown.alt_text import bit_fields, structure
 from regscribe.emit.markdown.context import PageContext, by_model, conclusions, only, source
 from regscribe.emit.markdown.details import Rows, bits, by_condition, elements, titled, values, views
@@ -34,7 +34,7 @@ def sections(context: PageContext) -> tuple[PageSection, ...]:
 
 
 def _section(
-    context: PageContext, group: Shared[Group], nodes: Sequence[Node], seen: dict[PageTable, Leaf]
+    context: PageContext, group: Merged[Group], nodes: Sequence[Node], seen: dict[PageTable, Leaf]
 ) -> PageSection:
     order = f"number {group.first.order} in the order of writing" if group.first.order is not None else ""
     parts = (code(group.key), source(group.first.section), md(order), context.covers(group.models))
@@ -153,7 +153,7 @@ def commands(context: PageContext) -> tuple[RegisterEntry, ...]:
     return tuple(_command(context, shared) for shared in found)
 
 
-def _command(context: PageContext, shared: Shared[Command]) -> RegisterEntry:
+def _command(context: PageContext, shared: Merged[Command]) -> RegisterEntry:
     parts = (code(f"commands.{shared.key}()"), source(shared.first.section), only(context, shared.models))
     return RegisterEntry(
         marks=Md("###"),

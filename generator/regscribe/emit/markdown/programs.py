@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable
 from fractions import Fraction
 from functools import partial
 
-from regscribe.emit.common_values import Shared, merge
+from regscribe.emit.common_values import Merged, merge
 from regscribe.emit.markdown.context import PageContext, by_model, conclusions, only, source
 from regscribe.emit.markdown.escape import Md, code, escape, join, lines, link, md, prose
 from regscribe.emit.markdown.page_values import RegisterEntry, Titled, table
@@ -41,7 +41,7 @@ def programs(context: PageContext) -> tuple[RegisterEntry, ...]:
     return tuple(_entry(context, shared) for shared in found)
 
 
-def _entry(context: PageContext, shared: Shared[SetpointProgram]) -> RegisterEntry:
+def _entry(context: PageContext, shared: Merged[SetpointProgram]) -> RegisterEntry:
     first = shared.first
     return RegisterEntry(
         marks=Md("###"),
@@ -54,7 +54,7 @@ def _entry(context: PageContext, shared: Shared[SetpointProgram]) -> RegisterEnt
     )
 
 
-def _facts(context: PageContext, shared: Shared[SetpointProgram]) -> list[tuple[str, Md]]:
+def _facts(context: PageContext, shared: Merged[SetpointProgram]) -> list[tuple[str, Md]]:
     rows = ((label, by_model(shared, partial(_fact, context, words))) for label, words in FACTS.items())
     return [row for row in rows if row[1]]
 
