@@ -92,6 +92,7 @@ def listed(stretches: Sequence[CodeRange]) -> tuple[Fraction, ...]:
 
 def representatives(stretches: Sequence[CodeRange], codes: Sequence[CodeRange]) -> tuple[Fraction, ...]:
     """Return values of a domain that stand for all: the ends of each run of values that lie in the same of `codes`."""
+    codes = tuple(dict.fromkeys(codes))
     ends = {end for one in stretches for end in (one.low, one.high)}
     ends |= {near for one in codes for near in (one.low - 1, one.low, one.high, one.high + 1)}
     values = {*listed(stretches), *(end for end in ends if any(one.holds(end) for one in stretches))}

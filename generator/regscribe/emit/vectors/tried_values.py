@@ -76,12 +76,14 @@ def tried_values(register_map: RegisterMap, model: Model, dependencies: Dependen
 
 
 def _values(model: Model, dependencies: Dependencies, sets: set[str]) -> Iterator[tuple[str, Iterable[Fraction]]]:
+    codes: dict[str, list[CodeRange]] = {}
+    for test in dependencies.tests:
+        codes.setdefault(test.subject, []).extend(test.codes)
     for test in dependencies.tests:
         if test.given in sets:
             yield test.subject, _first_two(_domain(model, test))
-        elif not test.given:
-            codes = [code for other in dependencies.tests if other.subject == test.subject for code in other.codes]
-            yield test.subject, representatives(_domain(model, test), codes)
+        elif not test.given and test.subject in codes:
+            yield test.subject, representatives(_domain(model, test), codes.pop(test.subject))
     for decimals in dependencies.decimals:
         yield decimals.register, _places(decimals, domain(model.register(decimals.register)))
     if dependencies.order is not None:
