@@ -186,7 +186,7 @@ def test_only_the_x100_and_x400_need_55aah_and_only_for_seven_words() -> None:
 
 
 def test_the_product_code_tells_an_x100_from_an_x400() -> None:
-    texts = {model: dict(each.texts) for each in _map("platinum-x100-x400").identity for model in each.models}
+    texts = {model: dict(each.identity.texts) for each in _map("platinum-x100-x400").identity for model in each.models}
     assert texts == {"X100": {"product_code": "X1"}, "X400": {"product_code": "X3"}}
 
 

@@ -344,7 +344,7 @@ class AthenaC10(_PlatinumC10M10, Device):
     map_sha256 = "ab993806776b36cd"
     protocol = _PROTOCOL
     _unused = _UNUSED
-    identity = (Identity((), (("product_code", "C1"),)),)
+    identity = (Identity((), texts=(("product_code", "C1"),)),)
     groups = PlatinumC10M10Groups
     commands = SubPart(PlatinumC10M10Commands, AsyncPlatinumC10M10Commands)
 
@@ -357,7 +357,7 @@ class AsyncAthenaC10(_PlatinumC10M10, AsyncDevice):
     map_sha256 = "ab993806776b36cd"
     protocol = _PROTOCOL
     _unused = _UNUSED
-    identity = (Identity((), (("product_code", "C1"),)),)
+    identity = (Identity((), texts=(("product_code", "C1"),)),)
     groups = PlatinumC10M10Groups
     commands = SubPart(PlatinumC10M10Commands, AsyncPlatinumC10M10Commands)
 
@@ -370,7 +370,7 @@ class AthenaM10(_PlatinumC10M10, Device):
     map_sha256 = "ab993806776b36cd"
     protocol = _PROTOCOL
     _unused = _UNUSED
-    identity = (Identity((), (("product_code", "C1"),)),)
+    identity = (Identity((), texts=(("product_code", "C1"),)),)
     groups = PlatinumC10M10Groups
     commands = SubPart(PlatinumC10M10Commands, AsyncPlatinumC10M10Commands)
 
@@ -383,6 +383,6 @@ class AsyncAthenaM10(_PlatinumC10M10, AsyncDevice):
     map_sha256 = "ab993806776b36cd"
     protocol = _PROTOCOL
     _unused = _UNUSED
-    identity = (Identity((), (("product_code", "C1"),)),)
+    identity = (Identity((), texts=(("product_code", "C1"),)),)
     groups = PlatinumC10M10Groups
     commands = SubPart(PlatinumC10M10Commands, AsyncPlatinumC10M10Commands)

@@ -424,7 +424,7 @@ class AthenaM300(_PlatinumM300, Device):
     map_sha256 = "1994b0d278eeb9b1"
     protocol = _PROTOCOL
     _unused = _UNUSED
-    identity = (Identity((), (("product_code", "M3"),)),)
+    identity = (Identity((), texts=(("product_code", "M3"),)),)
     groups = PlatinumM300Groups
     commands = SubPart(PlatinumM300Commands, AsyncPlatinumM300Commands)
 
@@ -437,6 +437,6 @@ class AsyncAthenaM300(_PlatinumM300, AsyncDevice):
     map_sha256 = "1994b0d278eeb9b1"
     protocol = _PROTOCOL
     _unused = _UNUSED
-    identity = (Identity((), (("product_code", "M3"),)),)
+    identity = (Identity((), texts=(("product_code", "M3"),)),)
     groups = PlatinumM300Groups
     commands = SubPart(PlatinumM300Commands, AsyncPlatinumM300Commands)

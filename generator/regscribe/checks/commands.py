@@ -3,20 +3,38 @@
 from bisect import bisect_left
 from collections.abc import Iterator
 from operator import attrgetter
+from typing import NamedTuple
 
 from regscribe.checks.addresses import LAST_ADDRESS, Stretch, stretches
 from regscribe.checks.rule import Finding, RuleScope, model_rule
-from regscribe.model import Command, Register, Related, Rule, Space, Step, View
+from regscribe.model import Command, CommandStep, Register, Related, Rule, Space, View
 
 ONE_VALUE = (5, 6)
 LONGEST = 125
 """Words of the longest value: no request reads more."""
 
 
-def requests(scope: RuleScope) -> Iterator[tuple[Command, Step]]:
-    """All steps of a model that are requests, with their commands."""
+class SentStep(NamedTuple):
+    """A step that is a request, its command, the path of the register that it names, and the space that is meant."""
+
+    command: Command
+    step: CommandStep
+    register: str
+    space: Space
+
+
+def requests(scope: RuleScope) -> Iterator[SentStep]:
+    """All steps of a model that are requests."""
     for command in scope.model.commands:
-        yield from ((command, step) for step in command.steps if step.words)
+        for step, path in command.named_steps:
+            if step.words:
+                yield SentStep(command, step, path, _space(step, path, scope))
+
+
+def _space(step: CommandStep, path: str, scope: RuleScope) -> Space:
+    """Where the register stands that a step names; without one, what the function of the step writes."""
+    views = scope.registers[path].views if path in scope.registers else ()
+    return next((view.space for view in views if view.address == step.address), step.space)
 
 
 def _at(command: Command, message: str, help_text: str, *related: Related) -> Finding:
@@ -33,14 +51,14 @@ def _stretches(space: Space, scope: RuleScope) -> list[Stretch]:
     return found if isinstance(found, list) else []
 
 
-def _last(step: Step) -> int:
+def _last(step: CommandStep) -> int:
     return step.address + len(step.words) - 1
 
 
-def touched(step: Step, scope: RuleScope) -> Iterator[Stretch]:
+def touched(step: CommandStep, space: Space, scope: RuleScope) -> Iterator[Stretch]:
     """The stretches of registers that a step writes to, in whole or in part."""
     last = _last(step)
-    every = _stretches(step.space, scope)
+    every = _stretches(space, scope)
     start = bisect_left(every, step.address - LONGEST, key=attrgetter("first"))
     for place in range(start, len(every)):
         stretch = every[place]
@@ -50,7 +68,7 @@ def touched(step: Step, scope: RuleScope) -> Iterator[Stretch]:
             yield stretch
 
 
-def _around(step: Step, scope: RuleScope) -> Iterator[View]:
+def _around(step: CommandStep, space: Space, scope: RuleScope) -> Iterator[View]:
     """A view of each rule for the region in which a step begins; the device knows these rules before any register."""
     if "regions" not in scope.memo:
         views = (view for register in scope.model.registers for view in register.views if view.region)
@@ -58,7 +76,7 @@ def _around(step: Step, scope: RuleScope) -> Iterator[View]:
     found = scope.memo["regions"]
     for view in found.values() if isinstance(found, dict) else ():
         region = view.region
-        if region and view.space is step.space and region[0] <= step.address <= region[1]:
+        if region and view.space is space and region[0] <= step.address <= region[1]:
             yield view
 
 
@@ -67,8 +85,8 @@ def _around(step: Step, scope: RuleScope) -> Iterator[View]:
 )
 def step_on_read_only(scope: RuleScope) -> Iterator[Finding]:
     """Look at the access of every register that a step touches."""
-    for command, step in requests(scope):
-        for stretch in touched(step, scope):
+    for command, step, _, space in requests(scope):
+        for stretch in touched(step, space, scope):
             if not stretch.register.access.writable:
                 register: Register = stretch.register
                 related = Related(f"`{register.path}` has access {register.access}", register.span)
@@ -81,14 +99,14 @@ def step_on_read_only(scope: RuleScope) -> Iterator[Finding]:
 )
 def step_by_another_function(scope: RuleScope) -> Iterator[Finding]:
     """Compare the function of a step with those of the views that it touches."""
-    for command, step in requests(scope):
-        for stretch in touched(step, scope):
+    for command, step, _, space in requests(scope):
+        for stretch in touched(step, space, scope):
             if stretch.view.functions and step.function not in stretch.view.functions:
                 related = Related(f"`{stretch.register.path}` takes {stretch}", stretch.register.span)
                 message = f"uses function {step.function:02d} at {stretch} of `{stretch.register.path}`, which is"
                 message = f"{message} by functions {list(stretch.view.functions)} only"
                 yield _at(command, message, "name another `view` or `function`, or correct `functions`", related)
-        for view in () if any(touched(step, scope)) else _around(step, scope):
+        for view in () if any(touched(step, space, scope)) else _around(step, space, scope):
             if not view.allows(step.function):
                 message = (
                     f"uses function {step.function:02d} at {step.address}, in the region of view {view.name}, which is"
@@ -106,25 +124,25 @@ def step_by_another_function(scope: RuleScope) -> Iterator[Finding]:
 )
 def step_into_the_middle(scope: RuleScope) -> Iterator[Finding]:
     """Compare the addresses of a step with the ends of the space, with reserved ones, and with those of values."""
-    for command, step in requests(scope):
+    for command, step, path, space in requests(scope):
         first, last = step.address, _last(step)
         if first < 0 or last > LAST_ADDRESS:
             yield _at(command, f"writes {first}..{last}, outside 0..{LAST_ADDRESS}", "correct the step's address")
         for word, found in (("reserved", scope.register_map.reserved), ("unused", scope.model.unused)):
-            for space, low, high in found:
-                if space is step.space and first <= high and last >= low:
+            for there, low, high in found:
+                if there is space and first <= high and last >= low:
                     message = f"writes {first}..{last}, but {low}..{high} are {word}"
                     yield _at(command, message, "correct the step's address")
-        for view in _around(step, scope):
+        for view in _around(step, space, scope):
             if first % view.align or len(step.words) % view.align:
                 message = (
                     f"writes {first}..{last} in the region of view {view.name}, where all is multiples of {view.align}"
                 )
                 yield _at(command, message, "correct the step's address and words, or `align`")
-        yield from _values_in_part(command, step, list(touched(step, scope)))
+        yield from _values_in_part(command, step, path, list(touched(step, space, scope)))
 
 
-def _values_in_part(command: Command, step: Step, found: list[Stretch]) -> Iterator[Finding]:
+def _values_in_part(command: Command, step: CommandStep, path: str, found: list[Stretch]) -> Iterator[Finding]:
     """Values of which a step writes a part, or more than the one that it names, or some beside what is no value."""
     first, last = step.address, _last(step)
     for stretch in found:
@@ -132,12 +150,12 @@ def _values_in_part(command: Command, step: Step, found: list[Stretch]) -> Itera
         if stretch.first < first or stretch.last > last:
             message = f"writes {first}..{last}, a part of `{stretch.register.path}` ({stretch}) only"
             yield _at(command, message, "write the whole value in one step", related)
-        elif stretch.register.path == step.register and stretch.last < last:
-            message = f"writes {first}..{last}, more than `{step.register}` ({stretch})"
+        elif stretch.register.path == path and stretch.last < last:
+            message = f"writes {first}..{last}, more than `{path}` ({stretch})"
             yield _at(command, message, "give as many words as the register has", related)
     covered = {address for stretch in found for address in range(stretch.first, stretch.last + 1)}
     bare = [address for address in range(first, last + 1) if address not in covered]
-    if covered and bare and not step.register:
+    if covered and bare and not path:
         message = f"writes {first}..{last}: registers, but at {bare[0]} there is none"
         yield _at(command, message, "correct the address or the words, or split the step")
 
@@ -148,8 +166,8 @@ def _values_in_part(command: Command, step: Step, found: list[Stretch]) -> Itera
 def step_too_long(scope: RuleScope) -> Iterator[Finding]:
     """Compare the words of a step with the limit, and with the one of functions 05 and 06."""
     protocol = scope.register_map.protocol
-    for command, step in requests(scope):
-        what, limit = ("bits", protocol.write_bits) if step.space.is_bits else ("words", protocol.write_words)
+    for command, step, _, space in requests(scope):
+        what, limit = ("bits", protocol.write_bits) if space.is_bits else ("words", protocol.write_words)
         most = 1 if step.function in ONE_VALUE else limit
         if len(step.words) > most:
             message = f"writes {len(step.words)} {what} by function {step.function:02d}, which takes {most} at most"
@@ -164,12 +182,12 @@ def step_too_long(scope: RuleScope) -> Iterator[Finding]:
 def step_function(scope: RuleScope) -> Iterator[Finding]:
     """Compare the function of a step with those of the protocol and with those that write its space."""
     has = scope.register_map.protocol.functions
-    for command, step in requests(scope):
+    for command, step, _, space in requests(scope):
         if step.function not in has:
             message = f"uses function {step.function:02d}, which `protocol.functions` {list(has)} lacks"
             yield _at(command, message, "correct one of them")
-        elif step.function not in (writing := step.space.write_functions):
-            message = f"uses function {step.function:02d}, which does not write space {step.space}"
+        elif step.function not in (writing := space.write_functions):
+            message = f"uses function {step.function:02d}, which does not write space {space}"
             help_text = f"use function {' or '.join(map(str, writing))}" if writing else "nothing writes that space"
             yield _at(command, message, help_text)
 
@@ -179,8 +197,8 @@ def step_function(scope: RuleScope) -> Iterator[Finding]:
 )
 def step_of_no_bits(scope: RuleScope) -> Iterator[Finding]:
     """Look for other numbers than 0 and 1 in steps that write coils."""
-    for command, step in requests(scope):
-        strange = [word for word in step.words if step.space.is_bits and word not in {0, 1}]
+    for command, step, _, space in requests(scope):
+        strange = [word for word in step.words if space.is_bits and word not in {0, 1}]
         if strange:
             message = f"writes {strange[0]} to a coil by function {step.function:02d}"
             yield _at(command, message, "write 1 for on (FF00 in a frame of function 05) and 0 for off")

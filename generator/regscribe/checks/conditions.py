@@ -91,7 +91,7 @@ def never_holds(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
 def _identities(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     for identity in scopes[0].register_map.identity:
         mine = [scope for scope in scopes if scope.model.name in identity.models]
-        unmet = [_unmet(identity, scope) for scope in mine]
+        unmet = [_unmet(identity.identity, scope) for scope in mine]
         if mine and all(unmet):
             message = f"`identify` for {', '.join(identity.models)} {unmet[0]}"
             yield Finding(MAP, mine[0].model.span, message, "compare the codes and texts with what the register can be")

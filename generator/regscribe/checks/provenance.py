@@ -4,23 +4,23 @@ from collections import Counter
 from collections.abc import Iterator
 
 from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule, register_rule, warning
-from regscribe.model import Condition, Register, Rule
+from regscribe.model import Identity, Register, Rule
 
 
 @map_rule(Rule("RS0494", "Models not told apart", "`identify` says for every model, once, how it answers."))
 def identification(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Count models and conditions of the identification, if the map has one."""
     register_map = scopes[0].register_map
-    conditions: set[tuple[Condition, tuple[tuple[str, str], ...]]] = set()
-    for identity in register_map.identity:
-        twice = [name for name, count in Counter(identity.models).items() if count > 1]
+    known: set[Identity] = set()
+    for rule in register_map.identity:
+        twice = [name for name, count in Counter(rule.models).items() if count > 1]
         if twice:
             yield Finding(MAP, register_map.span, f"`identify` lists {', '.join(twice)} twice at once", "remove one")
-        if (identity.when, identity.texts) in conditions:
-            message = f"`identify` has two entries of one condition (the second for {', '.join(identity.models)})"
+        if rule.identity in known:
+            message = f"`identify` has two entries of one condition (the second for {', '.join(rule.models)})"
             yield Finding(MAP, register_map.span, message, "list the models in one entry")
-        conditions.add((identity.when, identity.texts))
-    listed = {name for identity in register_map.identity for name in identity.models}
+        known.add(rule.identity)
+    listed = {name for rule in register_map.identity for name in rule.models}
     missing = [model.name for model in register_map.models if listed and model.name not in listed]
     if missing:
         yield Finding(MAP, register_map.span, f"`identify` does not say how to tell {', '.join(missing)}", "add them")

@@ -3,7 +3,7 @@
 from collections import defaultdict
 from collections.abc import Iterator
 
-from regscribe.checks.commands import touched
+from regscribe.checks.commands import requests, touched
 from regscribe.checks.rule import Finding, RuleScope, map_rule, model_rule, register_rule, warning
 from regscribe.model import Command, Group, Register, Related, Rule
 
@@ -101,8 +101,8 @@ def _written(command: str, scope: RuleScope) -> list[Register]:
     """The registers that the steps of a command write; worked out once for a model."""
     key = ("written", command)
     if key not in scope.memo:
-        steps = [step for one in scope.model.commands if one.id == command for step in one.steps if step.words]
-        scope.memo[key] = [stretch.register for step in steps for stretch in touched(step, scope)]
+        sent = [one for one in requests(scope) if one.command.id == command]
+        scope.memo[key] = [stretch.register for one in sent for stretch in touched(one.step, one.space, scope)]
     found = scope.memo[key]
     return found if isinstance(found, list) else []
 

@@ -23,12 +23,12 @@ from regscribe.model import (
     Case,
     Cases,
     Command,
+    CommandStep,
     Kind,
     Model,
     Range,
     Register,
     RegisterMap,
-    Step,
     View,
     always,
     show,
@@ -145,7 +145,7 @@ def _command_row(register_map: RegisterMap, model: Model, command: Command) -> R
     )
 
 
-def _written(requests: Iterable[Step]) -> dict[str, str]:
+def _written(requests: Iterable[CommandStep]) -> dict[str, str]:
     """Words by the address they go to; several requests to one address are joined by a comma."""
     written: dict[str, str] = {}
     for step in requests:

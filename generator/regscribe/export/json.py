@@ -10,7 +10,9 @@ from typing import Any
 from regscribe.emit.header import FORMAT
 from regscribe.model import (
     Array,
+    Command,
     FrameExample,
+    IdentityRule,
     Model,
     Register,
     RegisterMap,
@@ -76,6 +78,16 @@ def _fields(record: Any) -> dict[str, Json]:  # noqa: ANN401 (any dataclass or n
     return {name: _plain(getattr(record, name)) for name in names if name not in PLACES}
 
 
+def _command(command: Command) -> Json:
+    """A command with the register of each step and the space that the step writes."""
+    steps = [_fields(step) | {"register": path, "space": step.space.value} for step, path in command.named_steps]
+    return {key: value for key, value in _fields(command).items() if key != "step_registers"} | {"steps": steps}
+
+
+def _identity(rule: IdentityRule) -> Json:
+    return _fields(rule.identity) | {"models": list(rule.models)}
+
+
 def _example(example: Any) -> Json:  # noqa: ANN401 (one of the types in EXAMPLES)
     return {"type": EXAMPLES[type(example)]} | _fields(example)
 
@@ -85,6 +97,8 @@ WRITERS: dict[type, Callable[[Any], Json]] = {
     bytes: lambda frame: frame.hex(" ").upper(),
     tuple: lambda items: [_plain(item) for item in items],
     Model: _model,
+    Command: _command,
+    IdentityRule: _identity,
     **dict.fromkeys(EXAMPLES, _example),
 }
 """Types that are not written as an object of their fields."""

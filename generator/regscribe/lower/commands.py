@@ -9,7 +9,7 @@ from regscribe.lower.node import Value, elements_of, items_of, text_of, whole_of
 from regscribe.lower.presence import present
 from regscribe.lower.rules import UNKNOWN_VIEW
 from regscribe.lower.scope import Scope
-from regscribe.model import Command, Protocol, Register, Space, Step, View
+from regscribe.model import Command, CommandStep, Protocol, Register, Space, View
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,10 +32,12 @@ def commands_of(root: Value, device: CommandScope) -> tuple[Command, ...]:
 
 
 def _command(name: str, node: Value, device: CommandScope) -> Command:
+    steps = [_step(step, device) for step in elements_of(node, "steps")]
     return Command(
         id=identifier(node, label=name, given=None) if not name.isidentifier() else name,
         name=text_of(node, "name", name),
-        steps=tuple(_step(step, device) for step in elements_of(node, "steps")),
+        steps=tuple(step for step, _ in steps),
+        step_registers=tuple(path for _, path in steps),
         description=text_of(node, "description"),
         section=text_of(node, "source"),
         danger=text_of(node, "danger"),
@@ -44,24 +46,24 @@ def _command(name: str, node: Value, device: CommandScope) -> Command:
     )
 
 
-def _step(node: Value, device: CommandScope) -> Step:
+def _step(node: Value, device: CommandScope) -> tuple[CommandStep, str]:
+    """A step, and the path of the register that it names."""
     register = node.child("register")
     if node.child("wait"):
-        return Step(wait=whole_of(node, "wait"))
+        return CommandStep(0, 0, (), whole_of(node, "wait")), ""
     if register is None:
         words = unsigned(wholes_of(node, "words"))
         function = _function(node, len(words), None, device)
-        space = Space.COIL if function in Space.COIL.write_functions else Space.HOLDING
-        return Step(whole_of(node, "at"), words, function, space=space)
+        return CommandStep(function, whole_of(node, "at"), words), ""
     entry = device.scope.register(register)
     if entry is None:
-        return Step(register=register.text())
+        return CommandStep(0, 0, ()), register.text()
     target = device.registers[entry.path]
     view = view_of(node.child("view"), target) if node.child("view") else _written_view(target)
     value = node.child("value")
     words = words_of_value(value, target, view) if value else unsigned(wholes_of(node, "words"))
     function = _function(node, len(words), view, device)
-    return Step(view.address, words, function, register=entry.path, space=view.space)
+    return CommandStep(function, view.address, words), entry.path
 
 
 def _function(node: Value, count: int, view: View | None, device: CommandScope) -> int:

@@ -27,7 +27,7 @@ from regscribe.lower.scope import Scope, path_of
 from regscribe.lower.subject import subject_of
 from regscribe.lower.units import own_symbols
 from regscribe.lower.unused import look_at_tables
-from regscribe.model import Identity, Model, Protocol, RegisterMap
+from regscribe.model import Identity, IdentityRule, Model, Protocol, RegisterMap
 
 
 def map_of(root: Value) -> RegisterMap:
@@ -105,17 +105,17 @@ def _class_name(root: Value, node: Value, model: str) -> str:
     return text_of(node, "class") or f"{prefix}{letters_and_digits(model)}"
 
 
-def _identities(root: Value, scopes: list[Scope]) -> tuple[Identity, ...]:
+def _identities(root: Value, scopes: list[Scope]) -> tuple[IdentityRule, ...]:
     return tuple(identity for node in elements_of(root, "identify") for identity in _identity(node, scopes))
 
 
-def _identity(node: Value, scopes: list[Scope]) -> list[Identity]:
+def _identity(node: Value, scopes: list[Scope]) -> list[IdentityRule]:
     every = tuple(scope.model for scope in scopes)
     models = named_models(elements_of(node, "models"), every)
     mine = [scope for scope in scopes if scope.model in models]
     conditions = [condition(node.child("when"), scope) for scope in mine]
     texts = [_identity_texts(node.child("text"), scope) for scope in mine]
-    return [Identity(conditions[0], models, texts[0])] if conditions else []
+    return [IdentityRule(Identity(conditions[0], texts[0]), models)] if conditions else []
 
 
 def _identity_texts(node: Value | None, scope: Scope) -> tuple[tuple[str, str], ...]:

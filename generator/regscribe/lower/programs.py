@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from regscribe.lower.commands import CommandScope
 from regscribe.lower.conditions import condition
-from regscribe.lower.node import Value, elements_of, items_of, text_of
+from regscribe.lower.node import Value, elements_of, items_of, line_of, text_of
 from regscribe.lower.presence import present
 from regscribe.lower.program_registers import ProgramPlace, numbers_of
 from regscribe.lower.rules import UNKNOWN_COMMAND
@@ -20,7 +20,7 @@ from regscribe.model import (
     ProgramTimeUnit,
     SetpointProgram,
     WhileRunning,
-    Writable,
+    WriteCondition,
     numbered,
 )
 
@@ -81,7 +81,7 @@ def _run(node: Value, place: ProgramPlace, program: SetpointProgram) -> Setpoint
     return replace(
         program,
         enable=place.values(node.child("enable")),
-        requires=Writable(when, text_of(requires, "reason")) if requires and when else None,
+        requires=WriteCondition(when, line_of(requires, "reason")) if requires and when else None,
         status=_status(node.child("status"), place),
         segment_now=place.path(node, "segment_now"),
         program_now=place.path(node, "program_now"),

@@ -8,7 +8,7 @@ from regscribe.lower.enums import enum_of, fields_of
 from regscribe.lower.followed_values import followed_fields, follows_of, shadowed
 from regscribe.lower.governs import governs_of
 from regscribe.lower.idle_keys import report_idle
-from regscribe.lower.node import Value, text_of
+from regscribe.lower.node import Value, line_of, text_of
 from regscribe.lower.ranges import range_of
 from regscribe.lower.rules import NO_ACCESS, UNKNOWN_COMMAND
 from regscribe.lower.scales import NOT_STATED, Scaling, decimals_rule, scale_of
@@ -28,7 +28,7 @@ from regscribe.model import (
     Register,
     View,
     WireType,
-    Writable,
+    WriteCondition,
     always,
 )
 from regscribe.model.identifiers import has_mark, indexed
@@ -180,8 +180,8 @@ def _aliases(entry: TreeNode, base: View) -> tuple[int, ...]:
     return tuple(element.whole() + shift for element in node.elements()) if node else ()
 
 
-def _writable(node: Value | None, scope: Scope) -> Writable | None:
-    return Writable(condition(node.child("when"), scope), text_of(node, "reason")) if node else None
+def _writable(node: Value | None, scope: Scope) -> WriteCondition | None:
+    return WriteCondition(condition(node.child("when"), scope), line_of(node, "reason")) if node else None
 
 
 def _command(node: Value | None, scope: Scope) -> str:

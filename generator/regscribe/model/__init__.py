@@ -6,7 +6,6 @@ Nothing here knows YAML, templates or a device; every number that scales is a `F
 from regscribe.model.condition import ALWAYS, Case, Cases, CodeRange, Condition, Lookup, Test, always, registers_of
 from regscribe.model.diagnostic import Diagnostic, Related, Rule, Severity, Span
 from regscribe.model.faults import SILENCE, Faults, Later, ProtocolNotes
-from regscribe.model.governs import Governs, Setting
 from regscribe.model.map import (
     Command,
     Erratum,
@@ -14,7 +13,7 @@ from regscribe.model.map import (
     FrameExample,
     Given,
     GivenKind,
-    Identity,
+    IdentityRule,
     Library,
     Manual,
     Model,
@@ -22,7 +21,6 @@ from regscribe.model.map import (
     Outcome,
     Override,
     RegisterMap,
-    Step,
     TimingExample,
     ValueExample,
     Waiver,
@@ -40,7 +38,7 @@ from regscribe.model.program import (
     WhileRunning,
     numbered,
 )
-from regscribe.model.register import Array, Group, Inferred, Register, Writable
+from regscribe.model.register import Array, Group, Inferred, Register
 from regscribe.model.value import (
     IDENTITY,
     NAN,
@@ -61,6 +59,7 @@ from regscribe.model.value import (
     Units,
 )
 from regscribe.model.wire import OrderFromRegister, View
+from regscribe_runtime.values.facts import CommandStep, Governs, Identity, Setting, WriteCondition
 from regscribe_runtime.values.kinds import Access, Kind
 from regscribe_runtime.values.numbers import exact, parse, show
 from regscribe_runtime.values.protocol import ExceptionCode, Latency, Protocol, SerialDefaults
@@ -79,6 +78,7 @@ __all__ = [
     "Cases",
     "CodeRange",
     "Command",
+    "CommandStep",
     "Condition",
     "Conversion",
     "Decimals",
@@ -95,6 +95,7 @@ __all__ = [
     "Governs",
     "Group",
     "Identity",
+    "IdentityRule",
     "Inferred",
     "Interval",
     "Kind",
@@ -143,7 +144,6 @@ __all__ = [
     "Space",
     "Span",
     "Special",
-    "Step",
     "Test",
     "TimingExample",
     "Trip",
@@ -154,7 +154,7 @@ __all__ = [
     "Waiver",
     "WhileRunning",
     "WireType",
-    "Writable",
+    "WriteCondition",
     "always",
     "exact",
     "numbered",

@@ -4,7 +4,6 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from fractions import Fraction
 
-from regscribe.model.condition import Condition
 from regscribe.model.diagnostic import NOWHERE, Span
 from regscribe.model.faults import Faults, ProtocolNotes
 from regscribe.model.identifiers import ways_to_say
@@ -12,6 +11,7 @@ from regscribe.model.process import Effect, Process
 from regscribe.model.program import SetpointProgram
 from regscribe.model.register import Array, Group, Register
 from regscribe.model.value import Enum
+from regscribe_runtime.values.facts import CommandStep, Identity
 from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.wire_types import Space
 
@@ -54,28 +54,18 @@ class Given:
     span: Span = NOWHERE
 
 
-@dataclass(frozen=True, slots=True)
-class Step:
-    """One request of a command: words (bits of coils) to an address, or, without words, a wait in milliseconds."""
-
-    address: int = 0
-    words: tuple[int, ...] = ()
-    function: int = 16
-    wait: int = 0
-    register: str = ""
-    space: Space = Space.HOLDING
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Command:
     """A value or a sequence that makes the device act; `danger` says what may be lost (empty: harmless).
 
+    `step_registers` are the paths of the registers that the steps name, empty for a step that names none.
     `effects` are what it changes besides the words that it writes, one after the other.
     """
 
     id: str
     name: str
-    steps: tuple[Step, ...]
+    steps: tuple[CommandStep, ...]
+    step_registers: tuple[str, ...] = ()
     description: str = ""
     section: str = ""
     danger: str = ""
@@ -83,17 +73,18 @@ class Command:
     effects: tuple[Effect, ...] = ()
     span: Span = NOWHERE
 
+    @property
+    def named_steps(self) -> tuple[tuple[CommandStep, str], ...]:
+        """The steps, each with the path of the register that it names."""
+        return tuple(zip(self.steps, (*self.step_registers, *[""] * len(self.steps)), strict=False))
+
 
 @dataclass(frozen=True, slots=True)
-class Identity:
-    """Under `when`, the device is one of `models` (several: the answer does not tell them apart).
+class IdentityRule:
+    """What shows itself so is one of `models` (several: the answer does not tell them apart)."""
 
-    `texts` are further demands: (register, text) of string registers whose value must begin with the text.
-    """
-
-    when: Condition
+    identity: Identity
     models: tuple[str, ...]
-    texts: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -282,7 +273,7 @@ class RegisterMap:
     notations: tuple[Notation, ...] = ()
     givens: tuple[Given, ...] = ()
     reserved: tuple[tuple[Space, int, int], ...] = ()
-    identity: tuple[Identity, ...] = ()
+    identity: tuple[IdentityRule, ...] = ()
     errata: tuple[Erratum, ...] = ()
     examples: tuple[Example, ...] = ()
     waivers: tuple[Waiver, ...] = ()

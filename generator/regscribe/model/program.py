@@ -5,7 +5,8 @@ from enum import StrEnum
 from fractions import Fraction
 
 from regscribe.model.diagnostic import NOWHERE, Span
-from regscribe.model.register import Inferred, Writable
+from regscribe.model.register import Inferred
+from regscribe_runtime.values.facts import WriteCondition
 
 PROGRAM = "{i}"
 SEGMENT = "{j}"
@@ -127,7 +128,7 @@ class SetpointProgram:
     end: str = ""
     setpoint_limits: tuple[str, str] | None = None
     enable: tuple[tuple[str, Fraction], ...] = ()
-    requires: Writable | None = None
+    requires: WriteCondition | None = None
     status: ProgramStatus | None = None
     segment_now: str = ""
     program_now: str = ""

@@ -3,20 +3,12 @@
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from regscribe.model.condition import Cases, Condition, always
+from regscribe.model.condition import Cases, always
 from regscribe.model.diagnostic import NOWHERE, Span
-from regscribe.model.governs import Governs
 from regscribe.model.value import IDENTITY, BitField, Conversion, Enum, Range, Sentinel, Special
 from regscribe.model.wire import View
+from regscribe_runtime.values.facts import Governs, WriteCondition
 from regscribe_runtime.values.kinds import Access, Kind
-
-
-@dataclass(frozen=True, slots=True)
-class Writable:
-    """When a write is accepted: the condition and the manual's reason in own words."""
-
-    when: Condition
-    reason: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +63,7 @@ class Register:
     delivered: Fraction | str | None = None
     enum: Enum | None = None
     fields: tuple[BitField, ...] = ()
-    writable: Writable | None = None
+    writable: WriteCondition | None = None
     persistence: str = ""
     endurance: int | None = None
     rescales: str = ""

@@ -8,6 +8,7 @@ from regscribe.testing.compare import decoded, differs, encoded, expect_none, re
 from regscribe.testing.register_trial import Trial, known
 from regscribe.testing.vectors import Json, Vectors, number
 from regscribe_runtime.registers.register import Register
+from regscribe_runtime.values.facts import CommandStep
 
 WRITE_COIL, WRITE_COILS = 5, 15
 WRITE_ONE = (5, 6)
@@ -133,7 +134,7 @@ class DriverUnderTest:
             register = self._register(place["path"])
             for vector in entry.get("writable", ()) if register else ():
                 state, givens = known(vector)
-                when = register.writable[0] if register and register.writable else ()
+                when = register.writable.when if register and register.writable else ()
                 allowed = all(test.holds(state, givens) for test in when)
                 differences += differs(f"{place['path']} with {state}", "allowed", allowed, vector["allowed"])
         expect_none(differences)
@@ -210,8 +211,8 @@ def _declaration(register: Register[Any]) -> tuple[object, ...]:
     return (register.views, id(register.value_type), register.access, *scaling)
 
 
-def _step(step: Json) -> tuple[int, int, tuple[int, ...]]:
-    """Return a step of a command as the runtime has it: function 0 waits."""
+def _step(step: Json) -> CommandStep:
+    """Return a step of a command as the runtime has it."""
     if "wait" in step:
-        return 0, step["wait"], ()
-    return step["function"], step["address"], tuple(step["words"])
+        return CommandStep(0, 0, (), step["wait"])
+    return CommandStep(step["function"], step["address"], tuple(step["words"]))

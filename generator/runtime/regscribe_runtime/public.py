@@ -74,6 +74,7 @@ from regscribe_runtime.registers.value_types import (
     word_of,
 )
 from regscribe_runtime.report import Change, Count, Fate, Progress, Sent, Wear, WriteReport
+from regscribe_runtime.values.facts import CommandStep, Governs, Identity, Setting, WriteCondition
 from regscribe_runtime.values.programs import (
     ProgramAction,
     ProgramFinal,
@@ -85,8 +86,6 @@ from regscribe_runtime.values.protocol import ExceptionCode, Latency, Protocol, 
 from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.values.specs import (
     Conversion,
-    Governs,
-    Identity,
     Interval,
     Is,
     Limits,
@@ -114,6 +113,7 @@ __all__ = [
     "Choice",
     "ClientSettings",
     "Command",
+    "CommandStep",
     "ConditionNotMet",
     "Conversion",
     "Count",
@@ -165,6 +165,7 @@ __all__ = [
     "SerialLine",
     "SerialSettings",
     "SetpointProgram",
+    "Setting",
     "Snapshot",
     "Space",
     "SpecialNumber",
@@ -181,6 +182,7 @@ __all__ = [
     "Wear",
     "WireType",
     "Word",
+    "WriteCondition",
     "WriteFailed",
     "WriteOnly",
     "WriteReport",

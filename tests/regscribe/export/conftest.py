@@ -13,6 +13,7 @@ from regscribe.model import (
     Case,
     CodeRange,
     Command,
+    CommandStep,
     Condition,
     Conversion,
     Enum,
@@ -35,7 +36,6 @@ from regscribe.model import (
     Sentinel,
     Space,
     Special,
-    Step,
     Test,
     TimingExample,
     ValueExample,
@@ -140,7 +140,7 @@ def _model(name: str, *registers: Register) -> Model:
     command = Command(
         id="load_defaults",
         name="Load Defaults",
-        steps=(Step(address=7000, words=(85, 92)), Step(wait=2000), Step(address=7005, words=(1,), function=6)),
+        steps=(CommandStep(16, 7000, (85, 92)), CommandStep(0, 0, (), 2000), CommandStep(6, 7005, (1,))),
         danger="all settings are lost",
         section="7.2",
     )

@@ -3,6 +3,7 @@ from fractions import Fraction
 
 from regscribe.model import (
     SILENCE,
+    CommandStep,
     Erratum,
     ExceptionCode,
     Faults,
@@ -16,7 +17,6 @@ from regscribe.model import (
     RegisterMap,
     SerialDefaults,
     Space,
-    Step,
     TimingExample,
     ValueExample,
 )
@@ -100,7 +100,7 @@ def test_the_tables_about_the_manual_are_carried_over(lowered: Lowered) -> None:
     assert found.unit_symbols == ("lamps",)
     assert found.reserved == ((Space.HOLDING, 77, 79), (Space.INPUT, 5, 5))
     assert found.identity[0].models == ("B-2",)
-    assert found.identity[0].when.tests[0].codes[0].low == 1
+    assert found.identity[0].identity.when.tests[0].codes[0].low == 1
     assert found.errata == (Erratum("1.2", "five", "six", "The table says so."),)
     assert (found.waivers[0].rule, found.waivers[0].at, found.notes) == ("RS0423", "level", ("Nothing more.",))
 
@@ -129,16 +129,18 @@ def test_the_steps_of_a_command_become_words(lowered: Lowered) -> None:
     reset = found.model("A1").commands[0]
     assert (reset.id, reset.name, reset.danger) == ("reset", "Reset", "All settings are lost.")
     assert reset.steps == (
-        Step(7000, (85, 65535), 16),
-        Step(7000, (85,), 6),
-        Step(0, (1,), 6, register="kind"),
-        Step(2, (125,), 6, register="level"),
-        Step(4, (2, 1), 16, register="total"),
-        Step(6, (0x4049, 0x0E56), 16, register="ratio"),
-        Step(9, (1,), 15, register="relay", space=Space.COIL),
-        Step(120, (1,), 16),
-        Step(wait=2000),
+        CommandStep(16, 7000, (85, 65535)),
+        CommandStep(6, 7000, (85,)),
+        CommandStep(6, 0, (1,)),
+        CommandStep(6, 2, (125,)),
+        CommandStep(16, 4, (2, 1)),
+        CommandStep(16, 6, (0x4049, 0x0E56)),
+        CommandStep(15, 9, (1,)),
+        CommandStep(16, 120, (1,)),
+        CommandStep(0, 0, (), 2000),
     )
+    assert reset.step_registers == ("", "", "kind", "level", "total", "ratio", "relay", "", "")
+    assert reset.steps[6].space is Space.COIL
     assert [command.id for command in found.model("A1").commands] == ["reset"]
     assert [command.id for command in found.model("B-2").commands] == ["reset", "fan"]
 
@@ -160,15 +162,15 @@ def test_the_value_of_a_step_is_rounded_as_its_view_rounds_whatever_the_range_de
           go: {name: Go, steps: [{register: level, value: 12.5}, {register: level, value: 12.5, view: x10}]}
     """)
     assert found.models[0].commands[0].steps == (
-        Step(2, (13,), 6, register="level"),
-        Step(1002, (125,), 6, register="level"),
+        CommandStep(6, 2, (13,)),
+        CommandStep(6, 1002, (125,)),
     )
 
 
 def test_one_word_is_written_by_function_16_where_the_device_has_no_other(lowered: Lowered) -> None:
     command = "commands: {go: {name: Go, steps: [{at: 1, words: [1]}]}}\n"
     found = lowered(f"protocol: {{functions: [3, 16]}}\n{command}groups: [{{id: a, name: A, registers: []}}]\n")
-    assert found.models[0].commands[0].steps == (Step(1, (1,), 16),)
+    assert found.models[0].commands[0].steps == (CommandStep(16, 1, (1,)),)
 
 
 def test_value_examples_resolve_names_and_signs(lowered: Lowered) -> None:

@@ -14,6 +14,7 @@ from regscribe.model import (
     Cases,
     CodeRange,
     Command,
+    CommandStep,
     Condition,
     Conversion,
     Decimals,
@@ -22,6 +23,7 @@ from regscribe.model import (
     Given,
     GivenKind,
     Identity,
+    IdentityRule,
     Interval,
     Kind,
     Later,
@@ -42,11 +44,10 @@ from regscribe.model import (
     Sentinel,
     Space,
     Special,
-    Step,
     Test,
     View,
     WireType,
-    Writable,
+    WriteCondition,
     always,
 )
 from regscribe.pipeline import compile_map
@@ -164,10 +165,14 @@ def controller() -> RegisterMap:
         fraction("span", 12, scale=LINEAR_DIGITS, range=reduced(0, 9000)),
     )
     commands = (
-        Command(id="load_defaults", name="", steps=(Step(7000, (85, 92)),)),
-        Command(id="restart", name="", steps=(Step(7100, (1,), 6), Step(wait=10), Step(7101, (2,), 6))),
-        Command(id="reset_highest", name="", steps=(Step(4092, (-1999,), 6, register="highest"),)),
-        Command(id="unlock", name="", steps=(Step(4091, (26669,), 6, register="key"),)),
+        Command(id="load_defaults", name="", steps=(CommandStep(16, 7000, (85, 92)),)),
+        Command(
+            id="restart",
+            name="",
+            steps=(CommandStep(6, 7100, (1,)), CommandStep(0, 0, (), 10), CommandStep(6, 7101, (2,))),
+        ),
+        Command(id="reset_highest", name="", steps=(CommandStep(6, 4092, (-1999,)),), step_registers=("highest",)),
+        Command(id="unlock", name="", steps=(CommandStep(6, 4091, (26669,)),), step_registers=("key",)),
     )
     faults = Faults(
         function=SILENT,
@@ -188,12 +193,14 @@ def controller() -> RegisterMap:
         Model(name="16C", class_name="A16C", registers=registers, commands=commands),
         Model(name="25C", class_name="A25C", registers=registers, commands=commands),
     )
-    identity = tuple(Identity(when("controller_type", code), (name,)) for code, name in ((2, "16C"), (3, "25C")))
+    identity = tuple(
+        IdentityRule(Identity(when("controller_type", code)), (name,)) for code, name in ((2, "16C"), (3, "25C"))
+    )
     return family(models, protocol, identity=identity, default_unit=1, faults=faults)
 
 
-def _manual_only() -> Writable:
-    return Writable(when("controller_mode", 1), "only in manual mode")
+def _manual_only() -> WriteCondition:
+    return WriteCondition(when("controller_mode", 1), "only in manual mode")
 
 
 def affine(low: str, high: str) -> Conversion:
@@ -221,7 +228,7 @@ def affine_controller() -> RegisterMap:
         word("dp", 6, default=Fraction(1)),
         word("pv", 64, Kind.NUMBER, R, scale=process, aliases=(128,)),
         word("mode", 70, Kind.FIELDS, R, fields=mode),
-        word("mv1", 66, writable=Writable(when("mode", 3, field="operation"), "only in manual control")),
+        word("mv1", 66, writable=WriteCondition(when("mode", 3, field="operation"), "only in manual control")),
         word("version", 71, Kind.VERSION, R, version_digits=4, version_group=2, default="06.18"),
     )
     return family(

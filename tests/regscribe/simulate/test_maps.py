@@ -60,7 +60,7 @@ def test_every_default_of_the_manual_is_the_first_value_unless_it_is_delivered_w
 @pytest.mark.parametrize(("name", "model"), MODELS)
 def test_the_model_can_be_identified(name: str, model: str) -> None:
     device = simulated(name, model)
-    found = [one.models for one in FAMILIES[name].identity if device.state.holds(one.when)]
+    found = [one.models for one in FAMILIES[name].identity if device.state.holds(one.identity.when)]
     assert [model in models for models in found] == [True]
 
 

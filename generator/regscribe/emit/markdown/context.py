@@ -153,7 +153,7 @@ def _conditions(register_map: RegisterMap, nodes: Iterable[Node]) -> Iterator[tu
     for model, register in _versions(nodes):
         yield from ((model, condition) for condition in _conditions_of(register))
     for identity in register_map.identity:
-        yield register_map.models[0], identity.when
+        yield register_map.models[0], identity.identity.when
 
 
 def _conditions_of(register: Register) -> Iterator[Condition]:

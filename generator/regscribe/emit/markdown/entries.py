@@ -12,7 +12,7 @@ from regscribe.emit.markdown.process import effects
 from regscribe.emit.markdown.register_facts import facts, indices
 from regscribe.emit.outline import Branch, Leaf, Node, lettered
 from regscribe.emit.words import LETTERS, one_line
-from regscribe.model import Command, Group, Register, Step
+from regscribe.model import Command, CommandStep, Group, Register
 
 HEADING = "####"
 DOT = " · "
@@ -165,18 +165,18 @@ def _command(context: PageContext, shared: Merged[Command]) -> RegisterEntry:
             by_model(shared, lambda model, item: effects(context, model, item.effects)),
         ),
         danger=_paragraphs(by_model(shared, lambda _, item: prose(item.danger))),
-        tables=titled("Steps", STEPS, shared.states(lambda _, command: _steps(context, command.steps))),
+        tables=titled("Steps", STEPS, shared.states(lambda _, command: _steps(context, command.named_steps))),
     )
 
 
-def _steps(context: PageContext, steps: Sequence[Step]) -> Rows:
-    return tuple(_step(context, number, step) for number, step in enumerate(steps, start=1))
+def _steps(context: PageContext, steps: Sequence[tuple[CommandStep, str]]) -> Rows:
+    return tuple(_step(context, number, *each) for number, each in enumerate(steps, start=1))
 
 
-def _step(context: PageContext, number: int, step: Step) -> tuple[Md, ...]:
+def _step(context: PageContext, number: int, step: CommandStep, path: str) -> tuple[Md, ...]:
     if not step.words:
         return md(str(number)), md(f"wait {step.wait} ms"), *[Md()] * (len(STEPS) - 2)
-    register = context.register(step.register) if step.register else Md()
+    register = context.register(path) if path else Md()
     words = " ".join(map(str, step.words))
     hexadecimal = "" if step.space.is_bits else " ".join(f"{word & 0xFFFF:04X}" for word in step.words)
     cells = (str(number), "write", f"{step.function:02d}", str(step.address), register, words, hexadecimal)

@@ -9,7 +9,7 @@ from regscribe.emit.markdown.page_values import PageTable, Titled, table
 from regscribe.emit.markdown.register_facts import transmission, view_type
 from regscribe.emit.outline import leaves
 from regscribe.emit.words import Wording, condition_words, listed, one_line, span_words, when_words
-from regscribe.model import GivenKind, Identity, Kind, Register, View, show
+from regscribe.model import GivenKind, IdentityRule, Kind, Register, View, show
 
 Shape = tuple[tuple[str, View], ...]
 """Address formula in n (the base view's address) and the rest of each view, its address left out."""
@@ -135,7 +135,8 @@ def identity(context: PageContext) -> PageTable:
     return table(("If", "The device is"), ((Md(when), names) for when, names in rows))
 
 
-def _identity_words(item: Identity, wording: Wording) -> str:
+def _identity_words(rule: IdentityRule, wording: Wording) -> str:
+    item = rule.identity
     texts = [f"{wording.register(path)} begins with {wording.text(text)}" for path, text in item.texts]
     asked = [] if item.when.always and texts else [when_words(item.when, wording)]
     return " and ".join([*asked, *texts])

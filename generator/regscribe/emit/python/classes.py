@@ -179,15 +179,8 @@ class Classes:
 
     def _identity(self, model: Model) -> list[str]:
         specs = Specs(model, self.pool)
-        shown = [
-            call(
-                "Identity",
-                specs.when(one.when),
-                *([group([group([literal(path), literal(text)]) for path, text in one.texts])] if one.texts else []),
-            )
-            for one in self.register_map.identity
-            if model.name in one.models
-        ]
+        rules = [one for one in self.register_map.identity if model.name in one.models]
+        shown = [specs.value(one.identity) for one in rules]
         return lay(group(shown), head="identity = ", depth=1) if shown else []
 
 

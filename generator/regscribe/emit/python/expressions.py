@@ -174,13 +174,13 @@ class Specs:
 
     def governs(self, register: Register) -> Expression | None:
         """What a register sets of the line; None if it sets nothing of it."""
-        found = register.governs
-        if found is None:
+        if register.governs is None:
             return None
-        codes = mapping([(str(code), literal(value)) for code, value in found.codes]) if found.codes else None
-        since = literal(found.since) if found.since else None
-        governs = call("Governs", literal(found.setting), codes=codes, since=since)
-        return self.pool.maybe(governs, *names_of(register, "governs", self.model))
+        return self.pool.maybe(expression(register.governs), *names_of(register, "governs", self.model))
+
+    def value(self, value: object) -> Expression:
+        """A value of the vocabulary with the conditions in it."""
+        return expression(value, lambda one: self.when(one) if isinstance(one, Condition) else None)
 
     def views(self, register: Register) -> str:
         """The name of the constant that holds a register's view set."""

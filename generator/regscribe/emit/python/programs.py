@@ -18,7 +18,6 @@ from regscribe.model import (
     ProgramTimeUnit,
     SetpointProgram,
     WhileRunning,
-    Writable,
 )
 
 
@@ -55,7 +54,7 @@ def _program(program: SetpointProgram, specs: Specs) -> Call:
         time_unit=_time_unit(program.time_unit) if program.time_unit else None,
         setpoint_limits=group([*map(literal, program.setpoint_limits)]) if program.setpoint_limits else None,
         enable=_values(program.enable) if program.enable else None,
-        requires=_requires(program.requires, specs) if program.requires else None,
+        requires=specs.value(program.requires) if program.requires else None,
         status=_status(program.status) if program.status else None,
         **actions,
         while_running=literal(program.while_running.value) if told else None,
@@ -92,10 +91,6 @@ def _values(values: Sequence[tuple[str, Fraction]]) -> Call:
 def _time_unit(unit: ProgramTimeUnit) -> Call:
     codes = group([group([str(code), literal(symbol)]) for code, symbol in unit.codes])
     return group([literal(unit.register), codes])
-
-
-def _requires(requires: Writable, specs: Specs) -> Call:
-    return group([specs.when(requires.when), literal(one_line(requires.reason))])
 
 
 def _status(status: ProgramStatus) -> Call:

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 
 from regscribe.emit.python.constants import Pool, names_of
 from regscribe.emit.python.enum_classes import NamedClasses, enum_content, special_content, specials, word_content
-from regscribe.emit.python.expressions import Specs
+from regscribe.emit.python.expressions import Specs, expression
 from regscribe.emit.python.formatting import Call, Expression, call, group, lay, mapping
 from regscribe.emit.python.literals import docstring, exact, literal, plain
 from regscribe.emit.words import listed, one_line, range_words
-from regscribe.model import Access, Command, Kind, NotANumber, Register, Sentinel, Step, show
+from regscribe.model import Access, Command, Kind, NotANumber, Register, Sentinel, show
 
 DESCRIPTORS = {Access.READ: "ReadOnly", Access.READ_WRITE: "ReadWrite", Access.WRITE: "WriteOnly"}
 
@@ -59,8 +59,7 @@ class Declarations:
     def _writable(self, register: Register) -> str | None:
         if register.writable is None:
             return None
-        told = [self.specs.when(register.writable.when), literal(one_line(register.writable.reason))]
-        return self._share(register, "writable", group(told))
+        return self._share(register, "writable", self.specs.value(register.writable))
 
     def _share(self, register: Register, use: str, expression: Expression) -> str:
         return self.specs.pool.share(expression, *names_of(register, use, self.specs.model))
@@ -147,15 +146,9 @@ def range_text(register: Register) -> str:
 
 def command_call(command: Command, pool: Pool) -> Call:
     """The declaration of a command."""
-    steps = (_step(step) for step in command.steps)
+    steps = (expression(step) for step in command.steps)
     danger = pool.maybe(literal(one_line(command.danger)), f"{command.id}_danger") if command.danger else None
     return call("Command", *steps, danger=danger)
-
-
-def _step(step: Step) -> Call:
-    if not step.words:
-        return group(["0", str(step.wait), "()"])
-    return group([str(step.function), str(step.address), group([str(word) for word in step.words])])
 
 
 def command_text(command: Command) -> str:

@@ -3,7 +3,7 @@
 import json
 from typing import Any
 
-from regscribe.model import Command, RegisterMap, Step
+from regscribe.model import Command, CommandStep, RegisterMap
 
 Json = dict[str, Any]
 
@@ -36,7 +36,7 @@ def _command(command: Command) -> Json:
     return {"id": command.id, "danger": bool(command.danger), "steps": [_step(step) for step in command.steps]}
 
 
-def _step(step: Step) -> Json:
+def _step(step: CommandStep) -> Json:
     if not step.words:
         return {"wait": step.wait}
     return {"function": step.function, "address": step.address, "words": [word & 0xFFFF for word in step.words]}

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
-from regscribe.model import Command, Space, Step
+from regscribe.model import Command, CommandStep, Space
 
 
 class Commands:
@@ -39,7 +39,7 @@ class Commands:
         self._progress = dict.fromkeys(self._commands, 0)
         self.since_power.clear()
 
-    def _steps(self) -> Iterator[Step]:
+    def _steps(self) -> Iterator[CommandStep]:
         return (step for steps in self._commands.values() for step in steps)
 
     def _advance(self, space: Space, address: int, words: Sequence[int]) -> Iterator[str]:
@@ -53,6 +53,6 @@ class Commands:
                 self._progress[name] = 1
 
 
-def _matches(step: Step, space: Space, address: int, words: Sequence[int]) -> bool:
+def _matches(step: CommandStep, space: Space, address: int, words: Sequence[int]) -> bool:
     same_place = step.space is space and step.address == address
     return same_place and tuple(word & 0xFFFF for word in step.words) == tuple(words)

@@ -34,13 +34,13 @@ def initial_value(register_map: RegisterMap, model: Model, register: Register, s
 
 def _initial_text(register_map: RegisterMap, model: Model, register: Register) -> str:
     mine = [each for each in register_map.identity if model.name in each.models]
-    shown = [text for each in mine for path, text in each.texts if path == register.path]
+    shown = [text for each in mine for path, text in each.identity.texts if path == register.path]
     return next((text for text in (*shown, register.delivered, register.default) if isinstance(text, str)), "")
 
 
 def _identifying_tests(register_map: RegisterMap, model: Model, register: Register) -> tuple[Test, ...]:
     identity = next((each for each in register_map.identity if model.name in each.models), None)
-    tests = identity.when.tests if identity else ()
+    tests = identity.identity.when.tests if identity else ()
     return tuple(test for test in tests if test.register == register.path and test.codes and not test.negated)
 
 

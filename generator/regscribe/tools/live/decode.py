@@ -10,6 +10,7 @@ from regscribe.tools.live.value_text import Plain, as_text, show
 from regscribe_runtime import Register, RegscribeError, View
 from regscribe_runtime.errors import STANDARD
 from regscribe_runtime.registers import codec
+from regscribe_runtime.values.facts import CommandStep
 from regscribe_runtime.wire.capture import CapturedFrame
 from regscribe_runtime.wire.pdu import EXCEPTION_BIT, MalformedError, decode_reply, decode_request
 from regscribe_runtime.wire.requests import (
@@ -141,7 +142,7 @@ class Decoder:
             return "read the exception status"
         space, end = SPACES[asked.function], asked.address + asked.quantity - 1
         where = f"{space} {asked.address}" + (f" to {end}" if end > asked.address else "")
-        step = (asked.function, asked.address, asked.words)
+        step = CommandStep(asked.function, asked.address, asked.words)
         acts = [name for name, command in commands_of(self.driver).items() if step in command.steps]
         told = f" (command {' or '.join(acts)})" if acts else ""
         return f"{'write' if asked.function in WRITES else 'read'} {where}{told}"

@@ -22,9 +22,9 @@ from regscribe_runtime.operations.session import Session
 from regscribe_runtime.operations.snapshot import Snapshot
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.report import Wear, WriteReport
+from regscribe_runtime.values.facts import Identity
 from regscribe_runtime.values.programs import SetpointProgram
 from regscribe_runtime.values.protocol import Protocol
-from regscribe_runtime.values.specs import Identity
 from regscribe_runtime.values.wire_types import Space
 
 T = TypeVar("T")

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar, overload
 from regscribe_runtime.operations import tasks
 from regscribe_runtime.operations.snapshot import Snapshot
 from regscribe_runtime.registers.register import Register
+from regscribe_runtime.values.facts import CommandStep
 
 if TYPE_CHECKING:
     from regscribe_runtime.driver.device import AsyncBareDevice, BareDevice
@@ -236,9 +237,9 @@ class _AsyncBoundCommand:
 
 
 class Command:
-    """Requests that make the device act: steps (function, address, words); function 0 waits `address` milliseconds."""
+    """Requests that make the device act, one after the other."""
 
-    def __init__(self, *steps: tuple[int, int, tuple[int, ...]], danger: str = "") -> None:
+    def __init__(self, *steps: CommandStep, danger: str = "") -> None:
         self.steps, self.danger, self.id = steps, danger, ""
 
     def __set_name__(self, owner: type, name: str) -> None:

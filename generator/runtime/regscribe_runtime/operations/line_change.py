@@ -13,6 +13,7 @@ from regscribe_runtime.operations.read import read_request
 from regscribe_runtime.operations.read_back import Target, differs, is_lost, meaning, same, words_of
 from regscribe_runtime.operations.session import Operation, Pause, Session
 from regscribe_runtime.operations.write_request import applied, called, send
+from regscribe_runtime.values.facts import Governs, Setting
 from regscribe_runtime.values.kinds import Kind
 from regscribe_runtime.values.numbers import brief
 from regscribe_runtime.values.serial_line import ADDRESSINGS, PARITIES, LineChange
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 
     from regscribe_runtime.registers.register import Register
     from regscribe_runtime.report import Words
-    from regscribe_runtime.values.specs import Governs, State
+    from regscribe_runtime.values.specs import State
 
 MARKS = frozenset({Kind.STRING, Kind.VERSION})
 """Kinds of registers whose words tell a device: they do not change, and no neighbour holds the same."""
@@ -48,7 +49,7 @@ class _Move(NamedTuple):
 def allowed(session: Session, target: Target, words: Words, state: State) -> None:
     """Refuse a unit id at which no such device can be reached: ValueRefused, before anything is sent."""
     register, view = target
-    if not register.governs or register.governs.setting != "address":
+    if not register.governs or register.governs.setting is not Setting.ADDRESS:
         return
     value = meaning(register, view, words, state, session, named=False)
     low, high = session.protocol.unit_ids
@@ -69,7 +70,7 @@ def follow(session: Session, target: Target, words: Words, state: State) -> Oper
     new = list(_meant(governs, value)) or list(_guesses(session, governs))
     session.home = old
     yield from _free(session, target, governs, words, old)
-    marks = (yield from _marks(session)) if governs.setting == "addressing" else {}
+    marks = (yield from _marks(session)) if governs.setting is Setting.ADDRESSING else {}
     cause = yield from _told(session, target, words, governs)
     move = _Move(register, target, words, state, old, marks)  # pyright: ignore[reportArgumentType] # a register is a descriptor, but no attribute of this tuple
     yield from _found(session, move, [] if governs.since == LATER else new, cause, called(value))
@@ -85,16 +86,16 @@ def _present(session: Session) -> LineChange:
 
 def _meant(governs: Governs, code: Any) -> Iterator[LineChange]:
     """What a code of the register, a value of use, sets; nothing where the manual does not print it."""
-    if governs.setting == "address":
+    if governs.setting is Setting.ADDRESS:
         yield LineChange(unit=int(code))
-    elif code in governs.codes:
-        yield _tuned(governs.setting, governs.codes[code])
+    elif (text := governs.value(code)) is not None:
+        yield _tuned(governs.setting, text)
 
 
-def _tuned(setting: str, text: str) -> LineChange:
-    if setting == "format":
+def _tuned(setting: Setting, text: str) -> LineChange:
+    if setting is Setting.FORMAT:
         return LineChange(data_bits=int(text[0]), parity=text[1], stop_bits=int(text[2]))
-    value: Any = text if setting in {"parity", "addressing"} else int(text)
+    value: Any = text if setting in {Setting.PARITY, Setting.ADDRESSING} else int(text)
     return LineChange(**{setting: value})
 
 
@@ -102,19 +103,19 @@ def _guesses(session: Session, governs: Governs) -> Iterator[LineChange]:
     """All that a setting may become where the manual does not print its codes."""
     protocol = session.protocol
     others = {
-        "baud": tuple(map(str, protocol.serial.bauds)),
-        "parity": PARITIES,
-        "format": protocol.serial.formats,
-        "addressing": tuple(ADDRESSINGS),
+        Setting.BAUD: tuple(map(str, protocol.serial.bauds)),
+        Setting.PARITY: PARITIES,
+        Setting.FORMAT: protocol.serial.formats,
+        Setting.ADDRESSING: tuple(ADDRESSINGS),
     }
-    if session.line is not None or governs.setting == "addressing":
+    if session.line is not None or governs.setting is Setting.ADDRESSING:
         yield from (_tuned(governs.setting, text) for text in others.get(governs.setting, ()))
 
 
 def _free(session: Session, target: Target, governs: Governs, words: Words, old: LineChange) -> Operation[None]:
     """Refuse a unit id at which another device answers: two at one id garble each other."""
     register, _ = target
-    if governs.setting != "address" or _meant_unit(target, words, session) == session.unit:
+    if governs.setting is not Setting.ADDRESS or _meant_unit(target, words, session) == session.unit:
         return
     unit = _meant_unit(target, words, session)
     request = read_request(register, register.seen_in(target[1]))

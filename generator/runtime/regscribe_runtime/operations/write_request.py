@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from regscribe_runtime.driver.parts import Command
     from regscribe_runtime.registers.register import Register
     from regscribe_runtime.report import Words
+    from regscribe_runtime.values.facts import CommandStep
     from regscribe_runtime.values.specs import Givens, Is, State, View
 
 EEPROM = frozenset({"eeprom", "both"})
@@ -78,7 +79,7 @@ def called(value: Any) -> str:
 
 def condition_needs(register: Register[Any]) -> tuple[str, ...]:
     """The registers that decide whether it can be written."""
-    return tuple(test.register for test in register.writable[0] if test.register) if register.writable else ()
+    return tuple(test.register for test in register.writable.when if test.register) if register.writable else ()
 
 
 def run(command: Command, *, confirm: bool) -> Task[None]:
@@ -96,13 +97,12 @@ def run(command: Command, *, confirm: bool) -> Task[None]:
     return task
 
 
-def _step(session: Session, command: Command, number: int, step: tuple[int, int, Words]) -> Operation[None]:
-    function, address, words = step
-    if not function:
-        yield Pause(address / 1000)
+def _step(session: Session, command: Command, number: int, step: CommandStep) -> Operation[None]:
+    if not step.words:
+        yield Pause(step.wait / 1000)
         return
     try:
-        yield from session.exchange(Request(function, address, len(words), words))
+        yield from session.exchange(Request(step.function, step.address, len(step.words), step.words))
     except RegscribeError as error:
         if not is_lost(error):
             raise

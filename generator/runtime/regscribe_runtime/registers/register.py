@@ -15,13 +15,13 @@ from regscribe_runtime.driver.attributes import (
 from regscribe_runtime.errors import ValueRefused
 from regscribe_runtime.registers import codec, element
 from regscribe_runtime.registers.value_types import ValueType
+from regscribe_runtime.values.facts import Governs, WriteCondition
 from regscribe_runtime.values.kinds import Access
 from regscribe_runtime.values.specs import (
     SAME,
     Cases,
     Conversion,
     Givens,
-    Governs,
     Limits,
     Ref,
     State,
@@ -67,7 +67,7 @@ class Register(Generic[T]):
         section: str = "",
         sentinels: Sentinels = (),
         aliases: tuple[int, ...] = (),
-        writable: tuple[When, str] | None = None,
+        writable: WriteCondition | None = None,
         persistence: str = "",
         unlock: str = "",
         apply: str = "",

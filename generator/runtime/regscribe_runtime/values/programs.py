@@ -6,7 +6,8 @@ A path has `{i}` for the number of the program and `{j}` for that of the segment
 
 from typing import NamedTuple
 
-from regscribe_runtime.values.specs import Text, When
+from regscribe_runtime.values.facts import WriteCondition
+from regscribe_runtime.values.specs import Text
 
 PARTS = ("time_unit", "power_failure", "holdback", "end", "cycles", "segments", "final", "count", "enable")
 """The parts of a program in the order in which they are written, unless the device asks for another one."""
@@ -85,7 +86,7 @@ class SetpointProgram(NamedTuple):
     end: str = ""
     setpoint_limits: tuple[str, str] | None = None
     enable: Values = ()
-    requires: tuple[When, str] | None = None
+    requires: WriteCondition | None = None
     status: ProgramStates | None = None
     segment_now: str = ""
     program_now: str = ""

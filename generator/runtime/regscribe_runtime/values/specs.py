@@ -3,7 +3,6 @@
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from functools import cache
-from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from regscribe_runtime.errors import NotDecodable
@@ -54,22 +53,6 @@ class Is(NamedTuple):
 
 When = tuple[Is, ...]
 """Tests that must all hold; none: always."""
-
-
-class Identity(NamedTuple):
-    """How a device shows its model: all tests hold, and each text register begins with the text beside it."""
-
-    when: When = ()
-    texts: tuple[tuple[str, str], ...] = ()
-
-    def registers(self) -> tuple[str, ...]:
-        """The registers that must be read."""
-        return tuple(dict.fromkeys([test.register for test in self.when] + [path for path, _ in self.texts]))
-
-    def fits(self, state: State) -> bool:
-        """Tell whether the values read are those of the model."""
-        told = all(str(state[path]).startswith(text) for path, text in self.texts)
-        return told and all(test.holds(state, {}) for test in self.when)
 
 
 class Conversion(NamedTuple):
@@ -196,19 +179,6 @@ class View(NamedTuple):
         if code not in self.order.codes:
             raise NotDecodable(register, f"{self.order.register} is {code}, which sets no word order")
         return self.order.codes[code]
-
-
-class Governs(NamedTuple):
-    """What a register sets of the line: address, baud, parity, data_bits, stop_bits, format or addressing.
-
-    `codes` has what each code of the register sets, as text ("9600", "E", "8N1", "jbus"); of an address the value
-    itself counts. Empty where the manual does not print them. `since` is at_once (the answer to the write is lost),
-    after_answer, apply, restart, or empty where the manual does not say.
-    """
-
-    setting: str
-    codes: Mapping[int, str] = MappingProxyType({})
-    since: str = ""
 
 
 def word(view_type: WireType, **more: Any) -> tuple[View, ...]:

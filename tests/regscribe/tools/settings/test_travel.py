@@ -89,7 +89,7 @@ def test_what_one_device_was_set_to_another_of_its_model_holds_after_a_restore(
 def applies(bench: Any, request: bytes) -> bool:
     commands = type(bench.driver).commands.commands().values() if hasattr(type(bench.driver), "commands") else ()
     steps = [step for command in commands for step in command.steps]
-    return any(request[0] == function and request[1:3] == address.to_bytes(2) for function, address, _ in steps)
+    return any(request[0] == step.function and request[1:3] == step.address.to_bytes(2) for step in steps)
 
 
 CHANGES = {
