@@ -160,9 +160,9 @@ def test_the_access_level_is_delivered_as_5_and_6_after_loading_the_defaults(dev
 @pytest.mark.parametrize(("path", "model"), [(path, model) for path, model, _ in COMPACT], ids=IDS)
 def test_texts_that_both_maps_share_cite_no_section_of_one_manual(path: str, model: str) -> None:
     one = find_map(path).model(model)
-    inferred = [part for owner in (*one.registers, *one.programs) for part in owner.inferred]
+    inferred = [part for owner in (*one.registers, *one.program_notes) for part in owner.inferred]
     texts = [
-        *(owner.description for owner in (*one.registers, *one.commands, *one.programs, *one.groups)),
+        *(owner.description for owner in (*one.registers, *one.commands, *one.program_notes, *one.groups)),
         *(text for part in inferred for text in (part.what, part.why)),
     ]
     assert inferred

@@ -26,7 +26,7 @@ def _written(program: SetpointProgram) -> Iterator[Role]:
     yield from ((f"segments.outputs.{name}", path, CHOICES) for name, path in segments.outputs)
     yield "final.setpoint", final.setpoint if final else "", NUMBERS
     yield from ((f"final.outputs.{name}", path, CHOICES) for name, path in (final.outputs if final else ()))
-    yield "count", program.count, WHOLE
+    yield "count", program.number_of_segments, WHOLE
     yield "cycles", program.cycles, WHOLE
     yield "time_unit", program.time_unit.register if program.time_unit else "", ENUM
     yield "holdback", program.holdback, NUMBERS
@@ -55,8 +55,9 @@ def _register(path: str, program: SetpointProgram, scope: RuleScope) -> Register
     return scope.registers.get(numbered(path, program.numbers[0], program.segments.first)) if path else None
 
 
-def _at(program: SetpointProgram, message: str, help_text: str, *related: Related) -> Finding:
-    return Finding(program.id, program.span, f"program `{program.id}` {message}", help_text, related)
+def _at(program: SetpointProgram, scope: RuleScope, message: str, help_text: str, *related: Related) -> Finding:
+    notes = scope.model.program_notes[scope.model.programs.index(program)]
+    return Finding(program.id, notes.span, f"program `{program.id}` {message}", help_text, related)
 
 
 def _here(register: Register) -> Related:
@@ -73,12 +74,14 @@ def not_writable(scope: RuleScope) -> Iterator[Finding]:
             register = _register(path, program, scope)
             if register and not (register.access.writable and register.access.readable):
                 message = f"has `{role}` in `{register.path}`, which has access {register.access}"
-                yield _at(program, message, "name a register with access rw, or correct its access", _here(register))
+                yield _at(
+                    program, scope, message, "name a register with access rw, or correct its access", _here(register)
+                )
         for role, path, _ in _watched(program):
             register = _register(path, program, scope)
             if register and not register.access.readable:
                 message = f"has `{role}` in `{register.path}`, which can only be written"
-                yield _at(program, message, "name a register that can be read", _here(register))
+                yield _at(program, scope, message, "name a register that can be read", _here(register))
 
 
 @model_rule(
@@ -94,7 +97,7 @@ def wrong_kind(scope: RuleScope) -> Iterator[Finding]:
             if register and register.kind not in kinds:
                 message = f"has `{role}` in `{register.path}`, which is of kind {register.kind}"
                 wanted = " or ".join(sorted(kinds))
-                yield _at(program, message, f"name a register of kind {wanted}", _here(register))
+                yield _at(program, scope, message, f"name a register of kind {wanted}", _here(register))
 
 
 @model_rule(
@@ -113,7 +116,9 @@ def states(scope: RuleScope) -> Iterator[Finding]:
             if told[code] != 1:
                 how = "in no state" if not told[code] else "in two states"
                 message = f"has {code} ({label}) of `{register.path}` {how}"
-                yield _at(program, message, "list it under one of `running`, `held` and `ended`", _here(register))
+                yield _at(
+                    program, scope, message, "list it under one of `running`, `held` and `ended`", _here(register)
+                )
 
 
 @model_rule(
@@ -128,13 +133,13 @@ def times(scope: RuleScope) -> Iterator[Finding]:
             lacking = [one.label for one in register.enum.members if one.code not in dict(unit.codes)]
             if lacking:
                 message = f"has no unit of time for {', '.join(lacking)} of `{register.path}`"
-                yield _at(program, message, "list every member under `time_unit.codes`", _here(register))
+                yield _at(program, scope, message, "list every member under `time_unit.codes`", _here(register))
         for path in (program.segments.ramp, program.segments.soak):
             time = _register(path, program, scope)
             if time and not unit and not all(case.then in UNITS for case in time.unit):
                 message = f"has times in `{time.path}`, which has no unit of time"
                 advice = f"give the register a `unit` of {', '.join(UNITS)}, or the program a `time_unit`"
-                yield _at(program, message, advice, _here(time))
+                yield _at(program, scope, message, advice, _here(time))
 
 
 @model_rule(
@@ -145,14 +150,14 @@ def times(scope: RuleScope) -> Iterator[Finding]:
 def too_many(scope: RuleScope) -> Iterator[Finding]:
     """Compare the range of the number of segments with the array."""
     for program in scope.model.programs:
-        register = _register(program.count, program, scope)
+        register = _register(program.number_of_segments, program, scope)
         if register is None:
             continue
         most = max((_high(one.high) for case in register.range for one in case.then.intervals), default=0)
-        room = program.segments.count - (program.counts is ProgramCounts.AFTER_FIRST)
+        room = program.segments.many - (program.counts is ProgramCounts.AFTER_FIRST)
         if most > room:
             message = f"may have {most} segments by the range of `{register.path}`, but there are {room}"
-            yield _at(program, message, "correct the range, or `repeat` of the array", _here(register))
+            yield _at(program, scope, message, "correct the range, or `repeat` of the array", _here(register))
 
 
 def _high(limit: Limit) -> int:

@@ -63,7 +63,10 @@ def _map(register_map: RegisterMap) -> Json:
 
 
 def _model(model: Model) -> Json:
-    return _fields(model) | {"members": [_tree(member) for member in model.members]}
+    known = zip(model.programs, model.program_notes, strict=True)
+    programs = [_fields(program) | _fields(notes) for program, notes in known]
+    facts = {key: value for key, value in _fields(model).items() if key != "program_notes"}
+    return facts | {"members": [_tree(member) for member in model.members], "programs": programs}
 
 
 def _tree(member: Register | Array) -> Json:

@@ -84,6 +84,7 @@ def _product(root: Value, scope: Scope, bundles: list[Bundle], protocol: Protoco
     device = CommandScope(scope, by_path, protocol)
     commands = commands_of(root, device)
     node = next(node for name, node in items_of(root, "models") if name == scope.model)
+    programs = programs_of(root, device)
     model = Model(
         name=scope.model,
         class_name=_class_name(root, node, scope.model),
@@ -92,7 +93,8 @@ def _product(root: Value, scope: Scope, bundles: list[Bundle], protocol: Protoco
         registers=registers,
         groups=groups_of(bundles, root),
         commands=commands,
-        programs=programs_of(root, device),
+        programs=tuple(program for program, _ in programs),
+        program_notes=tuple(notes for _, notes in programs),
         process=process_of(root.child("process"), scope),
         unused=unused_of(root, scope.model, scope.models),
         span=node.key_span,

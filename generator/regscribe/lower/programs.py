@@ -1,7 +1,5 @@
 """Setpoint programs: the names of registers become paths in which the numbers of program and segment are left open."""
 
-from dataclasses import replace
-
 from regscribe.lower.commands import CommandScope
 from regscribe.lower.conditions import condition
 from regscribe.lower.node import Value, elements_of, items_of, line_of, text_of
@@ -14,9 +12,10 @@ from regscribe.model import (
     ProgramAction,
     ProgramCounts,
     ProgramFinal,
+    ProgramNotes,
     ProgramPart,
     ProgramSegments,
-    ProgramStatus,
+    ProgramStates,
     ProgramTimeUnit,
     SetpointProgram,
     WhileRunning,
@@ -25,13 +24,21 @@ from regscribe.model import (
 )
 
 
-def programs_of(root: Value, device: CommandScope) -> tuple[SetpointProgram, ...]:
-    """The setpoint programs that a model has."""
+def programs_of(root: Value, device: CommandScope) -> tuple[tuple[SetpointProgram, ProgramNotes], ...]:
+    """The setpoint programs that a model has, each with its notes."""
     scope = device.scope
     return tuple(
-        _program(name, node, scope)
+        (_program(name, node, scope), _notes(node))
         for name, node in items_of(root, "programs")
         if scope.model in present(node, scope.models, scope.models)
+    )
+
+
+def _notes(node: Value) -> ProgramNotes:
+    return ProgramNotes(
+        description=text_of(node, "description"),
+        inferred=tuple(Inferred(text_of(one, "what"), text_of(one, "why")) for one in elements_of(node, "inferred")),
+        span=node.key_span,
     )
 
 
@@ -41,14 +48,11 @@ def _program(name: str, node: Value, scope: Scope) -> SetpointProgram:
     place = ProgramPlace(scope, tuple(numbers) or (0,), f"{array.text()}[{{i}}]." if array and numbers else "")
     made = SetpointProgram(
         id=name,
-        name=text_of(node, "name", name),
+        name=line_of(node, "name") or name,
         segments=_segments(node.child("segments") or node, place),
         first=numbers[0] if numbers else 0,
         programs=len(numbers),
-        description=text_of(node, "description"),
         section=text_of(node, "source"),
-        inferred=tuple(Inferred(text_of(one, "what"), text_of(one, "why")) for one in elements_of(node, "inferred")),
-        span=node.key_span,
     )
     return _run(node, place, _made(node, place, made))
 
@@ -58,10 +62,9 @@ def _made(node: Value, place: ProgramPlace, program: SetpointProgram) -> Setpoin
     count, cycles, forever = node.child("count"), place.path(node, "cycles"), node.child("forever")
     counts = count.child("counts") if count else None
     limits = node.child("setpoint_limits")
-    return replace(
-        program,
+    return program._replace(
         final=_final(node.child("final"), place),
-        count=place.path(count, "register"),
+        number_of_segments=place.path(count, "register"),
         counts=counts.choice(ProgramCounts, ProgramCounts.ALL) if counts else ProgramCounts.ALL,
         cycles=cycles,
         forever=place.code(forever, cycles) if forever and cycles else None,
@@ -78,8 +81,7 @@ def _run(node: Value, place: ProgramPlace, program: SetpointProgram) -> Setpoint
     """The program with how it is run and watched."""
     requires, running = node.child("requires"), node.child("while_running")
     when = condition(requires.child("when"), place.scope) if requires else None
-    return replace(
-        program,
+    return program._replace(
         enable=place.values(node.child("enable")),
         requires=WriteCondition(when, line_of(requires, "reason")) if requires and when else None,
         status=_status(node.child("status"), place),
@@ -109,7 +111,7 @@ def _segments(node: Value, around: ProgramPlace) -> ProgramSegments:
     place = ProgramPlace(around.scope, around.numbers, around.prefix, f"{prefix}{name}[{{j}}].", numbers[0])
     return ProgramSegments(
         first=numbers[0],
-        count=len(numbers),
+        many=len(numbers),
         setpoint=place.path(node, "setpoint"),
         ramp=place.path(node, "ramp"),
         soak=place.path(node, "soak"),
@@ -131,12 +133,12 @@ def _time_unit(node: Value | None, place: ProgramPlace) -> ProgramTimeUnit | Non
     return ProgramTimeUnit(register=path, codes=tuple(codes))
 
 
-def _status(node: Value | None, place: ProgramPlace) -> ProgramStatus | None:
+def _status(node: Value | None, place: ProgramPlace) -> ProgramStates | None:
     if node is None:
         return None
     path = place.path(node, "register")
     states = {key: tuple(place.code(one, path) for one in elements_of(node, key)) for key in _STATES}
-    return ProgramStatus(register=path, **states)
+    return ProgramStates(register=path, **states)
 
 
 _STATES = ("running", "held", "ended")

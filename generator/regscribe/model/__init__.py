@@ -26,18 +26,7 @@ from regscribe.model.map import (
     Waiver,
 )
 from regscribe.model.process import Alarm, Effect, OnOff, Output, Pid, Process, Ramp, Trip, TripKind
-from regscribe.model.program import (
-    ProgramAction,
-    ProgramCounts,
-    ProgramFinal,
-    ProgramPart,
-    ProgramSegments,
-    ProgramStatus,
-    ProgramTimeUnit,
-    SetpointProgram,
-    WhileRunning,
-    numbered,
-)
+from regscribe.model.program_notes import ProgramNotes
 from regscribe.model.register import Array, Group, Inferred, Register
 from regscribe.model.value import (
     IDENTITY,
@@ -62,6 +51,18 @@ from regscribe.model.wire import OrderFromRegister, View
 from regscribe_runtime.values.facts import CommandStep, Governs, Identity, Setting, WriteCondition
 from regscribe_runtime.values.kinds import Access, Kind
 from regscribe_runtime.values.numbers import exact, parse, show
+from regscribe_runtime.values.programs import (
+    ProgramAction,
+    ProgramCounts,
+    ProgramFinal,
+    ProgramPart,
+    ProgramSegments,
+    ProgramStates,
+    ProgramTimeUnit,
+    SetpointProgram,
+    WhileRunning,
+    numbered,
+)
 from regscribe_runtime.values.protocol import ExceptionCode, Latency, Protocol, SerialDefaults
 from regscribe_runtime.values.wire_types import Order, Rounding, Space, WireType
 
@@ -122,9 +123,10 @@ __all__ = [
     "ProgramAction",
     "ProgramCounts",
     "ProgramFinal",
+    "ProgramNotes",
     "ProgramPart",
     "ProgramSegments",
-    "ProgramStatus",
+    "ProgramStates",
     "ProgramTimeUnit",
     "Protocol",
     "ProtocolNotes",

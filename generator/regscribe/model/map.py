@@ -8,10 +8,11 @@ from regscribe.model.diagnostic import NOWHERE, Span
 from regscribe.model.faults import Faults, ProtocolNotes
 from regscribe.model.identifiers import ways_to_say
 from regscribe.model.process import Effect, Process
-from regscribe.model.program import SetpointProgram
+from regscribe.model.program_notes import ProgramNotes
 from regscribe.model.register import Array, Group, Register
 from regscribe.model.value import Enum
 from regscribe_runtime.values.facts import CommandStep, Identity
+from regscribe_runtime.values.programs import SetpointProgram
 from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.wire_types import Space
 
@@ -92,6 +93,7 @@ class Model:
     """One product: only the registers it has, with its own enums, ranges and defaults.
 
     `members` keeps arrays folded, in the manual's order; `registers` is the same with arrays expanded.
+    `program_notes` has an entry for each of `programs`.
     `unused` are stretches of addresses (space, first, last) that read as 0 and refuse writes.
     """
 
@@ -103,6 +105,7 @@ class Model:
     groups: tuple[Group, ...] = ()
     commands: tuple[Command, ...] = ()
     programs: tuple[SetpointProgram, ...] = ()
+    program_notes: tuple[ProgramNotes, ...] = ()
     process: Process | None = None
     unused: tuple[tuple[Space, int, int], ...] = ()
     by_path: dict[str, Register] = field(default_factory=dict, compare=False, hash=False, repr=False)

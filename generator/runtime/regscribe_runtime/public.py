@@ -77,10 +77,14 @@ from regscribe_runtime.report import Change, Count, Fate, Progress, Sent, Wear, 
 from regscribe_runtime.values.facts import CommandStep, Governs, Identity, Setting, WriteCondition
 from regscribe_runtime.values.programs import (
     ProgramAction,
+    ProgramCounts,
     ProgramFinal,
+    ProgramPart,
     ProgramSegments,
     ProgramStates,
+    ProgramTimeUnit,
     SetpointProgram,
+    WhileRunning,
 )
 from regscribe_runtime.values.protocol import ExceptionCode, Latency, Protocol, SerialDefaults
 from regscribe_runtime.values.serial_line import SerialLine
@@ -145,9 +149,12 @@ __all__ = [
     "Part",
     "PartialWrite",
     "ProgramAction",
+    "ProgramCounts",
     "ProgramFinal",
+    "ProgramPart",
     "ProgramSegments",
     "ProgramStates",
+    "ProgramTimeUnit",
     "Progress",
     "Protocol",
     "ReadBackDiffers",
@@ -180,6 +187,7 @@ __all__ = [
     "ValuesRefused",
     "View",
     "Wear",
+    "WhileRunning",
     "WireType",
     "Word",
     "WriteCondition",

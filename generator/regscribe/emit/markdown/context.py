@@ -11,6 +11,7 @@ from regscribe.model import (
     Command,
     Condition,
     Group,
+    Inferred,
     Model,
     Register,
     RegisterMap,
@@ -195,7 +196,6 @@ def only(context: PageContext, models: Iterable[str]) -> Md:
     return md("only ", names) if names else Md()
 
 
-def conclusions(shared: Merged[Register] | Merged[SetpointProgram]) -> tuple[Md, ...]:
-    """Return what was concluded and not read in the manual."""
-    found = dict.fromkeys(item for _, version in shared.versions for item in version.inferred)
-    return tuple(md("Inferred: ", item.what, " (", item.why, ")") for item in found)
+def conclusions(found: Iterable[Inferred]) -> tuple[Md, ...]:
+    """Return what was concluded and not read in the manual, each once."""
+    return tuple(md("Inferred: ", item.what, " (", item.why, ")") for item in dict.fromkeys(found))

@@ -83,7 +83,7 @@ def _register(context: PageContext, leaf: Leaf, seen: dict[PageTable, Leaf], mar
         pictures=bit_fields(context, leaf),
         facts=facts(context, leaf),
         tables=(*views(context, leaf), *by_condition(context, leaf), *known, *bits(leaf), *elements(context, leaf)),
-        remarks=conclusions(shared),
+        remarks=conclusions(item for _, version in shared.versions for item in version.inferred),
     )
 
 

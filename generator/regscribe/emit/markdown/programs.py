@@ -14,6 +14,7 @@ from regscribe.model import (
     Model,
     ProgramAction,
     ProgramCounts,
+    ProgramNotes,
     ProgramPart,
     Register,
     SetpointProgram,
@@ -21,7 +22,7 @@ from regscribe.model import (
     numbered,
     show,
 )
-from regscribe.model.program import PROGRAM
+from regscribe_runtime.values.programs import PROGRAM
 
 COUNTS = {
     ProgramCounts.ALL: "counts all segments",
@@ -42,15 +43,15 @@ def programs(context: PageContext) -> tuple[RegisterEntry, ...]:
 
 
 def _entry(context: PageContext, shared: Merged[SetpointProgram]) -> RegisterEntry:
-    first = shared.first
+    first, notes = shared.first, [_notes(model, program) for model, program in shared.versions]
     return RegisterEntry(
         marks=Md("###"),
         anchor=context.anchor("program", shared.key),
         name=one_line(first.name),
         summary=join(" · ", (code(first.id), source(first.section), only(context, shared.models))),
-        paragraphs=(prose(first.description),) if first.description else (),
+        paragraphs=(prose(notes[0].description),) if notes[0].description else (),
         tables=(Titled("What makes it", table(("Part", "Where and what"), _facts(context, shared))),),
-        remarks=conclusions(shared),
+        remarks=conclusions(item for one in notes for item in one.inferred),
     )
 
 
@@ -61,6 +62,10 @@ def _facts(context: PageContext, shared: Merged[SetpointProgram]) -> list[tuple[
 
 def _fact(context: PageContext, words: Callable[["_Words"], Md], model: Model, program: SetpointProgram) -> Md:
     return words(_Words(context, model, program))
+
+
+def _notes(model: Model, program: SetpointProgram) -> ProgramNotes:
+    return model.program_notes[model.programs.index(program)]
 
 
 class _Words:
@@ -93,7 +98,7 @@ class _Words:
         """Several of them."""
         return Md(", ".join(self.label(path, number) for number in numbers))
 
-    def values(self, values: Iterable[tuple[str, Fraction]]) -> Md:
+    def values(self, values: Iterable[tuple[str, int | Fraction]]) -> Md:
         """What registers are given."""
         return join(", ", [md(self.register(path), " = ", self.label(path, number)) for path, number in values])
 
@@ -116,7 +121,7 @@ def _numbers(words: _Words) -> Md:
 def _segments(words: _Words) -> Md:
     one = words.program.segments
     return lines(
-        escape(f"{one.first} to {one.first + one.count - 1}"),
+        escape(f"{one.first} to {one.first + one.many - 1}"),
         md("setpoint: ", words.register(one.setpoint)),
         md("time of the ramp: ", words.register(one.ramp)),
         md("time of the soak: ", words.register(one.soak)) if one.soak else Md(),
@@ -135,7 +140,7 @@ def _final(words: _Words) -> Md:
 
 def _count(words: _Words) -> Md:
     one = words.program
-    return md(words.register(one.count), "; ", COUNTS[one.counts]) if one.count else Md()
+    return md(words.register(one.number_of_segments), "; ", COUNTS[one.counts]) if one.number_of_segments else Md()
 
 
 def _cycles(words: _Words) -> Md:
@@ -185,7 +190,8 @@ def _action(words: _Words, action: ProgramAction) -> Md:
 
 
 def _order(program: SetpointProgram) -> Iterable[ProgramPart]:
-    return (part for part in program.order if getattr(program, part.value))
+    fields = {ProgramPart.COUNT: "number_of_segments"}
+    return (part for part in program.order if getattr(program, fields.get(part, part.value)))
 
 
 FACTS: dict[str, Callable[[_Words], Md]] = {

@@ -12,7 +12,6 @@ from regscribe.emit.python.formatting import INDENT, call, group, lay
 from regscribe.emit.python.group_facts import with_group_facts
 from regscribe.emit.python.groups import groups_body, groups_of
 from regscribe.emit.python.literals import camel, docstring, literal, member
-from regscribe.emit.python.programs import programs
 from regscribe.emit.python.register_lines import Declarations, command_call, command_text, declaration_lines
 from regscribe.emit.python.reserved_names import free
 from regscribe.emit.words import one_line
@@ -170,7 +169,7 @@ class Classes:
             self.public.append(name)
 
     def _programs(self, model: Model) -> str:
-        built = programs(model, Specs(model, self.pool))
+        built = Specs(model, self.pool).value(model.programs)
         return self.pool.share(built, "programs", f"programs_{model.name}", comment="setpoint programs")
 
     def _unused(self, model: Model) -> str:

@@ -10,6 +10,7 @@ from regscribe.tools.live.value_text import choices, text_of
 from regscribe.tools.programs.program import FOREVER, Amount, Program, Segment, Setting
 from regscribe.tools.programs.slot import ProgramSlot
 from regscribe_runtime import Register
+from regscribe_runtime.values.programs import ProgramCounts
 
 Where = tuple[str | int, ...]
 """A place in a program: `("segments", 2, "to")` is that of the third segment."""
@@ -97,14 +98,13 @@ class _Structure:
         unit, spec = self.program.time_unit, self.place.spec.time_unit
         if spec is None:
             return  # its times have a unit of their own, so the key says nothing about the device
-        path, units = spec
-        codes = {symbol: code for code, symbol in units}
+        codes = {symbol: code for code, symbol in spec.codes}
         if unit is None:
             self._wrong(("time_unit",), f"it is missing: say in what the times count, one of {', '.join(codes)}")
         elif unit not in codes:
             self._wrong(("time_unit",), unknown("unit of time", unit, codes, where=f"in the {self.place.model}"))
         else:
-            self._ask("time_unit", path, _amount(codes[unit]), ("time_unit",))
+            self._ask("time_unit", spec.register, _amount(codes[unit]), ("time_unit",))
 
     def _cycles(self) -> None:
         cycles, spec = self.program.cycles, self.place.spec
@@ -192,8 +192,8 @@ class _Structure:
             if given is not None:
                 self._lacks("number_of_segments")
             return
-        counted = have if spec.counts == "all" else have - 1
-        if spec.counts == "not_stated" and given != counted:
+        counted = have if spec.counts is ProgramCounts.ALL else have - 1
+        if spec.counts is ProgramCounts.NOT_STATED and given != counted:
             self._wrong(("number_of_segments",), self._open_count(given, have))
         elif given is not None and given != counted:
             self._wrong(

@@ -60,14 +60,14 @@ def check(place: ProgramSlot, program: Program, *, beyond_limits: bool = False) 
             else:
                 made = PlannedProgram(one.part, one.register, value, one.where)  # pyright: ignore[reportArgumentType] # a register is a descriptor, but no attribute of this tuple
                 planned.append(made)
-        order = {part: number for number, part in enumerate(place.spec.order)}
+        order: dict[str, int] = {part: number for number, part in enumerate(place.spec.order)}
         return Checked(tuple(sorted(planned, key=lambda one: order[one.part])), tuple(_sorted(problems)))
 
     return task
 
 
 def _countable(place: ProgramSlot, program: Program) -> bool:
-    units = dict(place.spec.time_unit[1]).values() if place.spec.time_unit else ()
+    units = dict(place.spec.time_unit.codes).values() if place.spec.time_unit else ()
     return place.spec.time_unit is None or program.time_unit in units
 
 

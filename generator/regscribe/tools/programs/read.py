@@ -8,6 +8,7 @@ from regscribe.tools.programs.settings import SettingConverter, read_with_needs
 from regscribe.tools.programs.slot import ProgramSlot
 from regscribe_runtime import Register, Snapshot
 from regscribe_runtime.operations.session import Operation, Session, Task
+from regscribe_runtime.values.programs import ProgramCounts
 
 
 def read(place: ProgramSlot) -> Task[Program]:
@@ -23,7 +24,7 @@ def read(place: ProgramSlot) -> Task[Program]:
 
 def _registers(place: ProgramSlot) -> Iterator[Register[Any]]:
     spec, segments = place.spec, place.spec.segments
-    unit = spec.time_unit[0] if spec.time_unit else ""
+    unit = spec.time_unit.register if spec.time_unit else ""
     single = [spec.number_of_segments, spec.cycles, unit, spec.holdback, spec.power_failure, spec.end]
     if spec.final:
         single += [spec.final.setpoint, *(path for _, path in spec.final.outputs)]
@@ -55,7 +56,7 @@ class _Reader:
             final=Final(to=self._setting(spec.final.setpoint), outputs=self._outputs(spec.final.outputs))
             if spec.final
             else None,
-            number_of_segments=int(count) if spec.counts == "not_stated" and count is not None else None,
+            number_of_segments=int(count) if spec.counts is ProgramCounts.NOT_STATED and count is not None else None,
             cycles=self._cycles(),
             time_unit=self.converter.time_unit or None,
             holdback=self._maybe(spec.holdback),
@@ -94,7 +95,7 @@ class _Reader:
         segments = self.place.spec.segments
         used = segments.many
         if count is not None:
-            used = min(int(count) + (self.place.spec.counts != "all"), segments.many)
+            used = min(int(count) + (self.place.spec.counts is not ProgramCounts.ALL), segments.many)
         elif segments.idle:
             while used and all(int(self._value(path, segments.first + used - 1)) == 0 for path in segments.idle):
                 used -= 1

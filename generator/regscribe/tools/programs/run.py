@@ -79,7 +79,7 @@ def act(place: ProgramSlot, what: Act, *, confirm: bool = False) -> Task[Program
 
     def task(session: Session) -> Operation[ProgramState]:
         action: ProgramAction = getattr(place.spec, what)
-        if not action.writes and not action.command:
+        if not action.known:
             message = f"{place.name}: the manual of the {place.model} names no way to {what} a program over the line"
             raise NotNow(message)
         now = yield from status(place)(session)

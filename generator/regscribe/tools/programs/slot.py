@@ -6,6 +6,7 @@ from typing import Any
 
 from regscribe.tools.live.errors import TargetError, unknown
 from regscribe_runtime import AsyncBareDevice, BareDevice, Register, SetpointProgram
+from regscribe_runtime.values.programs import numbered
 
 Driver = BareDevice | AsyncBareDevice | type[BareDevice] | type[AsyncBareDevice]
 
@@ -32,7 +33,7 @@ class ProgramSlot:
 
     def register(self, path: str, segment: int = 0) -> Register[Any]:
         """The register of a path of the declaration, for this program and a segment."""
-        return self.registers[path.replace("{i}", str(self.number)).replace("{j}", str(segment))]
+        return self.registers[numbered(path, self.number, segment)]
 
 
 def places(driver: Driver) -> tuple[ProgramSlot, ...]:
@@ -41,7 +42,7 @@ def places(driver: Driver) -> tuple[ProgramSlot, ...]:
     return tuple(
         ProgramSlot(spec, number, made.registers, made.model, made.map_id)
         for spec in made.setpoint_programs
-        for number in (range(spec.first, spec.first + spec.programs) if spec.programs else (0,))
+        for number in spec.numbers
     )
 
 

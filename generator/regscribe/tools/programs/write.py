@@ -12,7 +12,7 @@ from regscribe_runtime.errors import NotConfigured, WriteFailed
 from regscribe_runtime.operations import tasks
 from regscribe_runtime.operations.session import Operation, Pause, Session, Task
 from regscribe_runtime.report import Fate, WriteReport
-from regscribe_runtime.values.programs import PARTS
+from regscribe_runtime.values import programs as declared
 
 WhileRunning = Literal["refuse", "reset", "write"]
 """What to do about a program that runs: refuse, end it first, or write all the same."""
@@ -36,7 +36,11 @@ class ProgramRuns(RegscribeError):  # noqa: N818 (as the errors of drivers)
     """A program runs or is held, so nothing was written."""
 
     def __init__(self, place: ProgramSlot, now: ProgramState, advice: str) -> None:
-        why = "; the manual forbids to write a program that runs" if place.spec.while_running == "refused" else ""
+        why = (
+            "; the manual forbids to write a program that runs"
+            if place.spec.while_running is declared.WhileRunning.REFUSED
+            else ""
+        )
         super().__init__(f"{place.name}: it is {now.state} ({now.detail}), so nothing was written{why}: {advice}")
 
 
@@ -81,7 +85,7 @@ def write(
 
 def stages(order: Sequence[str], planned: Sequence[PlannedProgram]) -> Iterator[list[PlannedProgram]]:
     """What is written together, one after the other; parts share a stage where the map asks for no order of its own."""
-    told = tuple(order) != PARTS
+    told = tuple(order) != tuple(declared.ProgramPart)
     stage: list[PlannedProgram] = []
     last = ""
     for one in planned:
@@ -121,9 +125,9 @@ def _at_rest(place: ProgramSlot, how: WhileRunning) -> Task[None]:
     """Make sure that no program runs, as `how` says."""
 
     def task(session: Session) -> Operation[None]:
-        if place.spec.status is None or place.spec.while_running == "allowed":
+        if place.spec.status is None or place.spec.while_running is declared.WhileRunning.ALLOWED:
             return
-        if how == "write" and place.spec.while_running != "refused":
+        if how == "write" and place.spec.while_running is not declared.WhileRunning.REFUSED:
             return
         now = yield from status(place)(session)
         if now.state == "ended":

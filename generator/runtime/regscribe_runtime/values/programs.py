@@ -1,22 +1,53 @@
-"""Setpoint programs as a generated driver declares them: which registers make one, and how it is run. Plain data.
+"""Setpoint programs (ramp and soak): which registers make one, and how it is run.
 
 A path has `{i}` for the number of the program and `{j}` for that of the segment; empty: there is no such register.
-`regscribe.tools.programs` reads, checks and writes programs by these declarations.
 """
 
+from enum import StrEnum
+from fractions import Fraction
 from typing import NamedTuple
 
 from regscribe_runtime.values.facts import WriteCondition
-from regscribe_runtime.values.specs import Text
 
-PARTS = ("time_unit", "power_failure", "holdback", "end", "cycles", "segments", "final", "count", "enable")
-"""The parts of a program in the order in which they are written, unless the device asks for another one."""
+PROGRAM = "{i}"
+SEGMENT = "{j}"
+"""What stands in a path for the numbers of the program and of the segment."""
 
 Named = tuple[tuple[str, str], ...]
 """Outputs: a name and the path of a register."""
 
-Values = tuple[tuple[str, Text], ...]
+Values = tuple[tuple[str, int | Fraction], ...]
 """Paths of registers and the numbers that they are given."""
+
+
+class ProgramCounts(StrEnum):
+    """Which segments a number of segments counts."""
+
+    ALL = "all"
+    AFTER_FIRST = "after_first"
+    NOT_STATED = "not_stated"
+
+
+class WhileRunning(StrEnum):
+    """What the manual says about writing a program that runs."""
+
+    REFUSED = "refused"
+    ALLOWED = "allowed"
+    NOT_STATED = "not_stated"
+
+
+class ProgramPart(StrEnum):
+    """The parts of a program, in the order in which they are written unless the device asks for another one."""
+
+    TIME_UNIT = "time_unit"
+    POWER_FAILURE = "power_failure"
+    HOLDBACK = "holdback"
+    END = "end"
+    CYCLES = "cycles"
+    SEGMENTS = "segments"
+    FINAL = "final"
+    COUNT = "count"
+    ENABLE = "enable"
 
 
 class ProgramSegments(NamedTuple):
@@ -41,6 +72,13 @@ class ProgramFinal(NamedTuple):
     outputs: Named = ()
 
 
+class ProgramTimeUnit(NamedTuple):
+    """The register that sets the unit of all times, and the unit under each code."""
+
+    register: str
+    codes: tuple[tuple[int, str], ...]
+
+
 class ProgramStates(NamedTuple):
     """The register that tells whether a program runs: its codes while it runs, while it does not, while it is held."""
 
@@ -56,6 +94,11 @@ class ProgramAction(NamedTuple):
     writes: Values = ()
     command: str = ""
 
+    @property
+    def known(self) -> bool:
+        """Whether the manual names a way."""
+        return bool(self.writes or self.command)
+
 
 NO_WAY = ProgramAction()
 
@@ -63,10 +106,9 @@ NO_WAY = ProgramAction()
 class SetpointProgram(NamedTuple):
     """A program, or `programs` of them numbered from `first` (0: one without a number).
 
-    `counts` tells which segments `number_of_segments` counts (all, after_first, not_stated), `forever` the code of
-    `cycles` for a program without end, `time_unit` the unit of all times under each code of a register,
-    `setpoint_limits` two registers that the setpoints lie between, `enable` what makes the device run this program,
-    `requires` the condition of a start and why. `while_running`: refused, allowed, or empty if the manual says nothing.
+    `counts` tells which segments `number_of_segments` counts, `forever` is the code of `cycles` for a program without
+    end, `setpoint_limits` are two registers that the setpoints lie between, `enable` makes the device run this program,
+    `requires` is the condition of a start, `order` has the parts as they are written.
     """
 
     id: str
@@ -77,10 +119,10 @@ class SetpointProgram(NamedTuple):
     section: str = ""
     final: ProgramFinal | None = None
     number_of_segments: str = ""
-    counts: str = "all"
+    counts: ProgramCounts = ProgramCounts.ALL
     cycles: str = ""
     forever: int | None = None
-    time_unit: tuple[str, tuple[tuple[int, str], ...]] | None = None
+    time_unit: ProgramTimeUnit | None = None
     holdback: str = ""
     power_failure: str = ""
     end: str = ""
@@ -95,5 +137,15 @@ class SetpointProgram(NamedTuple):
     hold: ProgramAction = NO_WAY
     resume: ProgramAction = NO_WAY
     reset: ProgramAction = NO_WAY
-    while_running: str = ""
-    order: tuple[str, ...] = PARTS
+    while_running: WhileRunning = WhileRunning.NOT_STATED
+    order: tuple[ProgramPart, ...] = tuple(ProgramPart)
+
+    @property
+    def numbers(self) -> tuple[int, ...]:
+        """The numbers of the programs; a single 0 where there is one without a number."""
+        return tuple(range(self.first, self.first + self.programs)) or (0,)
+
+
+def numbered(path: str, program: int, segment: int = 0) -> str:
+    """The path of a register for one program and one segment."""
+    return path.replace(PROGRAM, str(program)).replace(SEGMENT, str(segment))
