@@ -18,6 +18,7 @@ from regscribe_runtime import (
     AsyncDevice,
     AsyncPart,
     Command,
+    CommandStep,
     Conversion,
     Device,
     ExceptionCode,
@@ -32,6 +33,7 @@ from regscribe_runtime import (
     ReadOnly,
     ReadWrite,
     SerialDefaults,
+    Setting,
     Space,
     SubPart,
     View,
@@ -97,9 +99,9 @@ _INT16 = word(WireType.INT16)
 _PROPORTIONAL_BAND_SCALE = (((), Conversion(multiply="0.1")),)
 _SERIAL_ADDRESS_DANGER = "the controller answers at the new address from now on"
 _COMMUNICATIONS_PROTOCOL_DANGER = "the controller counts all addresses one higher (JBUS) or lower (Modbus) from now on"
-_COMMUNICATIONS_PROTOCOL_GOVERNS = Governs("addressing", codes={0: "modbus", 1: "jbus"})
+_COMMUNICATIONS_PROTOCOL_GOVERNS = Governs(Setting.ADDRESSING, codes=((0, "modbus"), (1, "jbus")))
 _BAUD_RATE_DANGER = "the controller answers at the new speed from now on"
-_BAUD_RATE_GOVERNS = Governs("baud", codes={0: "1200", 1: "2400", 2: "4800", 3: "9600"})
+_BAUD_RATE_GOVERNS = Governs(Setting.BAUD, codes=((0, "1200"), (1, "2400"), (2, "4800"), (3, "9600")))
 _RTX_LOW_RANGE_CALIBRATION_VALUE_DANGER = "reserved for the maker; a wrong value falsifies the retransmitted signal"
 _STRING = (View("base", WireType.STRING, words=2, byte_order=Order.LITTLE),)
 _PAGE_2: dict[str, Any] = {"section": "7.4", "persistence": "eeprom"}
@@ -204,7 +206,7 @@ class _PlatinumC10M10:
         persistence="eeprom",
         danger=_SERIAL_ADDRESS_DANGER,
         stays="address",
-        governs=Governs("address"),
+        governs=Governs(Setting.ADDRESS),
     )
     """Serial comm.s address (Addr): 1 to 247; 7.3."""
     retransmission_low_range = ReadWrite(42, _INT16, raw, section="7.3", persistence="eeprom")
@@ -258,7 +260,7 @@ class _PlatinumC10M10:
 class _PlatinumC10M10Commands:
     """Commands of C10, M10."""
 
-    apply_configuration = Command((6, 120, (21930,)))
+    apply_configuration = Command(CommandStep(6, 120, (21930,)))
     """Apply Configuration; The controller accepts valid configuration parameters, but works with them only after this
     code (55AAh) was written to the address of the factory code.; 7.4, 8.4, 9.4 and 11.6 (notes).
     """

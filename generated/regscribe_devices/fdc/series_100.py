@@ -4,7 +4,7 @@
 # format 1, map sha256 30d310c6e7842fee
 
 from collections.abc import Collection
-from typing import Self, Unpack
+from typing import Any, Self, Unpack
 
 from regscribe_runtime import (
     AsyncBareDevice,
@@ -91,21 +91,21 @@ _PROTOCOL = Protocol(
 )
 _UINT16 = word(WireType.UINT16)
 _NON_LINEAR = (Is("inpt", given="linear_inputs", negated=True),)
-_SCALE = (
+_PROCESS = (
     (_NON_LINEAR, Conversion(multiply="0.1", add="-1999.9")),
     ((Is("inpt", given="linear_inputs"), Is("dp", ((0, 0),))), Conversion(add=-19999)),
     ((Is("inpt", given="linear_inputs"), Is("dp", ((1, 1),))), Conversion(multiply="0.1", add="-1999.9")),
     ((Is("inpt", given="linear_inputs"), Is("dp", ((2, 2),))), Conversion(multiply="0.01", add="-199.99")),
     ((Is("inpt", given="linear_inputs"), Is("dp", ((3, 3),))), Conversion(multiply="0.001", add="-19.999")),
 )
-_RANGE = (
+_SP1_RANGE = (
     (_NON_LINEAR, Limits((Interval("-1999.9", "4553.6"),))),
     ((Is("inpt", given="linear_inputs"), Is("dp", ((0, 0),))), Limits((Interval(-19999, 45536),))),
     ((Is("inpt", given="linear_inputs"), Is("dp", ((1, 1),))), Limits((Interval("-1999.9", "4553.6"),))),
     ((Is("inpt", given="linear_inputs"), Is("dp", ((2, 2),))), Limits((Interval("-199.99", "455.36"),))),
     ((Is("inpt", given="linear_inputs"), Is("dp", ((3, 3),))), Limits((Interval("-19.999", "45.536"),))),
 )
-_SCALE_2 = (
+_PROCESS_OR_ALARM_TIMER = (
     ((Is("alfn", ((1, 1),)),), Conversion(multiply="0.1", add="-1999.9")),
     (_NON_LINEAR, Conversion(multiply="0.1", add="-1999.9")),
     ((Is("inpt", given="linear_inputs"), Is("dp", ((0, 0),))), Conversion(add=-19999)),
@@ -113,7 +113,7 @@ _SCALE_2 = (
     ((Is("inpt", given="linear_inputs"), Is("dp", ((2, 2),))), Conversion(multiply="0.01", add="-199.99")),
     ((Is("inpt", given="linear_inputs"), Is("dp", ((3, 3),))), Conversion(multiply="0.001", add="-19.999")),
 )
-_RANGE_2 = (
+_SP3_RANGE = (
     ((Is("alfn", ((1, 1),)),), Limits((Interval("-1999.9", "4553.6"),))),
     (_NON_LINEAR, Limits((Interval("-1999.9", "4553.6"),))),
     ((Is("inpt", given="linear_inputs"), Is("dp", ((0, 0),))), Limits((Interval(-19999, 45536),))),
@@ -121,14 +121,14 @@ _RANGE_2 = (
     ((Is("inpt", given="linear_inputs"), Is("dp", ((2, 2),))), Limits((Interval("-199.99", "455.36"),))),
     ((Is("inpt", given="linear_inputs"), Is("dp", ((3, 3),))), Limits((Interval("-19.999", "45.536"),))),
 )
-_SCALE_3 = (
+_SPAN = (
     (_NON_LINEAR, Conversion(multiply="0.1")),
     ((Is("inpt", given="linear_inputs"), Is("dp", ((0, 0),))), Conversion()),
     ((Is("inpt", given="linear_inputs"), Is("dp", ((1, 1),))), Conversion(multiply="0.1")),
     ((Is("inpt", given="linear_inputs"), Is("dp", ((2, 2),))), Conversion(multiply="0.01")),
     ((Is("inpt", given="linear_inputs"), Is("dp", ((3, 3),))), Conversion(multiply="0.001")),
 )
-_RANGE_3 = (
+_PB_RANGE = (
     (_NON_LINEAR, Limits((Interval(0, "6553.5"),))),
     ((Is("inpt", given="linear_inputs"), Is("dp", ((0, 0),))), Limits((Interval(0, 65535),))),
     ((Is("inpt", given="linear_inputs"), Is("dp", ((1, 1),))), Limits((Interval(0, "6553.5"),))),
@@ -136,21 +136,28 @@ _RANGE_3 = (
     ((Is("inpt", given="linear_inputs"), Is("dp", ((3, 3),))), Limits((Interval(0, "65.535"),))),
 )
 # value of the stored x: x/10
-_SCALE_4 = (((), Conversion(multiply="0.1")),)
+_TD_SCALE = (((), Conversion(multiply="0.1")),)
 # value of the stored x: x/10 - 1999.9
-_SCALE_5 = (((), Conversion(multiply="0.1", add="-1999.9")),)
-_DANGER = "the controller may be lost on this line - what the codes mean is not in this manual"
-_DANGER_2 = "the controller answers at the new address from now on"
-_DANGER_3 = "a wrong coefficient makes every measurement wrong"
+_O1FT_SCALE = (((), Conversion(multiply="0.1", add="-1999.9")),)
+_COMM_DANGER = "the controller may be lost on this line - what the codes mean is not in this manual"
+_ADDR_DANGER = "the controller answers at the new address from now on"
+_ADLO_DANGER = "a wrong coefficient makes every measurement wrong"
 # value of the stored x: x/100 - 199.99
-_SCALE_6 = (((), Conversion(multiply="0.01", add="-199.99")),)
+_CJLO_SCALE = (((), Conversion(multiply="0.01", add="-199.99")),)
 # value of the stored x: x/100
-_SCALE_7 = (((), Conversion(multiply="0.01")),)
+_BPL1_SCALE = (((), Conversion(multiply="0.01")),)
 # value of the stored x: x/1000
-_SCALE_8 = (((), Conversion(multiply="0.001")),)
+_CJCL_SCALE = (((), Conversion(multiply="0.001")),)
 _MANUAL_CONTROL = (Is("mode", ((3, 3),), bits=(8, 11)),)
-_WRITABLE = WriteCondition(_MANUAL_CONTROL, "the output can be written in manual control mode only")
-_SCALE_9 = (
+_MV1_WRITABLE = WriteCondition(_MANUAL_CONTROL, "the output can be written in manual control mode only")
+_COMMUNICATION: dict[str, Any] = {"range": within(0, 65535), "section": "7-3"}
+_CALIBRATION: dict[str, Any] = {
+    "section": "7-3",
+    "unlock": "unlock_calibration",
+    "danger": _ADLO_DANGER,
+    "stays": "calibration",
+}
+_PROCESS_OR_OUTPUT_TIMER = (
     ((Is("out2", ((1, 1),)),), Conversion(multiply="0.1", add="-1999.9")),
     (_NON_LINEAR, Conversion(multiply="0.1", add="-1999.9")),
     ((Is("inpt", given="linear_inputs"), Is("dp", ((0, 0),))), Conversion(add=-19999)),
@@ -158,7 +165,7 @@ _SCALE_9 = (
     ((Is("inpt", given="linear_inputs"), Is("dp", ((2, 2),))), Conversion(multiply="0.01", add="-199.99")),
     ((Is("inpt", given="linear_inputs"), Is("dp", ((3, 3),))), Conversion(multiply="0.001", add="-19.999")),
 )
-_RANGE_4 = (
+_SP2_RANGE = (
     ((Is("out2", ((1, 1),)),), Limits((Interval("-1999.9", "4553.6"),))),
     (_NON_LINEAR, Limits((Interval("-1999.9", "4553.6"),))),
     ((Is("inpt", given="linear_inputs"), Is("dp", ((0, 0),))), Limits((Interval(-19999, 45536),))),
@@ -166,6 +173,9 @@ _RANGE_4 = (
     ((Is("inpt", given="linear_inputs"), Is("dp", ((2, 2),))), Limits((Interval("-199.99", "455.36"),))),
     ((Is("inpt", given="linear_inputs"), Is("dp", ((3, 3),))), Limits((Interval("-19.999", "45.536"),))),
 )
+_ENTER_AUTO_TUNING_DANGER = "the controller drives the process to find new PID values and replaces the old ones"
+_ENTER_MANUAL_CONTROL_DANGER = "the outputs no longer follow the process; they keep what is written to MV1 and MV2"
+_UNLOCK_CALIBRATION_DANGER = "a coefficient changed afterwards makes every measurement wrong"
 
 
 class Eror(Choice):
@@ -333,318 +343,255 @@ class _AsyncSeries100Device(AsyncBareDevice):
 class _Series100:
     """Registers of BTC-9100, BTC-8100, BTC-4100, BTC-7100, C21, C91."""
 
-    sp1 = ReadWrite(0, _UINT16, number, scale=_SCALE, range=_RANGE, default=25, section="7-3")
-    """Set point 1 (SP1): range by condition; read and write; 7-3."""
-    sp3 = ReadWrite(2, _UINT16, number, scale=_SCALE_2, range=_RANGE_2, default=10, section="7-3")
-    """Set point 3 (SP3): range by condition; read and write; 7-3."""
+    sp1 = ReadWrite(0, _UINT16, number, scale=_PROCESS, range=_SP1_RANGE, default=25, section="7-3")
+    """Set point 1 (SP1): 7-3."""
+    sp3 = ReadWrite(2, _UINT16, number, scale=_PROCESS_OR_ALARM_TIMER, range=_SP3_RANGE, default=10, section="7-3")
+    """Set point 3 (SP3): 7-3."""
     lock = ReadWrite(3, _UINT16, integer, range=within(0, 65535), default=0, section="7-3")
-    """Lock code (LOCK): 0 to 65535; read and write; 7-3."""
+    """Lock code (LOCK): 0 to 65535; 7-3."""
     inpt = ReadWrite(4, _UINT16, integer, range=within(0, 65535), default=1, section="7-3")
-    """Input sensor selection (INPT): 0 to 65535; read and write; 7-3."""
+    """Input sensor selection (INPT): 0 to 65535; 7-3."""
     measuring_unit = ReadWrite(5, _UINT16, integer, range=within(0, 65535), default=0, section="7-3")
-    """Measuring unit (UNIT): 0 to 65535; read and write; 7-3."""
+    """Measuring unit (UNIT): 0 to 65535; 7-3."""
     dp = ReadWrite(6, _UINT16, integer, range=within(0, 65535), default=1, section="7-3")
-    """Decimal point position (DP): 0 to 65535; read and write; 7-3."""
-    inlo = ReadWrite(7, _UINT16, number, scale=_SCALE, range=_RANGE, default=-17.8, section="7-3")
-    """Low scale value for linear input (INLO): range by condition; read and write; 7-3."""
-    inhi = ReadWrite(8, _UINT16, number, scale=_SCALE, range=_RANGE, default=93.3, section="7-3")
-    """High scale value for linear input (INHI): range by condition; read and write; 7-3."""
-    sp1l = ReadWrite(9, _UINT16, number, scale=_SCALE, range=_RANGE, default=-17.8, section="7-3")
-    """Low limit of SP1 (SP1L): range by condition; read and write; 7-3."""
-    sp1h = ReadWrite(10, _UINT16, number, scale=_SCALE, range=_RANGE, default=537.8, section="7-3")
-    """High limit of SP1 (SP1H): range by condition; read and write; 7-3."""
-    shif = ReadWrite(11, _UINT16, number, scale=_SCALE, range=_RANGE, default=0, section="7-3")
-    """PV shift value (SHIF): range by condition; read and write; 7-3."""
+    """Decimal point position (DP): 0 to 65535; 7-3."""
+    inlo = ReadWrite(7, _UINT16, number, scale=_PROCESS, range=_SP1_RANGE, default=-17.8, section="7-3")
+    """Low scale value for linear input (INLO): 7-3."""
+    inhi = ReadWrite(8, _UINT16, number, scale=_PROCESS, range=_SP1_RANGE, default=93.3, section="7-3")
+    """High scale value for linear input (INHI): 7-3."""
+    sp1l = ReadWrite(9, _UINT16, number, scale=_PROCESS, range=_SP1_RANGE, default=-17.8, section="7-3")
+    """Low limit of SP1 (SP1L): 7-3."""
+    sp1h = ReadWrite(10, _UINT16, number, scale=_PROCESS, range=_SP1_RANGE, default=537.8, section="7-3")
+    """High limit of SP1 (SP1H): 7-3."""
+    shif = ReadWrite(11, _UINT16, number, scale=_PROCESS, range=_SP1_RANGE, default=0, section="7-3")
+    """PV shift value (SHIF): 7-3."""
     filt = ReadWrite(12, _UINT16, integer, range=within(0, 65535), default=2, section="7-3")
-    """Filter time constant (FILT): 0 to 65535; read and write; 7-3."""
+    """Filter time constant (FILT): 0 to 65535; 7-3."""
     disp = ReadWrite(13, _UINT16, integer, range=within(0, 65535), default=0, section="7-3")
-    """Display form (DISP): 0 to 65535; read and write; 7-3."""
-    pb = ReadWrite(14, _UINT16, number, scale=_SCALE_3, range=_RANGE_3, default=10, section="7-3")
-    """P (proportional) band (PB): range by condition; read and write; 7-3."""
+    """Display form (DISP): 0 to 65535; 7-3."""
+    pb = ReadWrite(14, _UINT16, number, scale=_SPAN, range=_PB_RANGE, default=10, section="7-3")
+    """P (proportional) band (PB): 7-3."""
     ti = ReadWrite(15, _UINT16, integer, range=within(0, 65535), default=100, section="7-3")
-    """Integral time (TI): 0 to 65535; read and write; 7-3."""
-    td = ReadWrite(16, _UINT16, number, scale=_SCALE_4, range=within(0, "6553.5"), default=25, section="7-3")
-    """Derivative time (TD): 0 to 6553.5; read and write; 7-3."""
+    """Integral time (TI): 0 to 65535; 7-3."""
+    td = ReadWrite(16, _UINT16, number, scale=_TD_SCALE, range=within(0, "6553.5"), default=25, section="7-3")
+    """Derivative time (TD): 0 to 6553.5; 7-3."""
     out1 = ReadWrite(17, _UINT16, integer, range=within(0, 65535), default=0, section="7-3")
-    """Output 1 function (OUT1): 0 to 65535; read and write; 7-3."""
+    """Output 1 function (OUT1): 0 to 65535; 7-3."""
     o1ty = ReadWrite(18, _UINT16, integer, range=within(0, 65535), default=0, section="7-3")
-    """Output 1 signal type (O1TY): 0 to 65535; read and write; 7-3."""
-    o1ft = ReadWrite(19, _UINT16, number, scale=_SCALE_5, range=within("-1999.9", "4553.6"), default=0, section="7-3")
-    """Output 1 failure transfer (O1FT): -1999.9 to 4553.6; read and write; 7-3."""
-    o1hy = ReadWrite(20, _UINT16, number, scale=_SCALE_3, range=_RANGE_3, default=0.1, section="7-3")
-    """Output 1 ON-OFF hysteresis (O1HY): range by condition; read and write; 7-3."""
-    cyc1 = ReadWrite(21, _UINT16, number, scale=_SCALE_4, range=within(0, "6553.5"), default=18, section="7-3")
-    """Output 1 cycle time (CYC1): 0 to 6553.5; read and write; 7-3."""
-    ofst = ReadWrite(22, _UINT16, number, scale=_SCALE_4, range=within(0, "6553.5"), default=25, section="7-3")
-    """Offset value for P control (OFST): 0 to 6553.5; read and write; 7-3."""
-    ramp = ReadWrite(23, _UINT16, integer, range=within(0, 65535), default=0, section="7-3")
-    """Ramp function (RAMP): 0 to 65535; read and write; 7-3."""
-    rr = ReadWrite(24, _UINT16, number, scale=_SCALE_3, range=_RANGE_3, default=0, section="7-3")
-    """Ramp rate (RR): range by condition; read and write; 7-3."""
-    out2 = ReadWrite(25, _UINT16, integer, range=within(0, 65535), default=2, section="7-3")
-    """Output 2 function (OUT2): 0 to 65535; read and write; 7-3."""
-    relo = ReadWrite(26, _UINT16, number, scale=_SCALE, range=_RANGE, default=0, section="7-3")
-    """Retransmission low scale value (RELO): range by condition; read and write; 7-3."""
-    o2ty = ReadWrite(27, _UINT16, integer, range=within(0, 65535), default=0, section="7-3")
-    """Output 2 signal type (O2TY): 0 to 65535; read and write; 7-3."""
-    o2ft = ReadWrite(28, _UINT16, number, scale=_SCALE_5, range=within("-1999.9", "4553.6"), default=0, section="7-3")
-    """Output 2 failure transfer (O2FT): -1999.9 to 4553.6; read and write; 7-3."""
-    o2hy = ReadWrite(29, _UINT16, number, scale=_SCALE_3, range=_RANGE_3, default=0.1, section="7-3")
-    """Output 2 ON-OFF hysteresis (O2HY): range by condition; read and write; 7-3."""
-    cyc2 = ReadWrite(30, _UINT16, number, scale=_SCALE_4, range=within(0, "6553.5"), default=18, section="7-3")
-    """Output 2 cycle time (CYC2): 0 to 6553.5; read and write; 7-3."""
-    cpb = ReadWrite(31, _UINT16, integer, range=within(0, 65535), default=100, section="7-3")
-    """Cooling P band (CPB): 0 to 65535; read and write; 7-3."""
-    db = ReadWrite(32, _UINT16, number, scale=_SCALE_5, range=within("-1999.9", "4553.6"), default=0, section="7-3")
-    """Heating-cooling dead band (DB): -1999.9 to 4553.6; read and write; 7-3."""
-    alfn = ReadWrite(33, _UINT16, integer, range=within(0, 65535), default=2, section="7-3")
-    """Alarm function (ALFN): 0 to 65535; read and write; 7-3."""
-    rehi = ReadWrite(34, _UINT16, number, scale=_SCALE, range=_RANGE, default=100, section="7-3")
-    """Retransmission high scale value (REHI): range by condition; read and write; 7-3."""
-    almd = ReadWrite(35, _UINT16, integer, range=within(0, 65535), default=0, section="7-3")
-    """Alarm operation mode (ALMD): 0 to 65535; read and write; 7-3."""
-    alhy = ReadWrite(36, _UINT16, number, scale=_SCALE_3, range=_RANGE_3, default=0.1, section="7-3")
-    """Alarm hysteresis (ALHY): range by condition; read and write; 7-3."""
-    alft = ReadWrite(37, _UINT16, integer, range=within(0, 65535), default=0, section="7-3")
-    """Alarm failure transfer (ALFT): 0 to 65535; read and write; 7-3."""
-    comm = ReadWrite(
-        38, _UINT16, integer, range=within(0, 65535), default=1, section="7-3", danger=_DANGER, stays="line"
+    """Output 1 signal type (O1TY): 0 to 65535; 7-3."""
+    o1ft = ReadWrite(
+        19, _UINT16, number, scale=_O1FT_SCALE, range=within("-1999.9", "4553.6"), default=0, section="7-3"
     )
-    """Communication function (COMM): 0 to 65535; read and write; 7-3."""
+    """Output 1 failure transfer (O1FT): -1999.9 to 4553.6; 7-3."""
+    o1hy = ReadWrite(20, _UINT16, number, scale=_SPAN, range=_PB_RANGE, default=0.1, section="7-3")
+    """Output 1 ON-OFF hysteresis (O1HY): 7-3."""
+    cyc1 = ReadWrite(21, _UINT16, number, scale=_TD_SCALE, range=within(0, "6553.5"), default=18, section="7-3")
+    """Output 1 cycle time (CYC1): 0 to 6553.5; 7-3."""
+    ofst = ReadWrite(22, _UINT16, number, scale=_TD_SCALE, range=within(0, "6553.5"), default=25, section="7-3")
+    """Offset value for P control (OFST): 0 to 6553.5; 7-3."""
+    ramp = ReadWrite(23, _UINT16, integer, range=within(0, 65535), default=0, section="7-3")
+    """Ramp function (RAMP): 0 to 65535; 7-3."""
+    rr = ReadWrite(24, _UINT16, number, scale=_SPAN, range=_PB_RANGE, default=0, section="7-3")
+    """Ramp rate (RR): 7-3."""
+    out2 = ReadWrite(25, _UINT16, integer, range=within(0, 65535), default=2, section="7-3")
+    """Output 2 function (OUT2): 0 to 65535; 7-3."""
+    relo = ReadWrite(26, _UINT16, number, scale=_PROCESS, range=_SP1_RANGE, default=0, section="7-3")
+    """Retransmission low scale value (RELO): 7-3."""
+    o2ty = ReadWrite(27, _UINT16, integer, range=within(0, 65535), default=0, section="7-3")
+    """Output 2 signal type (O2TY): 0 to 65535; 7-3."""
+    o2ft = ReadWrite(
+        28, _UINT16, number, scale=_O1FT_SCALE, range=within("-1999.9", "4553.6"), default=0, section="7-3"
+    )
+    """Output 2 failure transfer (O2FT): -1999.9 to 4553.6; 7-3."""
+    o2hy = ReadWrite(29, _UINT16, number, scale=_SPAN, range=_PB_RANGE, default=0.1, section="7-3")
+    """Output 2 ON-OFF hysteresis (O2HY): 7-3."""
+    cyc2 = ReadWrite(30, _UINT16, number, scale=_TD_SCALE, range=within(0, "6553.5"), default=18, section="7-3")
+    """Output 2 cycle time (CYC2): 0 to 6553.5; 7-3."""
+    cpb = ReadWrite(31, _UINT16, integer, range=within(0, 65535), default=100, section="7-3")
+    """Cooling P band (CPB): 0 to 65535; 7-3."""
+    db = ReadWrite(32, _UINT16, number, scale=_O1FT_SCALE, range=within("-1999.9", "4553.6"), default=0, section="7-3")
+    """Heating-cooling dead band (DB): -1999.9 to 4553.6; 7-3."""
+    alfn = ReadWrite(33, _UINT16, integer, range=within(0, 65535), default=2, section="7-3")
+    """Alarm function (ALFN): 0 to 65535; 7-3."""
+    rehi = ReadWrite(34, _UINT16, number, scale=_PROCESS, range=_SP1_RANGE, default=100, section="7-3")
+    """Retransmission high scale value (REHI): 7-3."""
+    almd = ReadWrite(35, _UINT16, integer, range=within(0, 65535), default=0, section="7-3")
+    """Alarm operation mode (ALMD): 0 to 65535; 7-3."""
+    alhy = ReadWrite(36, _UINT16, number, scale=_SPAN, range=_PB_RANGE, default=0.1, section="7-3")
+    """Alarm hysteresis (ALHY): 7-3."""
+    alft = ReadWrite(37, _UINT16, integer, range=within(0, 65535), default=0, section="7-3")
+    """Alarm failure transfer (ALFT): 0 to 65535; 7-3."""
+    comm = ReadWrite(38, _UINT16, integer, default=1, danger=_COMM_DANGER, stays="line", **_COMMUNICATION)
+    """Communication function (COMM): 0 to 65535; 7-3."""
     addr = ReadWrite(
         39,
         _UINT16,
         integer,
-        range=within(0, 65535),
         default=1,
-        section="7-3",
-        danger=_DANGER_2,
+        danger=_ADDR_DANGER,
         stays="address",
         governs=Governs(Setting.ADDRESS),
+        **_COMMUNICATION,
     )
-    """Address (ADDR): 0 to 65535; read and write; 7-3."""
+    """Address (ADDR): 0 to 65535; 7-3."""
     baud = ReadWrite(
         40,
         _UINT16,
         integer,
-        range=within(0, 65535),
         default=2,
-        section="7-3",
-        danger=_DANGER,
+        danger=_COMM_DANGER,
         stays="line",
         governs=Governs(Setting.BAUD),
+        **_COMMUNICATION,
     )
-    """Baud rate (BAUD): 0 to 65535; read and write; 7-3."""
+    """Baud rate (BAUD): 0 to 65535; 7-3."""
     data = ReadWrite(
         41,
         _UINT16,
         integer,
-        range=within(0, 65535),
         default=1,
-        section="7-3",
-        danger=_DANGER,
+        danger=_COMM_DANGER,
         stays="line",
         governs=Governs(Setting.DATA_BITS),
+        **_COMMUNICATION,
     )
-    """Data bit count (DATA): 0 to 65535; read and write; 7-3."""
+    """Data bit count (DATA): 0 to 65535; 7-3."""
     pari = ReadWrite(
         42,
         _UINT16,
         integer,
-        range=within(0, 65535),
         default=0,
-        section="7-3",
-        danger=_DANGER,
+        danger=_COMM_DANGER,
         stays="line",
         governs=Governs(Setting.PARITY),
+        **_COMMUNICATION,
     )
-    """Parity bit (PARI): 0 to 65535; read and write; 7-3."""
+    """Parity bit (PARI): 0 to 65535; 7-3."""
     stop = ReadWrite(
         43,
         _UINT16,
         integer,
-        range=within(0, 65535),
         default=0,
-        section="7-3",
-        danger=_DANGER,
+        danger=_COMM_DANGER,
         stays="line",
         governs=Governs(Setting.STOP_BITS),
+        **_COMMUNICATION,
     )
-    """Stop bit count (STOP): 0 to 65535; read and write; 7-3."""
+    """Stop bit count (STOP): 0 to 65535; 7-3."""
     sel1 = ReadWrite(44, _UINT16, integer, range=within(0, 65535), default=2, section="7-3")
-    """Selection 1 (SEL1): 0 to 65535; read and write; 7-3."""
+    """Selection 1 (SEL1): 0 to 65535; 7-3."""
     sel2 = ReadWrite(45, _UINT16, integer, range=within(0, 65535), default=3, section="7-3")
-    """Selection 2 (SEL2): 0 to 65535; read and write; 7-3."""
+    """Selection 2 (SEL2): 0 to 65535; 7-3."""
     sel3 = ReadWrite(46, _UINT16, integer, range=within(0, 65535), default=4, section="7-3")
-    """Selection 3 (SEL3): 0 to 65535; read and write; 7-3."""
+    """Selection 3 (SEL3): 0 to 65535; 7-3."""
     sel4 = ReadWrite(47, _UINT16, integer, range=within(0, 65535), default=6, section="7-3")
-    """Selection 4 (SEL4): 0 to 65535; read and write; 7-3."""
+    """Selection 4 (SEL4): 0 to 65535; 7-3."""
     sel5 = ReadWrite(48, _UINT16, integer, range=within(0, 65535), default=7, section="7-3")
-    """Selection 5 (SEL5): 0 to 65535; read and write; 7-3."""
+    """Selection 5 (SEL5): 0 to 65535; 7-3."""
     sel6 = ReadWrite(49, _UINT16, integer, range=within(0, 65535), default=8, section="7-3")
-    """Selection 6 (SEL6): 0 to 65535; read and write; 7-3."""
+    """Selection 6 (SEL6): 0 to 65535; 7-3."""
     sel7 = ReadWrite(50, _UINT16, integer, range=within(0, 65535), default=10, section="7-3")
-    """Selection 7 (SEL7): 0 to 65535; read and write; 7-3."""
+    """Selection 7 (SEL7): 0 to 65535; 7-3."""
     sel8 = ReadWrite(51, _UINT16, integer, range=within(0, 65535), default=17, section="7-3")
-    """Selection 8 (SEL8): 0 to 65535; read and write; 7-3."""
-    adlo = ReadWrite(
-        52,
-        _UINT16,
-        number,
-        scale=_SCALE_5,
-        range=within("-1999.9", "4553.6"),
-        section="7-3",
-        unlock="unlock_calibration",
-        danger=_DANGER_3,
-        stays="calibration",
-    )
-    """mV calibration low coefficient (ADLO): -1999.9 to 4553.6; read and write; 7-3."""
-    adhi = ReadWrite(
-        53,
-        _UINT16,
-        number,
-        scale=_SCALE_5,
-        range=within("-1999.9", "4553.6"),
-        section="7-3",
-        unlock="unlock_calibration",
-        danger=_DANGER_3,
-        stays="calibration",
-    )
-    """mV calibration high coefficient (ADHI): -1999.9 to 4553.6; read and write; 7-3."""
-    rtdl = ReadWrite(
-        54,
-        _UINT16,
-        number,
-        scale=_SCALE_5,
-        range=within("-1999.9", "4553.6"),
-        section="7-3",
-        unlock="unlock_calibration",
-        danger=_DANGER_3,
-        stays="calibration",
-    )
-    """RTD calibration low coefficient (RTDL): -1999.9 to 4553.6; read and write; 7-3."""
-    rtdh = ReadWrite(
-        55,
-        _UINT16,
-        number,
-        scale=_SCALE_5,
-        range=within("-1999.9", "4553.6"),
-        section="7-3",
-        unlock="unlock_calibration",
-        danger=_DANGER_3,
-        stays="calibration",
-    )
-    """RTD calibration high coefficient (RTDH): -1999.9 to 4553.6; read and write; 7-3."""
-    cjlo = ReadWrite(
-        56,
-        _UINT16,
-        number,
-        scale=_SCALE_6,
-        range=within("-199.99", "455.36"),
-        section="7-3",
-        unlock="unlock_calibration",
-        danger=_DANGER_3,
-        stays="calibration",
-    )
-    """Cold junction calibration low coefficient (CJLO): -199.99 to 455.36; read and write; 7-3."""
-    cjhi = ReadWrite(
-        57,
-        _UINT16,
-        number,
-        scale=_SCALE_5,
-        range=within("-1999.9", "4553.6"),
-        section="7-3",
-        unlock="unlock_calibration",
-        danger=_DANGER_3,
-        stays="calibration",
-    )
-    """Cold junction calibration high coefficient (CJHI): -1999.9 to 4553.6; read and write; 7-3."""
+    """Selection 8 (SEL8): 0 to 65535; 7-3."""
+    adlo = ReadWrite(52, _UINT16, number, scale=_O1FT_SCALE, range=within("-1999.9", "4553.6"), **_CALIBRATION)
+    """mV calibration low coefficient (ADLO): -1999.9 to 4553.6; 7-3."""
+    adhi = ReadWrite(53, _UINT16, number, scale=_O1FT_SCALE, range=within("-1999.9", "4553.6"), **_CALIBRATION)
+    """mV calibration high coefficient (ADHI): -1999.9 to 4553.6; 7-3."""
+    rtdl = ReadWrite(54, _UINT16, number, scale=_O1FT_SCALE, range=within("-1999.9", "4553.6"), **_CALIBRATION)
+    """RTD calibration low coefficient (RTDL): -1999.9 to 4553.6; 7-3."""
+    rtdh = ReadWrite(55, _UINT16, number, scale=_O1FT_SCALE, range=within("-1999.9", "4553.6"), **_CALIBRATION)
+    """RTD calibration high coefficient (RTDH): -1999.9 to 4553.6; 7-3."""
+    cjlo = ReadWrite(56, _UINT16, number, scale=_CJLO_SCALE, range=within("-199.99", "455.36"), **_CALIBRATION)
+    """Cold junction calibration low coefficient (CJLO): -199.99 to 455.36; 7-3."""
+    cjhi = ReadWrite(57, _UINT16, number, scale=_O1FT_SCALE, range=within("-1999.9", "4553.6"), **_CALIBRATION)
+    """Cold junction calibration high coefficient (CJHI): -1999.9 to 4553.6; 7-3."""
     date = ReadWrite(58, _UINT16, integer, range=within(0, 65535), section="7-3", stays="identity")
-    """Date Code (DATE): 0 to 65535; read and write; 7-3."""
+    """Date Code (DATE): 0 to 65535; 7-3."""
     srno = ReadWrite(59, _UINT16, integer, range=within(0, 65535), section="7-3", stays="identity")
-    """Serial Number (SRNO): 0 to 65535; read and write; 7-3."""
+    """Serial Number (SRNO): 0 to 65535; 7-3."""
     hour = ReadWrite(60, _UINT16, integer, range=within(0, 65535), unit="h", section="7-3", stays="counter")
-    """Working hours of the controller (HOUR): 0 to 65535; unit h; read and write; 7-3."""
-    bpl1 = ReadOnly(61, _UINT16, number, scale=_SCALE_7, range=within(0, "655.35"), section="7-3")
-    """Bumpless transfer of OP1 (BPL1): 0 to 655.35; read only; 7-3."""
-    bpl2 = ReadOnly(62, _UINT16, number, scale=_SCALE_7, range=within(0, "655.35"), section="7-3")
-    """Bumpless transfer of OP2 (BPL2): 0 to 655.35; read only; 7-3."""
-    cjcl = ReadOnly(63, _UINT16, number, scale=_SCALE_8, range=within(0, "65.535"), section="7-3")
-    """Cold junction signal low (CJCL): 0 to 65.535; read only; 7-3."""
-    pv = ReadOnly(64, _UINT16, number, scale=_SCALE, range=_RANGE, section="7-3", aliases=(128,))
-    """Process value (PV): range by condition; read only; 7-3."""
-    sv = ReadOnly(65, _UINT16, number, scale=_SCALE, range=_RANGE, section="7-3", aliases=(129,))
-    """Current set point value (SV): range by condition; read only; 7-3."""
+    """Working hours of the controller (HOUR): 0 to 65535; unit h; 7-3."""
+    bpl1 = ReadOnly(61, _UINT16, number, scale=_BPL1_SCALE, range=within(0, "655.35"), section="7-3")
+    """Bumpless transfer of OP1 (BPL1): 0 to 655.35; 7-3."""
+    bpl2 = ReadOnly(62, _UINT16, number, scale=_BPL1_SCALE, range=within(0, "655.35"), section="7-3")
+    """Bumpless transfer of OP2 (BPL2): 0 to 655.35; 7-3."""
+    cjcl = ReadOnly(63, _UINT16, number, scale=_CJCL_SCALE, range=within(0, "65.535"), section="7-3")
+    """Cold junction signal low (CJCL): 0 to 65.535; 7-3."""
+    pv = ReadOnly(64, _UINT16, number, scale=_PROCESS, range=_SP1_RANGE, section="7-3", aliases=(128,))
+    """Process value (PV): 7-3."""
+    sv = ReadOnly(65, _UINT16, number, scale=_PROCESS, range=_SP1_RANGE, section="7-3", aliases=(129,))
+    """Current set point value (SV): 7-3."""
     mv1 = ReadWrite(
         66,
         _UINT16,
         number,
-        scale=_SCALE_7,
+        scale=_BPL1_SCALE,
         range=within(0, "655.35"),
         section="7-3",
         aliases=(130,),
-        writable=_WRITABLE,
+        writable=_MV1_WRITABLE,
         stays="operation",
     )
-    """OP1 control output value (MV1): 0 to 655.35; read and write; 7-3."""
-    timer = ReadOnly(68, _UINT16, number, scale=_SCALE_5, range=within("-1999.9", "4553.6"), section="7-3")
-    """Remaining time of dwell timer (TIMER): -1999.9 to 4553.6; read only; 7-3."""
+    """OP1 control output value (MV1): 0 to 655.35; 7-3."""
+    timer = ReadOnly(68, _UINT16, number, scale=_O1FT_SCALE, range=within("-1999.9", "4553.6"), section="7-3")
+    """Remaining time of dwell timer (TIMER): -1999.9 to 4553.6; 7-3."""
     eror = ReadOnly(69, _UINT16, choice(Eror), section="7-3")
-    """Error code (EROR): read only; 7-3."""
-    prog = ReadOnly(71, _UINT16, number, scale=_SCALE_7, range=within(0, "655.35"), section="7-3", aliases=(140,))
-    """Program code (PROG): 0 to 655.35; read only; 7-3."""
+    """Error code (EROR): 7-3."""
+    prog = ReadOnly(71, _UINT16, number, scale=_BPL1_SCALE, range=within(0, "655.35"), section="7-3", aliases=(140,))
+    """Program code (PROG): 0 to 655.35; 7-3."""
     cmnd = ReadWrite(72, _UINT16, integer, range=within(0, 65535), section="7-3", stays="operation")
-    """Command code (CMND): 0 to 65535; read and write; 7-3."""
+    """Command code (CMND): 0 to 65535; 7-3."""
     job1 = ReadWrite(73, _UINT16, integer, range=within(0, 65535), section="7-3", stays="operation")
-    """Job code 1 (JOB1): 0 to 65535; read and write; 7-3."""
+    """Job code 1 (JOB1): 0 to 65535; 7-3."""
     job2 = ReadWrite(74, _UINT16, integer, range=within(0, 65535), section="7-3", stays="operation")
-    """Job code 2 (JOB2): 0 to 65535; read and write; 7-3."""
+    """Job code 2 (JOB2): 0 to 65535; 7-3."""
     job3 = ReadWrite(75, _UINT16, integer, range=within(0, 65535), section="7-3", stays="operation")
-    """Job code 3 (JOB3): 0 to 65535; read and write; 7-3."""
-    cjct = ReadOnly(76, _UINT16, number, scale=_SCALE_6, range=within("-199.99", "455.36"), section="7-3")
-    """Cold Junction Temperature (CJCT): -199.99 to 455.36; read only; 7-3."""
+    """Job code 3 (JOB3): 0 to 65535; 7-3."""
+    cjct = ReadOnly(76, _UINT16, number, scale=_CJLO_SCALE, range=within("-199.99", "455.36"), section="7-3")
+    """Cold Junction Temperature (CJCT): -199.99 to 455.36; 7-3."""
 
 
 class _Series100OfBTC9100BTC8100BTC4100BTC7100:
     """Registers of BTC-9100, BTC-8100, BTC-4100, BTC-7100."""
 
-    sp2 = ReadWrite(1, _UINT16, number, scale=_SCALE, range=_RANGE, default=10, section="7-3")
-    """Set point 2 (SP2): range by condition; read and write; 7-3."""
+    sp2 = ReadWrite(1, _UINT16, number, scale=_PROCESS, range=_SP1_RANGE, default=10, section="7-3")
+    """Set point 2 (SP2): 7-3."""
     mv2 = ReadWrite(
         67,
         _UINT16,
         number,
-        scale=_SCALE_7,
+        scale=_BPL1_SCALE,
         range=within(0, "655.35"),
         section="7-3",
         aliases=(131,),
-        writable=_WRITABLE,
+        writable=_MV1_WRITABLE,
         stays="operation",
     )
-    """OP2 control output value (MV2): 0 to 655.35; read and write; 7-3."""
+    """OP2 control output value (MV2): 0 to 655.35; 7-3."""
     mode = ReadOnly(70, _UINT16, word_of(Mode), section="7-3")
-    """Operation mode & alarm status (MODE): read only; 7-3."""
+    """Operation mode & alarm status (MODE): 7-3."""
 
 
 class _Series100OfC21C91:
     """Registers of C21, C91."""
 
-    sp2 = ReadWrite(1, _UINT16, number, scale=_SCALE_9, range=_RANGE_4, default=10, section="7-3")
-    """Set point 2 (SP2): range by condition; read and write; 7-3."""
+    sp2 = ReadWrite(1, _UINT16, number, scale=_PROCESS_OR_OUTPUT_TIMER, range=_SP2_RANGE, default=10, section="7-3")
+    """Set point 2 (SP2): 7-3."""
     mv2 = ReadWrite(
         67,
         _UINT16,
         number,
-        scale=_SCALE_7,
+        scale=_BPL1_SCALE,
         range=within(0, "655.35"),
         section="7-3",
         aliases=(131,),
-        writable=_WRITABLE,
+        writable=_MV1_WRITABLE,
         stays="operation",
     )
-    """OP2 control output value (MV2): 0 to 655.35; read and write; 7-3."""
+    """OP2 control output value (MV2): 0 to 655.35; 7-3."""
     mode = ReadOnly(70, _UINT16, word_of(ModeC21C91), section="7-3")
-    """Operation mode & alarm status (MODE): read only; 7-3."""
+    """Operation mode & alarm status (MODE): 7-3."""
 
 
 class _Series100Commands:
@@ -652,23 +599,15 @@ class _Series100Commands:
 
     reset = Command(CommandStep(6, 72, (26661,)))
     """Reset; Has the same effect as the R key.; 7-5."""
-    enter_auto_tuning = Command(
-        CommandStep(6, 72, (26664,)),
-        danger="the controller drives the process to find new PID values and replaces the old ones",
-    )
+    enter_auto_tuning = Command(CommandStep(6, 72, (26664,)), danger=_ENTER_AUTO_TUNING_DANGER)
     """Enter Auto-tuning Mode; 7-5; dangerous: the controller drives the process to find new PID values and replaces the
     old ones.
     """
-    enter_manual_control = Command(
-        CommandStep(6, 72, (26663,)),
-        danger="the outputs no longer follow the process; they keep what is written to MV1 and MV2",
-    )
+    enter_manual_control = Command(CommandStep(6, 72, (26663,)), danger=_ENTER_MANUAL_CONTROL_DANGER)
     """Enter Manual Control Mode; 7-5; dangerous: the outputs no longer follow the process; they keep what is written to
     MV1 and MV2.
     """
-    unlock_calibration = Command(
-        CommandStep(6, 72, (26669,)), danger="a coefficient changed afterwards makes every measurement wrong"
-    )
+    unlock_calibration = Command(CommandStep(6, 72, (26669,)), danger=_UNLOCK_CALIBRATION_DANGER)
     """Unlock Calibration Coefficients; Must be written before a calibration coefficient (ADLO to CJHI) is changed.;
     7-5; dangerous: a coefficient changed afterwards makes every measurement wrong.
     """
@@ -687,46 +626,95 @@ class Series100Groups:
 
     input = Group(
         "Set Points and Input",
-        "sp1",
-        "sp2",
-        "sp3",
-        "lock",
-        "inpt",
-        "measuring_unit",
-        "dp",
-        "inlo",
-        "inhi",
-        "sp1l",
-        "sp1h",
-        "shif",
-        "filt",
-        "disp",
+        _Series100.sp1,
+        _Series100OfBTC9100BTC8100BTC4100BTC7100.sp2,
+        _Series100.sp3,
+        _Series100.lock,
+        _Series100.inpt,
+        _Series100.measuring_unit,
+        _Series100.dp,
+        _Series100.inlo,
+        _Series100.inhi,
+        _Series100.sp1l,
+        _Series100.sp1h,
+        _Series100.shif,
+        _Series100.filt,
+        _Series100.disp,
     )
     output_1 = Group(
-        "Control and Output 1", "pb", "ti", "td", "out1", "o1ty", "o1ft", "o1hy", "cyc1", "ofst", "ramp", "rr"
+        "Control and Output 1",
+        _Series100.pb,
+        _Series100.ti,
+        _Series100.td,
+        _Series100.out1,
+        _Series100.o1ty,
+        _Series100.o1ft,
+        _Series100.o1hy,
+        _Series100.cyc1,
+        _Series100.ofst,
+        _Series100.ramp,
+        _Series100.rr,
     )
     output_2 = Group(
         "Output 2, Retransmission and Alarm",
-        "out2",
-        "relo",
-        "o2ty",
-        "o2ft",
-        "o2hy",
-        "cyc2",
-        "cpb",
-        "db",
-        "alfn",
-        "rehi",
-        "almd",
-        "alhy",
-        "alft",
+        _Series100.out2,
+        _Series100.relo,
+        _Series100.o2ty,
+        _Series100.o2ft,
+        _Series100.o2hy,
+        _Series100.cyc2,
+        _Series100.cpb,
+        _Series100.db,
+        _Series100.alfn,
+        _Series100.rehi,
+        _Series100.almd,
+        _Series100.alhy,
+        _Series100.alft,
     )
-    communication = Group("Communication", "comm", "addr", "baud", "data", "pari", "stop")
-    selection = Group("Selection", "sel1", "sel2", "sel3", "sel4", "sel5", "sel6", "sel7", "sel8")
-    calibration = Group("Calibration", "adlo", "adhi", "rtdl", "rtdh", "cjlo", "cjhi")
-    service = Group("Service", "date", "srno", "hour", "bpl1", "bpl2", "cjcl")
-    process = Group("Process", "pv", "sv", "mv1", "mv2", "timer", "eror", "mode", "prog")
-    command = Group("Command", "cmnd", "job1", "job2", "job3", "cjct")
+    communication = Group(
+        "Communication",
+        _Series100.comm,
+        _Series100.addr,
+        _Series100.baud,
+        _Series100.data,
+        _Series100.pari,
+        _Series100.stop,
+    )
+    selection = Group(
+        "Selection",
+        _Series100.sel1,
+        _Series100.sel2,
+        _Series100.sel3,
+        _Series100.sel4,
+        _Series100.sel5,
+        _Series100.sel6,
+        _Series100.sel7,
+        _Series100.sel8,
+    )
+    calibration = Group(
+        "Calibration",
+        _Series100.adlo,
+        _Series100.adhi,
+        _Series100.rtdl,
+        _Series100.rtdh,
+        _Series100.cjlo,
+        _Series100.cjhi,
+    )
+    service = Group(
+        "Service", _Series100.date, _Series100.srno, _Series100.hour, _Series100.bpl1, _Series100.bpl2, _Series100.cjcl
+    )
+    process = Group(
+        "Process",
+        _Series100.pv,
+        _Series100.sv,
+        _Series100.mv1,
+        _Series100OfBTC9100BTC8100BTC4100BTC7100.mv2,
+        _Series100.timer,
+        _Series100.eror,
+        _Series100OfBTC9100BTC8100BTC4100BTC7100.mode,
+        _Series100.prog,
+    )
+    command = Group("Command", _Series100.cmnd, _Series100.job1, _Series100.job2, _Series100.job3, _Series100.cjct)
 
 
 class FdcBTC9100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Series100Device):
