@@ -27,11 +27,6 @@ class Box:
     tip: str = ""
     radius: float = 0
 
-    def overlaps(self, other: "Box") -> bool:
-        """Tell whether both cover a point; edges that touch do not count."""
-        across = self.x < other.x + other.width and other.x < self.x + self.width
-        return across and self.y < other.y + other.height and other.y < self.y + self.height
-
 
 @dataclass(frozen=True, slots=True)
 class DrawnLine:

@@ -19,6 +19,19 @@ SMALLER = 10
 MOST_GROUPS = 300
 """Groups that are listed by name."""
 
+ACCESS = {
+    Access.READ_WRITE: "filled: read and write",
+    Access.READ: "outline: read only",
+    Access.WRITE: "with a bar: write only",
+}
+HATCHES = {"unused": "unused: reads 0, refuses writes", "reserved": "reserved by the manual", "": "no register"}
+MARKS = {
+    MANY: "other sets of models",
+    OTHERWISE: "another register on other models",
+    SEVERAL: "registers of several groups",
+}
+"""What outlines, hatching and marks mean, in the order of the legend."""
+
 
 @dataclass(frozen=True, slots=True)
 class LegendEntry:
@@ -47,36 +60,20 @@ def _groups(looks: Looks) -> Iterator[LegendEntry]:
 def _shapes(looks: Looks, used: Sequence[Look]) -> Iterator[LegendEntry]:
     access = {look.access for look in used}
     sample = used[0].group if looks.groups and used else 0
-    if Access.READ_WRITE in access:
-        yield LegendEntry("filled: read and write", Look(sample))
-    if Access.READ in access:
-        yield LegendEntry("outline: read only", Look(sample, Access.READ))
-    if Access.WRITE in access:
-        yield LegendEntry("with a bar: write only", Look(sample, Access.WRITE))
+    yield from (LegendEntry(text, Look(sample, one)) for one, text in ACCESS.items() if one in access)
     aliases = [look for look in used if look.alias]
     if aliases:
         yield LegendEntry("dashed, round: alias", Look(sample, aliases[0].access, alias=True))
 
 
 def _hatches(kinds: Sequence[str]) -> Iterator[LegendEntry]:
-    if "unused" in kinds:
-        yield LegendEntry("unused: reads 0, refuses writes", hatch="unused")
-    if "reserved" in kinds:
-        yield LegendEntry("reserved by the manual", hatch="reserved")
-    if "" in kinds:
-        yield LegendEntry("no register", hatch="empty")
+    yield from (LegendEntry(text, hatch=kind or "empty") for kind, text in HATCHES.items() if kind in kinds)
 
 
 def _marks(looks: Looks, used: Sequence[Look]) -> Iterator[LegendEntry]:
-    marks = {look.mark for look in used}
     words = {mark: set_words(names, looks.models) for names, mark in looks.sets.items() if mark != MANY}
-    yield from (LegendEntry(text, mark=mark) for mark, text in words.items() if mark in marks)
-    if MANY in marks:
-        yield LegendEntry("other sets of models", mark=MANY)
-    if OTHERWISE in marks:
-        yield LegendEntry("another register on other models", mark=OTHERWISE)
-    if SEVERAL in marks:
-        yield LegendEntry("registers of several groups", mark=SEVERAL)
+    marks = {look.mark for look in used}
+    yield from (LegendEntry(text, mark=mark) for mark, text in (words | MARKS).items() if mark in marks)
 
 
 def _block(canvas: Canvas, entries: Sequence[LegendEntry]) -> None:
