@@ -10,7 +10,7 @@ import hashlib
 import json
 import os
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field
 from importlib.util import find_spec
@@ -137,7 +137,7 @@ def _ingredients() -> Iterator[tuple[str, bytes]]:
     package, runtime = (Path(str(top.__file__)).parent for top in (regscribe, regscribe_runtime))
     schema = package.parents[1] / "schema"  # of a checkout; the wheel's is in the package
     for folder in (package, runtime, schema):
-        for path in sorted(_files(folder, keep=lambda name: not name.endswith((".pyc", ".yaml")))):
+        for path in sorted(_files(folder)):
             yield path.relative_to(folder).as_posix(), path.read_bytes()
     for library in LIBRARIES:
         spec = find_spec(library)  # does not import it
@@ -146,9 +146,9 @@ def _ingredients() -> Iterator[tuple[str, bytes]]:
             yield library, f"{stat.st_size} {stat.st_mtime_ns}".encode()
 
 
-def _files(folder: Path, *, keep: Callable[[str], bool]) -> Iterable[Path]:
+def _files(folder: Path) -> Iterator[Path]:
     for root, _, names in os.walk(folder):
-        yield from (Path(root, name) for name in names if keep(name))
+        yield from (Path(root, name) for name in names if not name.endswith((".pyc", ".yaml")))
 
 
 def _place(out: Path) -> Path:

@@ -53,10 +53,6 @@ LETTERS = "ijklmn"
 T = TypeVar("T")
 
 
-def _same(text: str) -> str:
-    return text
-
-
 def _condition_name(condition: Condition) -> str:
     return condition.name or condition_words(condition)
 
@@ -71,7 +67,7 @@ def spelled(path: str) -> str:
 class Wording:
     """How the parts of a phrase that come from the map are written: free text, register paths, conditions."""
 
-    text: Callable[[str], str] = _same
+    text: Callable[[str], str] = str
     register: Callable[[str], str] = spelled
     condition: Callable[[Condition], str] = _condition_name
 
@@ -89,9 +85,9 @@ def listed(parts: Sequence[str], last: str = "or") -> str:
     return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} {last} {parts[-1]}" if parts else ""
 
 
-def span_words(first: int, last: int) -> str:
+def span_words(first: int, last: int, between: str = " to ") -> str:
     """Write a stretch of addresses or bits: `40`, `40 to 49`."""
-    return str(first) if first == last else f"{first} to {last}"
+    return str(first) if first == last else f"{first}{between}{last}"
 
 
 def fold(codes: Iterable[CodeRange]) -> tuple[CodeRange, ...]:
@@ -278,4 +274,4 @@ def order_words(order: Order | OrderFromRegister, wording: Wording = PLAIN) -> s
 
 def bits_words(field: BitField) -> str:
     """Write the bits of a field: `3` or `8..11`."""
-    return str(field.low) if field.low == field.high else f"{field.low}..{field.high}"
+    return span_words(field.low, field.high, "..")

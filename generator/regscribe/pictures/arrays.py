@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from regscribe.emit.markdown import alt_text
 from regscribe.emit.outline import Branch, Leaf, formula, leaves
-from regscribe.emit.words import one_line
+from regscribe.emit.words import one_line, span_words
 from regscribe.model import RegisterMap
 from regscribe.pictures.cell_style import set_words
 from regscribe.pictures.drawing import MARGIN, PLAIN, WIDTH, Box, Canvas, Drawing, DrawnLine, Text, TextStyle
@@ -139,7 +139,7 @@ def _member(canvas: Canvas, level: Level, child: Leaf | Branch, number: int, lef
         canvas.text(f"+{level.span(child, 0)[0] - level.start}", OFFSETS, canvas.y + 13, 44, offset)
     for column, element in enumerate(level.elements):
         canvas.add(Box(_x(level, column) + 1, canvas.y + 1, CELL - 4, height - 4, tint(number), radius=2))
-        words = _span(*level.span(child, element))
+        words = span_words(*level.span(child, element), "..")
         size = PLAIN if ".." not in words else NOTE
         like = TextStyle(size, "middle")
         canvas.text(words, _x(level, column) + CELL / 2 - 1, canvas.y + height / 2 + 3, CELL - 6, like)
@@ -172,7 +172,3 @@ def _rules(child: Leaf | Branch) -> Iterator[str]:
         yield f"{view.name}: {text}" if len(views) > 1 else text
     if len(views) > MOST_VIEWS:
         yield f"and {len(views) - MOST_VIEWS} more views"
-
-
-def _span(low: int, high: int) -> str:
-    return str(low) if low == high else f"{low}..{high}"

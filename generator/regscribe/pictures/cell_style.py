@@ -86,9 +86,18 @@ def draw(canvas: Canvas, box: Box, look: Look, size: float, tip: str = "") -> No
     """Draw a cell that fills `box`: filled if it can be written, an outline if not, dashed if it is an alias."""
     inset = 1.0 if look.access.writable else 2.0
     style = tint(look.group) if look.access.writable else outline(look.group)
-    inner = _shrunk(box, inset)
     classes = f"{style} alias" if look.alias else style
-    canvas.add(Box(inner.x, inner.y, inner.width, inner.height, classes, tip, radius=7 if look.alias else 1))
+    canvas.add(
+        Box(
+            box.x + inset,
+            box.y + inset,
+            box.width - 2 * inset,
+            box.height - 2 * inset,
+            classes,
+            tip,
+            radius=7 if look.alias else 1,
+        )
+    )
     canvas.add(*_inside(box, look, size))
 
 
@@ -101,10 +110,6 @@ def _inside(box: Box, look: Look, size: float) -> Iterable[Item]:
     if not look.access.readable:
         low = box.y + box.height - 3.5
         yield DrawnLine(((box.x + 4, low), (box.x + box.width - 4, low)))
-
-
-def _shrunk(box: Box, by: float) -> Box:
-    return Box(box.x + by, box.y + by, box.width - 2 * by, box.height - 2 * by, box.style)
 
 
 def tip(found: Sequence[AddressUse], first: int, last: int, names: Mapping[str, str], models: Sequence[str]) -> str:

@@ -8,14 +8,11 @@ from regscribe.emit.markdown.escape import Md, code, escape, lines, link, md, sl
 from regscribe.emit.outline import Node, leaves, outline, pattern
 from regscribe.emit.words import Wording, condition_words, one_line, spelled
 from regscribe.model import (
-    Command,
     Condition,
-    Group,
     Inferred,
     Model,
     Register,
     RegisterMap,
-    SetpointProgram,
     Space,
     Units,
 )
@@ -100,17 +97,12 @@ def _keys(
 ) -> Iterator[str]:
     """Yield the kind and the key of everything that can be linked to."""
     yield from (f"register {leaf.register.key}" for leaf in leaves(nodes))
-    for kind, members in MEMBERS.items():
-        yield from (f"{kind} {member.id}" for model in register_map.models for member in members(model))
+    for model in register_map.models:
+        yield from (f"group {group.id}" for group in model.groups)
+        yield from (f"command {command.id}" for command in model.commands)
+        yield from (f"program {program.id}" for program in model.programs)
     yield from (f"condition {name}" for name in conditions)
     yield from (f"unit {name}" for name in units)
-
-
-MEMBERS: dict[str, Callable[[Model], Iterable[Group | Command | SetpointProgram]]] = {
-    "group": lambda model: model.groups,
-    "command": lambda model: model.commands,
-    "program": lambda model: model.programs,
-}
 
 
 def _units(nodes: Iterable[Node]) -> dict[str, tuple[Model, Units]]:

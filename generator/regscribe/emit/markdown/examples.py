@@ -94,7 +94,7 @@ def _meaning(context: PageContext, item: FrameExample) -> Md:
     facts += [f"address {item.address}"] if item.address is not None else []
     facts += [f"{item.count} {'bits' if item.function in BIT_FUNCTIONS else 'words'}"] if item.count is not None else []
     words = _words(item.function, item.words) if item.words is not None else ""
-    writes = join("<br>", (_write(context, item, path, value) for path, value in item.writes))
+    writes = _state(context, item.model, item.writes)
     command = context.command(item.command) if item.command else Md()
     return join("<br>", (escape(", ".join(facts)), escape(words) if not writes else Md(), writes, command))
 
@@ -104,10 +104,6 @@ def _words(function: int, words: tuple[int, ...]) -> str:
     if function == WRITE_COIL:
         return f"bit {listed(['on' if word else 'off' for word in words], last='and')}"
     return f"words {listed([str(word) for word in words], last='and')}"
-
-
-def _write(context: PageContext, item: FrameExample, path: str, value: Fraction) -> Md:
-    return md(context.register(path), f" = {_labelled(context.map, item.model, path, value)}")
 
 
 def _timing(item: TimingExample) -> tuple[str, ...]:

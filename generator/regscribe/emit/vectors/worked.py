@@ -75,7 +75,9 @@ def _said(example: FrameExample) -> Json:
     numbers = {name: getattr(example, name) for name in ("address", "count") if getattr(example, name) is not None}
     words = {} if example.words is None else {"words": [word & 0xFFFF for word in example.words]}
     writes = {"writes": {path: show(value) for path, value in example.writes}} if example.writes else {}
-    return {**numbers, **words, **writes, **{name: getattr(example, name) for name in _TEXTS if getattr(example, name)}}
-
-
-_TEXTS = ("view", "command")
+    return {
+        **numbers,
+        **words,
+        **writes,
+        **{name: getattr(example, name) for name in ("view", "command") if getattr(example, name)},
+    }
