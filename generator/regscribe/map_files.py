@@ -18,11 +18,16 @@ ID = re.compile(r"[\w-]+(/[\w-]+)+")
 """What may be the id of a map: names, and no step upwards."""
 
 
-def shipped() -> Path:
-    """Return the folder of the maps that come with regscribe: in the wheel, else those of the source checkout."""
+def data_folder(name: str) -> Path:
+    """Return a folder that comes with regscribe: in the wheel, else that of the source checkout."""
     package = Path(regscribe.__file__).parent
-    wheel = package / "data" / "maps"
-    return wheel if wheel.is_dir() else package.parents[1] / "maps"
+    wheel = package / "data" / name
+    return wheel if wheel.is_dir() else package.parents[1] / name
+
+
+def shipped() -> Path:
+    """Return the folder of the maps that come with regscribe."""
+    return data_folder("maps")
 
 
 def is_file(path: Path | str) -> bool:

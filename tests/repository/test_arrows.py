@@ -28,7 +28,7 @@ ROOMS = {
     "map_files": set[str](),
     "reference": {"model"},
     "source": {"model"},
-    "schema": {"model", "source"},
+    "schema": {"model", "source", "map_files"},
     "compose": {"model", "source", "schema", "map_files"},
     "lower": {"model", "reference", "source", "schema"},
     "checks": {"model", "reference", "source", "schema", "compose", "lower", WIRE},

@@ -98,13 +98,11 @@ def _composed(whole: Document, root: SourceNode, part: _Part, loader: FileLoader
         overrides=part.overrides,
         files=tuple(loader.hashes.items()),
         empty=tuple(sorted(loader.empty)),
-        libraries=tuple(_document(library, loader) for library in part.libraries),
+        libraries=tuple(
+            Document(one.path.name, "", one.root.value, loader.hashes[one.path], one.root) for one in part.libraries
+        ),
         shipped=tuple(file.id for file in loader.known.values() if file is not None and file.shipped),
     )
-
-
-def _document(library: LoadedFile, loader: FileLoader) -> Document:
-    return Document(library.path.name, "", library.root.value, loader.hashes[library.path], library.root)
 
 
 def _build(file: LoadedFile, loader: FileLoader, chain: tuple[LoadedFile, ...]) -> _Part | None:

@@ -6,7 +6,7 @@ from regscribe.emit.docs_index import Card
 from regscribe.emit.markdown import index_row
 from regscribe.emit.markdown.escape import Md, code, escape, join, md, prose
 from regscribe.evidence.coverage import coverage
-from regscribe.evidence.coverage_values import Addresses, MapCoverage, ModelCoverage, Remark, counts
+from regscribe.evidence.coverage_values import Addresses, MapCoverage, Remark, counts
 from regscribe.model import RegisterMap
 
 
@@ -18,15 +18,10 @@ def card(register_map: RegisterMap) -> Card:
         id=register_map.id,
         family=tuple(map(str, index_row(register_map))),
         sums=(family, *map(str, counts(found))),
-        facts=tuple((family, *_facts(model)) for model in found.models),
+        facts=tuple((family, escape(model.name), *map(str, counts(model))) for model in found.models),
         addresses=tuple((family, *row) for row in _addresses(found)),
         remarks=tuple((family, *_remark(remark)) for remark in found.remarks),
     )
-
-
-def _facts(model: ModelCoverage) -> tuple[str, ...]:
-    """Return the cells of one model: how many registers have each fact."""
-    return (escape(model.name), *map(str, counts(model)))
 
 
 def _addresses(found: MapCoverage) -> Iterator[tuple[str, ...]]:

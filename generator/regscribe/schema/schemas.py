@@ -3,10 +3,9 @@
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import regscribe
+from regscribe.map_files import data_folder
 
 if TYPE_CHECKING:
     from jsonschema import ValidationError
@@ -18,18 +17,10 @@ MAP = "map"
 _BRANCHES = frozenset({"allOf", "then", "else"})
 
 
-def schema_path(language: str = MAP) -> Path:
-    """Return where the schema of a language lies: in the wheel, else in the source checkout."""
-    package = Path(regscribe.__file__).parent
-    file = f"{language}.schema.json"
-    wheel = package / "data" / "schema" / file
-    return wheel if wheel.is_file() else package.parents[1] / "schema" / file
-
-
 @cache
 def schema_json(language: str = MAP) -> dict[str, Any]:
     """Return the JSON Schema (2020-12) of a language; the caller must not change it."""
-    schema: dict[str, Any] = json.loads(schema_path(language).read_text(encoding="utf-8"))
+    schema: dict[str, Any] = json.loads((data_folder("schema") / f"{language}.schema.json").read_text(encoding="utf-8"))
     return schema
 
 

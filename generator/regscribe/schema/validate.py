@@ -24,7 +24,8 @@ def validate(document: Document, *, language: str = MAP) -> list[Diagnostic]:
     found: dict[tuple[str, Span, str], Diagnostic] = {}
     for error in errors:
         for complaint in islice(complaints(violation(error)), MAX_ERRORS):
-            span = _span(document, complaint)
+            find = document.key_span if complaint.at_key else document.span
+            span = find(complaint.path)
             diagnostic = Diagnostic(complaint.rule, complaint.message, span, complaint.advice)
             found.setdefault((complaint.rule, span, _subject(complaint)), diagnostic)
     ordered = sorted(found.values(), key=lambda diagnostic: (diagnostic.span, diagnostic.rule, diagnostic.message))
@@ -36,10 +37,6 @@ def _subject(complaint: Complaint) -> str:
     if complaint.rule == MISSING_KEY:
         return complaint.same
     return "" if complaint.rule == WRONG_TYPE else complaint.message
-
-
-def _span(document: Document, complaint: Complaint) -> Span:
-    return document.key_span(complaint.path) if complaint.at_key else document.span(complaint.path)
 
 
 def _cut(ordered: list[Diagnostic]) -> list[Diagnostic]:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from regscribe.map_files import LIBRARY, ids_in, shipped
 from regscribe.model import RegisterMap
 from regscribe.simulate import SimulatorError, find_map, simulate
 
@@ -50,3 +51,12 @@ def test_a_map_with_mistakes_is_told_with_its_place(local: Path) -> None:
     local.write_text("format: 1\n", encoding="utf-8")
     with pytest.raises(SimulatorError, match=r"has mistakes.*\n.*furnace.yaml:1"), simulate("acme/furnace", "F1"):
         pass
+
+
+def test_the_maps_that_a_message_lists_are_no_libraries() -> None:
+    with pytest.raises(SimulatorError, match="known are") as caught:
+        find_map("zzz")
+    known = set(str(caught.value).partition("known are ")[2].split(", "))
+    assert "fdc/series-100" in known
+    libraries = ids_in([shipped()], LIBRARY)
+    assert [name for name in known if name.removesuffix(".library") in libraries] == []

@@ -42,7 +42,8 @@ def command(*, left: str, right: str, stays: bool, packages: tuple[str, ...], co
     found = settings.differences(one, other, stays=stays, missing=not factory)
     blind = _without_default(first, second, stays=stays) if factory else []
     if as_json:
-        print_json(left=one.name, right=other.name, differences=[_plain(each) for each in found], not_compared=blind)
+        plain = [{"register": each.path, "left": _json(each.left), "right": _json(each.right)} for each in found]
+        print_json(left=one.name, right=other.name, differences=plain, not_compared=blind)
     else:
         _show(one, other, found)
         if blind:
@@ -75,10 +76,6 @@ def _show(one: Side, other: Side, found: tuple[SettingDifference, ...]) -> None:
 
 def _text(saved: Saved | None) -> str:
     return "-" if saved is None else saved.spelled
-
-
-def _plain(each: SettingDifference) -> dict[str, object]:
-    return {"register": each.path, "left": _json(each.left), "right": _json(each.right)}
 
 
 def _json(saved: Saved | None) -> dict[str, object] | None:

@@ -34,7 +34,8 @@ def command(*, target: Target, as_json: bool, wanted: tuple[str, ...]) -> int:
         registers = {one.path: one for members in groups.values() for one in members}
         found = {one.name: one for one in device.run(readings(list(registers.values())))}
     if as_json:
-        print_json(**heading(device, target), groups=_plain(groups, found))
+        by_group = {name: {one.path: plain(found[one.path]) for one in members} for name, members in groups.items()}
+        print_json(**heading(device, target), groups=by_group)
     else:
         _show(device, groups, found)
     return 0
@@ -50,10 +51,6 @@ def _groups(driver: type[BareDevice], wanted: tuple[str, ...]) -> dict[str, list
         if name not in known:
             raise TargetError(unknown("group", name, known, where=f"in {driver.model}"))
     return {name: known[name] for name in dict.fromkeys(wanted or known)}
-
-
-def _plain(groups: Mapping[str, list[Register[Any]]], found: Mapping[str, RegisterReading]) -> dict[str, Any]:
-    return {name: {one.path: plain(found[one.path]) for one in members} for name, members in groups.items()}
 
 
 def _show(device: BareDevice, groups: Mapping[str, list[Register[Any]]], found: Mapping[str, RegisterReading]) -> None:

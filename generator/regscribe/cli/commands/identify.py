@@ -10,7 +10,7 @@ from regscribe.cli.shared.target_options import HELP, target_options
 from regscribe.tools.live import catalogue
 from regscribe.tools.live import target as targets
 from regscribe.tools.live.target import Target
-from regscribe_runtime.driver.identify import Evidence, Known
+from regscribe_runtime.driver.identify import Evidence
 
 
 @click.command(
@@ -25,17 +25,16 @@ def command(*, target: Target, as_json: bool) -> int:
     with reported():
         found = targets.identification(target)
         targets.answered(found)
+    titles = [(one.model, one.map_id, catalogue.title(one)) for one in found.models]
     if as_json:
         print_json(
             device=str(target),
             certain=found.certain,
-            models=[_model(known) for known in found.models],
+            models=[dict(zip(("model", "map", "title"), one, strict=True)) for one in titles],
             evidence=[_evidence(one) for one in found.evidence],
         )
     else:
-        show_table(
-            ("MODEL", "MAP", "WHAT IT IS"), [(one.model, one.map_id, catalogue.title(one)) for one in found.models]
-        )
+        show_table(("MODEL", "MAP", "WHAT IT IS"), titles)
         _remarks(len(found.models), [one for one in found.evidence if one.error is None])
     return 0 if found.models else REFUSED
 
@@ -47,10 +46,6 @@ def _remarks(fitting: int, seen: list[Evidence]) -> None:
         remark(f"{fitting} models answer alike: name the right one with model=...")
     elif not fitting:
         remark("no driver exists for what answers there")
-
-
-def _model(known: Known) -> dict[str, Any]:
-    return {"model": known.model, "map": known.map_id, "title": catalogue.title(known)}
 
 
 def _evidence(one: Evidence) -> dict[str, Any]:

@@ -14,7 +14,7 @@ import click
 from regscribe import plugins
 from regscribe.cli.shared.diagnostic_text import findings, tally
 from regscribe.cli.shared.output import show, tell, warn
-from regscribe.map_files import shipped
+from regscribe.map_files import data_folder
 from regscribe.model import Diagnostic, Severity
 from regscribe.plugins import IMPORTERS, PluginError
 from regscribe.visible import safe
@@ -127,7 +127,7 @@ def _schema_for(folder: Path) -> str:
     """Return the path of the schema as seen from the map; put a copy into `folder` if there is none to point to."""
     if (folder.parent / "schema" / SCHEMA).is_file():
         return f"../../schema/{SCHEMA}"
-    origin = shipped().parent / "schema" / SCHEMA
+    origin = data_folder("schema") / SCHEMA
     if origin.is_file() and not (folder / SCHEMA).exists():
         with origin.open("rb") as source, (folder / SCHEMA).open("xb") as target:
             copyfileobj(source, target)

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
 
 import click
 
@@ -10,6 +9,7 @@ from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.error_report import REFUSED, failure, reported
 from regscribe.cli.shared.output import print_json, remark, show_table
 from regscribe.cli.shared.progress import progress
+from regscribe.cli.shared.sigint import INTERRUPTED
 from regscribe.cli.shared.target_options import CONFIG, JSON, PACKAGE, quiet
 from regscribe.tools.live import catalogue
 from regscribe.tools.live import scan as scanning
@@ -17,8 +17,6 @@ from regscribe.tools.live.link_names import LinkName
 from regscribe.tools.live.scan import FoundDevice, Probe
 from regscribe.tools.live.target import named
 from regscribe_runtime import LinkLost
-
-INTERRUPTED = 130
 
 
 @click.command(
@@ -93,7 +91,11 @@ def _run(probes: Iterator[Probe], links: Sequence[LinkName], asked: Sequence[int
 
 def _show(found: Sequence[FoundDevice], noise: Mapping[str, str], ended: str, *, as_json: bool) -> None:
     if as_json:
-        print_json(complete=not ended, ended=ended or None, found=[_plain(one) for one in found], noise=noise)
+        plain = [
+            {"unit_id": one.unit, "link": str(one.link), "answer": one.answer, "models": list(one.models)}
+            for one in found
+        ]
+        print_json(complete=not ended, ended=ended or None, found=plain, noise=noise)
     else:
         rows = [(str(one.unit), str(one.link), one.answer, " or ".join(one.models) or "?") for one in found]
         show_table(("UNIT", "LINK", "ANSWER", "MODEL"), rows)
@@ -103,10 +105,6 @@ def _show(found: Sequence[FoundDevice], noise: Mapping[str, str], ended: str, *,
         remark(ended)
     elif not found:
         remark("nobody answers")
-
-
-def _plain(one: FoundDevice) -> dict[str, Any]:
-    return {"unit_id": one.unit, "link": str(one.link), "answer": one.answer, "models": list(one.models)}
 
 
 def _numbers(text: str) -> list[int]:

@@ -35,12 +35,11 @@ def captured(lines: Iterable[str], framing: str = "") -> Iterator[Captured]:
         text = line[:MOST].strip()
         candidates = [found for raw in _candidates(text) if (found := frames(raw, framing))]
         if candidates:
-            best = min(candidates, key=lambda one: (any(frame.complaint for frame in one), -_size(one)))
+            best = min(
+                candidates,
+                key=lambda one: (any(frame.complaint for frame in one), -sum(len(frame.raw) for frame in one)),
+            )
             yield Captured(number, _direction(text), tuple(best))
-
-
-def _size(found: list[CapturedFrame]) -> int:
-    return sum(len(frame.raw) for frame in found)
 
 
 def _candidates(text: str) -> Iterator[bytes]:

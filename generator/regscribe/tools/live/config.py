@@ -67,13 +67,9 @@ def _read(path: Path) -> Config:
     except files.FileError as error:
         raise TargetError(str(error)) from None
     folder = path.resolve().parent
-    packages = tuple(_package(folder, name) for name in document.data.get("packages", ()))
+    packages = tuple(str(folder / name) if "/" in name else name for name in document.data.get("packages", ()))
     devices = {name: _entry(given) for name, given in (document.data.get("devices") or {}).items()}
     return Config(path=str(path), devices=devices, packages=packages)
-
-
-def _package(folder: Path, name: str) -> str:
-    return str(folder / name) if "/" in name else name
 
 
 def _entry(given: Any) -> NamedDevice:  # noqa: ANN401 - checked against the schema

@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from regscribe.tools.live.errors import TargetError, meant
-from regscribe.tools.live.reading import RegisterReading
 from regscribe.tools.live.watch import Round
 from regscribe.visible import cell, json_text
 
@@ -174,13 +173,16 @@ def _rows(one: Round, device: str) -> list[tuple[Any, ...]]:
     if one.error is not None:
         return [(one.moment, device, "", None, "", str(one.error))]
     return [
-        (one.moment, device, each.name, _cell(each), each.unit, "" if each.error is None else str(each.error))
+        (
+            one.moment,
+            device,
+            each.name,
+            each.text if isinstance(each.value, list) else each.value,
+            each.unit,
+            "" if each.error is None else str(each.error),
+        )
         for each in one.readings
     ]
-
-
-def _cell(one: RegisterReading) -> Any:  # noqa: ANN401 - a plain value
-    return one.text if isinstance(one.value, list) else one.value
 
 
 def _shown(value: Any) -> Any:  # noqa: ANN401 - as above
