@@ -1,29 +1,39 @@
 """Where facts come from: sections, manual, errata; how models are told apart."""
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule, register_rule, warning
-from regscribe.model import Identity, Register, Rule
+from regscribe.model import Identity, IdentityRule, Register, RegisterMap, Rule
 
 
 @map_rule(Rule("RS0494", "Models not told apart", "`identify` says for every model, once, how it answers."))
 def identification(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Count models and conditions of the identification, if the map has one."""
     register_map = scopes[0].register_map
+    for message, help_text in (*_twice(register_map.identity), *_left_out(register_map)):
+        yield Finding(MAP, register_map.span, message, help_text)
+
+
+def _twice(rules: Iterable[IdentityRule]) -> Iterator[tuple[str, str]]:
+    """Models and conditions that `identify` has more than once."""
     known: set[Identity] = set()
-    for rule in register_map.identity:
+    for rule in rules:
         twice = [name for name, count in Counter(rule.models).items() if count > 1]
         if twice:
-            yield Finding(MAP, register_map.span, f"`identify` lists {', '.join(twice)} twice at once", "remove one")
+            yield f"`identify` lists {', '.join(twice)} twice at once", "remove one"
         if rule.identity in known:
             message = f"`identify` has two entries of one condition (the second for {', '.join(rule.models)})"
-            yield Finding(MAP, register_map.span, message, "list the models in one entry")
+            yield message, "list the models in one entry"
         known.add(rule.identity)
+
+
+def _left_out(register_map: RegisterMap) -> Iterator[tuple[str, str]]:
+    """Models that `identify` says nothing of, if it says something of others."""
     listed = {name for rule in register_map.identity for name in rule.models}
     missing = [model.name for model in register_map.models if listed and model.name not in listed]
     if missing:
-        yield Finding(MAP, register_map.span, f"`identify` does not say how to tell {', '.join(missing)}", "add them")
+        yield f"`identify` does not say how to tell {', '.join(missing)}", "add them"
 
 
 @register_rule(

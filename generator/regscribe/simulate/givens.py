@@ -24,10 +24,7 @@ class Givens:
     def __init__(self, register_map: RegisterMap, model: Model, values: Mapping[str, GivenValue]) -> None:
         declared = {given.id: given for given in register_map.givens}
         _refuse_unknown(declared, values)
-        used = {test.given for condition in _conditions(model) for test in condition.tests if test.given}
-        for name, given in declared.items():
-            if name in used and name not in values:
-                raise _missing(given, model)
+        _demand_used(declared, values, model)
         kinds = {name: declared[name].kind for name in values}
         self._flags = {name: bool(value) for name, value in values.items() if kinds[name] is GivenKind.BOOLEAN}
         self._codes = {name: _codes(name, value) for name, value in values.items() if name not in self._flags}
@@ -72,6 +69,12 @@ def _refuse_unknown(declared: Mapping[str, Given], values: Mapping[str, GivenVal
             known = ", ".join(declared) or "none"
             message = f"given {name!r} is not declared by the map (it declares: {known}): remove it or correct the name"
             raise SimulatorError(message)
+
+
+def _demand_used(declared: Mapping[str, Given], values: Mapping[str, GivenValue], model: Model) -> None:
+    used = {test.given for condition in _conditions(model) for test in condition.tests}
+    for name in used & declared.keys() - values.keys():
+        raise _missing(declared[name], model)
 
 
 def _missing(given: Given, model: Model) -> SimulatorError:

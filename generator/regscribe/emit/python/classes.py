@@ -15,7 +15,7 @@ from regscribe.emit.python.literals import camel, docstring, literal, member
 from regscribe.emit.python.register_lines import Declarations, command_call, command_text, declaration_lines
 from regscribe.emit.python.reserved_names import free
 from regscribe.emit.words import one_line
-from regscribe.model import Array, Model, Register, RegisterMap
+from regscribe.model import Array, Command, Model, Register, RegisterMap
 
 Members = Mapping[str, Sequence[Register | Array]]
 
@@ -118,12 +118,16 @@ class Classes:
         }
         shared = partition(owned, self._namer(f"{self.stem}Commands", owned))
         for one in shared:
-            body: list[str] = []
-            for command in one.items:
-                declaration = lay(command_call(command, self.pool), head=f"{command.id} = ", depth=1)
-                body += [*declaration, *docstring(command_text(command), 1)]
+            body = [line for command in one.items for line in self._command_lines(command)]
             self._class(one.name, [], f"Commands of {', '.join(one.models)}.", body)
-        parents = {name: tuple(one.name for one in shared if name in one.models) for name in owned}
+        return self._command_classes({name: tuple(one.name for one in shared if name in one.models) for name in owned})
+
+    def _command_lines(self, command: Command) -> list[str]:
+        declaration = lay(command_call(command, self.pool), head=f"{command.id} = ", depth=1)
+        return [*declaration, *docstring(command_text(command), 1)]
+
+    def _command_classes(self, parents: Mapping[str, tuple[str, ...]]) -> dict[str, str]:
+        """Emit a class for each set of parents; its name by model."""
         usual = max(parents.values(), key=list(parents.values()).count, default=())
         names = {}
         for own in dict.fromkeys(parents.values()):

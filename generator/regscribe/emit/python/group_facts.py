@@ -20,15 +20,21 @@ def with_group_facts(
     """The declarations of registers by id; long ones unpack what those of their group have in common."""
     found = dict(calls)
     for group_id in dict.fromkeys(register.group for register in registers):
-        lines = {one.id: _lines(one.id, calls[one.id]) for one in registers if one.group == group_id}
-        long = [name for name, count in lines.items() if count > ENOUGH_LINES]
-        common = _common(calls[name] for name in long)
-        if min(len(long), len(common)) >= FEWEST:
+        own = {one.id: calls[one.id] for one in registers if one.group == group_id}
+        lines = {name: _lines(name, call) for name, call in own.items()}
+        common = _shared_facts([own[name] for name, count in lines.items() if count > ENOUGH_LINES])
+        if common:
             facts = mapping([(literal(key.removesuffix("=")), value) for key, value in common])
             constant = pool.share(facts, group_id, f"{group_id}_{model.name}", type_name="dict[str, Any]")
-            alike = [name for name, count in lines.items() if count > 1 and set(common) <= set(calls[name].items)]
-            found |= {name: _without(calls[name], common, constant) for name in alike}
+            alike = [name for name, count in lines.items() if count > 1 and set(common) <= set(own[name].items)]
+            found |= {name: _without(own[name], common, constant) for name in alike}
     return found
+
+
+def _shared_facts(calls: Sequence[Call]) -> Facts:
+    """What the calls have in common, if these are enough of both."""
+    common = _common(calls)
+    return common if min(len(calls), len(common)) >= FEWEST else ()
 
 
 def _lines(name: str, call: Call) -> int:

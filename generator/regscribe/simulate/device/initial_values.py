@@ -19,12 +19,14 @@ def initial_value(register_map: RegisterMap, model: Model, register: Register, s
     tests = _identifying_tests(register_map, model, register)
     if tests:
         return _identifying(register, tests)
-    for value in (register.delivered, register.default):
-        if value is not None:
-            special = next((each for each in register.specials if each.means is None and each.code == value), None)
-            return state.special(register, special) if special else value
-    if accepts(register, Fraction(0), state):
-        return Fraction(0)
+    stated = register.default if register.delivered is None else register.delivered
+    if stated is not None:
+        special = next((each for each in register.specials if each.means is None and each.code == stated), None)
+        return state.special(register, special) if special else stated
+    return Fraction(0) if accepts(register, Fraction(0), state) else _first_accepted(register, state)
+
+
+def _first_accepted(register: Register, state: Present) -> Fraction:
     if register.enum is not None and register.enum.members:
         return Fraction(register.enum.members[0].code)
     limits = state.choose(register.range)

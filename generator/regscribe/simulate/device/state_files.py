@@ -81,22 +81,24 @@ def restore(state: DeviceState, document: Mapping[str, Any], *, name: str = "the
     Raises SimulatorError if it is of another model, or a value is none; the device is then as it was.
     """
     head, values = _parts(document, name)
+    _demand_same_model(state, head, name)
+    trial = state.copy()
+    for _ in range(PASSES):
+        _set(trial, values, name)
+    _set(trial, {path: plain for path, plain in values.items() if sources_of(trial.register(path))}, name)
+    for path, plain in _mapping(document.get("in_effect")).items():
+        _hold_back(trial, path, plain, name)
+    state.adopt(trial)
+    counts = _mapping(document.get("wear")).items()
+    return {str(path): count for path, count in counts if isinstance(count, int) and count > 0}
+
+
+def _demand_same_model(state: DeviceState, head: Mapping[str, Any], name: str) -> None:
     here = (state.blueprint.register_map.id, state.blueprint.model.name)
     there = (str(head.get("map")), str(head.get("model")))
     if there != here:
         message = f"{name} is of {there[0]}, model {there[1]}, but this is {here[0]}, model {here[1]}"
         raise SimulatorError(message)
-    trial = state.copy()
-    for _ in range(PASSES):
-        _set(trial, values, name)
-    _set(trial, {path: plain for path, plain in values.items() if sources_of(trial.register(path))}, name)
-    in_effect = document.get("in_effect")
-    for path, plain in in_effect.items() if isinstance(in_effect, dict) else ():
-        _hold_back(trial, path, plain, name)
-    state.adopt(trial)
-    wear = document.get("wear")
-    counts = wear.items() if isinstance(wear, dict) else ()
-    return {str(path): count for path, count in counts if isinstance(count, int) and count > 0}
 
 
 def _parts(document: Mapping[str, Any], name: str) -> tuple[Mapping[str, Any], Mapping[str, object]]:
@@ -109,11 +111,21 @@ def _parts(document: Mapping[str, Any], name: str) -> tuple[Mapping[str, Any], M
         return head, values
     head, settings = document.get("backup"), document.get("settings")
     if isinstance(head, dict) and isinstance(settings, dict):
-        groups = (group for group in settings.values() if isinstance(group, dict))
-        entries = ((path, entry) for group in groups for path, entry in group.items() if isinstance(entry, dict))
-        return head, {path: entry["value"] for path, entry in entries if entry.get("value") is not None}
+        return head, _settings(settings)
     message = f"{name} is no state: it has neither `state` and `values` nor `backup` and `settings`"
     raise SimulatorError(message)
+
+
+def _settings(groups: Mapping[str, Any]) -> dict[str, object]:
+    """The values of a backup by path; a setting without one is left as it is."""
+    entries = [entry for group in groups.values() for entry in _mapping(group).items()]
+    values = {path: _mapping(entry).get("value") for path, entry in entries}
+    return {path: value for path, value in values.items() if value is not None}
+
+
+def _mapping(plain: object) -> Mapping[str, Any]:
+    """A mapping as it is, nothing in place of anything else."""
+    return plain if isinstance(plain, dict) else {}
 
 
 def _set(state: DeviceState, values: Mapping[str, object], name: str) -> None:

@@ -5,7 +5,7 @@ witness for all that was read before. Where that goes round in a circle, it is r
 """
 
 import heapq
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from typing import NamedTuple
 
 from regscribe_runtime.planning.plan import Block, Terms, blocks
@@ -38,27 +38,37 @@ class ReadOrder(NamedTuple):
 def lay_out(wanted: Mapping[str, ReadPlace], needs: Mapping[str, Collection[str]], terms: Terms) -> ReadOrder:
     """The cheapest blocks for `wanted` (places by path), ordered by what the meaning of each depends on."""
     made = blocks((place.span for place in wanted.values()), terms)
-    numbers = {item: number for number, block in enumerate(made) for item in block.items}
-    taken = {path: numbers[place.span] for path, place in wanted.items()}
-    relations = [(path, need) for path in taken for need in needs.get(path, ()) if need in taken]
-    edges = {(taken[path], taken[need]) for path, need in relations}
-    order = _in_order(len(made), {edge for edge in edges if edge[0] != edge[1]})
-    rank = {number: place for place, number in enumerate(order)}
-    late = {need for path, need in relations if rank[taken[path]] > rank[taken[need]]}
-    late |= {need for path, need in relations if path in late}
-    tail = blocks((wanted[path].span for path in taken if path in late), terms)
+    taken = _numbers(wanted, made)
+    relations = [(path, need) for path in wanted for need in needs.get(path, ()) if need in wanted]
+    edges = {(taken[path], taken[need]) for path, need in relations if taken[path] != taken[need]}
+    order = _in_order(len(made), edges)
+    late = _late(relations, {path: order.index(number) for path, number in taken.items()})
+    tail = blocks((wanted[path].span for path in wanted if path in late), terms)
     ordered = (*(made[number] for number in order), *tail)
-    places = {path: _position(rank[number], wanted[path], ordered) for path, number in taken.items()}
-    again = {
-        path: _position(number, wanted[path], ordered)
-        for number, block in enumerate(tail, len(made))
-        for path in late
-        if wanted[path].span in block.items
+    places = _positions(wanted, ordered[: len(made)], 0)
+    again = _positions({path: wanted[path] for path in late}, tail, len(made))
+    checks = {need: again.get(need, places[need]) for _, need in relations}
+    return ReadOrder(ordered, places, checks, atomic=not late and not edges, again=len(tail))
+
+
+def _numbers(wanted: Mapping[str, ReadPlace], made: Sequence[Block]) -> dict[str, int]:
+    """The number of the block that carries each register."""
+    numbers = {span: number for number, block in enumerate(made) for span in block.items}
+    return {path: numbers[place.span] for path, place in wanted.items()}
+
+
+def _late(relations: Sequence[tuple[str, str]], rank: Mapping[str, int]) -> set[str]:
+    """What would be read before something that depends on it, and what these depend on in turn."""
+    late = {need for path, need in relations if rank[path] > rank[need]}
+    return late | {need for path, need in relations if path in late}
+
+
+def _positions(wanted: Mapping[str, ReadPlace], made: Sequence[Block], first: int) -> dict[str, WordPosition]:
+    """Where each register stands in blocks whose first has the number `first`."""
+    return {
+        path: WordPosition(first + number, wanted[path].view, wanted[path].span.address - made[number].address)
+        for path, number in _numbers(wanted, made).items()
     }
-    needed = {need for _, need in relations}
-    checks = {path: again.get(path, place) for path, place in places.items() if path in needed}
-    atomic = not late and all(first == then for first, then in edges)
-    return ReadOrder(ordered, places, checks, atomic, again=len(tail))
 
 
 def _in_order(count: int, edges: Collection[tuple[int, int]]) -> list[int]:
@@ -81,7 +91,3 @@ def _in_order(count: int, edges: Collection[tuple[int, int]]) -> list[int]:
             if not waits[then]:
                 heapq.heappush(ready, then)
     return order
-
-
-def _position(number: int, place: ReadPlace, ordered: tuple[Block, ...]) -> WordPosition:
-    return WordPosition(number, place.view, place.span.address - ordered[number].address)
