@@ -50,10 +50,14 @@ class Compiler:
 
     def _make(self, schema: Schema) -> Check:
         words = [word for word in schema if word not in _ANNOTATIONS and not word.startswith("x-")]
-        unknown = [word for word in words if word not in KEYWORDS or (word in {"then", "else"} and "if" not in schema)]
+        unknown = [word for word in words if not _is_known(word, schema)]
         if unknown:
             return _refusal(unknown)
         return all_of(tuple(make(schema, self.check) for make in dict.fromkeys(KEYWORDS[word] for word in words)))
+
+
+def _is_known(word: str, schema: Schema) -> bool:
+    return word in KEYWORDS and (word not in {"then", "else"} or "if" in schema)
 
 
 def _refusal(words: list[str]) -> Check:
