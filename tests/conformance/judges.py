@@ -143,7 +143,7 @@ class Present(Mapping[str, Fraction]):
             register = self._model.register(owner)
             field = next(one for one in register.fields if one.id == name)
         view = register.preferred
-        words = self._memory.get(view.space.value, view.address, view.words)
+        words = self._memory.get(view.space.value, view.address(register.at), view.words)
         reading = decode(register, view, tuple(words), Surroundings(values=self))
         value = reading.value
         if isinstance(value, str) and register.kind is Kind.VERSION:
@@ -263,20 +263,20 @@ def prime(device: SimulatedDevice, space: str, address: int, words: list[int]) -
     """Let a device hold words at the base address of a register, whatever it would take from a master."""
     for register in device.model.registers:
         for view in register.views:
-            if (view.space.value, view.address) == (space, address) and view.words <= len(words):
+            if (view.space.value, view.address(register.at)) == (space, address) and view.words <= len(words):
                 stored = simulated_codec.decode(view, words[: view.words], device.state.order(view))
                 if stored is not None:
                     device.state.store(register.path, stored)
                 return
 
 
-def ask(device: SimulatedDevice, view: View) -> list[int]:
+def ask(device: SimulatedDevice, register: Register, view: View) -> list[int]:
     """The words that a simulated device answers at a view."""
     function = READ_FUNCTIONS[view.space.value]
     if function == 7:
         return [device.handle(b"\x07")[1]]  # type: ignore[index] # it answers
     count = view.words
-    answer = device.handle(bytes([function]) + view.address.to_bytes(2, "big") + count.to_bytes(2, "big"))
+    answer = device.handle(bytes([function]) + view.address(register.at).to_bytes(2, "big") + count.to_bytes(2, "big"))
     assert answer is not None
     assert answer[0] == function, answer.hex(" ")
     data = answer[2:]
@@ -292,8 +292,8 @@ def decoded_by_tool(built: Built, memory: Any, row: Json) -> str:
     text = ""
     for register, view in [*_others(built, memory, row), register_of(built, row)]:
         own = register.path == row["register"]
-        words = words_of(row["words"]) if own else memory.get(view.space.value, view.address, view.words)
-        request, answer = _frames(view, words)
+        words = words_of(row["words"]) if own else memory.get(view.space.value, view.address(register.at), view.words)
+        request, answer = _frames(register, view, words)
         decoder.feed(CapturedFrame("tcp", 1, request, request), "sent")
         for item in decoder.feed(CapturedFrame("tcp", 1, answer, answer), "received").items:
             if (item.name, item.view) == (register.path, view.name):
@@ -304,15 +304,15 @@ def decoded_by_tool(built: Built, memory: Any, row: Json) -> str:
 def _others(built: Built, memory: Any, row: Json) -> list[tuple[Register, View]]:
     """What else the device was told to hold, twice: one may depend on the other."""
     others = [(one, one.preferred) for one in built.map.models[0].registers if one.path != row["register"]]
-    return [(one, view) for one, view in others if view.address in memory.cells[view.space.value]] * 2
+    return [(one, view) for one, view in others if view.address(one.at) in memory.cells[view.space.value]] * 2
 
 
-def _frames(view: View, words: list[int]) -> tuple[bytes, bytes]:
+def _frames(register: Register, view: View, words: list[int]) -> tuple[bytes, bytes]:
     function = READ_FUNCTIONS[view.space.value]
     if function == 7:
         return b"\x07", bytes([7, words[0]])
     data = bytes([words[0]]) if function in (1, 2) else b"".join(word.to_bytes(2, "big") for word in words)
-    asked = bytes([function]) + view.address.to_bytes(2, "big") + view.words.to_bytes(2, "big")
+    asked = bytes([function]) + view.address(register.at).to_bytes(2, "big") + view.words.to_bytes(2, "big")
     return asked, bytes([function, len(data)]) + data
 
 

@@ -217,7 +217,7 @@ def _lived(device: SimulatedDevice, register: Register, state: dict[int, int], n
     yield from _seen(device, register)  # what follows others, before it is written itself
     for view in register.views:
         for words in ((number,) * view.words, (0,) * (view.words - 1) + (number,)):
-            yield from _written(device, view, words)
+            yield from _written(device, register, view, words)
             yield from _seen(device, register)
     for at, word in ((905, number % 2), (700, 1), (701, 1)):
         device.handle(_write(at, (word,)))
@@ -230,10 +230,11 @@ def _lived(device: SimulatedDevice, register: Register, state: dict[int, int], n
     yield from _seen(device, register)
 
 
-def _written(device: SimulatedDevice, view: View, words: tuple[int, ...]) -> Iterator[object]:
-    where = view.address.to_bytes(2, "big")
+def _written(device: SimulatedDevice, register: Register, view: View, words: tuple[int, ...]) -> Iterator[object]:
+    start = view.address(register.at)
+    where = start.to_bytes(2, "big")
     if view.space is Space.HOLDING:
-        yield from (device.handle(_write(address, words)) for address in (view.address, *SPARE))
+        yield from (device.handle(_write(address, words)) for address in (start, *SPARE))
         yield device.handle(bytes([6]) + where + words[-1].to_bytes(2, "big"))
     elif view.space is Space.COIL:
         yield device.handle(bytes([5]) + where + (b"\xff\0" if words[-1] else b"\0\0"))
@@ -250,7 +251,7 @@ def _seen(device: SimulatedDevice, register: Register) -> Iterator[object]:
     for view in register.views:
         function = judges.READ_FUNCTIONS[view.space.value]
         yield device.handle(b"\x07") if function == STATUS else None
-        for address in (view.address, *SPARE):
+        for address in (view.address(register.at), *SPARE):
             yield device.handle(_read(function, address, view.words))
 
 

@@ -3,7 +3,6 @@
 import random
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
-from dataclasses import replace
 from fractions import Fraction
 
 from regscribe.model import Kind, NotANumber, Number, Order, Register, Space, View, WireType
@@ -42,7 +41,7 @@ def _transmitted(view: View, numbers: Iterable[Fraction | int | NotANumber]) -> 
     for number in numbers:
         with suppress(RefusedError):  # it does not fit
             stored = number if isinstance(number, NotANumber) else Fraction(number)
-            yield transmit(replace(view, word_order=Order.BIG), stored)
+            yield transmit(view._replace(order=Order.BIG), stored)
 
 
 def _stored(register: Register) -> Iterator[Fraction | NotANumber]:
@@ -60,7 +59,7 @@ def _codes(register: Register) -> Iterator[Fraction]:
 
 def _limits(register: Register) -> Iterator[Fraction]:
     intervals = [interval for case in register.range for interval in case.then.intervals]
-    yield from (end.value for one in intervals for end in (one.low, one.high) if isinstance(end, Number))
+    yield from (end for one in intervals for end in (one.low, one.high) if isinstance(end, Number))
 
 
 def values(register: Register) -> list[Fraction] | list[str]:

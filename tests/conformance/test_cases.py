@@ -88,9 +88,9 @@ def test_the_driver_reads_and_writes_what_the_case_says(case: Case, server: Serv
 
 
 def _read_wrong(case: Case, built: Built, row: Json, server: Server, link: Any) -> Iterator[str]:
-    _, view = judges.register_of(built, row)
+    register, view = judges.register_of(built, row)
     _prepare(server.memory, case, row)
-    server.memory.put(view.space.value, view.address, words_of(row["words"]))
+    server.memory.put(view.space.value, view.address(register.at), words_of(row["words"]))
     device = built.module.CaseA(link, unit=1)  # one that knows nothing from the row before
     bound = judges.attribute(device, row["register"])
     found = [judges.read_by_driver(lambda: bound.read(view=row.get("view")), row["register"])]
@@ -100,12 +100,12 @@ def _read_wrong(case: Case, built: Built, row: Json, server: Server, link: Any) 
 
 
 def _written_wrong(case: Case, built: Built, row: Json, server: Server, link: Any) -> Iterator[str]:
-    _, view = judges.register_of(built, row, writes=True)
+    register, view = judges.register_of(built, row, writes=True)
     _prepare(server.memory, case, row)
     bound = judges.attribute(built.module.CaseA(link, unit=1), row["register"])
     value = judges.value_for(built, row)
     how = {"view": row.get("view"), "rounded": row.get("rounded", False), "verify": False}
-    place = (view.space.value, view.address, view.words)
+    place = (view.space.value, view.address(register.at), view.words)
     found = judges.written(lambda: bound.write(value, **how), server.memory, *place)
     if found != _words(row):
         yield f"{row}: wrote {found!r}"
@@ -130,16 +130,16 @@ async def _asynchronously(case: Case, built: Built, server: Server) -> list[str]
 async def _over(link: Any, case: Case, built: Built, server: Server) -> list[str]:
     wrong: list[str] = []
     for row in _reads(case):
-        _, view = judges.register_of(built, row)
+        register, view = judges.register_of(built, row)
         _prepare(server.memory, case, row)
-        server.memory.put(view.space.value, view.address, words_of(row["words"]))
+        server.memory.put(view.space.value, view.address(register.at), words_of(row["words"]))
         found = await _read(judges.attribute(built.module.AsyncCaseA(link, unit=1), row["register"]), row)
         wrong += [] if judges.same(found, judges.expected_of(row)) else [f"{row}: read {found!r}"]
     for row in _writes(case, built):
-        _, view = judges.register_of(built, row, writes=True)
+        place = judges.register_of(built, row, writes=True)
         _prepare(server.memory, case, row)
         bound = judges.attribute(built.module.AsyncCaseA(link, unit=1), row["register"])
-        found = await _write(bound, judges.value_for(built, row), row, server.memory, view)
+        found = await _write(bound, judges.value_for(built, row), row, server.memory, place)
         wrong += [] if found == _words(row) else [f"{row}: wrote {found!r}"]
     return wrong
 
@@ -152,12 +152,13 @@ async def _read(bound: Any, row: Json) -> object:
     return judges.said_by_driver(value)
 
 
-async def _write(bound: Any, value: Any, row: Json, memory: Memory, view: Any) -> object:
+async def _write(bound: Any, value: Any, row: Json, memory: Memory, place: Any) -> object:
     try:
         await bound.write(value, view=row.get("view"), rounded=row.get("rounded", False), verify=False)
     except judges.UNSENT:
         return judges.REFUSED if not any(pdu[0] in {5, 6, 15, 16} for pdu in memory.log) else "refused too late"
-    return memory.get(view.space.value, view.address, view.words)
+    register, view = place
+    return memory.get(view.space.value, view.address(register.at), view.words)
 
 
 @each_sound
@@ -199,15 +200,15 @@ def test_a_simulated_device_sends_and_takes_what_the_case_says(case: Case) -> No
             continue
         device = judges.simulated(built, _held(case, row))
         device.poke(register.path, plain)
-        found = judges.ask(device, view)
+        found = judges.ask(device, register, view)
         wrong += [] if found == words_of(row["words"]) else [f"{row}: a device with {plain!r} sends {found}"]
     for row in _reads(case):
         if {"fault", "no_value", "shows"} & set(row) or row.get("lossy"):
             continue
         register, view = judges.register_of(built, row)
         device = judges.simulated(built, _held(case, row))
-        judges.prime(device, view.space.value, view.address, words_of(row["words"]))
-        found = judges.ask(device, view)
+        judges.prime(device, view.space.value, view.address(register.at), words_of(row["words"]))
+        found = judges.ask(device, register, view)
         wrong += [] if found == words_of(row["words"]) else [f"{row}: the words come back as {found}"]
     _report(wrong)
 
@@ -216,8 +217,8 @@ def _shown_wrong(case: Case, built: Built, row: Json) -> Iterator[str]:
     """What a device that holds the words of `shows` in the base view sends in the row's view."""
     register, view = judges.register_of(built, row)
     device, base = judges.simulated(built, _held(case, row)), register.base
-    judges.prime(device, base.space.value, base.address, words_of(row["shows"]))
-    found = judges.ask(device, view)
+    judges.prime(device, base.space.value, register.address, words_of(row["shows"]))
+    found = judges.ask(device, register, view)
     if found != words_of(row["words"]):
         yield f"{row}: shown as {found}"
 

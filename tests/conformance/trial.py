@@ -47,12 +47,12 @@ FEW = 8
 class Asked:
     """The words of a simulated device, as a master gets them."""
 
-    def __init__(self, device: SimulatedDevice, views: dict[tuple[str, int], View]) -> None:
+    def __init__(self, device: SimulatedDevice, views: dict[tuple[str, int], tuple[Register, View]]) -> None:
         self._device, self._views = device, views
 
     def get(self, space: str, address: int, count: int) -> list[int]:
         """The words of the view at an address."""
-        found = judges.ask(self._device, self._views[space, address])
+        found = judges.ask(self._device, *self._views[space, address])
         assert len(found) == count
         return found
 
@@ -67,7 +67,7 @@ class Trial:
         self.plain = built.module.CaseA(Wire(self.memory.answer), unit=1)
         self.device = SimulatedDevice(built.map, "A", unit=1)
         self.driver = built.module.CaseA(Wire(self.device.handle), unit=1)
-        views = {(view.space.value, view.address): view for one in self.registers for view in one.views}
+        views = {(view.space.value, view.address(one.at)): (one, view) for one in self.registers for view in one.views}
         self.asked = Asked(self.device, views)
 
     def differences(self) -> Iterator[str]:
@@ -96,8 +96,8 @@ class Trial:
             self.device.state.store(register.path, stored)
         for each in register.views:
             shown = self.device.peek_words(register.path, each.name)
-            self.memory.put(each.space.value, each.address, list(shown))
-        self.memory.put(view.space.value, view.address, list(words))
+            self.memory.put(each.space.value, each.address(register.at), list(shown))
+        self.memory.put(view.space.value, view.address(register.at), list(words))
 
     def _stored(self, register: Register, view: View, words: Words) -> Fraction | NotANumber | str | None:
         """What a device holds whose view shows the words; None for words that nothing stored is shown by."""
@@ -182,7 +182,7 @@ class Trial:
             return judges.said_by_error(error, register.path)
 
     def _reading(self, register: Register, view: View, memory: Any) -> object:
-        words = tuple(memory.get(view.space.value, view.address, view.words))
+        words = tuple(memory.get(view.space.value, view.address(register.at), view.words))
         try:
             return said(decode(register, view, words, self._known(memory)))
         except UnknownValueError:
@@ -201,7 +201,11 @@ class Trial:
                 expected = list(transmit(other, stored, self._known(self.asked)))
             except RefusedError:
                 continue  # what a device does with a number that a view cannot carry, no map says
-            found = judges.ask(self.device, other) if any(other.allows(one) for one in (1, 2, 3, 4, 7)) else expected
+            found = (
+                judges.ask(self.device, register, other)
+                if any(other.allows(one) for one in (1, 2, 3, 4, 7))
+                else expected
+            )
             if found != expected:
                 yield f"{words} show in {other.name} as {found}, not {expected}"
 
@@ -264,8 +268,8 @@ class Trial:
         if expected is None:
             return
         before = self.device.state.stored(register.path)
-        answer = self.device.handle(_request(view, words))
-        shown = judges.ask(self.device, view)
+        answer = self.device.handle(_request(register, view, words))
+        shown = judges.ask(self.device, register, view)
         self.device.state.store(register.path, before)
         assert answer is not None
         if (answer[0] < EXCEPTION) is not expected:
@@ -312,8 +316,8 @@ def _sent(log: Iterable[Any]) -> object:
     return list(writes[-1][4]) if len(writes) == 1 else writes
 
 
-def _request(view: View, words: Words) -> bytes:
-    where = view.address.to_bytes(2, "big")
+def _request(register: Register, view: View, words: Words) -> bytes:
+    where = view.address(register.at).to_bytes(2, "big")
     if view.space.is_bits:
         return b"\x05" + where + (b"\xff\0" if words[0] else b"\0\0")
     data = b"".join(word.to_bytes(2, "big") for word in words)

@@ -74,10 +74,10 @@ def _of_map(
     omega: RegisterMap, fact: Callable[[Register], Fact], but: frozenset[int] = frozenset()
 ) -> dict[tuple[str, int], Fact]:
     return {
-        (model.name, register.base.address): fact(register)
+        (model.name, register.address): fact(register)
         for model in omega.models
         for register in model.registers
-        if register.base.address not in but
+        if register.address not in but
     }
 
 
@@ -100,7 +100,7 @@ def test_access_is_what_the_list_says(omega: RegisterMap, listed: list[Row]) -> 
 
 def test_views_stand_where_the_list_prints_them(omega: RegisterMap, listed: list[Row]) -> None:
     but = frozenset(WITHOUT_10X)
-    views = _of_map(omega, lambda register: {view.name: view.address for view in register.views}, but)
+    views = _of_map(omega, lambda register: {view.name: view.address(register.at) for view in register.views}, but)
     assert views == _of_list(listed, lambda row: row.views, but)
 
 
@@ -122,5 +122,5 @@ def test_what_the_list_marks_with_an_asterisk_is_stored_without_its_decimal_poin
 ) -> None:
     marked = {row.address for row in listed if row.name.endswith("*")} | WITHOUT_ASTERISK
     every = (register for model in omega.models for register in model.registers)
-    shifted = {register.base.address for register in every if any(case.then.decimals for case in register.scale)}
+    shifted = {register.address for register in every if any(case.then.decimals for case in register.scale)}
     assert shifted == marked

@@ -58,15 +58,13 @@ def _row(fields: dict[str, str]) -> Row:
 
 def _registers(model: Model) -> dict[tuple[Space, int], Register]:
     """Registers by the JBUS number of their first word."""
-    return {(register.base.space, register.base.address + 1): register for register in model.registers}
+    return {(register.base.space, register.address + 1): register for register in model.registers}
 
 
 def _continued(model: Model) -> set[tuple[Space, int]]:
     """JBUS numbers of the words after the first of a value."""
     return {
-        (each.base.space, each.base.address + 1 + word)
-        for each in model.registers
-        for word in range(1, each.base.words)
+        (each.base.space, each.address + 1 + word) for each in model.registers for word in range(1, each.base.words)
     }
 
 

@@ -66,6 +66,6 @@ def test_the_defaults_encode_to_the_words_of_example_1(
     model = fdc.model("C21")
     values = {each.path: each.default for each in model.registers if isinstance(each.default, Fraction)}
     known = Surroundings(values=values, codes={"linear_inputs": linear})
-    registers = {register.base.address: register for register in model.registers}
+    registers = {register.address: register for register in model.registers}
     words = [encode(registers[at], registers[at].base, parse(downloaded[at]["value"]), known) for at in range(52)]
     assert words == [(int(row["word"], 16),) for row in downloaded]

@@ -20,7 +20,7 @@ PACKAGES = {package.__name__: Path(str(package.__file__)).parent for package in 
 RUNTIME = "regscribe_runtime"
 VALUES, WIRE = f"{RUNTIME}.values", f"{RUNTIME}.wire"
 ROOMS = {
-    VALUES: {RUNTIME},
+    VALUES: set[str](),
     WIRE: {RUNTIME},
     RUNTIME: {WIRE},
     "model": set[str](),

@@ -4,6 +4,7 @@
 # format 1, map sha256 30d310c6e7842fee
 
 from collections.abc import Collection
+from fractions import Fraction
 from typing import Any, Self, Unpack
 
 from regscribe_runtime import (
@@ -13,10 +14,12 @@ from regscribe_runtime import (
     AsyncPart,
     BareDevice,
     Bit,
+    Case,
     Choice,
     ClientSettings,
     Command,
     CommandStep,
+    Condition,
     Conversion,
     ExceptionCode,
     Field,
@@ -25,10 +28,10 @@ from regscribe_runtime import (
     Identity,
     Interval,
     Is,
-    Limits,
     Link,
     Part,
     Protocol,
+    Range,
     ReadOnly,
     ReadWrite,
     SerialDefaults,
@@ -40,6 +43,7 @@ from regscribe_runtime import (
     WireType,
     Word,
     WriteCondition,
+    always,
     async_client_link,
     async_serial_link,
     async_tcp,
@@ -90,65 +94,131 @@ _PROTOCOL = Protocol(
     ),
 )
 _UINT16 = word(WireType.UINT16)
-_NON_LINEAR = (Is("inpt", given="linear_inputs", negated=True),)
+_NON_LINEAR = Condition(tests=(Is("inpt", given="linear_inputs", negated=True),), name="non_linear")
 _PROCESS = (
-    (_NON_LINEAR, Conversion(multiply="0.1", add="-1999.9")),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((0, 0),))), Conversion(add=-19999)),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((1, 1),))), Conversion(multiply="0.1", add="-1999.9")),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((2, 2),))), Conversion(multiply="0.01", add="-199.99")),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((3, 3),))), Conversion(multiply="0.001", add="-19.999")),
+    Case(_NON_LINEAR, Conversion(multiply=Fraction("0.1"), add=Fraction("-1999.9"))),
+    Case(Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((0, 0),)))), Conversion(add=-19999)),
+    Case(
+        Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((1, 1),)))),
+        Conversion(multiply=Fraction("0.1"), add=Fraction("-1999.9")),
+    ),
+    Case(
+        Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((2, 2),)))),
+        Conversion(multiply=Fraction("0.01"), add=Fraction("-199.99")),
+    ),
+    Case(
+        Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((3, 3),)))),
+        Conversion(multiply=Fraction("0.001"), add=Fraction("-19.999")),
+    ),
 )
 _SP1_RANGE = (
-    (_NON_LINEAR, Limits((Interval("-1999.9", "4553.6"),))),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((0, 0),))), Limits((Interval(-19999, 45536),))),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((1, 1),))), Limits((Interval("-1999.9", "4553.6"),))),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((2, 2),))), Limits((Interval("-199.99", "455.36"),))),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((3, 3),))), Limits((Interval("-19.999", "45.536"),))),
+    Case(_NON_LINEAR, Range((Interval(Fraction("-1999.9"), Fraction("4553.6")),))),
+    Case(
+        Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((0, 0),)))),
+        Range((Interval(-19999, 45536),)),
+    ),
+    Case(
+        Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((1, 1),)))),
+        Range((Interval(Fraction("-1999.9"), Fraction("4553.6")),)),
+    ),
+    Case(
+        Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((2, 2),)))),
+        Range((Interval(Fraction("-199.99"), Fraction("455.36")),)),
+    ),
+    Case(
+        Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((3, 3),)))),
+        Range((Interval(Fraction("-19.999"), Fraction("45.536")),)),
+    ),
 )
 _PROCESS_OR_ALARM_TIMER = (
-    ((Is("alfn", ((1, 1),)),), Conversion(multiply="0.1", add="-1999.9")),
-    (_NON_LINEAR, Conversion(multiply="0.1", add="-1999.9")),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((0, 0),))), Conversion(add=-19999)),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((1, 1),))), Conversion(multiply="0.1", add="-1999.9")),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((2, 2),))), Conversion(multiply="0.01", add="-199.99")),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((3, 3),))), Conversion(multiply="0.001", add="-19.999")),
+    Case(
+        Condition(tests=(Is("alfn", codes=((1, 1),)),)), Conversion(multiply=Fraction("0.1"), add=Fraction("-1999.9"))
+    ),
+    Case(_NON_LINEAR, Conversion(multiply=Fraction("0.1"), add=Fraction("-1999.9"))),
+    Case(Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((0, 0),)))), Conversion(add=-19999)),
+    Case(
+        Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((1, 1),)))),
+        Conversion(multiply=Fraction("0.1"), add=Fraction("-1999.9")),
+    ),
+    Case(
+        Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((2, 2),)))),
+        Conversion(multiply=Fraction("0.01"), add=Fraction("-199.99")),
+    ),
+    Case(
+        Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((3, 3),)))),
+        Conversion(multiply=Fraction("0.001"), add=Fraction("-19.999")),
+    ),
 )
 _SP3_RANGE = (
-    ((Is("alfn", ((1, 1),)),), Limits((Interval("-1999.9", "4553.6"),))),
-    (_NON_LINEAR, Limits((Interval("-1999.9", "4553.6"),))),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((0, 0),))), Limits((Interval(-19999, 45536),))),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((1, 1),))), Limits((Interval("-1999.9", "4553.6"),))),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((2, 2),))), Limits((Interval("-199.99", "455.36"),))),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((3, 3),))), Limits((Interval("-19.999", "45.536"),))),
+    Case(Condition(tests=(Is("alfn", codes=((1, 1),)),)), Range((Interval(Fraction("-1999.9"), Fraction("4553.6")),))),
+    Case(_NON_LINEAR, Range((Interval(Fraction("-1999.9"), Fraction("4553.6")),))),
+    Case(
+        Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((0, 0),)))),
+        Range((Interval(-19999, 45536),)),
+    ),
+    Case(
+        Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((1, 1),)))),
+        Range((Interval(Fraction("-1999.9"), Fraction("4553.6")),)),
+    ),
+    Case(
+        Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((2, 2),)))),
+        Range((Interval(Fraction("-199.99"), Fraction("455.36")),)),
+    ),
+    Case(
+        Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((3, 3),)))),
+        Range((Interval(Fraction("-19.999"), Fraction("45.536")),)),
+    ),
 )
 _SPAN = (
-    (_NON_LINEAR, Conversion(multiply="0.1")),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((0, 0),))), Conversion()),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((1, 1),))), Conversion(multiply="0.1")),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((2, 2),))), Conversion(multiply="0.01")),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((3, 3),))), Conversion(multiply="0.001")),
+    Case(_NON_LINEAR, Conversion(multiply=Fraction("0.1"))),
+    Case(Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((0, 0),)))), Conversion()),
+    Case(
+        Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((1, 1),)))),
+        Conversion(multiply=Fraction("0.1")),
+    ),
+    Case(
+        Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((2, 2),)))),
+        Conversion(multiply=Fraction("0.01")),
+    ),
+    Case(
+        Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((3, 3),)))),
+        Conversion(multiply=Fraction("0.001")),
+    ),
 )
 _PB_RANGE = (
-    (_NON_LINEAR, Limits((Interval(0, "6553.5"),))),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((0, 0),))), Limits((Interval(0, 65535),))),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((1, 1),))), Limits((Interval(0, "6553.5"),))),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((2, 2),))), Limits((Interval(0, "655.35"),))),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((3, 3),))), Limits((Interval(0, "65.535"),))),
+    Case(_NON_LINEAR, Range((Interval(0, Fraction("6553.5")),))),
+    Case(Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((0, 0),)))), Range((Interval(0, 65535),))),
+    Case(
+        Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((1, 1),)))),
+        Range((Interval(0, Fraction("6553.5")),)),
+    ),
+    Case(
+        Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((2, 2),)))),
+        Range((Interval(0, Fraction("655.35")),)),
+    ),
+    Case(
+        Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((3, 3),)))),
+        Range((Interval(0, Fraction("65.535")),)),
+    ),
 )
 # value of the stored x: x/10
-_TD_SCALE = (((), Conversion(multiply="0.1")),)
+_TD_SCALE = always(Conversion(multiply=Fraction("0.1")))
 # value of the stored x: x/10 - 1999.9
-_O1FT_SCALE = (((), Conversion(multiply="0.1", add="-1999.9")),)
+_O1FT_SCALE = always(Conversion(multiply=Fraction("0.1"), add=Fraction("-1999.9")))
+_O1FT_RANGE = within(Fraction("-1999.9"), Fraction("4553.6"))
 _COMM_DANGER = "the controller may be lost on this line - what the codes mean is not in this manual"
 _ADDR_DANGER = "the controller answers at the new address from now on"
 _ADLO_DANGER = "a wrong coefficient makes every measurement wrong"
 # value of the stored x: x/100 - 199.99
-_CJLO_SCALE = (((), Conversion(multiply="0.01", add="-199.99")),)
+_CJLO_SCALE = always(Conversion(multiply=Fraction("0.01"), add=Fraction("-199.99")))
+_CJLO_RANGE = within(Fraction("-199.99"), Fraction("455.36"))
 # value of the stored x: x/100
-_BPL1_SCALE = (((), Conversion(multiply="0.01")),)
+_BPL1_SCALE = always(Conversion(multiply=Fraction("0.01")))
 # value of the stored x: x/1000
-_CJCL_SCALE = (((), Conversion(multiply="0.001")),)
-_MANUAL_CONTROL = (Is("mode", ((3, 3),), bits=(8, 11)),)
+_CJCL_SCALE = always(Conversion(multiply=Fraction("0.001")))
+_MANUAL_CONTROL = Condition(
+    tests=(Is("mode", codes=((3, 3),), field="operation", bits=(8, 11)),), name="manual_control"
+)
 _MV1_WRITABLE = WriteCondition(_MANUAL_CONTROL, "the output can be written in manual control mode only")
 _COMMUNICATION: dict[str, Any] = {"range": within(0, 65535), "section": "7-3"}
 _CALIBRATION: dict[str, Any] = {
@@ -158,20 +228,43 @@ _CALIBRATION: dict[str, Any] = {
     "stays": "calibration",
 }
 _PROCESS_OR_OUTPUT_TIMER = (
-    ((Is("out2", ((1, 1),)),), Conversion(multiply="0.1", add="-1999.9")),
-    (_NON_LINEAR, Conversion(multiply="0.1", add="-1999.9")),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((0, 0),))), Conversion(add=-19999)),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((1, 1),))), Conversion(multiply="0.1", add="-1999.9")),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((2, 2),))), Conversion(multiply="0.01", add="-199.99")),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((3, 3),))), Conversion(multiply="0.001", add="-19.999")),
+    Case(
+        Condition(tests=(Is("out2", codes=((1, 1),)),)), Conversion(multiply=Fraction("0.1"), add=Fraction("-1999.9"))
+    ),
+    Case(_NON_LINEAR, Conversion(multiply=Fraction("0.1"), add=Fraction("-1999.9"))),
+    Case(Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((0, 0),)))), Conversion(add=-19999)),
+    Case(
+        Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((1, 1),)))),
+        Conversion(multiply=Fraction("0.1"), add=Fraction("-1999.9")),
+    ),
+    Case(
+        Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((2, 2),)))),
+        Conversion(multiply=Fraction("0.01"), add=Fraction("-199.99")),
+    ),
+    Case(
+        Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((3, 3),)))),
+        Conversion(multiply=Fraction("0.001"), add=Fraction("-19.999")),
+    ),
 )
 _SP2_RANGE = (
-    ((Is("out2", ((1, 1),)),), Limits((Interval("-1999.9", "4553.6"),))),
-    (_NON_LINEAR, Limits((Interval("-1999.9", "4553.6"),))),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((0, 0),))), Limits((Interval(-19999, 45536),))),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((1, 1),))), Limits((Interval("-1999.9", "4553.6"),))),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((2, 2),))), Limits((Interval("-199.99", "455.36"),))),
-    ((Is("inpt", given="linear_inputs"), Is("dp", ((3, 3),))), Limits((Interval("-19.999", "45.536"),))),
+    Case(Condition(tests=(Is("out2", codes=((1, 1),)),)), Range((Interval(Fraction("-1999.9"), Fraction("4553.6")),))),
+    Case(_NON_LINEAR, Range((Interval(Fraction("-1999.9"), Fraction("4553.6")),))),
+    Case(
+        Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((0, 0),)))),
+        Range((Interval(-19999, 45536),)),
+    ),
+    Case(
+        Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((1, 1),)))),
+        Range((Interval(Fraction("-1999.9"), Fraction("4553.6")),)),
+    ),
+    Case(
+        Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((2, 2),)))),
+        Range((Interval(Fraction("-199.99"), Fraction("455.36")),)),
+    ),
+    Case(
+        Condition(tests=(Is("inpt", given="linear_inputs"), Is("dp", codes=((3, 3),)))),
+        Range((Interval(Fraction("-19.999"), Fraction("45.536")),)),
+    ),
 )
 _ENTER_AUTO_TUNING_DANGER = "the controller drives the process to find new PID values and replaces the old ones"
 _ENTER_MANUAL_CONTROL_DANGER = "the outputs no longer follow the process; they keep what is written to MV1 and MV2"
@@ -373,21 +466,23 @@ class _Series100:
     """P (proportional) band (PB): 7-3."""
     ti = ReadWrite(15, _UINT16, integer, range=within(0, 65535), default=100, section="7-3")
     """Integral time (TI): 0 to 65535; 7-3."""
-    td = ReadWrite(16, _UINT16, number, scale=_TD_SCALE, range=within(0, "6553.5"), default=25, section="7-3")
+    td = ReadWrite(16, _UINT16, number, scale=_TD_SCALE, range=within(0, Fraction("6553.5")), default=25, section="7-3")
     """Derivative time (TD): 0 to 6553.5; 7-3."""
     out1 = ReadWrite(17, _UINT16, integer, range=within(0, 65535), default=0, section="7-3")
     """Output 1 function (OUT1): 0 to 65535; 7-3."""
     o1ty = ReadWrite(18, _UINT16, integer, range=within(0, 65535), default=0, section="7-3")
     """Output 1 signal type (O1TY): 0 to 65535; 7-3."""
-    o1ft = ReadWrite(
-        19, _UINT16, number, scale=_O1FT_SCALE, range=within("-1999.9", "4553.6"), default=0, section="7-3"
-    )
+    o1ft = ReadWrite(19, _UINT16, number, scale=_O1FT_SCALE, range=_O1FT_RANGE, default=0, section="7-3")
     """Output 1 failure transfer (O1FT): -1999.9 to 4553.6; 7-3."""
     o1hy = ReadWrite(20, _UINT16, number, scale=_SPAN, range=_PB_RANGE, default=0.1, section="7-3")
     """Output 1 ON-OFF hysteresis (O1HY): 7-3."""
-    cyc1 = ReadWrite(21, _UINT16, number, scale=_TD_SCALE, range=within(0, "6553.5"), default=18, section="7-3")
+    cyc1 = ReadWrite(
+        21, _UINT16, number, scale=_TD_SCALE, range=within(0, Fraction("6553.5")), default=18, section="7-3"
+    )
     """Output 1 cycle time (CYC1): 0 to 6553.5; 7-3."""
-    ofst = ReadWrite(22, _UINT16, number, scale=_TD_SCALE, range=within(0, "6553.5"), default=25, section="7-3")
+    ofst = ReadWrite(
+        22, _UINT16, number, scale=_TD_SCALE, range=within(0, Fraction("6553.5")), default=25, section="7-3"
+    )
     """Offset value for P control (OFST): 0 to 6553.5; 7-3."""
     ramp = ReadWrite(23, _UINT16, integer, range=within(0, 65535), default=0, section="7-3")
     """Ramp function (RAMP): 0 to 65535; 7-3."""
@@ -399,17 +494,17 @@ class _Series100:
     """Retransmission low scale value (RELO): 7-3."""
     o2ty = ReadWrite(27, _UINT16, integer, range=within(0, 65535), default=0, section="7-3")
     """Output 2 signal type (O2TY): 0 to 65535; 7-3."""
-    o2ft = ReadWrite(
-        28, _UINT16, number, scale=_O1FT_SCALE, range=within("-1999.9", "4553.6"), default=0, section="7-3"
-    )
+    o2ft = ReadWrite(28, _UINT16, number, scale=_O1FT_SCALE, range=_O1FT_RANGE, default=0, section="7-3")
     """Output 2 failure transfer (O2FT): -1999.9 to 4553.6; 7-3."""
     o2hy = ReadWrite(29, _UINT16, number, scale=_SPAN, range=_PB_RANGE, default=0.1, section="7-3")
     """Output 2 ON-OFF hysteresis (O2HY): 7-3."""
-    cyc2 = ReadWrite(30, _UINT16, number, scale=_TD_SCALE, range=within(0, "6553.5"), default=18, section="7-3")
+    cyc2 = ReadWrite(
+        30, _UINT16, number, scale=_TD_SCALE, range=within(0, Fraction("6553.5")), default=18, section="7-3"
+    )
     """Output 2 cycle time (CYC2): 0 to 6553.5; 7-3."""
     cpb = ReadWrite(31, _UINT16, integer, range=within(0, 65535), default=100, section="7-3")
     """Cooling P band (CPB): 0 to 65535; 7-3."""
-    db = ReadWrite(32, _UINT16, number, scale=_O1FT_SCALE, range=within("-1999.9", "4553.6"), default=0, section="7-3")
+    db = ReadWrite(32, _UINT16, number, scale=_O1FT_SCALE, range=_O1FT_RANGE, default=0, section="7-3")
     """Heating-cooling dead band (DB): -1999.9 to 4553.6; 7-3."""
     alfn = ReadWrite(33, _UINT16, integer, range=within(0, 65535), default=2, section="7-3")
     """Alarm function (ALFN): 0 to 65535; 7-3."""
@@ -494,17 +589,17 @@ class _Series100:
     """Selection 7 (SEL7): 0 to 65535; 7-3."""
     sel8 = ReadWrite(51, _UINT16, integer, range=within(0, 65535), default=17, section="7-3")
     """Selection 8 (SEL8): 0 to 65535; 7-3."""
-    adlo = ReadWrite(52, _UINT16, number, scale=_O1FT_SCALE, range=within("-1999.9", "4553.6"), **_CALIBRATION)
+    adlo = ReadWrite(52, _UINT16, number, scale=_O1FT_SCALE, range=_O1FT_RANGE, **_CALIBRATION)
     """mV calibration low coefficient (ADLO): -1999.9 to 4553.6; 7-3."""
-    adhi = ReadWrite(53, _UINT16, number, scale=_O1FT_SCALE, range=within("-1999.9", "4553.6"), **_CALIBRATION)
+    adhi = ReadWrite(53, _UINT16, number, scale=_O1FT_SCALE, range=_O1FT_RANGE, **_CALIBRATION)
     """mV calibration high coefficient (ADHI): -1999.9 to 4553.6; 7-3."""
-    rtdl = ReadWrite(54, _UINT16, number, scale=_O1FT_SCALE, range=within("-1999.9", "4553.6"), **_CALIBRATION)
+    rtdl = ReadWrite(54, _UINT16, number, scale=_O1FT_SCALE, range=_O1FT_RANGE, **_CALIBRATION)
     """RTD calibration low coefficient (RTDL): -1999.9 to 4553.6; 7-3."""
-    rtdh = ReadWrite(55, _UINT16, number, scale=_O1FT_SCALE, range=within("-1999.9", "4553.6"), **_CALIBRATION)
+    rtdh = ReadWrite(55, _UINT16, number, scale=_O1FT_SCALE, range=_O1FT_RANGE, **_CALIBRATION)
     """RTD calibration high coefficient (RTDH): -1999.9 to 4553.6; 7-3."""
-    cjlo = ReadWrite(56, _UINT16, number, scale=_CJLO_SCALE, range=within("-199.99", "455.36"), **_CALIBRATION)
+    cjlo = ReadWrite(56, _UINT16, number, scale=_CJLO_SCALE, range=_CJLO_RANGE, **_CALIBRATION)
     """Cold junction calibration low coefficient (CJLO): -199.99 to 455.36; 7-3."""
-    cjhi = ReadWrite(57, _UINT16, number, scale=_O1FT_SCALE, range=within("-1999.9", "4553.6"), **_CALIBRATION)
+    cjhi = ReadWrite(57, _UINT16, number, scale=_O1FT_SCALE, range=_O1FT_RANGE, **_CALIBRATION)
     """Cold junction calibration high coefficient (CJHI): -1999.9 to 4553.6; 7-3."""
     date = ReadWrite(58, _UINT16, integer, range=within(0, 65535), section="7-3", stays="identity")
     """Date Code (DATE): 0 to 65535; 7-3."""
@@ -512,11 +607,11 @@ class _Series100:
     """Serial Number (SRNO): 0 to 65535; 7-3."""
     hour = ReadWrite(60, _UINT16, integer, range=within(0, 65535), unit="h", section="7-3", stays="counter")
     """Working hours of the controller (HOUR): 0 to 65535; unit h; 7-3."""
-    bpl1 = ReadOnly(61, _UINT16, number, scale=_BPL1_SCALE, range=within(0, "655.35"), section="7-3")
+    bpl1 = ReadOnly(61, _UINT16, number, scale=_BPL1_SCALE, range=within(0, Fraction("655.35")), section="7-3")
     """Bumpless transfer of OP1 (BPL1): 0 to 655.35; 7-3."""
-    bpl2 = ReadOnly(62, _UINT16, number, scale=_BPL1_SCALE, range=within(0, "655.35"), section="7-3")
+    bpl2 = ReadOnly(62, _UINT16, number, scale=_BPL1_SCALE, range=within(0, Fraction("655.35")), section="7-3")
     """Bumpless transfer of OP2 (BPL2): 0 to 655.35; 7-3."""
-    cjcl = ReadOnly(63, _UINT16, number, scale=_CJCL_SCALE, range=within(0, "65.535"), section="7-3")
+    cjcl = ReadOnly(63, _UINT16, number, scale=_CJCL_SCALE, range=within(0, Fraction("65.535")), section="7-3")
     """Cold junction signal low (CJCL): 0 to 65.535; 7-3."""
     pv = ReadOnly(64, _UINT16, number, scale=_PROCESS, range=_SP1_RANGE, section="7-3", aliases=(128,))
     """Process value (PV): 7-3."""
@@ -527,18 +622,20 @@ class _Series100:
         _UINT16,
         number,
         scale=_BPL1_SCALE,
-        range=within(0, "655.35"),
+        range=within(0, Fraction("655.35")),
         section="7-3",
         aliases=(130,),
         writable=_MV1_WRITABLE,
         stays="operation",
     )
     """OP1 control output value (MV1): 0 to 655.35; 7-3."""
-    timer = ReadOnly(68, _UINT16, number, scale=_O1FT_SCALE, range=within("-1999.9", "4553.6"), section="7-3")
+    timer = ReadOnly(68, _UINT16, number, scale=_O1FT_SCALE, range=_O1FT_RANGE, section="7-3")
     """Remaining time of dwell timer (TIMER): -1999.9 to 4553.6; 7-3."""
     eror = ReadOnly(69, _UINT16, choice(Eror), section="7-3")
     """Error code (EROR): 7-3."""
-    prog = ReadOnly(71, _UINT16, number, scale=_BPL1_SCALE, range=within(0, "655.35"), section="7-3", aliases=(140,))
+    prog = ReadOnly(
+        71, _UINT16, number, scale=_BPL1_SCALE, range=within(0, Fraction("655.35")), section="7-3", aliases=(140,)
+    )
     """Program code (PROG): 0 to 655.35; 7-3."""
     cmnd = ReadWrite(72, _UINT16, integer, range=within(0, 65535), section="7-3", stays="operation")
     """Command code (CMND): 0 to 65535; 7-3."""
@@ -548,7 +645,7 @@ class _Series100:
     """Job code 2 (JOB2): 0 to 65535; 7-3."""
     job3 = ReadWrite(75, _UINT16, integer, range=within(0, 65535), section="7-3", stays="operation")
     """Job code 3 (JOB3): 0 to 65535; 7-3."""
-    cjct = ReadOnly(76, _UINT16, number, scale=_CJLO_SCALE, range=within("-199.99", "455.36"), section="7-3")
+    cjct = ReadOnly(76, _UINT16, number, scale=_CJLO_SCALE, range=_CJLO_RANGE, section="7-3")
     """Cold Junction Temperature (CJCT): -199.99 to 455.36; 7-3."""
 
 
@@ -562,7 +659,7 @@ class _Series100OfBTC9100BTC8100BTC4100BTC7100:
         _UINT16,
         number,
         scale=_BPL1_SCALE,
-        range=within(0, "655.35"),
+        range=within(0, Fraction("655.35")),
         section="7-3",
         aliases=(131,),
         writable=_MV1_WRITABLE,
@@ -583,7 +680,7 @@ class _Series100OfC21C91:
         _UINT16,
         number,
         scale=_BPL1_SCALE,
-        range=within(0, "655.35"),
+        range=within(0, Fraction("655.35")),
         section="7-3",
         aliases=(131,),
         writable=_MV1_WRITABLE,
@@ -724,7 +821,7 @@ class FdcBTC9100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Series10
     map_id = "fdc/series-100"
     map_sha256 = "30d310c6e7842fee"
     protocol = _PROTOCOL
-    identity = (Identity((Is("prog", ((6, "6.99"),)),)),)
+    identity = (Identity(when=Condition(tests=(Is("prog", codes=((6, Fraction("6.99")),)),))),)
     groups = Series100Groups
     commands = SubPart(Series100Commands, AsyncSeries100Commands)
 
@@ -736,7 +833,7 @@ class AsyncFdcBTC9100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Asy
     map_id = "fdc/series-100"
     map_sha256 = "30d310c6e7842fee"
     protocol = _PROTOCOL
-    identity = (Identity((Is("prog", ((6, "6.99"),)),)),)
+    identity = (Identity(when=Condition(tests=(Is("prog", codes=((6, Fraction("6.99")),)),))),)
     groups = Series100Groups
     commands = SubPart(Series100Commands, AsyncSeries100Commands)
 
@@ -748,7 +845,7 @@ class FdcBTC8100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Series10
     map_id = "fdc/series-100"
     map_sha256 = "30d310c6e7842fee"
     protocol = _PROTOCOL
-    identity = (Identity((Is("prog", ((11, "11.99"),)),)),)
+    identity = (Identity(when=Condition(tests=(Is("prog", codes=((11, Fraction("11.99")),)),))),)
     groups = Series100Groups
     commands = SubPart(Series100Commands, AsyncSeries100Commands)
 
@@ -760,7 +857,7 @@ class AsyncFdcBTC8100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Asy
     map_id = "fdc/series-100"
     map_sha256 = "30d310c6e7842fee"
     protocol = _PROTOCOL
-    identity = (Identity((Is("prog", ((11, "11.99"),)),)),)
+    identity = (Identity(when=Condition(tests=(Is("prog", codes=((11, Fraction("11.99")),)),))),)
     groups = Series100Groups
     commands = SubPart(Series100Commands, AsyncSeries100Commands)
 
@@ -772,7 +869,7 @@ class FdcBTC4100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Series10
     map_id = "fdc/series-100"
     map_sha256 = "30d310c6e7842fee"
     protocol = _PROTOCOL
-    identity = (Identity((Is("prog", ((12, "12.99"),)),)),)
+    identity = (Identity(when=Condition(tests=(Is("prog", codes=((12, Fraction("12.99")),)),))),)
     groups = Series100Groups
     commands = SubPart(Series100Commands, AsyncSeries100Commands)
 
@@ -784,7 +881,7 @@ class AsyncFdcBTC4100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Asy
     map_id = "fdc/series-100"
     map_sha256 = "30d310c6e7842fee"
     protocol = _PROTOCOL
-    identity = (Identity((Is("prog", ((12, "12.99"),)),)),)
+    identity = (Identity(when=Condition(tests=(Is("prog", codes=((12, Fraction("12.99")),)),))),)
     groups = Series100Groups
     commands = SubPart(Series100Commands, AsyncSeries100Commands)
 
@@ -796,7 +893,7 @@ class FdcBTC7100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Series10
     map_id = "fdc/series-100"
     map_sha256 = "30d310c6e7842fee"
     protocol = _PROTOCOL
-    identity = (Identity((Is("prog", ((13, "13.99"),)),)),)
+    identity = (Identity(when=Condition(tests=(Is("prog", codes=((13, Fraction("13.99")),)),))),)
     groups = Series100Groups
     commands = SubPart(Series100Commands, AsyncSeries100Commands)
 
@@ -808,7 +905,7 @@ class AsyncFdcBTC7100(_Series100, _Series100OfBTC9100BTC8100BTC4100BTC7100, _Asy
     map_id = "fdc/series-100"
     map_sha256 = "30d310c6e7842fee"
     protocol = _PROTOCOL
-    identity = (Identity((Is("prog", ((13, "13.99"),)),)),)
+    identity = (Identity(when=Condition(tests=(Is("prog", codes=((13, Fraction("13.99")),)),))),)
     groups = Series100Groups
     commands = SubPart(Series100Commands, AsyncSeries100Commands)
 
@@ -820,7 +917,7 @@ class FdcC21(_Series100, _Series100OfC21C91, _Series100Device):
     map_id = "fdc/series-100"
     map_sha256 = "30d310c6e7842fee"
     protocol = _PROTOCOL
-    identity = (Identity((Is("prog", ((33, "33.99"),)),)),)
+    identity = (Identity(when=Condition(tests=(Is("prog", codes=((33, Fraction("33.99")),)),))),)
     groups = Series100Groups
     commands = SubPart(Series100Commands, AsyncSeries100Commands)
 
@@ -832,7 +929,7 @@ class AsyncFdcC21(_Series100, _Series100OfC21C91, _AsyncSeries100Device):
     map_id = "fdc/series-100"
     map_sha256 = "30d310c6e7842fee"
     protocol = _PROTOCOL
-    identity = (Identity((Is("prog", ((33, "33.99"),)),)),)
+    identity = (Identity(when=Condition(tests=(Is("prog", codes=((33, Fraction("33.99")),)),))),)
     groups = Series100Groups
     commands = SubPart(Series100Commands, AsyncSeries100Commands)
 
@@ -844,7 +941,7 @@ class FdcC91(_Series100, _Series100OfC21C91, _Series100Device):
     map_id = "fdc/series-100"
     map_sha256 = "30d310c6e7842fee"
     protocol = _PROTOCOL
-    identity = (Identity((Is("prog", ((34, "34.99"),)),)),)
+    identity = (Identity(when=Condition(tests=(Is("prog", codes=((34, Fraction("34.99")),)),))),)
     groups = Series100Groups
     commands = SubPart(Series100Commands, AsyncSeries100Commands)
 
@@ -856,6 +953,6 @@ class AsyncFdcC91(_Series100, _Series100OfC21C91, _AsyncSeries100Device):
     map_id = "fdc/series-100"
     map_sha256 = "30d310c6e7842fee"
     protocol = _PROTOCOL
-    identity = (Identity((Is("prog", ((34, "34.99"),)),)),)
+    identity = (Identity(when=Condition(tests=(Is("prog", codes=((34, Fraction("34.99")),)),))),)
     groups = Series100Groups
     commands = SubPart(Series100Commands, AsyncSeries100Commands)

@@ -33,9 +33,9 @@ def stretches(register: Register) -> Iterator[Stretch]:
     """All stretches of a register: its views, then its aliases."""
     for view in register.views:
         by = f"view {view.name}" if len(register.views) > 1 else ""
-        yield Stretch(view.space, view.address, view.last, register, by, view)
+        yield Stretch(view.space, view.address(register.at), view.last(register.at), register, by, view)
     for alias in dict.fromkeys(register.aliases):
-        if alias == register.base.address:
+        if alias == register.address:
             continue  # RS0403 speaks of it
         base = register.base
         yield Stretch(base.space, alias, alias + base.words - 1, register, "alias", base)
@@ -85,7 +85,7 @@ def outside_space(register: Register, _: RuleScope) -> Iterator[Finding]:
 def alias_of_itself(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare aliases with the base address and with one another."""
     for place, alias in enumerate(register.aliases):
-        if alias == register.base.address or alias in register.aliases[:place]:
+        if alias == register.address or alias in register.aliases[:place]:
             yield Finding.at(register, f"lists alias {alias}, which it has already", "remove this alias")
 
 
@@ -184,10 +184,10 @@ def in_a_notation(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
             for register in scope.model.registers
             if register.base.space is notation.space
         }
-        inside = [one for one in found.values() if one.base.address >= notation.offset]
+        inside = [one for one in found.values() if one.address >= notation.offset]
         if notation.offset >= FAR and 2 * len(inside) > len(found):
-            first = min(inside, key=lambda one: one.base.address)
-            address = first.base.address
+            first = min(inside, key=lambda one: one.address)
+            address = first.address
             message = (
                 f"stands at wire address {address}, which notation `{notation.name}` (offset {notation.offset}) would"
             )

@@ -33,8 +33,9 @@ def requests(scope: RuleScope) -> Iterator[SentStep]:
 
 def _space(step: CommandStep, path: str, scope: RuleScope) -> Space:
     """Where the register stands that a step names; without one, what the function of the step writes."""
-    views = scope.registers[path].views if path in scope.registers else ()
-    return next((view.space for view in views if view.address == step.address), step.space)
+    register = scope.registers.get(path)
+    views = [view for view in register.views if view.address(register.at) == step.address] if register else ()
+    return next((view.space for view in views), step.space)
 
 
 def _at(command: Command, message: str, help_text: str, *related: Related) -> Finding:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from regscribe.checks.probe_states import Verdict, verdict
 from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule, warning
-from regscribe.model import Condition, Identity, Kind, OrderFromRegister, Register, Rule, Span
+from regscribe.model import Condition, Identity, Kind, OrderFrom, Register, Rule, Span
 
 Ask = tuple[Condition, ...]
 
@@ -116,7 +116,7 @@ def _unmet(identity: Identity, scope: RuleScope) -> str:
 def _tells_alone(register: Register) -> bool:
     """Whether the words of a register have a value without any other register, and without a given."""
     scales = (*register.scale, *(register.special_scale if register.specials else ()))
-    fixed = any(not isinstance(view.word_order, OrderFromRegister) for view in register.views if view.readable)
+    fixed = any(not isinstance(view.order, OrderFrom) for view in register.views if view.readable)
     return fixed and all(case.when.always and not case.then.decimals for case in scales)
 
 

@@ -5,8 +5,8 @@ from fractions import Fraction
 from math import prod
 
 from regscribe.checks.rule import RuleScope
-from regscribe.model import CodeRange, Condition, Test, show
-from regscribe.reference.states import ANYTHING, combinations, domain, representatives
+from regscribe.model import Condition, Is, show
+from regscribe.reference.states import ANYTHING, Stretch, combinations, domain, representatives
 
 MOST_WORLDS = 10_000
 """Beyond this product nothing is said about the conditions: no manual comes near it."""
@@ -58,11 +58,11 @@ def _judge(conditions: tuple[Condition, ...], scope: RuleScope) -> Verdict:
     return Verdict(frozenset(possible), frozenset(reached), uncovered)
 
 
-def _atom(test: Test) -> Atom:
+def _atom(test: Is) -> Atom:
     return (test.subject, test.given)
 
 
-def _choices(tests: list[Test], scope: RuleScope) -> dict[Atom, tuple[Fraction, ...]]:
+def _choices(tests: list[Is], scope: RuleScope) -> dict[Atom, tuple[Fraction, ...]]:
     """Representative values of every atom: 0 and 1 for a given, else those that the codes tell apart."""
     choices: dict[Atom, tuple[Fraction, ...]] = {}
     for test in tests:
@@ -75,7 +75,7 @@ def _choices(tests: list[Test], scope: RuleScope) -> dict[Atom, tuple[Fraction, 
     return choices
 
 
-def _domain(test: Test, scope: RuleScope) -> tuple[CodeRange, ...]:
+def _domain(test: Is, scope: RuleScope) -> tuple[Stretch, ...]:
     register = scope.registers.get(test.register)
     return domain(register, test.field) if register else ANYTHING
 
@@ -84,8 +84,8 @@ def _holds(condition: Condition, world: World) -> bool:
     return all(_passes(test, world[_atom(test)]) for test in condition.tests)
 
 
-def _passes(test: Test, value: Fraction) -> bool:
-    found = bool(value) if test.given else any(code.holds(value) for code in test.codes)
+def _passes(test: Is, value: Fraction) -> bool:
+    found = bool(value) if test.given else test.lists(value)
     return found is not test.negated
 
 

@@ -161,4 +161,4 @@ def too_many(scope: RuleScope) -> Iterator[Finding]:
 
 
 def _high(limit: Limit) -> int:
-    return int(limit.value) if isinstance(limit, Number) else 0
+    return int(limit) if isinstance(limit, Number) else 0

@@ -35,7 +35,7 @@ def intervals_overlap(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare each interval of a union with the one above it."""
     for case in register.range:
         known = [
-            (interval.low.value, interval.high.value)
+            (interval.low, interval.high)
             for interval in case.then.intervals
             if isinstance(interval.low, Number) and isinstance(interval.high, Number)
         ]

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from regscribe.checks.rule import Finding, RuleScope, model_rule, register_rule
-from regscribe.model import Kind, Order, OrderFromRegister, Reference, Register, Related, Rule, registers_of, show
+from regscribe.model import Kind, Order, OrderFrom, Ref, Register, Related, Rule, registers_of, show
 from regscribe.reference.states import domain
 
 WHOLE = {Kind.INTEGER, Kind.RAW, Kind.ENUM, Kind.BOOLEAN}
@@ -17,8 +17,8 @@ def needed(register: Register) -> Iterator[tuple[str, str]]:
     yield from ((path, "its scale depends on") for path in registers_of(register.scale))
     yield from ((path, "its decimals are") for path in _decimals(register))
     for view in register.views:
-        if isinstance(view.word_order, OrderFromRegister):
-            yield view.word_order.register, f"the word order of view {view.name} is"
+        if isinstance(view.order, OrderFrom):
+            yield view.order.register, f"the word order of view {view.name} is"
 
 
 def limiting(register: Register) -> Iterator[tuple[str, str]]:
@@ -47,7 +47,7 @@ def _range_decimals(register: Register) -> Iterator[str]:
 def _limits(register: Register) -> Iterator[str]:
     for case in register.range:
         for interval in case.then.intervals:
-            yield from (end.register for end in (interval.low, interval.high) if isinstance(end, Reference))
+            yield from (end.register for end in (interval.low, interval.high) if isinstance(end, Ref))
 
 
 @register_rule(
@@ -60,12 +60,12 @@ def _limits(register: Register) -> Iterator[str]:
 def order_register(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """The register must be a whole number or an enum with a single integer view."""
     for view in register.views:
-        if not isinstance(view.word_order, OrderFromRegister):
+        if not isinstance(view.order, OrderFrom):
             continue
-        other = scope.registers.get(view.word_order.register)
+        other = scope.registers.get(view.order.register)
         if other is None:
             continue
-        fixed = len(other.views) == 1 and other.base.type.is_integer and isinstance(other.base.word_order, Order)
+        fixed = len(other.views) == 1 and other.base.type.is_integer and isinstance(other.base.order, Order)
         if other.kind not in WHOLE or not fixed:
             message = f"has the word order of view {view.name} from `{other.path}`, which is no plain whole number"
             related = Related(f"`{other.path}` is of kind {other.kind}, type {other.base.type}", other.span)
@@ -156,11 +156,11 @@ def limit_register(register: Register, scope: RuleScope) -> Iterator[Finding]:
 def order_codes(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """Compare the codes of a word order with the members or the range of the register it comes from."""
     for view in register.views:
-        if not isinstance(view.word_order, OrderFromRegister):
+        if not isinstance(view.order, OrderFrom):
             continue
-        other = scope.registers.get(view.word_order.register)
+        other = scope.registers.get(view.order.register)
         stretches = domain(other) if other else ()
-        told = {code for code, _ in view.word_order.codes}
+        told = {code for code, _ in view.order.codes}
         lacking = [code for stretch in stretches for code in _codes(stretch.low, stretch.high) if code not in told]
         if other and lacking:
             codes = ", ".join(map(str, lacking))

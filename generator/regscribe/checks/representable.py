@@ -67,9 +67,9 @@ def best_fit(register: Register, values: tuple[Fraction, ...], every: tuple[Form
     return found if every else Fit.EXACT
 
 
-def end_values(limits: Range, number: Fraction) -> tuple[Fraction, ...]:
+def end_values(limits: Range, number: Number) -> tuple[Fraction, ...]:
     """Every value that a printed limit can mean: the range's decimals divide it."""
-    return tuple(number / factor for factor in factors(limits.decimals)) if limits.decimals else (number,)
+    return tuple(number / factor for factor in factors(limits.decimals)) if limits.decimals else (Fraction(number),)
 
 
 def values_of(register: Register, special: Special) -> tuple[Fraction, ...]:
@@ -85,7 +85,7 @@ def is_meant(register: Register, value: Fraction) -> bool:
 def numbers(limits: Range) -> Iterator[Fraction]:
     """The limits that are numbers, as printed."""
     for interval in limits.intervals:
-        yield from (limit.value for limit in (interval.low, interval.high) if isinstance(limit, Number))
+        yield from (Fraction(limit) for limit in (interval.low, interval.high) if isinstance(limit, Number))
 
 
 def ends_of(register: Register) -> str:

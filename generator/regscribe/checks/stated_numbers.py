@@ -141,7 +141,7 @@ def type_and_space(register: Register, _: RuleScope) -> Iterator[Finding]:
             )
             help_ = "a flag in a word is `flags: {0: ...}` or `kind: boolean`, a number of words is in holding or input"
             yield Finding.at(register, message, f"correct `type` or `space`; {help_}")
-        elif spaces in (BITS, STATUS) and (view.word_order, view.byte_order) != (Order.BIG, Order.BIG):
+        elif spaces in (BITS, STATUS) and (view.order, view.byte_order) != (Order.BIG, Order.BIG):
             message = f"has an order of words or bytes in {view.space}, where a value has no words"
             yield Finding.at(register, message, "remove `word_order` and `byte_order`")
 
@@ -224,7 +224,7 @@ def _spelled(register: Register, form: Form, one: Range, interval: Interval) -> 
         return None
     if not isinstance(interval.low, Number) or not isinstance(interval.high, Number):
         return None
-    ends = [end for limit in (interval.low, interval.high) for end in end_values(one, limit.value)]
+    ends = [end for limit in (interval.low, interval.high) for end in end_values(one, limit)]
     wire = [form.stored(end) * register.base.factor for end in ends]
     return range(ceil(min(wire)), floor(max(wire)) + 1)
 
@@ -234,8 +234,8 @@ def _reachable(reach: tuple[Fraction, Fraction] | None, one: Range) -> bool:
     if reach is None:
         return True
     for interval in one.intervals:
-        lows = end_values(one, interval.low.value) if isinstance(interval.low, Number) else (reach[0],)
-        highs = end_values(one, interval.high.value) if isinstance(interval.high, Number) else (reach[1],)
+        lows = end_values(one, interval.low) if isinstance(interval.low, Number) else (reach[0],)
+        highs = end_values(one, interval.high) if isinstance(interval.high, Number) else (reach[1],)
         if min(lows) <= reach[1] and max(highs) >= reach[0]:
             return True
     return False

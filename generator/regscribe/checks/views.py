@@ -33,8 +33,8 @@ def regions(scope: RuleScope) -> dict[Region, Register]:
     return found
 
 
-def _is_aligned(view: View) -> bool:
-    return view.align <= 1 or not (view.address % view.align or view.words % view.align)
+def _is_aligned(view: View, at: int) -> bool:
+    return view.align <= 1 or not (view.address(at) % view.align or view.words % view.align)
 
 
 @register_rule(Rule("RS0455", "View outside its region", "The manual gives each kind of view its own addresses."))
@@ -69,8 +69,9 @@ def in_a_region(scope: RuleScope) -> Iterator[Finding]:
 def misaligned(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Divide the address and the words of each view by its alignment."""
     for view in register.views:
-        if not _is_aligned(view):
-            message = f"has view {view.name} at {view.address} with {view.words} words, not multiples of {view.align}"
+        if not _is_aligned(view, register.at):
+            where = view.address(register.at)
+            message = f"has view {view.name} at {where} with {view.words} words, not multiples of {view.align}"
             yield Finding.at(register, message, "correct `at`, the view's offset and stride, or `align`")
 
 

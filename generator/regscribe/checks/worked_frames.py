@@ -226,7 +226,7 @@ def _spaces(function: int, alike: Alike) -> set[Space]:
 
 
 def _places(register: Register, name: str) -> Iterator[tuple[View, int]]:
-    yield from ((view, view.address) for view in register.views if name in {"", view.name})
+    yield from ((view, view.address(register.at)) for view in register.views if name in {"", view.name})
     if name in {"", register.base.name}:
         yield from ((register.base, alias) for alias in register.aliases)
 

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from regscribe.emit.common_values import Merged, merge
 from regscribe.emit.words import LETTERS
@@ -89,15 +89,16 @@ def _node(shared: Merged[Register | Array], arrays: tuple[Array, ...]) -> Node:
 
 def aliases(register: Register) -> tuple[View, ...]:
     """Return the base view as it stands at each further address."""
-    return tuple(replace(register.base, address=alias) for alias in register.aliases)
+    base = register.base
+    return tuple(base._replace(offset=base.offset + alias - register.address) for alias in register.aliases)
 
 
-def formula(view: View, arrays: Sequence[Array]) -> str:
+def formula(view: View, at: int, arrays: Sequence[Array]) -> str:
     """Return the address of any element: `8004 + 2*(i - 1)`; the plain address outside arrays."""
     terms = (
         _term(view.stride * array.stride, letter, array.first) for array, letter in zip(arrays, LETTERS, strict=False)
     )
-    return " + ".join([str(view.address), *terms])
+    return " + ".join([str(view.address(at)), *terms])
 
 
 def _term(stride: int, letter: str, first: int) -> str:
@@ -107,6 +108,6 @@ def _term(stride: int, letter: str, first: int) -> str:
     return steps if stride == 1 else f"{stride}*{steps}"
 
 
-def last_address(view: View, arrays: Sequence[Array]) -> int:
+def last_address(view: View, at: int, arrays: Sequence[Array]) -> int:
     """Return the address of the last element; the address itself outside arrays."""
-    return view.address + sum(view.stride * array.stride * (array.count - 1) for array in arrays)
+    return view.address(at) + sum(view.stride * array.stride * (array.count - 1) for array in arrays)

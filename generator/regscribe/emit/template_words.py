@@ -58,7 +58,7 @@ def default(register: Register) -> str:
 
 def order(view: View) -> str:
     """The word order of a view, or the register that sets it."""
-    return text.one_line(text.order_words(view.word_order))
+    return text.one_line(text.order_words(view.order))
 
 
 def bits(field: BitField) -> str:

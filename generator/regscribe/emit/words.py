@@ -13,26 +13,25 @@ from regscribe.model import (
     BitField,
     Case,
     Cases,
-    CodeRange,
     Condition,
     Conversion,
     Decimals,
     Enum,
     Interval,
+    Is,
     Limit,
     Member,
     Model,
     Number,
     Open,
     Order,
-    OrderFromRegister,
+    OrderFrom,
     Range,
-    Reference,
+    Ref,
     Register,
     Rounding,
     Sentinel,
     Special,
-    Test,
     show,
 )
 from regscribe.model.identifiers import OPEN
@@ -90,27 +89,32 @@ def span_words(first: int, last: int, between: str = " to ") -> str:
     return str(first) if first == last else f"{first}{between}{last}"
 
 
-def fold(codes: Iterable[CodeRange]) -> tuple[CodeRange, ...]:
+Codes = tuple[Number, Number]
+"""From the first code to the last."""
+
+
+def fold(codes: Iterable[Codes]) -> tuple[Codes, ...]:
     """Sort the ranges and join those that follow each other without a gap of a whole number."""
-    folded: list[CodeRange] = []
-    for code in sorted(codes, key=lambda item: (item.low, item.high)):
-        if folded and code.low <= folded[-1].high + 1:
-            folded[-1] = CodeRange(folded[-1].low, max(folded[-1].high, code.high))
+    folded: list[Codes] = []
+    for low, high in sorted(codes):
+        if folded and low <= folded[-1][1] + 1:
+            folded[-1] = (folded[-1][0], max(folded[-1][1], high))
         else:
-            folded.append(code)
+            folded.append((low, high))
     return tuple(folded)
 
 
-def codes_words(codes: Iterable[CodeRange], labels: Mapping[int, str] | None = None, last: str = "or") -> str:
+def codes_words(codes: Iterable[Codes], labels: Mapping[int, str] | None = None, last: str = "or") -> str:
     """Codes as `0 to 12, 14 or off (20)`: a single code wears its label, if it has one."""
     return listed([_code_words(code, labels or {}) for code in fold(codes)], last)
 
 
-def _code_words(code: CodeRange, labels: Mapping[int, str]) -> str:
-    if code.low != code.high:
-        return f"{show(code.low)} to {show(code.high)}"
-    label = labels.get(int(code.low)) if code.low.denominator == 1 else None
-    return f"{one_line(label)} ({show(code.low)})" if label else show(code.low)
+def _code_words(code: Codes, labels: Mapping[int, str]) -> str:
+    low, high = code
+    if low != high:
+        return f"{show(low)} to {show(high)}"
+    label = labels.get(int(low)) if low.denominator == 1 else None
+    return f"{one_line(label)} ({show(low)})" if label else show(low)
 
 
 def member_words(member: Member, enum: Enum) -> str:
@@ -124,7 +128,7 @@ def labels_of(enum: Enum | None) -> dict[int, str]:
     return {member.code: member.label for member in enum.members} if enum else {}
 
 
-def _labels(test: Test, model: Model | None) -> dict[int, str]:
+def _labels(test: Is, model: Model | None) -> dict[int, str]:
     try:
         register = model.register(test.register) if model else None
     except KeyError:
@@ -135,7 +139,7 @@ def _labels(test: Test, model: Model | None) -> dict[int, str]:
     return labels_of(enum)
 
 
-def words_of_test(test: Test, model: Model | None = None, wording: Wording | None = None) -> str:
+def words_of_test(test: Is, model: Model | None = None, wording: Wording | None = None) -> str:
     """One test: `input_type is 0 to 12`, `inpt is one of linear_inputs`; labels come from the model's enums."""
     wording = wording or PLAIN
     given = wording.text(test.given)
@@ -176,12 +180,12 @@ def divisor_words(decimals: Decimals | None, wording: Wording = PLAIN) -> str:
 def limit_words(limit: Limit, wording: Wording = PLAIN, decimals: Decimals | None = None) -> str:
     """Word a limit: its number, the register that holds it, or `open (why)`."""
     match limit:
-        case Number(value):
-            return show(value) + (divisor_words(decimals, wording) if value else "")
-        case Reference(register):
+        case Open():
+            return f"open ({wording.text(one_line(limit))})"
+        case Ref(register):
             return wording.register(register)
-        case Open(text):
-            return f"open ({wording.text(one_line(text))})"
+        case number:
+            return show(number) + (divisor_words(decimals, wording) if number else "")
 
 
 def interval_words(interval: Interval, wording: Wording = PLAIN, decimals: Decimals | None = None) -> str:
@@ -195,13 +199,13 @@ def range_words(limits: Range, wording: Wording = PLAIN) -> str:
     return listed([interval_words(interval, wording, limits.decimals) for interval in limits.intervals])
 
 
-def plain_interval(cases: Cases[Range]) -> tuple[Fraction, Fraction] | None:
+def plain_interval(cases: Cases[Range]) -> tuple[Number, Number] | None:
     """Return the two numbers of a range that is one interval between numbers under no condition, else None."""
     if len(cases) != 1 or not cases[0].when.always:
         return None
     limits = cases[0].then
     match limits.intervals:
-        case (Interval(Number(low), Number(high)),) if limits.decimals is None:
+        case (Interval(int() | Fraction() as low, int() | Fraction() as high),) if limits.decimals is None:
             return low, high
     return None
 
@@ -221,7 +225,7 @@ def step_words(conversion: Conversion, wording: Wording = PLAIN) -> str:
     return f", x in steps of {show(conversion.step)}{divisor_words(conversion.places, wording)}"
 
 
-def _product(multiply: Fraction) -> str:
+def _product(multiply: Number) -> str:
     if multiply == 1:
         return "x"
     if multiply.numerator == 1 and set(str(multiply.denominator)[1:]) <= {"0"} and str(multiply.denominator)[0] == "1":
@@ -229,8 +233,8 @@ def _product(multiply: Fraction) -> str:
     return f"{show(multiply)}*x"
 
 
-def _sum(add: Fraction) -> str:
-    return f" {'-' if add < 0 else '+'} {show(abs(add))}" if add else ""
+def _sum(add: Number) -> str:
+    return f" {'-' if add < 0 else '+'} {show(abs(Fraction(add)))}" if add else ""
 
 
 def map_cases(cases: Cases[T], words: Callable[[T], str]) -> Cases[str]:
@@ -264,7 +268,7 @@ def _default_label(register: Register, default: Fraction) -> str:
     return labels_of(register.enum).get(int(default), "") if register.enum else specials.get(default, "")
 
 
-def order_words(order: Order | OrderFromRegister, wording: Wording = PLAIN) -> str:
+def order_words(order: Order | OrderFrom, wording: Wording = PLAIN) -> str:
     """Word the word order, or the register that sets it with the meaning of its codes."""
     if isinstance(order, Order):
         return ORDER[order]

@@ -139,9 +139,9 @@ def _silent(register_map: RegisterMap) -> set[tuple[str, Spot]]:
     found: set[tuple[str, Spot]] = set()
     for model in register_map.models:
         further = [
-            (base.space, base.address + 1, base.last)
-            for base in (register.base for register in model.registers)
-            if not base.space.is_bits
+            (register.base.space, register.address + 1, register.base.last(register.at))
+            for register in model.registers
+            if not register.base.space.is_bits
         ]
         for space, first, last in (*model.unused, *register_map.reserved, *further):
             found |= {(one_line(model.name), (space.value, address)) for address in range(first, last + 1)}

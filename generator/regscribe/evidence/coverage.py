@@ -107,14 +107,17 @@ def _spaces(functions: Iterable[int]) -> set[Space]:
 
 
 def _is_inside(register: Register, spaces: set[Space], start: int, end: int) -> bool:
-    return any(view.space in spaces and start <= view.address and view.last < end for view in register.views)
+    return any(
+        view.space in spaces and start <= view.address(register.at) and view.last(register.at) < end
+        for view in register.views
+    )
 
 
 def open_limits(register: Register) -> tuple[str, ...]:
     """Return the limits that the manual names without giving them, each once, in the order of the range."""
     intervals = (interval for case in register.range for interval in case.then.intervals)
     limits = (limit for interval in intervals for limit in (interval.low, interval.high))
-    return tuple(dict.fromkeys(one_line(limit.text) for limit in limits if isinstance(limit, Open)))
+    return tuple(dict.fromkeys(one_line(limit) for limit in limits if isinstance(limit, Open)))
 
 
 def _addresses(register_map: RegisterMap, model: Model) -> Iterator[Addresses]:
@@ -151,7 +154,7 @@ def _by_space(stretches: Iterable[Stretch]) -> dict[Space, set[int]]:
 
 def _mapped(model: Model) -> Iterator[Stretch]:
     for register in model.registers:
-        yield from ((view.space, view.address, view.last) for view in register.views)
+        yield from ((view.space, view.address(register.at), view.last(register.at)) for view in register.views)
 
 
 def _aliases(model: Model) -> Iterator[Stretch]:

@@ -4,7 +4,7 @@ import csv
 import io
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import astuple, dataclass, fields, replace
+from dataclasses import astuple, dataclass, fields
 
 from regscribe.emit.words import (
     bits_words,
@@ -106,7 +106,7 @@ def _register_row(register_map: RegisterMap, model: Model, register: Register) -
         name=one_line(register.name),
         symbol=one_line(register.symbol),
         space=register.base.space.value,
-        address=str(register.base.address),
+        address=str(register.address),
         words=str(register.base.words),
         aliases=" ".join(map(str, register.aliases)),
         access=register.access.value,
@@ -118,7 +118,7 @@ def _register_row(register_map: RegisterMap, model: Model, register: Register) -
         default=_default(register),
         values=_object(_values(register)),
         bits=_object({bits_words(field): _bit_label(field) for field in register.fields}),
-        views=_object({view.name: _view(view) for view in register.views}),
+        views=_object({view.name: _view(view, register.at) for view in register.views}),
         scale=_scale(register),
         persistence=one_line(register.persistence),
         group=register.group,
@@ -159,8 +159,8 @@ def _object(members: Mapping[str, object]) -> str:
     return json.dumps(members, ensure_ascii=False)
 
 
-def _view(view: View) -> dict[str, object]:
-    return {"address": view.address, "words": view.words, "type": view.type.value}
+def _view(view: View, at: int) -> dict[str, object]:
+    return {"address": view.address(at), "words": view.words, "type": view.type.value}
 
 
 def _values(register: Register) -> dict[str, str]:
@@ -199,7 +199,7 @@ def _limits(register: Register) -> tuple[str, str]:
 
 def _as_printed(cases: Cases[Range]) -> Cases[Range]:
     """Take cases that differ in their decimals only as the one range that the manual's table prints."""
-    printed = [replace(case.then, decimals=None) for case in cases]
+    printed = [case.then._replace(decimals=None) for case in cases]
     return always(printed[0]) if len(cases) > 1 and all(one == printed[0] for one in printed) else cases
 
 

@@ -13,11 +13,18 @@ from regscribe.model import (
     Command,
     FrameExample,
     IdentityRule,
+    Interval,
+    Is,
+    Limit,
     Model,
+    Number,
+    Open,
+    Ref,
     Register,
     RegisterMap,
     TimingExample,
     ValueExample,
+    View,
     exact,
     show,
 )
@@ -45,7 +52,7 @@ def json_text(maps: Iterable[RegisterMap]) -> str:
     return json.dumps(document, ensure_ascii=False, indent=1) + "\n"
 
 
-def number(value: Fraction) -> Json:
+def number(value: Number) -> Json:
     """Return a JSON number where its decimal text is exact also for readers of doubles, else both halves."""
     if value.denominator == 1:
         return value.numerator
@@ -95,9 +102,37 @@ def _example(example: Any) -> Json:  # noqa: ANN401 (one of the types in EXAMPLE
     return {"type": EXAMPLES[type(example)]} | _fields(example)
 
 
+def _register(register: Register) -> Json:
+    views = [_view(view, register.at) for view in register.views]
+    return {name: told for name, told in _fields(register).items() if name != "at"} | {"views": views}
+
+
+def _view(view: View, at: int) -> Json:
+    found = _fields(view) | {"address": view.address(at), "word_order": _plain(view.order)}
+    return {name: told for name, told in found.items() if name not in {"offset", "order"}}
+
+
+def _test(test: Is) -> Json:
+    codes = [{"low": number(low), "high": number(high)} for low, high in test.codes]
+    return {name: told for name, told in _fields(test).items() if name != "bits"} | {"codes": codes}
+
+
+def _interval(interval: Interval) -> Json:
+    return {"low": _limit(interval.low), "high": _limit(interval.high)}
+
+
+def _limit(limit: Limit) -> Json:
+    if isinstance(limit, Open):
+        return {"text": str(limit)}
+    return _fields(limit) if isinstance(limit, Ref) else {"value": number(limit)}
+
+
 WRITERS: dict[type, Callable[[Any], Json]] = {
     Fraction: number,
     bytes: lambda frame: frame.hex(" ").upper(),
+    Register: _register,
+    Is: _test,
+    Interval: _interval,
     tuple: lambda items: [_plain(item) for item in items],
     Model: _model,
     Command: _command,

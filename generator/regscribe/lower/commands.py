@@ -63,7 +63,7 @@ def _step(node: Value, device: CommandScope) -> tuple[CommandStep, str]:
     value = node.child("value")
     words = words_of_value(value, target, view) if value else unsigned(wholes_of(node, "words"))
     function = _function(node, len(words), view, device)
-    return CommandStep(function, view.address, words), entry.path
+    return CommandStep(function, view.address(target.at), words), entry.path
 
 
 def _function(node: Value, count: int, view: View | None, device: CommandScope) -> int:

@@ -1,6 +1,5 @@
 """Conditions: names, mappings and lists of them become a flat conjunction of tests."""
 
-from dataclasses import replace
 from fractions import Fraction
 
 from regscribe.lower.interval_text import ends
@@ -9,7 +8,7 @@ from regscribe.lower.node import Value
 from regscribe.lower.rules import BAD_MATCHER, UNKNOWN_CONDITION, UNKNOWN_GIVEN, WRONG_SORT
 from regscribe.lower.scope import Scope, path_of
 from regscribe.lower.subject import Subject, code_of_text, subject_of
-from regscribe.model import ALWAYS, CodeRange, Condition, Test
+from regscribe.model import ALWAYS, Condition, Is
 
 _SETS = ("in", "not_in")
 
@@ -44,12 +43,12 @@ def excludes(one: Condition, other: Condition) -> bool:
     return any(_contrary(test, against) for test in one.tests for against in other.tests)
 
 
-def _contrary(test: Test, other: Test) -> bool:
-    if replace(test, negated=not test.negated) == other:
+def _contrary(test: Is, other: Is) -> bool:
+    if test._replace(negated=not test.negated) == other:
         return True
     if test.subject != other.subject or test.negated or other.negated or not (test.codes and other.codes):
         return False
-    return not any(a.low <= b.high and b.low <= a.high for a in test.codes for b in other.codes)
+    return not any(low <= to and of <= high for low, high in test.codes for of, to in other.codes)
 
 
 def _named(node: Value, scope: Scope) -> Condition:
@@ -59,16 +58,16 @@ def _named(node: Value, scope: Scope) -> Condition:
     return scope.once(found.path, lambda: Condition(condition(found, scope).tests, name=node.text()))
 
 
-def _tests(key: str, matcher: Value, scope: Scope) -> list[Test]:
+def _tests(key: str, matcher: Value, scope: Scope) -> list[Is]:
     if key == "given":
         return [_given_test(element, scope) for element in matcher.elements()]
     subject = subject_of(matcher, key, scope)
     return [] if subject is None else [_test(matcher, subject, scope, negated=False)]
 
 
-def _given_test(node: Value, scope: Scope) -> Test:
+def _given_test(node: Value, scope: Scope) -> Is:
     contrary = node.child("not")
-    return Test(register="", given=_given(contrary or node, scope, "boolean"), negated=contrary is not None)
+    return Is(register="", given=_given(contrary or node, scope, "boolean"), negated=contrary is not None)
 
 
 def _given(node: Value, scope: Scope, kind: str) -> str:
@@ -80,25 +79,25 @@ def _given(node: Value, scope: Scope, kind: str) -> str:
     return node.text()
 
 
-def _test(matcher: Value, subject: Subject, scope: Scope, *, negated: bool) -> Test:
-    register, field = path_of(subject.entry, subject.name), subject.field
+def _test(matcher: Value, subject: Subject, scope: Scope, *, negated: bool) -> Is:
+    asked = Is(path_of(subject.entry, subject.name), field=subject.field, bits=subject.bits)
     for key, node in matcher.items():
         if key == "not":
             return _test(node, subject, scope, negated=not negated)
         if key in _SETS:
             given = _given(node, scope, "codes")
-            return Test(register=register, field=field, given=given, negated=negated != (key == "not_in"))
+            return asked._replace(given=given, negated=negated != (key == "not_in"))
         unknown(matcher, BAD_MATCHER, "matcher", key, [*_SETS, "not"])
     codes = tuple(_code(node, subject, scope) for node in matcher.elements() if not matcher.is_mapping)
-    return Test(register=register, field=field, codes=codes, negated=negated)
+    return asked._replace(codes=codes, negated=negated)
 
 
-def _code(node: Value, subject: Subject, scope: Scope) -> CodeRange:
+def _code(node: Value, subject: Subject, scope: Scope) -> tuple[Fraction, Fraction]:
     if node.is_mapping or node.is_list:
         remedy = "a list holds numbers, ranges and enum members; use one `not`, `in` or `not_in` beside no others"
         node.report(BAD_MATCHER, "this cannot stand in a list of codes", remedy=remedy)
-        return CodeRange(Fraction(0), Fraction(0))
+        return Fraction(0), Fraction(0)
     if node.is_text and ".." in node.text():
-        return CodeRange(*ends(node))
+        return ends(node)
     code = code_of_text(node, subject, scope) if node.is_text else node.number()
-    return CodeRange(code, code)
+    return code, code

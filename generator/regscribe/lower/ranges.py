@@ -7,7 +7,7 @@ from regscribe.lower.rules import REVERSED
 from regscribe.lower.scales import Scaling, decimals_rule
 from regscribe.lower.scope import Scope, path_of
 from regscribe.lower.tree import TreeNode
-from regscribe.model import Case, Cases, Conversion, Interval, Limit, Number, Open, Range, Reference, always, show
+from regscribe.model import Case, Cases, Conversion, Interval, Limit, Number, Open, Range, Ref, always, show
 
 _NOT_GIVEN = Open("not given")
 
@@ -31,7 +31,7 @@ def _of_scale(scaling: tuple[Scaling, ...]) -> Cases[Range]:
 def _between(part: Scaling) -> Interval:
     if part.ends is None:
         return Interval(_NOT_GIVEN, _NOT_GIVEN)
-    return Interval(Number(min(part.ends)), Number(max(part.ends)))
+    return Interval(min(part.ends), max(part.ends))
 
 
 def _cases(node: Value, scope: Scope) -> Cases[Range]:
@@ -51,8 +51,7 @@ def _range(node: Value, scope: Scope) -> Range:
 
 def _interval(node: Value, scope: Scope) -> Interval:
     if not node.is_mapping:
-        low, high = ends(node)
-        return Interval(Number(low), Number(high))
+        return Interval(*ends(node))
     interval = Interval(_limit(node.child("from"), scope), _limit(node.child("to"), scope))
     if isinstance(interval.low, Number) and isinstance(interval.high, Number):
         _in_order(node, interval.low, interval.high)
@@ -60,9 +59,9 @@ def _interval(node: Value, scope: Scope) -> Interval:
 
 
 def _in_order(node: Value, low: Number, high: Number) -> None:
-    if low.value > high.value:
-        message = f"the range is reversed: from {show(low.value)} is more than to {show(high.value)}"
-        node.report(REVERSED, message, remedy=f"write from: {show(high.value)}, to: {show(low.value)}")
+    if low > high:
+        message = f"the range is reversed: from {show(low)} is more than to {show(high)}"
+        node.report(REVERSED, message, remedy=f"write from: {show(high)}, to: {show(low)}")
 
 
 def _limit(node: Value | None, scope: Scope) -> Limit:
@@ -71,8 +70,8 @@ def _limit(node: Value | None, scope: Scope) -> Limit:
     if node.is_mapping:
         return Open(text_of(node, "open"))
     if node.is_number:
-        return Number(node.number())
-    return Reference(path_of(scope.register(node), node.text()))
+        return node.number()
+    return Ref(path_of(scope.register(node), node.text()))
 
 
 def _split(cases: Cases[Range], rule: Value, scope: Scope) -> Cases[Range]:

@@ -16,9 +16,9 @@ from regscribe.lower.scope import Scope
 from regscribe.lower.special_values import beginning_of, sentinels_of, specials_of, version_of
 from regscribe.lower.tree import TreeNode
 from regscribe.lower.units import rescaled, unit_of
-from regscribe.lower.views import views_of
+from regscribe.lower.views import at_of, views_of
 from regscribe.model import (
-    IDENTITY,
+    SAME,
     Access,
     Case,
     Cases,
@@ -29,7 +29,6 @@ from regscribe.model import (
     View,
     WireType,
     WriteCondition,
-    always,
 )
 from regscribe.model.identifiers import has_mark, indexed
 
@@ -54,6 +53,7 @@ def register_of(entry: TreeNode, everywhere: Scope) -> Register:
         name=_name(entry),
         kind=kind,
         access=_access(entry),
+        at=at_of(entry),
         views=views,
         symbol=indexed(_text(entry, "symbol"), entry.place.index),
         description=_text(entry, "description"),
@@ -122,7 +122,7 @@ def kind_of(entry: TreeNode, views: tuple[View, ...], scaling: tuple[Scaling, ..
 
 def _has_fractions(entry: TreeNode, views: tuple[View, ...], scaling: tuple[Scaling, ...]) -> bool:
     return (
-        any(view.type.is_float or (1 / (view.factor or Fraction(1))).denominator != 1 for view in views)
+        any(view.type.is_float or (1 / Fraction(view.factor or 1)).denominator != 1 for view in views)
         or any(_makes_fractions(part.conversion) for part in scaling)
         or any((special.means or special.code).denominator != 1 for special in specials_of(entry))
     )
@@ -138,7 +138,7 @@ def _special_scale(entry: TreeNode, scope: Scope) -> Cases[Conversion]:
     """What makes a value of use of a special value's code: the decimals that divide the range divide it as well."""
     rule = entry.settings.get("range_decimals")
     divides = any(special.code for special in specials_of(entry))  # 0 stays 0
-    return decimals_rule(rule, scope) if rule and divides else always(IDENTITY)
+    return decimals_rule(rule, scope) if rule and divides else SAME
 
 
 def _text(entry: TreeNode, key: str) -> str:

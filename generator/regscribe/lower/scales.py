@@ -9,7 +9,7 @@ from regscribe.lower.node import Value
 from regscribe.lower.rules import NO_ENDS, TWO_SCALES, UNKNOWN_DECIMALS, UNKNOWN_SCALE, WRONG_SORT
 from regscribe.lower.scope import Scope, path_of
 from regscribe.lower.tree import TreeNode
-from regscribe.model import ALWAYS, IDENTITY, Case, Cases, Condition, Conversion, Decimals, WireType, always, show
+from regscribe.model import ALWAYS, IDENTITY, SAME, Case, Cases, Condition, Conversion, Decimals, WireType, always, show
 
 NOT_STATED = "not_stated"
 _WITH_POINT = "value"
@@ -91,13 +91,13 @@ def decimals_of(node: Value, scope: Scope) -> Cases[Conversion]:
     """The conversion that `decimals` stands for: digits, `not_stated`, or a rule."""
     if node.is_number:
         return always(Conversion(multiply=_power(node)))
-    return always(IDENTITY) if node.text() == NOT_STATED else decimals_rule(node, scope)
+    return SAME if node.text() == NOT_STATED else decimals_rule(node, scope)
 
 
 def decimals_rule(node: Value, scope: Scope) -> Cases[Conversion]:
     """The cases of the decimals rule that `node` names: the rule's own, then identity if it has a condition."""
     rule = scope.named(node, "decimals", rule=UNKNOWN_DECIMALS, what="decimals rule")
-    return rule_at(rule, scope) if rule else always(IDENTITY)
+    return rule_at(rule, scope) if rule else SAME
 
 
 def rule_at(rule: Value, scope: Scope) -> Cases[Conversion]:

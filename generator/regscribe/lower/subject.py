@@ -14,11 +14,12 @@ from regscribe.model.identifiers import snake
 
 @dataclass(frozen=True, slots=True)
 class Subject:
-    """A register as the map names it, and a bit field of it ("" for the whole register)."""
+    """A register as the map names it, and a bit field of it with its first and last bit ("" for the whole register)."""
 
     name: str
     entry: TreeNode
     field: str = ""
+    bits: tuple[int, int] | None = None
 
 
 def subject_of(node: Value, key: str, scope: Scope) -> Subject | None:
@@ -31,10 +32,10 @@ def subject_of(node: Value, key: str, scope: Scope) -> Subject | None:
     if owner is None:
         scope.missing(node, register if dot and not field.endswith("]") and "]." not in key else key, at_key=True)
         return None
-    known = [each.id for each in fields_of(owner, scope.at(owner))]
+    known = {each.id: (each.low, each.high) for each in fields_of(owner, scope.at(owner))}
     if field not in known:
         unknown(node, UNKNOWN_FIELD, "bit field", field, known, of=register, at_key=True)
-    return Subject(register, owner, field)
+    return Subject(register, owner, field, known.get(field))
 
 
 def code_of_text(node: Value, subject: Subject, scope: Scope) -> Fraction:

@@ -20,7 +20,7 @@ def look_at_tables(root: Value, scope: Scope) -> None:
     for name, node in _own(root, "enums"):
         enum_at(node, scope, name)
     for _, node in _own(root, "views"):
-        set_at(node, Home(Space.HOLDING, at=0, length=1), scope)
+        set_at(node, Home(Space.HOLDING, length=1), scope)
     for _, node in _own(root, "decimals"):
         rule_at(node, scope)
     for _, node in _own(root, "scales"):

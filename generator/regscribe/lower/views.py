@@ -1,6 +1,6 @@
 """The views of a register: from a view set and its address formula, or the single one that its type gives."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 
 from regscribe.lower.interval_text import whole_ends
@@ -8,7 +8,7 @@ from regscribe.lower.node import Value, elements_of, text_of, truth_of, whole_of
 from regscribe.lower.rules import IDLE_KEY, IDLE_LENGTH, TYPE_BESIDE_VIEWS, UNKNOWN_VIEWS, WRONG_SORT
 from regscribe.lower.scope import Scope, path_of
 from regscribe.lower.tree import TreeNode
-from regscribe.model import Order, OrderFromRegister, Rounding, Space, View, WireType
+from regscribe.model import Order, OrderFrom, Rounding, Space, View, WireType
 
 _OF_EACH_VIEW = ("type", "word_order", "byte_order", "functions")
 _DEFAULT_TYPES = {Space.COIL: WireType.BIT, Space.DISCRETE: WireType.BIT, Space.STATUS: WireType.UINT8}
@@ -16,10 +16,9 @@ _DEFAULT_TYPES = {Space.COIL: WireType.BIT, Space.DISCRETE: WireType.BIT, Space.
 
 @dataclass(frozen=True, slots=True)
 class Home:
-    """What all views of a register share: the space, and the `at` of the address formula."""
+    """What all views of a register share: the space, and the length of texts."""
 
     space: Space
-    at: int
     length: int
 
 
@@ -39,7 +38,7 @@ def _views_of(entry: TreeNode, scope: Scope) -> tuple[View, ...]:
     settings = entry.settings
     space = settings["space"].choice(Space, Space.HOLDING) if "space" in settings else Space.HOLDING
     length = settings["length"].whole() if "length" in settings else 1
-    home = Home(space, _at(entry), length)
+    home = Home(space, length)
     if "views" not in settings:
         return (_single(entry, home, scope),)
     for key in (key for key in _OF_EACH_VIEW if key in settings):
@@ -51,7 +50,8 @@ def _views_of(entry: TreeNode, scope: Scope) -> tuple[View, ...]:
     return (set_at(view_set, home, scope) if view_set else ()) or (_single(entry, home, scope),)
 
 
-def _at(entry: TreeNode) -> int:
+def at_of(entry: TreeNode) -> int:
+    """The `at` of the address formulas of a register's views."""
     at = entry.settings.get("at")
     if at is None:
         message = f"`{entry.id}` has no address"
@@ -63,11 +63,9 @@ def _at(entry: TreeNode) -> int:
 
 
 def set_at(node: Value, home: Home, scope: Scope) -> tuple[View, ...]:
-    """The views of the set that stands at `node`, the base view first; read once for all that differ in `at` alone."""
-    origin = replace(home, at=0)
-    views = scope.once((node.path, origin), lambda: [_view(name, each, origin, scope) for name, each in node.items()])
-    placed = (replace(view, address=view.address + view.stride * home.at) for view in views)
-    return tuple(sorted(placed, key=lambda view: view.name != "base"))
+    """The views of the set that stands at `node`, the base view first; read once for all registers that have it."""
+    views = scope.once((node.path, home), lambda: [_view(name, each, home, scope) for name, each in node.items()])
+    return tuple(sorted(views, key=lambda view: view.name != "base"))
 
 
 def _single(entry: TreeNode, home: Home, scope: Scope) -> View:
@@ -78,10 +76,9 @@ def _single(entry: TreeNode, home: Home, scope: Scope) -> View:
     return View(
         name="base",
         space=home.space,
-        address=home.at,
         type=wire,
         words=home.length if wire is WireType.STRING else wire.words,
-        word_order=_order(settings.get("word_order"), scope),
+        order=_order(settings.get("word_order"), scope),
         byte_order=_byte_order(settings.get("byte_order")),
         functions=functions,
     )
@@ -92,23 +89,22 @@ def _view(name: str, node: Value, home: Home, scope: Scope) -> View:
     wire = told.choice(WireType, WireType.UINT16) if told else WireType.UINT16
     _report_idle(name, node, wire)
     factor, rounding, region = node.child("factor"), node.child("rounding"), node.child("region")
-    stride = whole_of(node, "stride", 1)
     return View(
         name=name,
         space=home.space,
-        address=whole_of(node, "offset") + stride * home.at,
+        offset=whole_of(node, "offset"),
         type=wire,
         words=home.length if wire is WireType.STRING else wire.words,
         factor=factor.number() if factor else Fraction(1),
         rounding=rounding.choice(Rounding, Rounding.NONE) if rounding else Rounding.NONE,
         saturates=truth_of(node, "saturates"),
-        word_order=_order(node.child("word_order"), scope),
+        order=_order(node.child("word_order"), scope),
         byte_order=_byte_order(node.child("byte_order")),
         functions=tuple(element.whole() for element in elements_of(node, "functions")),
         align=whole_of(node, "align", 1),
         region=whole_ends(region) if region else None,
         preferred=truth_of(node, "preferred"),
-        stride=stride,
+        stride=whole_of(node, "stride", 1),
     )
 
 
@@ -124,7 +120,7 @@ def _report_idle(name: str, node: Value, wire: WireType) -> None:
             told.report(IDLE_KEY, f"view `{name}` has `{key}`, but {why}", remedy="remove it", at_key=True)
 
 
-def _order(node: Value | None, scope: Scope) -> Order | OrderFromRegister:
+def _order(node: Value | None, scope: Scope) -> Order | OrderFrom:
     if node is None:
         return Order.BIG
     if not node.is_mapping:
@@ -132,7 +128,7 @@ def _order(node: Value | None, scope: Scope) -> Order | OrderFromRegister:
     register, codes = node.child("register"), node.child("codes")
     path = path_of(scope.register(register), register.text()) if register else text_of(node, "register")
     pairs = [(each.key_whole(), each.choice(Order, Order.BIG)) for each in codes.values()] if codes else []
-    return OrderFromRegister(register=path, codes=tuple(pairs))
+    return OrderFrom(register=path, codes=tuple(pairs))
 
 
 def _byte_order(node: Value | None) -> Order:

@@ -3,8 +3,8 @@
 Nothing here knows YAML, templates or a device; every number that scales is a `Fraction`.
 """
 
-from regscribe.model.condition import ALWAYS, Case, Cases, CodeRange, Condition, Lookup, Test, always, registers_of
 from regscribe.model.diagnostic import Diagnostic, Related, Rule, Severity, Span
+from regscribe.model.enums import BitField, Enum, Lookup, Member, Special, Units
 from regscribe.model.faults import SILENCE, Faults, Later, ProtocolNotes
 from regscribe.model.map import (
     Command,
@@ -28,29 +28,10 @@ from regscribe.model.map import (
 from regscribe.model.process import Alarm, Effect, OnOff, Output, Pid, Process, Ramp, Trip, TripKind
 from regscribe.model.program_notes import ProgramNotes
 from regscribe.model.register import Array, Group, Inferred, Register
-from regscribe.model.value import (
-    IDENTITY,
-    NAN,
-    BitField,
-    Conversion,
-    Decimals,
-    Enum,
-    Interval,
-    Limit,
-    Member,
-    NotANumber,
-    Number,
-    Open,
-    Range,
-    Reference,
-    Sentinel,
-    Special,
-    Units,
-)
-from regscribe.model.wire import OrderFromRegister, View
+from regscribe_runtime.values.conditions import ALWAYS, Case, Cases, Condition, Is, always, registers_of
 from regscribe_runtime.values.facts import CommandStep, Governs, Identity, Setting, WriteCondition
 from regscribe_runtime.values.kinds import Access, Kind
-from regscribe_runtime.values.numbers import exact, parse, show
+from regscribe_runtime.values.numbers import Number, exact, parse, show
 from regscribe_runtime.values.programs import (
     ProgramAction,
     ProgramCounts,
@@ -64,12 +45,28 @@ from regscribe_runtime.values.programs import (
     numbered,
 )
 from regscribe_runtime.values.protocol import ExceptionCode, Latency, Protocol, SerialDefaults
+from regscribe_runtime.values.scales import (
+    IDENTITY,
+    NAN,
+    SAME,
+    Conversion,
+    Decimals,
+    Interval,
+    Limit,
+    NotANumber,
+    Open,
+    Range,
+    Ref,
+    Sentinel,
+)
+from regscribe_runtime.values.views import OrderFrom, View
 from regscribe_runtime.values.wire_types import Order, Rounding, Space, WireType
 
 __all__ = [
     "ALWAYS",
     "IDENTITY",
     "NAN",
+    "SAME",
     "SILENCE",
     "Access",
     "Alarm",
@@ -77,7 +74,6 @@ __all__ = [
     "BitField",
     "Case",
     "Cases",
-    "CodeRange",
     "Command",
     "CommandStep",
     "Condition",
@@ -99,6 +95,7 @@ __all__ = [
     "IdentityRule",
     "Inferred",
     "Interval",
+    "Is",
     "Kind",
     "Latency",
     "Later",
@@ -114,7 +111,7 @@ __all__ = [
     "OnOff",
     "Open",
     "Order",
-    "OrderFromRegister",
+    "OrderFrom",
     "Outcome",
     "Output",
     "Override",
@@ -132,7 +129,7 @@ __all__ = [
     "ProtocolNotes",
     "Ramp",
     "Range",
-    "Reference",
+    "Ref",
     "Register",
     "RegisterMap",
     "Related",
@@ -146,7 +143,6 @@ __all__ = [
     "Space",
     "Span",
     "Special",
-    "Test",
     "TimingExample",
     "Trip",
     "TripKind",

@@ -5,12 +5,12 @@ from enum import StrEnum
 from fractions import Fraction
 
 from regscribe.model.diagnostic import NOWHERE, Span
+from regscribe.model.enums import Enum
 from regscribe.model.faults import Faults, ProtocolNotes
 from regscribe.model.identifiers import ways_to_say
 from regscribe.model.process import Effect, Process
 from regscribe.model.program_notes import ProgramNotes
 from regscribe.model.register import Array, Group, Register
-from regscribe.model.value import Enum
 from regscribe_runtime.values.facts import CommandStep, Identity
 from regscribe_runtime.values.programs import SetpointProgram
 from regscribe_runtime.values.protocol import Protocol

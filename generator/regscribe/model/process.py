@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
 
-from regscribe.model.condition import ALWAYS, Condition
 from regscribe.model.diagnostic import NOWHERE, Span
+from regscribe_runtime.values.conditions import ALWAYS, Condition
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,12 +3,15 @@
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from regscribe.model.condition import Cases, always
 from regscribe.model.diagnostic import NOWHERE, Span
-from regscribe.model.value import IDENTITY, BitField, Conversion, Enum, Range, Sentinel, Special
-from regscribe.model.wire import View
+from regscribe.model.enums import BitField, Enum, Special
+from regscribe_runtime.values.conditions import Cases, always
 from regscribe_runtime.values.facts import Governs, WriteCondition
 from regscribe_runtime.values.kinds import Access, Kind
+from regscribe_runtime.values.scales import SAME, Conversion, NotANumber, Range, Sentinel
+from regscribe_runtime.values.views import View, preferred, read_view
+
+UNITLESS = always("")
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +27,8 @@ class Register:
     """One logical parameter of one model, whatever the number of its views.
 
     `id` is its Python name inside its owner, `path` its name in the model (`segments[3].soak_level`).
-    `views[0]` is the base view; `aliases` are further addresses that transmit the base view.
+    `at` is the n of its views' address formulas; `views[0]` is the base view; `aliases` are further addresses that
+    transmit the base view.
     `scale` goes from the stored value to the value of use, `special_scale` from the code of a special value to its
     value of use (the decimals that divide the range); `default` is a value of use: a number (an enum's code, a word's
     bits), a text or version, or None where the manual gives none; `delivered` is what a new device holds instead.
@@ -46,18 +50,19 @@ class Register:
     name: str
     kind: Kind
     access: Access
+    at: int
     views: tuple[View, ...]
     symbol: str = ""
     description: str = ""
     section: str = ""
     group: str = ""
     aliases: tuple[int, ...] = ()
-    scale: Cases[Conversion] = field(default_factory=lambda: always(IDENTITY))
-    unit: Cases[str] = field(default_factory=lambda: always(""))
+    scale: Cases[Conversion] = SAME
+    unit: Cases[str] = UNITLESS
     unit_id: str = ""
     range: Cases[Range] = ()
     specials: tuple[Special, ...] = ()
-    special_scale: Cases[Conversion] = field(default_factory=lambda: always(IDENTITY))
+    special_scale: Cases[Conversion] = SAME
     sentinels: tuple[Sentinel, ...] = ()
     default: Fraction | str | None = None
     delivered: Fraction | str | None = None
@@ -91,14 +96,19 @@ class Register:
         return self.views[0]
 
     @property
+    def address(self) -> int:
+        """The wire address of the base view."""
+        return self.base.address(self.at)
+
+    @property
     def preferred(self) -> View:
         """The view that drivers use unless told otherwise."""
-        return next((view for view in self.views if view.preferred), self.views[0])
+        return preferred(self.views)
 
     @property
     def read_view(self) -> View:
         """The view that drivers read: that to prefer, if its functions let it be read."""
-        return self._first([view for view in self.views if view.readable])
+        return read_view(self)
 
     @property
     def write_view(self) -> View:
@@ -117,7 +127,7 @@ class Register:
     @property
     def faults(self) -> tuple[Fraction, ...]:
         """The stored numbers that are faults, without that which is no number."""
-        return tuple(one.stored for one in self.sentinels if isinstance(one.stored, Fraction))
+        return tuple(Fraction(one.stored) for one in self.sentinels if not isinstance(one.stored, NotANumber))
 
     @property
     def fractional(self) -> bool:

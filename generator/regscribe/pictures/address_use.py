@@ -48,8 +48,8 @@ def _places(model: Model) -> Iterator[AddressUse]:
 def _place(register: Register, view: View) -> AddressUse:
     return AddressUse(
         space=view.space,
-        first=view.address,
-        last=view.last,
+        first=view.address(register.at),
+        last=view.last(register.at),
         view=view.name,
         type=view.type.value,
         formula=view_formula(view, register.base),

@@ -62,7 +62,7 @@ def _remarks(register_map: RegisterMap, branch: Branch) -> Iterator[str]:
     if len(having) < len(every):
         yield f"The array exists on some models: {set_words(having, every)}."
     shapes = {(item.first, item.count, item.stride) for _, item in branch.array.versions}
-    spots = [leaf.register.states(lambda _, register: register.base.address) for leaf in leaves((branch,))]
+    spots = [leaf.register.states(lambda _, register: register.address) for leaf in leaves((branch,))]
     if len(shapes) > 1 or any(len(spot) > 1 for spot in spots):
         yield f"Models differ in it; it is drawn as on {having[0]}."
 
@@ -166,9 +166,10 @@ def _rules(child: Leaf | Branch) -> Iterator[str]:
     if isinstance(child, Branch):
         yield "see below"
         return
-    views = child.register.first.views
+    register = child.register.first
+    views = register.views
     for view in views[:MOST_VIEWS]:
-        text = formula(view, child.arrays)
+        text = formula(view, register.at, child.arrays)
         yield f"{view.name}: {text}" if len(views) > 1 else text
     if len(views) > MOST_VIEWS:
         yield f"and {len(views) - MOST_VIEWS} more views"

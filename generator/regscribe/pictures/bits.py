@@ -73,7 +73,9 @@ def bits(register_map: RegisterMap, leaf: Leaf) -> Drawing:
 
 
 def _where(leaf: Leaf) -> str:
-    facts = leaf.register.states(lambda _, register: (register.base.space, formula(register.base, leaf.arrays)))
+    facts = leaf.register.states(
+        lambda _, register: (register.base.space, formula(register.base, register.at, leaf.arrays))
+    )
     spots = dict.fromkeys(fact.value for fact in facts)
     return listed([f"{NAMES[space]}{'' if space is Space.STATUS else f' {address}'}" for space, address in spots])
 

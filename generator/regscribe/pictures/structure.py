@@ -101,6 +101,6 @@ def _base(leaf: Leaf) -> View:
 def _ends(leaf: Leaf, depth: int, element: int) -> tuple[int, int]:
     """Return the span of a register over all elements of the arrays inside the one at `depth`."""
     base = _base(leaf)
-    low = base.address + base.stride * leaf.arrays[depth].stride * element
+    low = leaf.register.first.address + base.stride * leaf.arrays[depth].stride * element
     inner = sum(base.stride * array.stride * (array.count - 1) for array in leaf.arrays[depth + 1 :])
     return min(low, low + inner), max(low, low + inner) + base.words - 1

@@ -3,15 +3,16 @@
 from fractions import Fraction
 from math import floor
 
+from regscribe.model.enums import Special
 from regscribe.model.register import Register
-from regscribe.model.value import NAN, Conversion, NotANumber, Sentinel, Special
-from regscribe.model.wire import View
 from regscribe.reference.ieee import ieee_bits
 from regscribe.reference.outcome import NOT_DECODABLE, SATURATED, Meaning, Reading, RefusalReason, RefusedError
 from regscribe.reference.surroundings import NOTHING_KNOWN, Surroundings, choose, decimal_factor, in_range
 from regscribe.reference.words import HALF, carried, spelled, text_of, wire_number, word_order, words_of_text
 from regscribe_runtime.values.kinds import Kind
 from regscribe_runtime.values.numbers import show
+from regscribe_runtime.values.scales import NAN, Conversion, NotANumber, Sentinel
+from regscribe_runtime.values.views import View
 from regscribe_runtime.values.wire_types import WireType
 
 PATTERNS = frozenset({Kind.FLAGS, Kind.FIELDS})
@@ -44,7 +45,7 @@ def _of_number(register: Register, view: View, number: Fraction | NotANumber | N
 
 def sentinel_number(view: View, sentinel: Sentinel) -> Fraction | NotANumber | None:
     """Return the wire number by which a view reports a fault; None if it cannot."""
-    return NAN if isinstance(sentinel.stored, NotANumber) else carried(view, sentinel.stored * view.factor)
+    return NAN if isinstance(sentinel.stored, NotANumber) else carried(view, Fraction(sentinel.stored * view.factor))
 
 
 def special_value(register: Register, special: Special, known: Surroundings) -> Fraction | None:

@@ -33,7 +33,7 @@ class Form(NamedTuple):
     @classmethod
     def of(cls, conversion: Conversion, factor: Fraction) -> "Form":
         """Divide once, not for each value."""
-        offset = conversion.add / conversion.multiply if conversion.add else conversion.add
+        offset = conversion.add / Fraction(conversion.multiply) if conversion.add else Fraction(0)
         return cls(conversion, factor, factor / conversion.multiply, offset)
 
     def stored(self, value: Fraction) -> Fraction:
@@ -72,7 +72,7 @@ def widest(register: Register) -> tuple[Fraction, Fraction] | None:
     if not every or not all(view.type.is_integer for view in register.views):
         return None
     ends = [
-        form.used(wire if view.factor == 1 else wire / view.factor)
+        form.used(wire if view.factor == 1 else Fraction(wire) / view.factor)
         for form in every
         for view in register.views
         if view.factor

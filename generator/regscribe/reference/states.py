@@ -3,22 +3,34 @@
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import groupby, product
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
-from regscribe.model import BitField, CodeRange, Enum, Interval, Kind, Number, Register, WireType
+from regscribe.model import BitField, Enum, Interval, Kind, Number, Register, WireType
 from regscribe.reference.settled_scales import forms, widest
 
 K = TypeVar("K", bound=Hashable)
 V = TypeVar("V")
 
+
+class Stretch(NamedTuple):
+    """Values from `low` to `high`, both included."""
+
+    low: Fraction
+    high: Fraction
+
+    def holds(self, value: Fraction) -> bool:
+        """Tell whether `value` lies inside."""
+        return self.low <= value <= self.high
+
+
 MOST_LISTED = 32
 """A domain of up to as many whole numbers is taken as the list of its values."""
 
-ANYTHING = (CodeRange(Fraction(-(10**30)), Fraction(10**30)),)
+ANYTHING = (Stretch(Fraction(-(10**30)), Fraction(10**30)),)
 """For floats and for texts: no end that matters."""
 
 
-def domain(register: Register, field: str = "") -> tuple[CodeRange, ...]:
+def domain(register: Register, field: str = "") -> tuple[Stretch, ...]:
     """The values of use that the map allows for: members and invalid codes of an enum, the range and special values."""
     if field:
         bits = next((one for one in register.fields if one.id == field), None)
@@ -26,41 +38,41 @@ def domain(register: Register, field: str = "") -> tuple[CodeRange, ...]:
     if register.enum is not None:
         return _codes(register.enum)
     if register.kind in {Kind.FLAGS, Kind.FIELDS}:
-        return (CodeRange(Fraction(0), Fraction((1 << register.bits) - 1)),)
+        return (Stretch(Fraction(0), Fraction((1 << register.bits) - 1)),)
     if register.kind is Kind.STRING or register.base.type is WireType.STRING:
         return ANYTHING
     return _without_faults(register, _of_number(register))
 
 
-def _of_field(bits: BitField) -> tuple[CodeRange, ...]:
+def _of_field(bits: BitField) -> tuple[Stretch, ...]:
     if bits.enum is not None:
         return _codes(bits.enum)
-    return (CodeRange(Fraction(0), Fraction((1 << bits.width) - 1)),)
+    return (Stretch(Fraction(0), Fraction((1 << bits.width) - 1)),)
 
 
-def _codes(enum: Enum) -> tuple[CodeRange, ...]:
+def _codes(enum: Enum) -> tuple[Stretch, ...]:
     codes = sorted({member.code for member in enum.members} | {code for code, _ in enum.invalid})
-    return tuple(CodeRange(Fraction(code), Fraction(code)) for code in codes)
+    return tuple(Stretch(Fraction(code), Fraction(code)) for code in codes)
 
 
-def _of_number(register: Register) -> tuple[CodeRange, ...]:
+def _of_number(register: Register) -> tuple[Stretch, ...]:
     reach = widest(register)
     low, high = reach or (ANYTHING[0].low, ANYTHING[0].high)
     intervals = [interval for case in register.range for interval in case.then.intervals]
     if not intervals or any(case.then.decimals for case in register.range):
-        return (CodeRange(low, high),)
+        return (Stretch(low, high),)
     stretches = [_stretch(interval, low, high) for interval in intervals]
     meant = [special.code if special.means is None else special.means for special in register.specials]
-    return tuple(stretches + [CodeRange(value, value) for value in meant])
+    return tuple(stretches + [Stretch(value, value) for value in meant])
 
 
-def _stretch(interval: Interval, low: Fraction, high: Fraction) -> CodeRange:
-    first = interval.low.value if isinstance(interval.low, Number) else low
-    last = interval.high.value if isinstance(interval.high, Number) else high
-    return CodeRange(first, last)
+def _stretch(interval: Interval, low: Fraction, high: Fraction) -> Stretch:
+    first = interval.low if isinstance(interval.low, Number) else low
+    last = interval.high if isinstance(interval.high, Number) else high
+    return Stretch(Fraction(first), Fraction(last))
 
 
-def _without_faults(register: Register, stretches: tuple[CodeRange, ...]) -> tuple[CodeRange, ...]:
+def _without_faults(register: Register, stretches: tuple[Stretch, ...]) -> tuple[Stretch, ...]:
     """Cut out the stored numbers that report faults, where they have one value each: no state has them as values."""
     every = forms(register) if register.faults else ()
     if len(every) != 1 or any(view.factor != 1 or view.type.is_float for view in register.views):
@@ -72,16 +84,16 @@ def _without_faults(register: Register, stretches: tuple[CodeRange, ...]) -> tup
     return stretches
 
 
-def _cut(stretch: CodeRange, value: Fraction, step: Fraction) -> Iterator[CodeRange]:
+def _cut(stretch: Stretch, value: Fraction, step: Fraction) -> Iterator[Stretch]:
     """Yield what is left of a stretch without one value in it."""
     if not stretch.holds(value):
         yield stretch
         return
-    sides = (CodeRange(stretch.low, value - step), CodeRange(value + step, stretch.high))
+    sides = (Stretch(stretch.low, value - step), Stretch(value + step, stretch.high))
     yield from (side for side in sides if side.low <= side.high)
 
 
-def listed(stretches: Sequence[CodeRange]) -> tuple[Fraction, ...]:
+def listed(stretches: Sequence[Stretch]) -> tuple[Fraction, ...]:
     """Return every value of a domain in order, if it is a few whole numbers; nothing if they are too many to list."""
     if any(end.denominator != 1 for stretch in stretches for end in (stretch.low, stretch.high)):
         return ()
@@ -90,13 +102,13 @@ def listed(stretches: Sequence[CodeRange]) -> tuple[Fraction, ...]:
     return tuple(sorted({Fraction(code) for one in stretches for code in range(int(one.low), int(one.high) + 1)}))
 
 
-def representatives(stretches: Sequence[CodeRange], codes: Sequence[CodeRange]) -> tuple[Fraction, ...]:
+def representatives(stretches: Sequence[Stretch], codes: Sequence[tuple[Number, Number]]) -> tuple[Fraction, ...]:
     """Return values of a domain that stand for all: the ends of each run of values that lie in the same of `codes`."""
-    codes = tuple(dict.fromkeys(codes))
+    marks = [Stretch(Fraction(low), Fraction(high)) for low, high in dict.fromkeys(codes)]
     ends = {end for one in stretches for end in (one.low, one.high)}
-    ends |= {near for one in codes for near in (one.low - 1, one.low, one.high, one.high + 1)}
+    ends |= {near for one in marks for near in (one.low - 1, one.low, one.high, one.high + 1)}
     values = {*listed(stretches), *(end for end in ends if any(one.holds(end) for one in stretches))}
-    runs = [list(run) for _, run in groupby(sorted(values), lambda value: [one.holds(value) for one in codes])]
+    runs = [list(run) for _, run in groupby(sorted(values), lambda value: [one.holds(value) for one in marks])]
     return tuple(dict.fromkeys(end for run in runs for end in (run[0], run[-1])))
 
 

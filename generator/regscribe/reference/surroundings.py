@@ -4,10 +4,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from regscribe.model.condition import Cases, Condition, T, Test
 from regscribe.model.register import Register
-from regscribe.model.value import Decimals, Limit, Open, Range, Reference
 from regscribe.reference.outcome import RefusalReason, RefusedError, UnknownValueError
+from regscribe_runtime.values.conditions import Cases, Condition, Is, T
+from regscribe_runtime.values.scales import Decimals, Limit, Open, Range, Ref
 
 MOST_DECIMALS = 9
 """A decimals register above this is no decimal position of any device, and ten to the power of it may be endless."""
@@ -31,7 +31,7 @@ class Surroundings:
 NOTHING_KNOWN = Surroundings()
 
 
-def _is_true(test: Test, known: Surroundings) -> bool:
+def _is_true(test: Is, known: Surroundings) -> bool:
     """Tell whether one test is true under what is known."""
     if not test.register:
         if test.given not in known.facts:
@@ -42,7 +42,7 @@ def _is_true(test: Test, known: Surroundings) -> bool:
         if test.given not in known.codes:
             raise UnknownValueError(test.given)
         return (value in known.codes[test.given]) != test.negated
-    return any(codes.holds(value) for codes in test.codes) != test.negated
+    return any(low <= value <= high for low, high in test.codes) != test.negated
 
 
 def holds(condition: Condition, known: Surroundings) -> bool:
@@ -73,7 +73,7 @@ def limit_number(limit: Limit, factor: Fraction, known: Surroundings) -> Fractio
     """Return the number of a limit; None for an open one, which nothing is checked against."""
     if isinstance(limit, Open):
         return None
-    return known.look_up(limit.register) if isinstance(limit, Reference) else limit.value / factor
+    return known.look_up(limit.register) if isinstance(limit, Ref) else limit / factor
 
 
 def limits(limits_now: Range, known: Surroundings) -> tuple[tuple[Fraction | None, Fraction | None], ...]:

@@ -3,12 +3,12 @@
 from fractions import Fraction
 from math import floor, trunc
 
-from regscribe.model.value import NAN, NotANumber
-from regscribe.model.wire import View
 from regscribe.reference.ieee import NotFiniteError, ieee_bits, ieee_number, is_infinity, not_a_number, shortest
 from regscribe.reference.outcome import RefusalReason, RefusedError
 from regscribe.reference.surroundings import NOTHING_KNOWN, Surroundings
 from regscribe_runtime.values.numbers import show
+from regscribe_runtime.values.scales import NAN, NotANumber
+from regscribe_runtime.values.views import View
 from regscribe_runtime.values.wire_types import Order, Rounding
 
 HALF = Fraction(1, 2)
@@ -30,10 +30,10 @@ def round_by(rounding: Rounding, number: Fraction) -> int:
 
 def word_order(view: View, known: Surroundings) -> Order | None:
     """Return the order of the words as things stand; None if the register's code sets no order."""
-    if isinstance(view.word_order, Order):
-        return view.word_order
-    code = known.look_up(view.word_order.register)
-    return next((order for listed, order in view.word_order.codes if listed == code), None)
+    if isinstance(view.order, Order):
+        return view.order
+    code = known.look_up(view.order.register)
+    return next((order for listed, order in view.order.codes if listed == code), None)
 
 
 def _bytes_in_order(view: View, words: tuple[int, ...], order: Order) -> list[int]:

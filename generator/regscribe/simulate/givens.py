@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 from typing import TypeVar
 
-from regscribe.model import Case, Condition, Given, GivenKind, Lookup, Model, RegisterMap, Test
+from regscribe.model import Case, Condition, Given, GivenKind, Is, Lookup, Model, RegisterMap
 from regscribe.simulate.errors import SimulatorError
 
 T = TypeVar("T")
@@ -37,13 +37,13 @@ class Givens:
         """Return what the first case that holds says; None if none holds."""
         return next((case.then for case in cases if self.holds(case.when, lookup)), None)
 
-    def _passes(self, test: Test, lookup: Lookup) -> bool:
+    def _passes(self, test: Is, lookup: Lookup) -> bool:
         if not test.register:
             return self._flags[test.given] != test.negated
         value = lookup(test.subject)
         if test.given:
             return (value in self._codes[test.given]) != test.negated
-        return any(code.holds(value) for code in test.codes) != test.negated
+        return test.lists(value) != test.negated
 
 
 def _conditions(model: Model) -> Iterator[Condition]:

@@ -8,6 +8,7 @@ from regscribe.testing.compare import decoded, differs, encoded, expect_none, re
 from regscribe.testing.register_trial import Trial, known
 from regscribe.testing.vectors import Json, Vectors, number
 from regscribe_runtime.registers.register import Register
+from regscribe_runtime.values.conditions import ALWAYS
 from regscribe_runtime.values.facts import CommandStep
 
 WRITE_COIL, WRITE_COILS = 5, 15
@@ -134,8 +135,8 @@ class DriverUnderTest:
             register = self._register(place["path"])
             for vector in entry.get("writable", ()) if register else ():
                 state, givens = known(vector)
-                when = register.writable.when if register and register.writable else ()
-                allowed = all(test.holds(state, givens) for test in when)
+                when = register.writable.when if register and register.writable else ALWAYS
+                allowed = when.holds(state, givens)
                 differences += differs(f"{place['path']} with {state}", "allowed", allowed, vector["allowed"])
         expect_none(differences)
 

@@ -74,6 +74,7 @@ from regscribe_runtime.registers.value_types import (
     word_of,
 )
 from regscribe_runtime.report import Change, Count, Fate, Progress, Sent, Wear, WriteReport
+from regscribe_runtime.values.conditions import Case, Condition, Is, always
 from regscribe_runtime.values.facts import CommandStep, Governs, Identity, Setting, WriteCondition
 from regscribe_runtime.values.programs import (
     ProgramAction,
@@ -87,18 +88,19 @@ from regscribe_runtime.values.programs import (
     WhileRunning,
 )
 from regscribe_runtime.values.protocol import ExceptionCode, Latency, Protocol, SerialDefaults
-from regscribe_runtime.values.serial_line import SerialLine
-from regscribe_runtime.values.specs import (
+from regscribe_runtime.values.scales import (
     Conversion,
+    Decimals,
     Interval,
-    Is,
-    Limits,
-    OrderFrom,
+    NotANumber,
+    Open,
+    Range,
     Ref,
-    View,
+    Sentinel,
     within,
-    word,
 )
+from regscribe_runtime.values.serial_line import SerialLine
+from regscribe_runtime.values.views import OrderFrom, View, word
 from regscribe_runtime.values.wire_types import Order, Rounding, Space, WireType
 
 __all__ = [
@@ -113,14 +115,17 @@ __all__ = [
     "BareDevice",
     "Bit",
     "Bus",
+    "Case",
     "Change",
     "Choice",
     "ClientSettings",
     "Command",
     "CommandStep",
+    "Condition",
     "ConditionNotMet",
     "Conversion",
     "Count",
+    "Decimals",
     "Device",
     "ExceptionAnswer",
     "ExceptionCode",
@@ -135,15 +140,16 @@ __all__ = [
     "Is",
     "Latency",
     "LeftAt",
-    "Limits",
     "Link",
     "LinkLost",
     "LinkSettings",
     "NoAnswer",
+    "NotANumber",
     "NotApplied",
     "NotConfigured",
     "NotDecodable",
     "NotWritten",
+    "Open",
     "Order",
     "OrderFrom",
     "Part",
@@ -157,6 +163,7 @@ __all__ = [
     "ProgramTimeUnit",
     "Progress",
     "Protocol",
+    "Range",
     "ReadBackDiffers",
     "ReadOnly",
     "ReadWrite",
@@ -168,6 +175,7 @@ __all__ = [
     "Saturated",
     "SensorFault",
     "Sent",
+    "Sentinel",
     "SerialDefaults",
     "SerialLine",
     "SerialSettings",
@@ -196,6 +204,7 @@ __all__ = [
     "WriteReport",
     "WriteUnknown",
     "WrongAnswer",
+    "always",
     "async_client_link",
     "async_serial_link",
     "async_tcp",

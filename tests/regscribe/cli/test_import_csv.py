@@ -41,7 +41,7 @@ def test_what_a_table_says_outright_is_in_the_map(cli: Callable[..., Any]) -> No
         ["setpoint", "raw"],
     ]
     setpoint, mode, alarms = found.model("M1").registers
-    assert (setpoint.base.address, setpoint.base.type, setpoint.section) == (1, "int16", "4.10")
+    assert (setpoint.address, setpoint.base.type, setpoint.section) == (1, "int16", "4.10")
     assert (setpoint.default, setpoint.scale[0].then.multiply) == (Fraction("20.5"), Fraction(1, 10))
     assert mode.enum is not None
     assert [(member.code, member.label) for member in mode.enum.members] == [(0, "stop"), (1, "run")]

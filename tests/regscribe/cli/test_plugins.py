@@ -29,8 +29,8 @@ class Lists:
             raise OptionError("--from-address: write a whole number")
         first = int(options["from-address"])
         def text(one):
-            found = [r for r in one.models[0].registers if r.base.address >= first]
-            return "".join(f"{r.base.address} {r.path} {options['tag'].split()}\\n" for r in found)
+            found = [r for r in one.models[0].registers if r.address >= first]
+            return "".join(f"{r.address} {r.path} {options['tag'].split()}\\n" for r in found)
         return {"": "done\\n"} | {f"{one.id}.txt": text(one) for one in maps}
 
 class Lines:

@@ -4,7 +4,6 @@ import re
 import shutil
 import subprocess
 from collections.abc import Callable
-from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -31,7 +30,7 @@ def template(text: str, name: str = "tags/{maker}/{family}.py.j2") -> Path:
 
 def test_a_template_is_rendered_for_every_map_with_the_header(cli: Callable[..., Any], oven: Path) -> None:
     oven.with_name("kiln.yaml").write_text(oven.read_text().replace("acme/oven", "acme/kiln"))
-    template("{% for one in models[0].registers %}{{ one.base.address }} {{ words.unit(one) }}\n{% endfor %}")
+    template("{% for one in models[0].registers %}{{ one.address }} {{ words.unit(one) }}\n{% endfor %}")
     assert cli(*GENERATE).code == 0
     for name in ("oven", "kiln"):
         header, version, *lines = Path(f"generated/tags/acme/{name}.py").read_text().splitlines()
@@ -194,7 +193,7 @@ def test_the_c_header_of_the_docs_compiles_and_says_what_the_map_says(cli: Calla
     for model in register_map.models:
         for register in model.registers:
             name = name_in_c(model.class_name, register.path)
-            expected.append(f"{name} {register.base.address} {register.base.words}")
+            expected.append(f"{name} {register.address} {register.base.words}")
             prints.append(f'printf("{name} %u %u\\n", {name}_ADDRESS, {name}_WORDS);')
             for member in register.enum.members if register.enum else ():
                 expected.append(f"{member.id} {member.code}")
@@ -236,7 +235,7 @@ def test_the_model_has_what_the_docs_promise() -> None:
         f"{name}.{attribute}"
         for name, _ in tables
         for kind in [getattr(regscribe.model, name)]
-        for attribute in [*(field.name for field in fields(kind)), *dir(kind)]
+        for attribute in [*getattr(kind, "__annotations__", ()), *dir(kind)]
     }
     assert promised - having == set()
     assert len(promised) > 90

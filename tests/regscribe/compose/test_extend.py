@@ -223,7 +223,7 @@ def test_names_of_base_models_in_conditions_are_no_models(maps: Callable[..., Pa
     map_ = found(maps("acme/new", f"{head}models: {{c: {{from: a1}}}}\nrenumber: {{'4': '5'}}\n"))
     writable = map_.model("c").register("third").writable
     assert writable is not None
-    assert [test.codes[0].low for test in writable.when.tests] == [1, 4]
+    assert [test.codes[0][0] for test in writable.when.tests] == [1, 4]
 
 
 @pytest.mark.parametrize("where", [".", "maps", "maps/omega"])

@@ -17,7 +17,7 @@ ALL = "{set: control}"
 
 def test_a_set_puts_its_registers_and_arrays_into_a_group(user: User, found: Found) -> None:
     model = found(user(ALL)).model("A")
-    assert [(one.path, one.base.address, one.section) for one in model.registers] == [
+    assert [(one.path, one.address, one.section) for one in model.registers] == [
         ("setpoint", 0, "4.1"),
         ("timer_action", 1, "1.1"),
         ("segments[1].ramp_time", 20, "4.1"),
@@ -29,7 +29,7 @@ def test_a_set_puts_its_registers_and_arrays_into_a_group(user: User, found: Fou
 
 def test_a_shift_is_added_to_all_addresses_and_aliases(user: User, found: Found) -> None:
     model = found(user("{set: control, shift: 1000}")).model("A")
-    assert [one.base.address for one in model.registers] == [1000, 1001, 1020, 1021, 1024, 1025]
+    assert [one.address for one in model.registers] == [1000, 1001, 1020, 1021, 1024, 1025]
     assert model.register("timer_action").aliases == (1300,)
 
 
@@ -56,7 +56,7 @@ def test_a_set_can_be_on_some_models_only(user: User, found: Found) -> None:
 def test_a_set_can_stand_in_an_array(user: User, found: Found) -> None:
     array = "{id: loops, name: Loop, repeat: 1..2, stride: 100, registers: [{set: segment}]}"
     model = found(user(array)).model("A")
-    assert [(one.path, one.base.address) for one in model.registers] == [
+    assert [(one.path, one.address) for one in model.registers] == [
         ("loops[1].ramp_time", 0),
         ("loops[1].soak", 1),
         ("loops[2].ramp_time", 100),
@@ -66,7 +66,7 @@ def test_a_set_can_stand_in_an_array(user: User, found: Found) -> None:
 
 def test_a_map_can_have_sets_of_its_own_beside(user: User, found: Found) -> None:
     map_ = found(user("{set: own, shift: 5}", top="sets: {own: [{at: 1, name: One, access: r, enum: launch}]}"))
-    assert map_.model("B").register("one").base.address == 6
+    assert map_.model("B").register("one").address == 6
 
 
 def test_each_element_is_named_with_its_index_or_where_the_mark_stands(user: User, found: Found) -> None:

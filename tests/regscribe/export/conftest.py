@@ -11,7 +11,6 @@ from regscribe.model import (
     Array,
     BitField,
     Case,
-    CodeRange,
     Command,
     CommandStep,
     Condition,
@@ -21,22 +20,21 @@ from regscribe.model import (
     FrameExample,
     Group,
     Interval,
+    Is,
     Kind,
     Manual,
     Member,
     Model,
-    Number,
     Open,
     Order,
-    OrderFromRegister,
+    OrderFrom,
     Range,
-    Reference,
+    Ref,
     Register,
     RegisterMap,
     Sentinel,
     Space,
     Special,
-    Test,
     TimingExample,
     ValueExample,
     View,
@@ -44,20 +42,21 @@ from regscribe.model import (
     always,
 )
 
-TEMPERATURE = Condition((Test("input_type", codes=(CodeRange(Fraction(0), Fraction(12)),)),), "temperature_input")
-LINEAR = Condition((Test("input_type", given="linear_inputs"),))
+TEMPERATURE = Condition((Is("input_type", codes=((Fraction(0), Fraction(12)),)),), "temperature_input")
+LINEAR = Condition((Is("input_type", given="linear_inputs"),))
 
 
 def _view(address: int, kind: WireType = WireType.INT16) -> View:
-    return View("base", Space.HOLDING, address, kind, words=kind.words)
+    return View("base", kind, offset=address, words=kind.words)
 
 
 def _limits(low: int, high: int) -> Range:
-    return Range((Interval(Number(Fraction(low)), Number(Fraction(high))),))
+    return Range((Interval(Fraction(low), Fraction(high)),))
 
 
 def _ramp(index: int) -> Register:
     return Register(
+        at=0,
         id="ramp_time",
         path=f"segments[{index}].ramp_time",
         name="Ramp Time",
@@ -77,6 +76,7 @@ def _ramp(index: int) -> Register:
 def _input_type() -> Register:
     members = (Member(0, "J thermocouple", "J_THERMOCOUPLE"), Member(13, "linear", "LINEAR"))
     return Register(
+        at=0,
         id="input_type",
         path="input_type",
         name="Input Type",
@@ -93,11 +93,12 @@ def _input_type() -> Register:
 
 
 def _setpoint() -> Register:
-    order = OrderFromRegister("input_type", ((0, Order.BIG), (13, Order.LITTLE)))
-    ieee = View("ieee", Space.HOLDING, 8002, WireType.FLOAT32, words=2, word_order=order, functions=(3, 16), align=2)
+    order = OrderFrom("input_type", ((0, Order.BIG), (13, Order.LITTLE)))
+    ieee = View("ieee", WireType.FLOAT32, offset=8002, words=2, functions=(3, 16), align=2, order=order)
     open_end = Range((Interval(Open("sensor low limit"), Open("sensor high limit")),))
-    registers = Range((Interval(Reference("low_limit"), Reference("high_limit")),))
+    registers = Range((Interval(Ref("low_limit"), Ref("high_limit")),))
     return Register(
+        at=0,
         id="setpoint",
         path="setpoint",
         name="Setpoint",
@@ -112,7 +113,7 @@ def _setpoint() -> Register:
         ),
         unit=always("°C"),
         range=(Case(TEMPERATURE, open_end), Case(LINEAR, registers)),
-        sentinels=(Sentinel(Fraction(-32768), "sensor low", "LOW"),),
+        sentinels=(Sentinel(Fraction(-32768), "LOW", "sensor low"),),
         default=Fraction("25.1"),
         group="input",
         section="4.2",
@@ -122,6 +123,7 @@ def _setpoint() -> Register:
 def _status() -> Register:
     mode = Enum("mode", (Member(0, "normal", "NORMAL"), Member(3, "manual", "MANUAL")))
     return Register(
+        at=0,
         id="status",
         path="status",
         name="Status",

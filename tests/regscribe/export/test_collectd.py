@@ -1,7 +1,6 @@
 """The collectd export polls each number with the type, scale and order of one state of the device, or says why not."""
 
 from collections.abc import Callable
-from dataclasses import replace
 from fractions import Fraction
 
 import pytest
@@ -10,13 +9,12 @@ from regscribe.export.collectd.configuration import Poll, collectd_text
 from regscribe.model import (
     Access,
     Case,
-    CodeRange,
     Condition,
     Conversion,
     Decimals,
     Kind,
     Order,
-    OrderFromRegister,
+    OrderFrom,
     Register,
     RegisterMap,
     Sentinel,
@@ -25,7 +23,7 @@ from regscribe.model import (
     WireType,
     always,
 )
-from regscribe.model import Test as Ask
+from regscribe.model import Is as Ask
 from regscribe.reference import Surroundings
 
 Only = Callable[[Register], RegisterMap]
@@ -34,9 +32,9 @@ NOTHING = Surroundings()
 
 
 def register(wire: WireType = WireType.INT16, kind: Kind = Kind.NUMBER, **more: object) -> Register:
-    view = View("base", Space.HOLDING, 9, wire, words=wire.words)
+    view = View("base", wire, offset=9, words=wire.words)
     settings = {"access": Access.READ, "views": (view,), **more}
-    return Register(id="level", path="level", name="Level", kind=kind, **settings)  # type: ignore[arg-type]  # keywords
+    return Register(at=0, id="level", path="level", name="Level", kind=kind, **settings)  # type: ignore[arg-type]  # keywords
 
 
 def text(register_map: RegisterMap, known: Surroundings = NOTHING, poll: Poll = POLL) -> str:
@@ -101,14 +99,14 @@ def test_decimals_of_another_register_are_those_of_the_state(only: Only) -> None
 
 
 def test_a_state_without_a_scale_is_left_out(only: Only) -> None:
-    when = Condition((Ask("mode", codes=(CodeRange(Fraction(1), Fraction(1)),)),))
+    when = Condition((Ask("mode", codes=((Fraction(1), Fraction(1)),)),))
     shared = only(register(scale=(Case(when, Conversion()),)))
     assert "left out: level - no scale is stated for this state" in text(shared, Surroundings({"mode": Fraction(2)}))
 
 
 def test_the_word_order_is_that_of_the_state(only: Only) -> None:
-    ordering = OrderFromRegister("order", ((0, Order.BIG), (1, Order.LITTLE)))
-    view = View("ieee", Space.INPUT, 4, WireType.FLOAT32, words=2, word_order=ordering)
+    ordering = OrderFrom("order", ((0, Order.BIG), (1, Order.LITTLE)))
+    view = View("ieee", WireType.FLOAT32, offset=4, words=2, order=ordering, space=Space.INPUT)
     shared = only(register(views=(view,)))
     assert "RegisterType Float" in block(shared, Surroundings({"order": Fraction(0)}))
     assert {"RegisterType FloatLE", "RegisterCmd ReadInput"} <= set(block(shared, Surroundings({"order": Fraction(1)})))
@@ -116,20 +114,20 @@ def test_the_word_order_is_that_of_the_state(only: Only) -> None:
 
 
 def test_the_preferred_view_counts_with_its_factor(only: Only) -> None:
-    base = View("base", Space.HOLDING, 9, WireType.INT16)
-    tenfold = View("x10", Space.HOLDING, 1009, WireType.INT16, factor=Fraction(10), preferred=True)
+    base = View("base", WireType.INT16, offset=9)
+    tenfold = View("x10", WireType.INT16, offset=1009, factor=Fraction(10), preferred=True)
     assert {"RegisterBase 1009", "Scale 0.1"} <= set(block(only(register(views=(base, tenfold)))))
 
 
 def test_a_type_that_the_plugin_does_not_read_is_left_out_with_the_reason(only: Only) -> None:
     double = register(WireType.FLOAT64)
     assert "left out: level - the plugin does not read float64 in the holding space" in text(only(double))
-    view = replace(register(WireType.INT64).base, word_order=Order.LITTLE)
+    view = register(WireType.INT64).base._replace(order=Order.LITTLE)
     swapped = register(WireType.INT64, Kind.INTEGER, views=(view,))
     assert "no int64 with the least significant word first" in text(only(swapped))
 
 
 def test_texts_are_no_numbers_and_faults_are_remarked(only: Only) -> None:
     assert "level" not in text(only(register(WireType.STRING, Kind.STRING)))
-    faulty = register(sentinels=(Sentinel(Fraction(-32768), "sensor\nlow", "LOW"),))
+    faulty = register(sentinels=(Sentinel(Fraction(-32768), "LOW", "sensor\nlow"),))
     assert any(line.startswith("# no value") and "sensor low" in line for line in block(only(faulty)))

@@ -10,13 +10,11 @@ from fractions import Fraction
 from regscribe.export.csv import COLUMNS, csv_text
 from regscribe.model import (
     Case,
-    CodeRange,
     Condition,
     Conversion,
     Decimals,
     Interval,
     Kind,
-    Number,
     Range,
     Register,
     RegisterMap,
@@ -24,7 +22,7 @@ from regscribe.model import (
     Special,
     always,
 )
-from regscribe.model import Test as Ask
+from regscribe.model import Is as Ask
 
 ISSUE_COLUMNS = (
     "map, model, id, name, symbol, space, address, words, aliases, access, kind, type, unit, minimum, maximum, "
@@ -102,21 +100,21 @@ def test_a_range_by_condition_gives_each_side_in_words(device: RegisterMap) -> N
 
 def test_a_union_lists_its_limits_in_the_same_order_on_both_sides(only: Only, setpoint: Register) -> None:
     parts = [("0", "0.9"), ("1", "2400")]
-    union = Range(tuple(Interval(Number(Fraction(low)), Number(Fraction(high))) for low, high in parts))
+    union = Range(tuple(Interval(Fraction(low), Fraction(high)) for low, high in parts))
     found = row(only(replace(setpoint, range=always(union))), "setpoint")
     assert (found["minimum"], found["maximum"]) == ("0 or 1", "0.9 or 2400")
 
 
 def test_limits_with_decimals_from_a_register_say_so(only: Only, setpoint: Register) -> None:
-    limits = Range((Interval(Number(Fraction(0)), Number(Fraction(9999))),), Decimals("dp", at_most=3))
+    limits = Range((Interval(Fraction(0), Fraction(9999)),), Decimals("dp", at_most=3))
     found = row(only(replace(setpoint, range=always(limits))), "setpoint")
     assert (found["minimum"], found["maximum"]) == ("0", "9999/10^min(dp, 3)")
 
 
 def test_limits_that_only_a_linear_input_divides_stand_as_the_table_prints_them(only: Only, setpoint: Register) -> None:
-    limits = Range((Interval(Number(Fraction(-1999)), Number(Fraction(9999))),))
-    linear = Condition((Ask("kind", codes=(CodeRange(Fraction(2), Fraction(3)),)),))
-    cases = (Case(linear, replace(limits, decimals=Decimals("dp"))), Case(Condition(), limits))
+    limits = Range((Interval(Fraction(-1999), Fraction(9999)),))
+    linear = Condition((Ask("kind", codes=((Fraction(2), Fraction(3)),)),))
+    cases = (Case(linear, limits._replace(decimals=Decimals("dp"))), Case(Condition(), limits))
 
     found = row(only(replace(setpoint, range=cases)), "setpoint")
 
@@ -156,7 +154,7 @@ def test_no_text_breaks_a_row(only: Only, setpoint: Register) -> None:
         setpoint,
         name=hostile,
         specials=(Special(Fraction(0), hostile, "X"),),
-        sentinels=(Sentinel(Fraction(1), hostile, "Y"),),
+        sentinels=(Sentinel(Fraction(1), "Y", hostile),),
     )
     text = csv_text([only(register)])
     assert text.count("\n") == 2

@@ -1,8 +1,8 @@
 from collections.abc import Callable
 from fractions import Fraction
 
-from regscribe.model import CodeRange, Condition, Register
-from regscribe.model import Test as Asked
+from regscribe.model import Condition, Register
+from regscribe.model import Is as Asked
 
 Registers = Callable[..., dict[str, Register]]
 
@@ -10,8 +10,8 @@ TYPES = "- {at: 0, name: Input Type, enum: {0: J type, 1: K type, 5: {label: lin
 DIGITS = "- {at: 1, name: Digits, range: 0..3}\n"
 
 
-def one(number: int) -> CodeRange:
-    return CodeRange(Fraction(number), Fraction(number))
+def one(number: int) -> tuple[Fraction, Fraction]:
+    return Fraction(number), Fraction(number)
 
 
 def when(registers: Registers, condition: str, **more: str) -> Condition:
@@ -26,7 +26,7 @@ def test_a_number_is_one_code(registers: Registers) -> None:
 
 
 def test_a_list_mixes_numbers_ranges_and_member_ids(registers: Registers) -> None:
-    codes = (one(0), CodeRange(Fraction(1), Fraction(3)), one(5))
+    codes = (one(0), (Fraction(1), Fraction(3)), one(5))
     assert when(registers, "{input_type: [0, 1..3, linear_input]}") == Condition((Asked("input_type", codes=codes),))
 
 
@@ -68,8 +68,8 @@ def test_a_field_of_a_register_is_asked_by_member_id(registers: Registers) -> No
         - {at: 4, name: Output, writable: {when: {mode.operation: by_hand, mode.hold: 0}, reason: it is so}}
     """
     assert registers(lines)["output"].writable.when.tests == (
-        Asked("mode", field="operation", codes=(one(2),)),
-        Asked("mode", field="hold", codes=(one(0),)),
+        Asked("mode", field="operation", bits=(0, 1), codes=(one(2),)),
+        Asked("mode", field="hold", bits=(7, 7), codes=(one(0),)),
     )
 
 
@@ -78,7 +78,8 @@ def test_a_flag_is_asked_by_its_derived_id(registers: Registers) -> None:
         - {at: 3, name: Options, flags: {4: Option card}}
         - {at: 4, name: Output, writable: {when: {options.option_card: 1}, reason: it is so}}
     """
-    assert registers(lines)["output"].writable.when.tests == (Asked("options", field="option_card", codes=(one(1),)),)
+    asked = Asked("options", field="option_card", bits=(4, 4), codes=(one(1),))
+    assert registers(lines)["output"].writable.when.tests == (asked,)
 
 
 def test_a_member_that_only_another_model_has_can_be_asked_for(registers: Registers) -> None:

@@ -79,7 +79,7 @@ def test_conditions_name_members_that_have_cells(registers: Registers) -> None:
     )
     writable = registers(lines)["second"].writable
     assert writable is not None
-    assert writable.when.tests[0].codes[0].low == 1
+    assert writable.when.tests[0].codes[0][0] == 1
 
 
 def test_unused_addresses_are_those_of_each_model(lowered: Lowered) -> None:

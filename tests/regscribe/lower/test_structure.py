@@ -1,7 +1,7 @@
 from collections.abc import Callable
 from textwrap import dedent
 
-from regscribe.model import Array, Interval, Range, Reference, Register, RegisterMap
+from regscribe.model import Array, Interval, Range, Ref, Register, RegisterMap
 
 Registers = Callable[..., dict[str, Register]]
 Lowered = Callable[[str], RegisterMap]
@@ -36,21 +36,21 @@ def test_arrays_are_expanded_with_paths_and_addresses(registers: Registers) -> N
     ]
     assert len(found) == 1 + 2 * (1 + 3 * 2)
     level = found["programs[2].segments[5].soak_level"]
-    assert level.base.address == 211 + 100 + 2 * 4
+    assert level.address == 211 + 100 + 2 * 4
     assert (level.id, level.array, level.index, level.section) == ("soak_level", "programs.segments", (2, 5), "4.2")
     assert found["programs[2].segments[4].ramp_time"].aliases == (900 + 100 + 4,)
 
 
 def test_a_name_means_a_sibling_in_the_same_element_first(registers: Registers) -> None:
     limits = registers(NESTED)["programs[2].segments[4].soak_level"].range[0].then
-    assert limits == Range((Interval(Reference("programs[2].segments[4].ramp_time"), Reference("limit")),))
+    assert limits == Range((Interval(Ref("programs[2].segments[4].ramp_time"), Ref("limit")),))
 
 
 def test_the_stride_of_a_view_stretches_the_steps_of_an_array(registers: Registers) -> None:
     tables = "views:\n  both:\n    base: {type: int16}\n    ieee: {offset: 8000, stride: 2, type: float32}\n"
     lines = "- {id: ramps, name: Ramp, repeat: 1..3, stride: 2, registers: [{at: 10, name: Time, aliases: [70]}]}"
     found = registers(lines, tables=tables, each="{access: r, views: both}")["ramps[3].time"]
-    assert [view.address for view in found.views] == [14, 8028]
+    assert [view.address(found.at) for view in found.views] == [14, 8028]
     assert found.aliases == (74,)
 
 

@@ -100,7 +100,7 @@ def test_the_tables_about_the_manual_are_carried_over(lowered: Lowered) -> None:
     assert found.unit_symbols == ("lamps",)
     assert found.reserved == ((Space.HOLDING, 77, 79), (Space.INPUT, 5, 5))
     assert found.identity[0].models == ("B-2",)
-    assert found.identity[0].identity.when.tests[0].codes[0].low == 1
+    assert found.identity[0].identity.when.tests[0].codes[0][0] == 1
     assert found.errata == (Erratum("1.2", "five", "six", "The table says so."),)
     assert (found.waivers[0].rule, found.waivers[0].at, found.notes) == ("RS0423", "level", ("Nothing more.",))
 

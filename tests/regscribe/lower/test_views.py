@@ -1,7 +1,7 @@
 from collections.abc import Callable
 from fractions import Fraction
 
-from regscribe.model import Order, OrderFromRegister, Register, Rounding, Space, View, WireType
+from regscribe.model import Order, OrderFrom, Register, Rounding, Space, View, WireType
 
 Registers = Callable[..., dict[str, Register]]
 
@@ -18,23 +18,22 @@ ORDER = "- {at: 4084, name: Order, type: int16, enum: {0: big, 1: little}}\n"
 
 def test_the_address_of_a_view_is_its_offset_plus_stride_times_at(registers: Registers) -> None:
     found = registers(f"{ORDER}- {{at: 7, name: Level, views: fraction}}", tables=TABLES, each="{access: rw}")["level"]
-    assert [(view.name, view.address, view.words) for view in found.views] == [
+    assert [(view.name, view.address(found.at), view.words) for view in found.views] == [
         ("base", 7, 1),
         ("x10", 1007, 1),
         ("ieee", 8014, 2),
     ]
     assert found.views[1] == View(
-        name="x10",
-        space=Space.HOLDING,
-        address=1007,
-        type=WireType.INT16,
+        "x10",
+        WireType.INT16,
+        offset=1000,
         factor=Fraction(10),
         rounding=Rounding.HALF_UP,
         saturates=True,
         region=(1000, 1999),
     )
     assert found.preferred.name == "ieee"
-    assert found.views[2].word_order == OrderFromRegister("order", ((0, Order.BIG), (1, Order.LITTLE)))
+    assert found.views[2].order == OrderFrom("order", ((0, Order.BIG), (1, Order.LITTLE)))
     assert (found.views[2].functions, found.views[2].align, found.views[2].stride) == ((3, 16), 2, 2)
 
 
@@ -42,7 +41,7 @@ def test_without_views_the_type_makes_the_only_view(registers: Registers) -> Non
     line = "- {at: 9, name: Total, type: uint32, word_order: little, byte_order: little, functions: [3]}"
     (view,) = registers(line)["total"].views
     assert (view.name, view.type, view.words, view.functions) == ("base", WireType.UINT32, 2, (3,))
-    assert (view.word_order, view.byte_order) == (Order.LITTLE, Order.LITTLE)
+    assert (view.order, view.byte_order) == (Order.LITTLE, Order.LITTLE)
 
 
 def test_the_type_is_an_unsigned_word_unless_told(registers: Registers) -> None:
@@ -62,4 +61,4 @@ def test_a_string_takes_its_length_in_words(registers: Registers) -> None:
 
 def test_a_type_of_the_register_replaces_the_views_of_the_group(registers: Registers) -> None:
     found = registers(f"{ORDER}- {{at: 9, name: Tag, type: int16}}", tables=TABLES, each="{access: r, views: fraction}")
-    assert [view.address for view in found["tag"].views] == [9]
+    assert [view.address(found["tag"].at) for view in found["tag"].views] == [9]

@@ -55,9 +55,9 @@ def overlap(one: Box, other: Box) -> bool:
 def register(
     id_: str, address: int, *, name: str = "", group: str = "main", words: int = 1, **more: object
 ) -> Register:
-    view = View("base", Space.HOLDING, address, WireType.UINT16, words)
+    view = View("base", WireType.UINT16, offset=address, words=words)
     fields: dict[str, object] = {"kind": Kind.INTEGER, "access": Access.READ_WRITE, "views": (view,), **more}
-    return Register(id=id_, path=id_, name=name or id_, group=group, **fields)  # type: ignore[arg-type] - by name
+    return Register(at=0, id=id_, path=id_, name=name or id_, group=group, **fields)  # type: ignore[arg-type] - by name
 
 
 def model(name: str, members: Iterable[Register | Array], groups: Iterable[str] = ("main",), **more: object) -> Model:
@@ -187,7 +187,7 @@ def test_every_address_of_every_view_is_drawn(any_map: RegisterMap) -> None:
         for path in re.findall(r"[a-z][\w.\[\]]*(?=, r|, w)", what):
             drawn.setdefault(path, set()).update(range(int(first), int(last or first) + 1))
     for item in (item for model_ in any_map.models for item in model_.registers):
-        wanted = {address for view in item.views for address in range(view.address, view.last + 1)}
+        wanted = {address for view in item.views for address in range(view.address(item.at), view.last(item.at) + 1)}
         assert wanted <= drawn[item.path], item.path
 
 
@@ -288,7 +288,7 @@ def test_the_region_of_each_view_is_a_strip_of_its_own(oven: RegisterMap) -> Non
 
 
 def test_a_hole_is_cut_at_the_regions_of_views() -> None:
-    view = View("x10", Space.HOLDING, 1000, WireType.UINT16, region=(1000, 1999))
+    view = View("x10", WireType.UINT16, offset=1000, region=(1000, 1999))
     place = replace(register("a", 5), views=(register("a", 5).base, view))
     from regscribe.pictures.address_use import places  # noqa: PLC0415 - only here
 

@@ -2,12 +2,11 @@ from fractions import Fraction
 
 import pytest
 
-from regscribe.model import CodeRange
-from regscribe.reference.states import combinations, listed, representatives
+from regscribe.reference.states import Stretch, combinations, listed, representatives
 
 
-def codes(*pairs: tuple[int, int]) -> list[CodeRange]:
-    return [CodeRange(Fraction(low), Fraction(high)) for low, high in pairs]
+def codes(*pairs: tuple[int, int]) -> list[Stretch]:
+    return [Stretch(Fraction(low), Fraction(high)) for low, high in pairs]
 
 
 def test_a_wide_domain_is_represented_by_its_ends_and_by_both_sides_of_each_code() -> None:
@@ -26,7 +25,7 @@ def test_every_set_of_codes_that_a_value_can_lie_in_is_represented() -> None:
 
 
 def test_a_code_between_whole_numbers_is_a_value_of_a_short_range_as_well() -> None:
-    half = CodeRange(Fraction(1, 2), Fraction(1, 2))
+    half = Stretch(Fraction(1, 2), Fraction(1, 2))
     assert Fraction(1, 2) in representatives(codes((0, 3)), [half])
 
 

@@ -12,7 +12,6 @@ from regscribe.model import (
     BitField,
     Case,
     Cases,
-    CodeRange,
     Command,
     CommandStep,
     Condition,
@@ -25,26 +24,25 @@ from regscribe.model import (
     Identity,
     IdentityRule,
     Interval,
+    Is,
     Kind,
     Later,
     Limit,
     Manual,
     Member,
     Model,
-    Number,
     Open,
     Order,
-    OrderFromRegister,
+    OrderFrom,
     Protocol,
     Range,
-    Reference,
+    Ref,
     Register,
     RegisterMap,
     Rounding,
     Sentinel,
     Space,
     Special,
-    Test,
     View,
     WireType,
     WriteCondition,
@@ -57,14 +55,14 @@ SILENT = 0
 
 
 def when(register: str, *codes: int, field: str = "", given: str = "", negated: bool = False) -> Condition:
-    ranges = tuple(CodeRange(Fraction(code), Fraction(code)) for code in codes)
-    return Condition((Test(register, field=field, codes=ranges, given=given, negated=negated),))
+    ranges = tuple((Fraction(code), Fraction(code)) for code in codes)
+    return Condition((Is(register, field=field, codes=ranges, given=given, negated=negated),))
 
 
 def limit(value: float | str) -> Limit:
     if isinstance(value, str):
-        return Open(value[1:]) if value.startswith("?") else Reference(value)
-    return Number(Fraction(str(value)))
+        return Open(value[1:]) if value.startswith("?") else Ref(value)
+    return Fraction(str(value))
 
 
 def between(low: float | str, high: float | str) -> Cases[Range]:
@@ -78,21 +76,20 @@ def reduced(low: float, high: float) -> Cases[Range]:
 def word(path: str, address: int, kind: Kind = Kind.INTEGER, access: Access = RW, **more: object) -> Register:
     wire = more.pop("type", WireType.UINT16)
     space = more.pop("space", Space.HOLDING)
-    view = View("base", space, address, wire)  # type: ignore[arg-type]  # popped from keywords
-    return Register(id=path, path=path, name=path, kind=kind, access=access, views=(view,), **more)  # type: ignore[arg-type]  # as above
+    view = View("base", wire, offset=address, space=space)  # type: ignore[arg-type]  # popped from keywords
+    return Register(at=0, id=path, path=path, name=path, kind=kind, access=access, views=(view,), **more)  # type: ignore[arg-type]  # as above
 
 
-ORDERING = OrderFromRegister("ieee_ordering", ((0, Order.BIG), (1, Order.LITTLE)))
+ORDERING = OrderFrom("ieee_ordering", ((0, Order.BIG), (1, Order.LITTLE)))
 
 
 def fraction(path: str, at: int, access: Access = RW, **more: object) -> Register:
     views = (
-        View("base", Space.HOLDING, at, WireType.INT16, rounding=Rounding.HALF_UP, region=(0, 999)),
+        View("base", WireType.INT16, rounding=Rounding.HALF_UP, region=(0, 999)),
         View(
             "x10",
-            Space.HOLDING,
-            1000 + at,
             WireType.INT16,
+            offset=1000,
             factor=Fraction(10),
             rounding=Rounding.HALF_UP,
             saturates=True,
@@ -100,19 +97,18 @@ def fraction(path: str, at: int, access: Access = RW, **more: object) -> Registe
         ),
         View(
             "ieee",
-            Space.HOLDING,
-            8000 + 2 * at,
             WireType.FLOAT32,
+            offset=8000,
             words=2,
-            word_order=ORDERING,
             functions=(3, 16),
             align=2,
             region=(8000, 9999),
             preferred=True,
             stride=2,
+            order=ORDERING,
         ),
     )
-    return Register(id=path, path=path, name=path, kind=Kind.NUMBER, access=access, views=views, **more)  # type: ignore[arg-type]  # keywords of Register
+    return Register(at=at, id=path, path=path, name=path, kind=Kind.NUMBER, access=access, views=views, **more)  # type: ignore[arg-type]  # keywords of Register
 
 
 def family(models: Iterable[Model], protocol: Protocol, **more: object) -> RegisterMap:
@@ -136,7 +132,7 @@ LINEAR_DIGITS: Cases[Conversion] = (
     Case(ALWAYS, Conversion()),
 )
 ALARM_ACTION = Enum("alarm_action", tuple(Member(c, n, n.upper()) for c, n in ((1, "off"), (2, "normal"))), ((3, ""),))
-PROCESS_FAULTS = (Sentinel(Fraction(-32768), "low", "sensor_low"), Sentinel(Fraction(32767), "high", "sensor_high"))
+PROCESS_FAULTS = (Sentinel(Fraction(-32768), "sensor_low", "low"), Sentinel(Fraction(32767), "sensor_high", "high"))
 
 
 RATES = (Special(Fraction(9999), "never", "never"), Special(Fraction(9998), "0.2 s", "fast", Fraction(1, 5)))
@@ -248,8 +244,8 @@ def bit_device() -> RegisterMap:
         return word(path, address, Kind.BOOLEAN, access, space=space, type=WireType.BIT)
 
     def wide(path: str, address: int, kind: Kind = Kind.INTEGER, access: Access = RW, **view: object) -> Register:
-        shown = View("base", Space.HOLDING, address, **view)  # type: ignore[arg-type]  # keywords of View
-        return Register(id=path, path=path, name=path, kind=kind, access=access, views=(shown,))
+        shown = View("base", offset=address, **view)  # type: ignore[arg-type]  # keywords of View
+        return Register(at=0, id=path, path=path, name=path, kind=kind, access=access, views=(shown,))
 
     registers = (
         *(bit(f"relay_{n}", Space.COIL, n, RW) for n in range(10)),
@@ -258,7 +254,7 @@ def bit_device() -> RegisterMap:
         word("measured", 0, access=R, space=Space.INPUT),
         word("status", 0, Kind.FLAGS, R, space=Space.STATUS, type=WireType.UINT8),
         wide("name", 20, Kind.STRING, type=WireType.STRING, words=3, byte_order=Order.LITTLE),
-        wide("counter", 30, type=WireType.UINT32, words=2, word_order=Order.LITTLE),
+        wide("counter", 30, type=WireType.UINT32, words=2, order=Order.LITTLE),
         wide("energy", 32, type=WireType.INT64, words=4),
         word("plain", 40),
     )

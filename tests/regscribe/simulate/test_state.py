@@ -175,7 +175,7 @@ def _views() -> Iterator[View]:
     numbers = [kind for kind in WireType if kind not in {WireType.BIT, WireType.STRING}]
     for kind, rounding in product(numbers, Rounding):
         for factor in (Fraction(1), Fraction(10), Fraction(1, 4)):
-            yield View("v", Space.HOLDING, 0, kind, kind.words, factor=factor, rounding=rounding, saturates=True)
+            yield View("v", kind, words=kind.words, factor=factor, rounding=rounding, saturates=True)
 
 
 @pytest.mark.parametrize("view", tuple(_views()), ids=lambda view: f"{view.type}-{view.rounding}-{view.factor}")
@@ -192,11 +192,11 @@ def test_the_words_are_those_of_the_reference_codec(view: View) -> None:
 
 @pytest.mark.parametrize("words", [(0x7F80, 0), (0xFF80, 0), (0x7FC0, 1), (0x7F80, 1)])
 def test_infinity_and_not_a_number_are_no_values(words: tuple[int, int]) -> None:
-    view = View("v", Space.HOLDING, 0, WireType.FLOAT32, 2)
+    view = View("v", WireType.FLOAT32, words=2)
     assert codec.decode(view, words, Order.BIG) is None
 
 
 def test_a_float_beyond_the_largest_is_clipped() -> None:
-    view = View("v", Space.HOLDING, 0, WireType.FLOAT32, 2)
+    view = View("v", WireType.FLOAT32, words=2)
     assert codec.encode(view, Fraction(10) ** 400, Order.BIG) == (0x7F7F, 0xFFFF)
     assert codec.encode(view, -(Fraction(10) ** 40), Order.BIG) == (0xFF7F, 0xFFFF)

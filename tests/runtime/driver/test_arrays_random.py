@@ -104,8 +104,8 @@ def test_whatever_stands_in_whichever_array_means_the_nearest_of_its_name(
         one = registers[path]
         assert one.scale_needs == (asked,), path
         assert one.limit_needs == (asked,), path
-        assert [test.register for test in one.writable.when] == [asked], path
-        assert one.unit[0][0][0].register == asked, path
+        assert one.writable.when.registers == (asked,), path
+        assert one.unit[0].when.registers == (asked,), path
     for model in built.map.models:
         for register in model.registers:
-            assert registers[register.path].at == register.base.address
+            assert registers[register.path].at == register.address

@@ -120,5 +120,5 @@ def test_to_lay_out_many_requests_takes_as_much_for_each_as_for_few(
 def wants(driver: Any) -> tuple[Any, Any, Any]:
     """All registers of a driver with the place to read them at, what each depends on, and what a plan must keep to."""
     every = list(driver.registers.values())
-    needs = dependencies(driver.session, every)
+    needs = dependencies(driver.registers, every)
     return {one.path: read_places(one)[0] for one in every}, needs, driver.session.terms()

@@ -86,7 +86,7 @@ def test_an_array_may_stand_inside_an_array(build: Callable[[str], Any]) -> None
         assert (levels, device.programs[4].loops.read()) == ([1.5, 2.5], 7)
         assert (200 + 70 + 1).to_bytes(2, "big") in running.requests[0]
     segments = [one for one in built.map.model("A").registers if one.path.startswith("programs[4].segments[0]")]
-    assert [one.base.address for one in segments] == [301]
+    assert [one.address for one in segments] == [301]
 
 
 @pytest.mark.parametrize(

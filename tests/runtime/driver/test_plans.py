@@ -42,6 +42,7 @@ views:
       - {{at: 102, name: Beside}}
       - {{at: 300, name: Order, range: 0..1}}
 """
+FLOATS = TWO_PLACES.replace("uint32", "float32")
 PREFERRED = f"""{HEAD}
 views:
   two:
@@ -114,7 +115,11 @@ def test_the_plan_of_a_shipped_model_is_what_its_driver_sends(
         assert shown(capsys, path, name, *settings) == sent(device), (name, settings)
 
 
-@pytest.mark.parametrize("text", [TWO_PLACES, PREFERRED, CIRCLE, ARRAY], ids=["two", "preferred", "circle", "array"])
+@pytest.mark.parametrize(
+    "text",
+    [TWO_PLACES, FLOATS, PREFERRED, CIRCLE, ARRAY],
+    ids=["two", "floats", "preferred", "circle", "array"],
+)
 @pytest.mark.parametrize("holds", [{}, {300: 1}], ids=["big", "little"])
 def test_the_plan_of_a_small_map_is_what_its_driver_sends(
     text: str,

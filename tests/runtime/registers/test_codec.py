@@ -18,6 +18,7 @@ from regscribe_runtime import (
     ValueRefused,
     View,
     WireType,
+    always,
     integer,
     number,
     text,
@@ -26,7 +27,7 @@ from regscribe_runtime import (
 )
 from regscribe_runtime.values.numbers import ROUNDINGS, exact, shortest
 
-tenths = ReadWrite(0, word(WireType.UINT16), number, scale=(((), Conversion(multiply="0.1", add="-1999.9")),))
+tenths = ReadWrite(0, word(WireType.UINT16), number, scale=always(Conversion(Fraction("0.1"), Fraction("-1999.9"))))
 ieee = ReadWrite(0, (View("base", WireType.FLOAT32, words=2),), number)
 swapped = ReadWrite(0, (View("base", WireType.INT32, words=2, order=Order.LITTLE),), integer)
 label = ReadWrite(0, (View("base", WireType.UINT16, words=3),), text)

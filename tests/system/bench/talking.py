@@ -2,11 +2,12 @@
 
 import struct
 from collections.abc import Iterator
+from fractions import Fraction
 
 from measure import Row, at_least, at_most, milliseconds, paired
 from pymodbus.client import ModbusTcpClient
 
-from regscribe_runtime import Conversion, ReadOnly, WireType, integer, number, word
+from regscribe_runtime import Conversion, ReadOnly, WireType, always, integer, number, word
 from regscribe_runtime.operations.prepared_read import make_ready
 from regscribe_runtime.operations.session import Session
 from regscribe_runtime.values.protocol import Protocol
@@ -18,7 +19,7 @@ READS = 100
 def decoding() -> Iterator[Row]:
     """1,000 words: half whole numbers, half with one decimal."""
     plain = word(WireType.INT16)
-    tenths = (((), Conversion(multiply="0.1")),)
+    tenths = always(Conversion(Fraction("0.1")))
     registers = [
         ReadOnly(at, plain, number, scale=tenths) if at % 2 else ReadOnly(at, plain, integer) for at in range(COUNT)
     ]

@@ -111,7 +111,7 @@ def show(device: SimulatedDevice, printed: Printed) -> None:
     space = {1: Space.COIL, 3: Space.HOLDING, 7: Space.STATUS}[printed.request.function]
     first = printed.request.address or 0
     for register in device.model.registers:
-        place = register.base.address - first
+        place = register.address - first
         if register.base.space is space and 0 <= place < (printed.request.count or 1):
             device.state.store(register.path, Fraction(shown(data, space, place)))
 

@@ -91,7 +91,7 @@ def test_a_client_is_refused_and_ignored_as_the_manual_says(
 
 def assert_in_step(client: Client, stage: Stage, family: Family) -> None:
     """After all that, an ordinary request gets its own answer."""
-    address = next(each.base.address for each in stage.device.model.registers if each.base.space is Space.HOLDING)
+    address = next(each.address for each in stage.device.model.registers if each.base.space is Space.HOLDING)
     expected = first_words(stage.device, Read(3, address), 1)
     assert client.ask(stage.device.unit, Read(3, address)) == Values(expected), family.name  # type: ignore[arg-type]  # a register's word is no None
 

@@ -27,7 +27,7 @@ from regscribe.model import (
     Model,
     Number,
     Order,
-    OrderFromRegister,
+    OrderFrom,
     Range,
     Register,
     RegisterMap,
@@ -110,23 +110,20 @@ def _with(model: Model, path: str, change: Change) -> Model:
 
 
 def _views(register: Register, **what: Any) -> Register:
-    views = tuple(dataclasses.replace(view, **what) for view in register.views)
+    views = tuple(view._replace(**what) for view in register.views)
     return dataclasses.replace(register, views=views)
 
 
 def address(register: Register) -> Register | None:
     """One register stands an address further on."""
-    views = tuple(dataclasses.replace(view, address=view.address + view.stride) for view in register.views)
-    return dataclasses.replace(register, views=views)
+    return dataclasses.replace(register, at=register.at + 1)
 
 
 def multiply(register: Register) -> Register | None:
     """The scale is ten times as steep."""
     if register.enum or register.fields:
         return None
-    cases = tuple(
-        Case(case.when, dataclasses.replace(case.then, multiply=case.then.multiply * 10)) for case in register.scale
-    )
+    cases = tuple(Case(case.when, case.then._replace(multiply=case.then.multiply * 10)) for case in register.scale)
     return dataclasses.replace(register, scale=cases)
 
 
@@ -134,7 +131,7 @@ def offset(register: Register) -> Register | None:
     """The scale is shifted by one."""
     if register.enum or register.fields:
         return None
-    cases = tuple(Case(case.when, dataclasses.replace(case.then, add=case.then.add + 1)) for case in register.scale)
+    cases = tuple(Case(case.when, case.then._replace(add=case.then.add + 1)) for case in register.scale)
     return dataclasses.replace(register, scale=cases)
 
 
@@ -162,7 +159,7 @@ def limit(register: Register) -> Register | None:
     found = register.range[0].then.intervals[0]
     if not isinstance(found.high, Number):
         return None
-    narrower = Range((Interval(found.low, Number(found.high.value - 1)),), register.range[0].then.decimals)
+    narrower = Range((Interval(found.low, found.high - 1),), register.range[0].then.decimals)
     return dataclasses.replace(register, range=(Case(register.range[0].when, narrower), *register.range[1:]))
 
 
@@ -199,11 +196,11 @@ def order(register: Register) -> Register | None:
     """The codes of the word order are exchanged."""
 
     def turned(view: View) -> View:
-        if not isinstance(view.word_order, OrderFromRegister):
+        if not isinstance(view.order, OrderFrom):
             return view
         other = {Order.BIG: Order.LITTLE, Order.LITTLE: Order.BIG}
-        codes = tuple((code, other[found]) for code, found in view.word_order.codes)
-        return dataclasses.replace(view, word_order=dataclasses.replace(view.word_order, codes=codes))
+        codes = tuple((code, other[found]) for code, found in view.order.codes)
+        return view._replace(order=view.order._replace(codes=codes))
 
     views = tuple(map(turned, register.views))
     return dataclasses.replace(register, views=views) if views != register.views else None
@@ -211,9 +208,7 @@ def order(register: Register) -> Register | None:
 
 def factor(register: Register) -> Register | None:
     """A mirror transmits a hundred times the value instead of ten times."""
-    views = tuple(
-        dataclasses.replace(view, factor=Fraction(100)) if view.factor != 1 else view for view in register.views
-    )
+    views = tuple(view._replace(factor=Fraction(100)) if view.factor != 1 else view for view in register.views)
     return dataclasses.replace(register, views=views) if views != register.views else None
 
 

@@ -94,9 +94,7 @@ def _show_registers(known: Known, *, as_json: bool) -> None:
 
 def unit_text(register: Register[Any]) -> str:
     """The units that a register may stand in: `°F`, or `°F/°C` where another register decides."""
-    if isinstance(register.unit, str):
-        return register.unit
-    return "/".join(dict.fromkeys(str(unit) for _, unit in register.unit if unit))
+    return "/".join(dict.fromkeys(unit for _, unit in register.unit if unit))
 
 
 def _register(register: Register[Any]) -> dict[str, Any]:

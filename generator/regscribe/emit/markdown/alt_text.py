@@ -18,7 +18,7 @@ def addresses(register_map: RegisterMap) -> str:
     found: dict[Space, list[int]] = {}
     for register in (register for model in register_map.models for register in model.registers):
         for view in register.views:
-            found.setdefault(view.space, []).extend((view.address, view.last))
+            found.setdefault(view.space, []).extend((view.address(register.at), view.last(register.at)))
         found[register.base.space].extend(register.aliases)
     spans = [
         f"{SPACES[space].lower()} {span_words(min(found[space]), max(found[space]))}"
@@ -43,8 +43,9 @@ def bits(leaf: Leaf) -> str:
 def array(branch: Branch) -> str:
     """Return where each member of an array stands."""
     parts = [
-        f"{lettered(leaf.register.first.path)} at {formula(leaf.register.first.base, leaf.arrays)}"
+        f"{lettered(first.path)} at {formula(first.base, first.at, leaf.arrays)}"
         for leaf in leaves((branch,))
+        for first in [leaf.register.first]
     ]
     return f"Structure of {one_line(branch.array.first.name)}: {'; '.join(_few(parts))}."
 

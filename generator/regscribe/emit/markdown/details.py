@@ -26,8 +26,8 @@ def _view_rows(context: PageContext, leaf: Leaf, register: Register) -> Rows:
     return tuple(
         (
             md(code(view.name), " (preferred)" if view is register.preferred else ""),
-            code(formula(view, leaf.arrays)) if leaf.arrays else escape(str(view.address)),
-            Md() if leaf.arrays else context.notations(view.space, view.address),
+            code(formula(view, register.at, leaf.arrays)) if leaf.arrays else escape(str(view.address(register.at))),
+            Md() if leaf.arrays else context.notations(view.space, view.address(register.at)),
             escape(view_type(view)),
         )
         for view in register.views
@@ -163,6 +163,6 @@ def elements(context: PageContext, leaf: Leaf) -> tuple[Titled, ...]:
 
 def _element_rows(context: PageContext, model: Model, leaf: Leaf) -> Rows:
     return tuple(
-        (code(item.path), *(escape(str(view.address)) for view in item.views))
+        (code(item.path), *(escape(str(view.address(item.at))) for view in item.views))
         for item in context.elements[model.name, leaf.register.key]
     )

@@ -1,7 +1,6 @@
 """The overview: one line for each register, ordered by address, in a table for each address space."""
 
 from collections.abc import Callable, Sequence
-from fractions import Fraction
 from functools import partial
 
 from regscribe.emit.markdown.context import SPACES, PageContext, by_model
@@ -10,7 +9,7 @@ from regscribe.emit.markdown.page_values import PageTable, Titled, table
 from regscribe.emit.markdown.register_facts import symbols
 from regscribe.emit.outline import Leaf, aliases, last_address, leaves, lettered
 from regscribe.emit.words import codes_words, one_line, range_words, span_words, special_words, value_words
-from regscribe.model import Access, CodeRange, Kind, Model, Register, Space, View
+from regscribe.model import Access, Kind, Model, Register, Space, View
 
 ACCESS = {Access.READ: "R", Access.READ_WRITE: "R/W", Access.WRITE: "W"}
 MANY = 3
@@ -26,7 +25,7 @@ def overview(context: PageContext) -> tuple[Titled, ...]:
 
 
 def _table(context: PageContext, space: Space, found: Sequence[Leaf]) -> PageTable:
-    ordered = sorted(found, key=lambda leaf: leaf.register.first.base.address)
+    ordered = sorted(found, key=lambda leaf: leaf.register.first.address)
     notations = [item for item in context.map.notations if item.space is space]
     names = dict.fromkeys(view.name for leaf in found for view in leaf.register.first.views[1:])
     headers = ("Address", *(one_line(item.name) for item in notations), *names, "Also at", *HEADERS)
@@ -43,10 +42,10 @@ def _row(context: PageContext, leaf: Leaf, offsets: Sequence[int], names: Sequen
         return by_model(shared, fact)
 
     return (
-        cell(lambda _, register: _span(leaf, register.base)),
+        cell(lambda _, register: _span(leaf, register.base, register)),
         *(cell(partial(_notation, leaf, offset)) for offset in offsets),
         *(cell(partial(_view, leaf, name)) for name in names),
-        cell(lambda _, register: join(", ", (_span(leaf, alias) for alias in aliases(register)))),
+        cell(lambda _, register: join(", ", (_span(leaf, alias, register) for alias in aliases(register)))),
         link(_name(leaf), context.anchor("register", shared.key)),
         code(lettered(shared.first.path)),
         cell(lambda _, register: escape(ACCESS[register.access])),
@@ -57,17 +56,18 @@ def _row(context: PageContext, leaf: Leaf, offsets: Sequence[int], names: Sequen
     )
 
 
-def _span(leaf: Leaf, view: View, offset: int = 0) -> Md:
-    first, last = view.address + offset, last_address(view, leaf.arrays) + offset
+def _span(leaf: Leaf, view: View, register: Register, offset: int = 0) -> Md:
+    first = view.address(register.at) + offset
+    last = last_address(view, register.at, leaf.arrays) + offset
     return escape(span_words(first, last))
 
 
 def _notation(leaf: Leaf, offset: int, _model: Model, register: Register) -> Md:
-    return _span(leaf, register.base, offset)
+    return _span(leaf, register.base, register, offset)
 
 
 def _view(leaf: Leaf, name: str, _model: Model, register: Register) -> Md:
-    return next((_span(leaf, view) for view in register.views[1:] if view.name == name), Md())
+    return next((_span(leaf, view, register) for view in register.views[1:] if view.name == name), Md())
 
 
 def _name(leaf: Leaf) -> Md:
@@ -89,6 +89,6 @@ def _range(context: PageContext, model: Model, register: Register) -> Md:
 
 def _codes(register: Register) -> Md:
     members = register.enum.members if register.enum else ()
-    codes = [CodeRange(Fraction(member.code), Fraction(member.code)) for member in members]
+    codes = [(member.code, member.code) for member in members]
     words = codes_words(codes, last="and")
     return md(words) if words.count(",") < MANY else md(f"{len(codes)} codes")

@@ -8,7 +8,7 @@ from regscribe.emit.markdown.escape import Md, escape, join, md, prose
 from regscribe.emit.markdown.page_values import PageTable, table
 from regscribe.emit.words import listed, one_line
 from regscribe.model import SILENCE, Latency, Later, Register, RegisterMap, View, show
-from regscribe_runtime.values.protocol import Number
+from regscribe_runtime.values.numbers import Number
 
 FUNCTIONS = {
     1: "read coils",

@@ -74,15 +74,17 @@ def facts(context: PageContext, leaf: Leaf) -> PageTable:
 
 def address(context: PageContext, leaf: Leaf, register: Register) -> Md:
     """Return where the only view stands (several have a table of their own), with aliases."""
-    space = register.base.space
+    space, at = register.base.space, register.at
     if len(register.views) > 1:
         first = Md()
     elif leaf.arrays:
-        first = md(code(formula(register.base, leaf.arrays)), ", ", indices(leaf.arrays))
+        first = md(code(formula(register.base, at, leaf.arrays)), ", ", indices(leaf.arrays))
     else:
-        first = context.address(space, register.base.address)
+        first = context.address(space, register.address)
     others = (
-        code(formula(alias, leaf.arrays)) if leaf.arrays else context.address(space, alias.address)
+        code(formula(alias, register.at, leaf.arrays))
+        if leaf.arrays
+        else context.address(space, alias.address(register.at))
         for alias in aliases(register)
     )
     also = join(", ", others)
@@ -115,7 +117,7 @@ def transmission(context: PageContext, view: View) -> Md:
 
 def _word_order(context: PageContext, view: View) -> Md:
     """Return the order of the words; nothing for the usual one, and for a single word in a fixed order."""
-    order = view.word_order
+    order = view.order
     if order is Order.BIG or (isinstance(order, Order) and view.words == 1):
         return Md()
     return md("word order: ", Md(order_words(order, context.wording(context.map.models[0]))))

@@ -1,6 +1,5 @@
 """How values are transmitted: views with their address formulas, named conditions, givens, identification."""
 
-from dataclasses import replace
 from fractions import Fraction
 
 from regscribe.emit.markdown.context import SPACES, PageContext
@@ -50,7 +49,7 @@ def _title(shape: Shape, count: int) -> str:
 
 def _shape(register: Register) -> Shape:
     return tuple(
-        (view_formula(view, register.base), replace(view, address=0, preferred=view is register.preferred))
+        (view_formula(view, register.base), view._replace(offset=0, preferred=view is register.preferred))
         for view in register.views
     )
 
@@ -60,7 +59,7 @@ def view_formula(view: View, base: View) -> str:
     if view is base:
         return "n"
     step = Fraction(view.stride, base.stride)
-    offset = view.address - step * base.address
+    offset = view.offset - step * base.offset
     slope = "n" if step == 1 else f"{show(step)}*n"
     return slope if not offset else f"{show(offset)} + {slope}" if offset > 0 else f"{slope} - {show(-offset)}"
 

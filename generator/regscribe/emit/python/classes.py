@@ -173,7 +173,7 @@ class Classes:
             self.public.append(name)
 
     def _programs(self, model: Model) -> str:
-        built = Specs(model, self.pool).value(model.programs)
+        built = Specs(model, self.pool).of(model.programs)
         return self.pool.share(built, "programs", f"programs_{model.name}", comment="setpoint programs")
 
     def _unused(self, model: Model) -> str:
@@ -183,7 +183,7 @@ class Classes:
     def _identity(self, model: Model) -> list[str]:
         specs = Specs(model, self.pool)
         rules = [one for one in self.register_map.identity if model.name in one.models]
-        shown = [specs.value(one.identity) for one in rules]
+        shown = [specs.of(one.identity) for one in rules]
         return lay(group(shown), head="identity = ", depth=1) if shown else []
 
 

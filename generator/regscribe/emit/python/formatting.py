@@ -35,7 +35,7 @@ def _columns(character: str) -> int:
     return 2 if unicodedata.east_asian_width(character) in "WF" else 1
 
 
-def call(name: str, *positional: Expression, **keywords: Expression | None) -> Call:
+def call(name: str, /, *positional: Expression, **keywords: Expression | None) -> Call:
     """A call; keyword arguments that are None are left out."""
     items = [("", item) for item in positional]
     items += [(f"{key}=", item) for key, item in keywords.items() if item is not None]

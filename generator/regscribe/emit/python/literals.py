@@ -6,7 +6,7 @@ from enum import Enum
 from fractions import Fraction
 
 from regscribe.emit.python.formatting import INDENT, WIDTH, width
-from regscribe.model import show
+from regscribe.model import Number, show
 
 
 def literal(text: str) -> str:
@@ -19,9 +19,9 @@ def literal(text: str) -> str:
     return quoted
 
 
-def exact(number: Fraction) -> str:
-    """A number without loss: an int, or its text for the runtime to read."""
-    return str(number.numerator) if number.denominator == 1 else literal(show(number))
+def exact(number: Number) -> str:
+    """A number without loss: an int or a fraction."""
+    return str(number.numerator) if number.denominator == 1 else f"Fraction({literal(show(number))})"
 
 
 def member(value: Enum) -> str:

@@ -9,7 +9,7 @@ from regscribe.emit.python.expressions import Specs, expression
 from regscribe.emit.python.formatting import Call, Expression, call, group, lay, mapping
 from regscribe.emit.python.literals import docstring, exact, literal, plain
 from regscribe.emit.words import listed, one_line, range_words
-from regscribe.model import Access, Command, Kind, NotANumber, Register, Sentinel, show
+from regscribe.model import Access, Command, Kind, Register, show
 
 DESCRIPTORS = {Access.READ: "ReadOnly", Access.READ_WRITE: "ReadWrite", Access.WRITE: "WriteOnly"}
 
@@ -30,7 +30,7 @@ class Declarations:
         specs = self.specs
         return call(
             DESCRIPTORS[register.access],
-            str(register.base.address),
+            str(register.at),
             specs.views(register),
             self._kind(register),
             scale=specs.scale(register),
@@ -53,13 +53,13 @@ class Declarations:
         )
 
     def _sentinels(self, register: Register) -> str | None:
-        rows = [group([_stored(one), literal(one.id), literal(one.label)]) for one in register.sentinels]
-        return self._share(register, "sentinels", group(rows)) if rows else None
+        found = register.sentinels
+        return self._share(register, "sentinels", self.specs.of(found)) if found else None
 
     def _writable(self, register: Register) -> str | None:
         if register.writable is None:
             return None
-        return self._share(register, "writable", self.specs.value(register.writable))
+        return self._share(register, "writable", self.specs.of(register.writable))
 
     def _share(self, register: Register, use: str, expression: Expression) -> str:
         return self.specs.pool.share(expression, *names_of(register, use, self.specs.model))
@@ -99,10 +99,6 @@ class Declarations:
             return call(helper(f"{kind}_with"), mapping(means))
         special = self._special(register)
         return call(helper(f"{kind}_or"), special, mapping(means)) if means else f"{helper(f'{kind}_or')}({special})"
-
-
-def _stored(sentinel: Sentinel) -> str:
-    return literal(sentinel.stored.value) if isinstance(sentinel.stored, NotANumber) else exact(sentinel.stored)
 
 
 def _default(register: Register) -> str | None:

@@ -110,8 +110,9 @@ def _stored_numbers(register: Register, *, full: bool) -> Iterator[Proposal]:
     for sentinel in register.sentinels:
         if isinstance(sentinel.stored, NotANumber):  # among the patterns of a float already
             continue
-        yield Proposal(sentinel.stored, f"fault: {sentinel.id}")
-        yield from (Proposal(sentinel.stored + step, f"beside fault {sentinel.id}") for step in (-1, 1) if full)
+        stored = Fraction(sentinel.stored)
+        yield Proposal(stored, f"fault: {sentinel.id}")
+        yield from (Proposal(stored + step, f"beside fault {sentinel.id}") for step in (-1, 1) if full)
     yield from codes(register)
 
 

@@ -3,7 +3,7 @@
 from fractions import Fraction
 
 from regscribe.emit.vectors.scale import range_now
-from regscribe.model import Interval, Kind, Number, Reference, Register
+from regscribe.model import Interval, Kind, Number, Ref, Register
 from regscribe.reference import Surroundings, choose, decimal_factor
 
 LOW_STORED, HIGH_STORED = Fraction(100), Fraction(1500)
@@ -20,7 +20,7 @@ def limit_values(register: Register, known: Surroundings) -> dict[str, Fraction]
     values: dict[str, Fraction] = {}
     for interval in limits_now.intervals:
         for limit, value in zip((interval.low, interval.high), _ends(interval, lowest, highest, factor), strict=True):
-            if isinstance(limit, Reference):
+            if isinstance(limit, Ref):
                 values.setdefault(limit.register, value)
     return values
 
@@ -38,8 +38,8 @@ def _usual(register: Register, known: Surroundings) -> tuple[Fraction, Fraction]
 def _ends(interval: Interval, low: Fraction, high: Fraction, factor: Fraction) -> tuple[Fraction, Fraction]:
     """Return both ends, moved as far as the other one, a number, asks for it."""
     width = high - low
-    if isinstance(interval.low, Number) and interval.low.value / factor >= high:
-        high = interval.low.value / factor + width
-    if isinstance(interval.high, Number) and interval.high.value / factor <= low:
-        low = interval.high.value / factor - width
+    if isinstance(interval.low, Number) and interval.low / factor >= high:
+        high = interval.low / factor + width
+    if isinstance(interval.high, Number) and interval.high / factor <= low:
+        low = interval.high / factor - width
     return low, high

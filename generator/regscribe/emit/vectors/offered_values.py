@@ -125,8 +125,10 @@ def stored_numbers(view: View) -> Iterator[Proposal]:
                 yield Proposal((whole + part) / view.factor, note)
     if view.saturates:
         ends = ((view.type.maximum, 1), (view.type.minimum, -1))
-        yield from (Proposal(end / view.factor, "exactly the end") for end, _ in ends)
-        yield from (Proposal((end + 1000 * outward) / view.factor, "beyond the end: clipped") for end, outward in ends)
+        yield from (Proposal(Fraction(end) / view.factor, "exactly the end") for end, _ in ends)
+        yield from (
+            Proposal(Fraction(end + 1000 * outward) / view.factor, "beyond the end: clipped") for end, outward in ends
+        )
 
 
 def texts(register: Register, view: View) -> Iterator[tuple[str, str]]:

@@ -1,9 +1,9 @@
 """What scale and range a register has in given surroundings: which cases hold, and to which numbers they come."""
 
 from regscribe.emit.vectors.scale import range_now
-from regscribe.model import Conversion, Register
-from regscribe.model.condition import Cases, T
+from regscribe.model import Cases, Conversion, Register
 from regscribe.reference import Surroundings, choose, decimal_factor, holds
+from regscribe_runtime.values.conditions import T
 
 
 def _index(cases: Cases[T], known: Surroundings) -> int:

@@ -112,7 +112,7 @@ def scale_now(register: Register, view: View, known: Surroundings) -> Scale | No
     return Scale(
         slope=conversion.multiply / factor,
         offset=conversion.add / factor,
-        wire_step=_wire_step(view, conversion.step and conversion.step / places),
+        wire_step=_wire_step(view, None if conversion.step is None else conversion.step / places),
         lowest=lowest / view.factor,
         highest=highest / view.factor,
         limits=limits(limits_now, known) if limits_now else (),
@@ -127,7 +127,7 @@ def _carried(view: View) -> tuple[Fraction, Fraction]:
 
 def _wire_step(view: View, step: Fraction | None) -> Fraction:
     """Return the smallest number that the step of the view and that of writing divide; 0 means no step."""
-    wire = Fraction(0) if view.type.is_float else 1 / view.factor
+    wire = Fraction(0) if view.type.is_float else 1 / Fraction(view.factor)
     if step is None or wire == 0:
         return step or wire
     return Fraction(lcm(wire.numerator, step.numerator), gcd(wire.denominator, step.denominator))

@@ -1,7 +1,6 @@
 """What a device sends while it holds a number between two steps of a view, or one beyond the view's ends."""
 
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import Any
 
 from regscribe.emit.vectors.offered_values import stored_numbers
@@ -16,7 +15,7 @@ def transmissions(register_map: RegisterMap) -> list[Json]:
     """Return one entry for each kind of view that rounds or clips: stored numbers and the words that are sent."""
     registers: Iterator[Register] = (register for model in register_map.models for register in model.registers)
     views = (
-        replace(view, address=0, region=None, word_order=order)
+        view._replace(offset=0, region=None, order=order)
         for register in registers
         for view in register.views
         for order in _orders(view)
@@ -26,9 +25,9 @@ def transmissions(register_map: RegisterMap) -> list[Json]:
 
 def _orders(view: View) -> tuple[Order, ...]:
     """Every order of words that the view may have; where a register sets it, each that it can set."""
-    if isinstance(view.word_order, Order):
-        return (view.word_order,)
-    return tuple(dict.fromkeys(order for _, order in view.word_order.codes))
+    if isinstance(view.order, Order):
+        return (view.order,)
+    return tuple(dict.fromkeys(order for _, order in view.order.codes))
 
 
 def _alters(view: View) -> bool:

@@ -5,23 +5,23 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from regscribe.model import (
-    CodeRange,
     Condition,
     Decimals,
     GivenKind,
+    Is,
     Model,
-    OrderFromRegister,
+    Number,
+    OrderFrom,
     Register,
     RegisterMap,
-    Test,
     View,
 )
 from regscribe.reference.settled_scales import MOST_DECIMALS
-from regscribe.reference.states import domain, listed, representatives
+from regscribe.reference.states import Stretch, domain, listed, representatives
 
 GivenTry = frozenset[Fraction] | bool
 Values = dict[str, tuple[Fraction, ...]]
-Domain = tuple[CodeRange, ...]
+Domain = tuple[Stretch, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,10 +42,10 @@ class Dependencies:
 
     conditions: tuple[Condition, ...]
     decimals: tuple[Decimals, ...] = ()
-    order: OrderFromRegister | None = None
+    order: OrderFrom | None = None
 
     @property
-    def tests(self) -> tuple[Test, ...]:
+    def tests(self) -> tuple[Is, ...]:
         """The tests of all conditions."""
         return tuple(test for condition in self.conditions for test in condition.tests)
 
@@ -58,7 +58,7 @@ def dependencies_of(register: Register, view: View) -> Dependencies:
         conditions += [case.when for case in register.range]
         decimals += [case.then.decimals for case in register.range]
         decimals += [case.then.places for case in register.scale]
-    order = view.word_order if isinstance(view.word_order, OrderFromRegister) and view.words > 1 else None
+    order = view.order if isinstance(view.order, OrderFrom) and view.words > 1 else None
     return Dependencies(tuple(conditions), tuple(filter(None, decimals)), order)
 
 
@@ -76,7 +76,7 @@ def tried_values(register_map: RegisterMap, model: Model, dependencies: Dependen
 
 
 def _values(model: Model, dependencies: Dependencies, sets: set[str]) -> Iterator[tuple[str, Iterable[Fraction]]]:
-    codes: dict[str, list[CodeRange]] = {}
+    codes: dict[str, list[tuple[Number, Number]]] = {}
     for test in dependencies.tests:
         codes.setdefault(test.subject, []).extend(test.codes)
     for test in dependencies.tests:
@@ -91,16 +91,16 @@ def _values(model: Model, dependencies: Dependencies, sets: set[str]) -> Iterato
         yield dependencies.order.register, (*known, max(known) + 1)
 
 
-def _given(model: Model, test: Test, sets: set[str]) -> tuple[GivenTry, ...]:
+def _given(model: Model, test: Is, sets: set[str]) -> tuple[GivenTry, ...]:
     """Return what a given may be: true or false, or of the first two values of its register the second."""
     return (frozenset({_first_two(_domain(model, test))[1]}),) if test.given in sets else (False, True)
 
 
-def _domain(model: Model, test: Test) -> Domain:
+def _domain(model: Model, test: Is) -> Domain:
     return domain(model.register(test.register), test.field)
 
 
-def _part(model: Model, test: Test) -> tuple[str, int]:
+def _part(model: Model, test: Is) -> tuple[str, int]:
     """Return the register of a field and the field's lowest bit."""
     fields = model.register(test.register).fields
     return test.register, next(bits.low for bits in fields if bits.id == test.field)

@@ -10,7 +10,7 @@ from regscribe.emit.vectors.situations import Finder, Situation, writable_situat
 from regscribe.model import (
     Enum,
     Model,
-    OrderFromRegister,
+    OrderFrom,
     Register,
     RegisterMap,
     Rounding,
@@ -52,6 +52,7 @@ def _bare(register: Register) -> Register:
     """Return the register without what makes no difference to its words and values."""
     return replace(
         register,
+        at=0,
         id="",
         path="",
         name="",
@@ -74,7 +75,7 @@ def _bare(register: Register) -> Register:
         index=(),
         unit=always(""),
         endurance=None,
-        views=tuple(replace(view, address=0, region=None) for view in register.views),
+        views=tuple(view._replace(offset=0, region=None) for view in register.views),
         enum=register.enum and _bare_enum(register.enum),
         fields=tuple(replace(bits, enum=bits.enum and _bare_enum(bits.enum)) for bits in register.fields),
         span=NOWHERE,
@@ -94,7 +95,10 @@ def _placed(places: list[tuple[Register, str]]) -> list[Json]:
 
 
 def _place(register: Register) -> Json:
-    found: Json = {"path": register.path, "addresses": {view.name: view.address for view in register.views}}
+    found: Json = {
+        "path": register.path,
+        "addresses": {view.name: view.address(register.at) for view in register.views},
+    }
     if register.aliases:
         found["aliases"] = list(register.aliases)
     if register.default is not None:
@@ -125,11 +129,11 @@ def view_facts(view: View) -> Json:
         found["rounding"] = view.rounding.value
     if view.saturates:
         found["saturates"] = True
-    if isinstance(view.word_order, OrderFromRegister):
-        orders = {str(code): order.value for code, order in view.word_order.codes}
-        found["word_order"] = {"register": view.word_order.register, "codes": orders}
+    if isinstance(view.order, OrderFrom):
+        orders = {str(code): order.value for code, order in view.order.codes}
+        found["word_order"] = {"register": view.order.register, "codes": orders}
     elif view.words > 1:
-        found["word_order"] = view.word_order.value
+        found["word_order"] = view.order.value
     if view.functions:
         found["functions"] = list(view.functions)
     return found

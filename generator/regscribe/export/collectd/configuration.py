@@ -94,7 +94,7 @@ def _data(name: str, register: Register, known: Surroundings) -> Iterator[str]:
     yield from (f"    # no value: {one_line(sentinel_words(each))}" for each in register.sentinels)
     if register.kind is Kind.RAW:
         yield "    # the manual does not state the scale"
-    yield f"    RegisterBase {view.address}"
+    yield f"    RegisterBase {view.address(register.at)}"
     yield f"    RegisterType {kind}"
     yield f"    RegisterCmd {READS[view.space]}"
     yield '    Type "gauge"'
@@ -145,7 +145,7 @@ def _scale(register: Register, view: View, known: Surroundings) -> tuple[Fractio
     if conversion is None or power is None:
         message = "no scale is stated for this state of the device"
         raise LeftOutError(message)
-    return conversion.multiply / view.factor / power, conversion.add / power
+    return conversion.multiply / Fraction(view.factor) / power, conversion.add / power
 
 
 def _unknown(unknown: UnknownValueError, what: str) -> LeftOutError:

@@ -14,7 +14,7 @@ from regscribe.model import (
     Limit,
     Number,
     Range,
-    Reference,
+    Ref,
     Register,
     Special,
 )
@@ -66,8 +66,8 @@ def accepts(register: Register, value: Fraction, state: Present) -> bool:
 def limit_value(limit: Limit, limits: Range, state: Present) -> Fraction | None:
     """Return the number that a limit is now; None if the map leaves it open."""
     if isinstance(limit, Number):
-        return limit.value / state.power(limits.decimals)
-    return state.lookup(limit.register) if isinstance(limit, Reference) else None
+        return Fraction(limit) / state.power(limits.decimals)
+    return state.lookup(limit.register) if isinstance(limit, Ref) else None
 
 
 def _within(interval: Interval, value: Fraction, limits: Range, state: Present) -> bool:

@@ -81,15 +81,15 @@ def _each(stretches: Iterable[tuple[Space, int, int]]) -> frozenset[tuple[Space,
 
 def places_of(register: Register) -> tuple[AddressSpan, ...]:
     """Every place where a register is transmitted: its views, then the aliases of the base view."""
-    views = (AddressSpan(register, view, view.address) for view in register.views)
+    views = (AddressSpan(register, view, view.address(register.at)) for view in register.views)
     return (*views, *(AddressSpan(register, register.base, address) for address in register.aliases))
 
 
 def _regions(model: Model, space: Space) -> tuple[Region, ...]:
-    views = (view for register in model.registers for view in register.views if view.space is space)
+    views = ((register.at, view) for register in model.registers for view in register.views if view.space is space)
     found = (
-        Region(*(view.region or (view.address, view.last)), align=view.align, functions=view.functions)
-        for view in views
+        Region(*(view.region or (view.address(at), view.last(at))), align=view.align, functions=view.functions)
+        for at, view in views
         if view.align > 1 or view.functions
     )
     return tuple(dict.fromkeys(found))

@@ -62,7 +62,7 @@ def decode(view: View, words: Sequence[int], order: Order) -> Fraction | str | N
             return None
     whole = int.from_bytes(data, "big") & ((1 << view.type.bits) - 1)
     whole -= (whole > view.type.maximum) << view.type.bits
-    return whole / view.factor
+    return Fraction(whole) / view.factor
 
 
 def _float_bits(kind: WireType, number: Fraction) -> int:

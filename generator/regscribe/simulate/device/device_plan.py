@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from threading import Lock
 
-from regscribe.model import Model, NotANumber, OrderFromRegister, Register, RegisterMap, Space
+from regscribe.model import Model, NotANumber, OrderFrom, Register, RegisterMap, Space
 from regscribe.simulate.device.address_index import AddressIndex, AddressSpan, places_of
 from regscribe.simulate.device.followed_values import sources_of
 from regscribe.simulate.givens import Givens, GivenValue
@@ -81,8 +81,8 @@ def _depth(path: str, origins: Mapping[str, str]) -> int:
 
 
 def _orderers(register: Register) -> set[str]:
-    orders = (view.word_order for view in register.views)
-    return {order.register for order in orders if isinstance(order, OrderFromRegister)}
+    orders = (view.order for view in register.views)
+    return {order.register for order in orders if isinstance(order, OrderFrom)}
 
 
 _Key = tuple[int, str, frozenset[tuple[str, bool | frozenset[int]]]]

@@ -2,7 +2,7 @@
 
 from fractions import Fraction
 
-from regscribe.model import Kind, Model, Register, RegisterMap, Test
+from regscribe.model import Is, Kind, Model, Register, RegisterMap
 from regscribe.reference import number_of
 from regscribe.simulate.device.accepted_values import Present, accepts, limit_value
 from regscribe.simulate.device.value_arguments import with_field
@@ -40,19 +40,19 @@ def _initial_text(register_map: RegisterMap, model: Model, register: Register) -
     return next((text for text in (*shown, register.delivered, register.default) if isinstance(text, str)), "")
 
 
-def _identifying_tests(register_map: RegisterMap, model: Model, register: Register) -> tuple[Test, ...]:
+def _identifying_tests(register_map: RegisterMap, model: Model, register: Register) -> tuple[Is, ...]:
     identity = next((each for each in register_map.identity if model.name in each.models), None)
     tests = identity.identity.when.tests if identity else ()
     return tuple(test for test in tests if test.register == register.path and test.codes and not test.negated)
 
 
-def _identifying(register: Register, tests: tuple[Test, ...]) -> Fraction:
+def _identifying(register: Register, tests: tuple[Is, ...]) -> Fraction:
     value = number_of(register, register.default) or Fraction(0)
     for test in tests:
-        code = test.codes[0].low
+        code = Fraction(test.codes[0][0])
         field = next((each for each in register.fields if each.id == test.field), None)
         if field is not None:
             value = with_field(value, field, code)
-        elif register.default is None or not any(each.holds(value) for each in test.codes):
+        elif register.default is None or not test.lists(value):
             value = code
     return value

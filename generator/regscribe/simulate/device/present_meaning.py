@@ -115,11 +115,10 @@ class PresentMeaning(ABC):
 
     def order(self, view: View) -> Order:
         """Return the word order of `view` now; where a register sets it to a code without meaning, the map's first."""
-        if isinstance(view.word_order, Order):
-            return view.word_order
-        code = self.lookup(view.word_order.register)
-        orders = dict(view.word_order.codes)
-        return next((order for known, order in orders.items() if known == code), next(iter(orders.values()), Order.BIG))
+        if isinstance(view.order, Order):
+            return view.order
+        first = next((order for _, order in view.order.codes), Order.BIG)
+        return view.order.order(self.lookup(view.order.register)) or first
 
     def quantise(self, register: Register, stored: Fraction) -> Fraction:
         """Round `stored` to what the device can hold: to the scale's step, else to what its views can tell apart."""
@@ -128,8 +127,8 @@ class PresentMeaning(ABC):
         if step is None:
             if any(view.type.is_float for view in register.views):
                 return stored
-            step = 1 / max(view.factor for view in register.views)
-        return _on_step(register, stored, step)
+            step = 1 / Fraction(max(view.factor for view in register.views))
+        return _on_step(register, stored, Fraction(step))
 
     def kept(self, register: Register, stored: Fraction) -> Fraction:
         """Round what comes in, written or measured, to what the device keeps of it as it is configured now.
@@ -139,7 +138,7 @@ class PresentMeaning(ABC):
         conversion = self.conversion(register)
         if conversion.places is None or conversion.step is None:
             return self.quantise(register, stored)
-        return _on_step(register, stored, conversion.step / self.power(conversion.places))
+        return _on_step(register, stored, Fraction(conversion.step) / self.power(conversion.places))
 
 
 def _on_step(register: Register, stored: Fraction, step: Fraction) -> Fraction:

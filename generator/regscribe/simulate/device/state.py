@@ -259,7 +259,7 @@ class DeviceState(PresentMeaning):
         if isinstance(value, str):
             fault = next((each.stored for each in register.sentinels if each.id.lower() == value.lower()), None)
             if fault is not None:
-                return fault
+                return fault if isinstance(fault, NotANumber) else Fraction(fault)
             if register.kind is Kind.VERSION:
                 return parse(value.replace(".", ""))
         specials = {each.id: self.special(register, each) for each in register.specials}

@@ -74,4 +74,4 @@ def _rounded(register: Register, stored: Fraction) -> Fraction:
     if not views:
         return stored
     finest = max(views, key=lambda view: view.factor)
-    return codec.round_to_whole(stored * finest.factor, finest.rounding) / finest.factor
+    return Fraction(codec.round_to_whole(stored * finest.factor, finest.rounding)) / finest.factor

@@ -6,7 +6,7 @@ from enum import StrEnum
 from fractions import Fraction
 from types import MappingProxyType
 
-from regscribe.model import BitField, NotANumber, Register, exact, parse
+from regscribe.model import NAN, BitField, NotANumber, Register, exact, parse
 from regscribe.simulate.errors import SimulatorError
 
 Plain = str | float | Fraction | Decimal | NotANumber
@@ -29,7 +29,7 @@ def sentinel_of(register: Register, fault: Fault) -> Fraction | NotANumber:
         message = f"register {register.path!r} has no faults: the map gives it no sentinels"
         raise SimulatorError(message)
     if not register.faults:  # the only fault is what is no number
-        return register.sentinels[0].stored
+        return NAN
     return min(register.faults) if fault is Fault.LOW else max(register.faults)
 
 

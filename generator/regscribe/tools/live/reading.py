@@ -9,7 +9,7 @@ from regscribe_runtime.errors import ValueNotDecodable
 from regscribe_runtime.operations import tasks
 from regscribe_runtime.operations.read import know
 from regscribe_runtime.operations.session import Operation, Session, Task
-from regscribe_runtime.values.specs import choose, registers_of
+from regscribe_runtime.values.conditions import choose, registers_of
 
 
 class RegisterReading(NamedTuple):
@@ -75,16 +75,14 @@ def held_of(register: Register[Any], value: Any, view: str | None) -> Task[Any]:
 
 def unit_needs(register: Register[Any]) -> tuple[str, ...]:
     """The registers that decide the unit of a register."""
-    return () if isinstance(register.unit, str) else registers_of(register.unit)
+    return registers_of(register.unit)
 
 
 def unit_of(register: Register[Any], state: Mapping[str, Any], givens: Mapping[str, Any]) -> str:
     """The unit under the values in `state`; "" where it has none, or where they do not decide it."""
-    if isinstance(register.unit, str):
-        return register.unit
     if not set(unit_needs(register)) <= set(state):
         return ""
-    return str(choose(register.unit, state, givens) or "")
+    return choose(register.unit, state, givens) or ""
 
 
 def reason(error: RegscribeError, name: str) -> str:

@@ -112,10 +112,10 @@ def _ready(place: ProgramSlot) -> Task[None]:
                 raise ValueRefused(register.path, f"it is {_shown(held)}, so the program does not run: {advice}")
         if place.spec.requires:
             when, reason = place.spec.requires
-            paths = list(dict.fromkeys(test.register for test in when if test.register))
+            paths = when.registers
             snapshot = yield from tasks.read_many([session.registers[path] for path in paths])(session)
             state = snapshot.valid
-            if not all(test.holds(state, session.givens) for test in when):
+            if not when.holds(state, session.givens):
                 now = ", ".join(f"{path} is {_shown(state[path])}" for path in paths)
                 raise ValueRefused(place.name, f"{reason}; now {now}")
 

@@ -13,7 +13,7 @@ from regscribe.tools.programs.slot import ProgramSlot
 from regscribe_runtime import Register, Snapshot, ValueRefused
 from regscribe_runtime.operations import tasks
 from regscribe_runtime.operations.session import Operation, Session, Task
-from regscribe_runtime.values.specs import Givens
+from regscribe_runtime.values.conditions import Givens
 
 NO_UNIT = "the number has no unit"
 

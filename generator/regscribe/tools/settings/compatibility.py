@@ -10,7 +10,7 @@ from regscribe.tools.live.value_text import is_number, parse
 from regscribe.tools.settings.backup import Backup, Saved
 from regscribe_runtime import Register, ValueNotDecodable, ValueRefused
 from regscribe_runtime.registers import codec
-from regscribe_runtime.values.specs import View
+from regscribe_runtime.values.views import View
 
 KINDS = ("address", "line", "calibration", "identity", "counter", "operation")
 """Why a setting may have to stay with its device; `include` takes these words."""

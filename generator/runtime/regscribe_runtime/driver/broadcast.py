@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from regscribe_runtime.driver.device import AsyncBareDevice, BareDevice
     from regscribe_runtime.registers.register import Register
     from regscribe_runtime.values.protocol import Protocol
-    from regscribe_runtime.values.specs import View
+    from regscribe_runtime.values.views import View
 
 SINGLE, SEVERAL = {"coil": 5}, {"coil": 15}
 WRITE_ONE, WRITE_MANY = 6, 16

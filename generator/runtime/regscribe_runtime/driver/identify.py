@@ -15,7 +15,7 @@ from regscribe_runtime.link.links import AsyncLink, Link
 from regscribe_runtime.operations.session import Operation, Task
 from regscribe_runtime.registers import codec
 from regscribe_runtime.registers.register import Register
-from regscribe_runtime.values.specs import View
+from regscribe_runtime.values.views import View
 from regscribe_runtime.wire.requests import Request, verify
 
 DRIVERS = "regscribe.drivers"

@@ -9,7 +9,7 @@ from regscribe_runtime.errors import RegscribeError, ValueNotDecodable
 from regscribe_runtime.planning.plan import Block
 from regscribe_runtime.registers import codec
 from regscribe_runtime.values.kinds import Kind
-from regscribe_runtime.values.specs import View
+from regscribe_runtime.values.views import View
 from regscribe_runtime.values.wire_types import Order
 from regscribe_runtime.wire.requests import Request
 
@@ -110,7 +110,7 @@ def _order(together: Sequence[Placed], quantity: int, session: "Session") -> lis
 
 def _backward(register: "Register[Any]", view: View, session: "Session") -> bool:
     try:
-        return view.word_order(register.path, session.memory) is Order.LITTLE
+        return codec.word_order(view, register.path, session.memory) is Order.LITTLE
     except (ValueNotDecodable, KeyError):
         return False  # its converter says so, for this register alone
 
@@ -120,9 +120,9 @@ def _converter(
 ) -> Callable[[Any], Any]:
     try:
         if view.words > 1:
-            view.word_order(register.path, codec.known(register, session.memory, unknown))
+            codec.word_order(view, register.path, codec.known(register, session.memory, unknown))
     except ValueNotDecodable as error:
-        return codec.always(error)
+        return codec.failing(error)
     return codec.reader(register, view, session.memory, session.givens, unknown)
 
 
@@ -132,7 +132,7 @@ def _decoder(
     try:
         return codec.decoder(register, view, session.memory, session.givens, unknown)
     except ValueNotDecodable as error:
-        return codec.always(error)
+        return codec.failing(error)
 
 
 def _caught(convert: Callable[[Any], Any], given: Any) -> Any:

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from regscribe_runtime.registers.register import Register
     from regscribe_runtime.report import Words
-    from regscribe_runtime.values.specs import State
+    from regscribe_runtime.values.conditions import State
 
 MARKS = frozenset({Kind.STRING, Kind.VERSION})
 """Kinds of registers whose words tell a device: they do not change, and no neighbour holds the same."""

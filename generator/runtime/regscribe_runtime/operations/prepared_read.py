@@ -6,13 +6,15 @@ time between, so every value was made under the state that it is decoded with.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from regscribe_runtime.errors import RegscribeError, ValueNotDecodable
 from regscribe_runtime.operations.decode_block import Placed, PreparedBlock
+from regscribe_runtime.planning.plan import Terms
 from regscribe_runtime.planning.read_order import ReadOrder, WordPosition, lay_out
 from regscribe_runtime.planning.read_places import place_of, read_places
 from regscribe_runtime.registers import codec
+from regscribe_runtime.values.views import Readable, needs, read_view
 
 if TYPE_CHECKING:
     from regscribe_runtime.operations.bisect import Words
@@ -99,40 +101,42 @@ def _value(
         return MISSING
 
 
-def dependencies(session: "Session", registers: "Iterable[Register[Any]]") -> dict[str, frozenset[str]]:
+R = TypeVar("R", bound=Readable)
+
+
+def dependencies(registers: Mapping[str, R], wanted: Iterable[R]) -> dict[str, frozenset[str]]:
     """Of each register and of all that the meaning of one depends on, what its own depends on; those first."""
     found: dict[str, frozenset[str]] = {}
 
-    def visit(register: "Register[Any]") -> frozenset[str]:
+    def visit(register: R) -> frozenset[str]:
         if register.path not in found:
-            direct = register.needs(register.read_view())
-            deeper = [visit(session.registers[path]) for path in direct]
+            direct = needs(register, read_view(register))
+            deeper = [visit(registers[path]) for path in direct]
             found[register.path] = frozenset(direct).union(*deeper)
         return found[register.path]
 
-    for register in registers:
+    for register in wanted:
         visit(register)
     return found
 
 
 def laid_out(
-    session: "Session", registers: "Sequence[Register[Any]]", *, fresh: bool
-) -> "tuple[ReadOrder, dict[str, Register[Any]], dict[str, frozenset[str]]]":
+    registers: Mapping[str, R], chosen: Sequence[R], terms: Terms, *, fresh: bool
+) -> tuple[ReadOrder, dict[str, R], dict[str, frozenset[str]]]:
     """Where registers and, with `fresh`, all that they depend on are read; these by path, and what each depends on."""
-    terms = session.terms()
-    needs = dependencies(session, registers) if fresh else {}
-    needed = frozenset().union(*needs.values())
-    wanted = {register.path: register for register in registers}
-    wanted |= {path: session.registers[path] for path in needs if path in needed and path not in wanted}
+    needed_by = dependencies(registers, chosen) if fresh else {}
+    needed = frozenset().union(*needed_by.values())
+    wanted = {register.path: register for register in chosen}
+    wanted |= {path: registers[path] for path in needed_by if path in needed and path not in wanted}
     there = {path: place for path, one in wanted.items() if (place := place_of(one, terms.ground))}
-    return lay_out(there, needs, terms), wanted, needs
+    return lay_out(there, needed_by, terms), wanted, needed_by
 
 
 def make_ready(
     session: "Session", registers: "Sequence[Register[Any]]", *, fresh: bool, unknown: Mapping[str, RegscribeError]
 ) -> PreparedRead:
     """Plan the read of registers and, with `fresh`, of what they depend on; `unknown` are those of no known value."""
-    layout, wanted, needs = laid_out(session, registers, fresh=fresh)
+    layout, wanted, needs = laid_out(session.registers, registers, session.terms(), fresh=fresh)
     chosen = {register.path: register for register in registers}
     placed: list[list[Placed]] = [[] for _ in layout.blocks]
     for path, place in layout.places.items():

@@ -15,7 +15,7 @@ from regscribe_runtime.operations.snapshot import Snapshot
 from regscribe_runtime.planning.address_ranges import RegisterSpan
 from regscribe_runtime.planning.plan import RequestLimits, Terms, blocks
 from regscribe_runtime.registers import codec
-from regscribe_runtime.values.specs import View, choose, registers_of
+from regscribe_runtime.values.conditions import choose, registers_of
 from regscribe_runtime.values.wire_types import Space
 from regscribe_runtime.wire.requests import Request
 
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
     from regscribe_runtime.operations.session import Operation, Session, Task
     from regscribe_runtime.registers.register import Register
+    from regscribe_runtime.values.views import View
 
 T = TypeVar("T")
 
@@ -144,11 +145,9 @@ def read_unit(register: Register[Any]) -> Task[str]:
     """The engineering unit under the present configuration."""
 
     def task(session: Session) -> Operation[str]:
-        if isinstance(register.unit, str):
-            return register.unit
         unknown = yield from _unknown(session, registers_of(register.unit))
         state = codec.known(register, session.memory, unknown)
-        return str(choose(register.unit, state, session.givens) or "")
+        return choose(register.unit, state, session.givens) or ""
 
     return task
 
@@ -203,7 +202,7 @@ def _ready(session: Session, registers: Sequence[Register[Any]], *, fresh: bool)
 
 def _learn(session: Session, registers: Sequence[Register[Any]]) -> Operation[dict[str, RegscribeError]]:
     """Make known what the meaning of registers depends on; why not, of each that has no value."""
-    needs = dependencies(session, registers)
+    needs = dependencies(session.registers, registers)
     needed = frozenset().union(*needs.values())
     paths = [path for path in needs if path in needed]
     absent = {path: error for path in paths if (error := missing(session, session.registers[path]))}

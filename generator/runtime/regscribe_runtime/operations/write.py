@@ -32,7 +32,8 @@ if TYPE_CHECKING:
     from regscribe_runtime.operations.session import Operation, Session, Task
     from regscribe_runtime.registers.register import Register
     from regscribe_runtime.report import Words
-    from regscribe_runtime.values.specs import State, View
+    from regscribe_runtime.values.conditions import State
+    from regscribe_runtime.values.views import View
 
 T = TypeVar("T")
 

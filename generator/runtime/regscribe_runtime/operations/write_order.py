@@ -7,7 +7,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from regscribe_runtime.operations.write_request import condition_needs, write_request
-from regscribe_runtime.values.specs import registers_of
+from regscribe_runtime.values.conditions import registers_of
 from regscribe_runtime.wire.requests import WRITE_COILS, WRITE_REGISTERS
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from regscribe_runtime.operations.session import Session
     from regscribe_runtime.registers.register import Register
     from regscribe_runtime.report import Change, Words
-    from regscribe_runtime.values.specs import View
+    from regscribe_runtime.values.views import View
     from regscribe_runtime.wire.requests import Request
 
 LAST = 1 << 30
@@ -50,8 +50,7 @@ class Batch(NamedTuple):
 
 def needs(register: Register[Any], view: View) -> tuple[str, ...]:
     """Registers that must hold their new value first: they decide what this one means, its limits, its permission."""
-    unit = () if isinstance(register.unit, str) else registers_of(register.unit)
-    return (*register.needs(view), *register.limit_needs, *condition_needs(register), *unit)
+    return (*register.needs(view), *register.limit_needs, *condition_needs(register), *registers_of(register.unit))
 
 
 def order(session: Session, registers: Iterable[Register[Any]]) -> list[Register[Any]]:

@@ -15,8 +15,8 @@ from regscribe_runtime.operations.write_request import confirmed, permitted
 from regscribe_runtime.registers import codec
 from regscribe_runtime.registers.enums import unnamed_bits
 from regscribe_runtime.report import Change, Fate
+from regscribe_runtime.values.conditions import registers_of
 from regscribe_runtime.values.kinds import Access, Kind
-from regscribe_runtime.values.specs import registers_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from regscribe_runtime.operations.session import Operation, Session
     from regscribe_runtime.registers.register import Register
     from regscribe_runtime.report import Words
-    from regscribe_runtime.values.specs import View
+    from regscribe_runtime.values.views import View
 
 SUGGESTED = 3
 
@@ -174,11 +174,7 @@ def _change(session: Session, one: Assignment, sight: Present, words: Words) -> 
 
 def dependent(session: Session, register: Register[Any]) -> set[str]:
     """The registers that the device converts when this one, a unit of measure, is written."""
-    return {
-        path
-        for path, other in session.registers.items()
-        if not isinstance(other.unit, str) and register.path in registers_of(other.unit)
-    }
+    return {path for path, other in session.registers.items() if register.path in registers_of(other.unit)}
 
 
 def _unlimited(register: Register[Any]) -> Register[Any]:

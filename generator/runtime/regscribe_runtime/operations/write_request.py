@@ -22,8 +22,9 @@ if TYPE_CHECKING:
     from regscribe_runtime.driver.parts import Command
     from regscribe_runtime.registers.register import Register
     from regscribe_runtime.report import Words
+    from regscribe_runtime.values.conditions import Givens, Is, State
     from regscribe_runtime.values.facts import CommandStep
-    from regscribe_runtime.values.specs import Givens, Is, State, View
+    from regscribe_runtime.values.views import View
 
 EEPROM = frozenset({"eeprom", "both"})
 """Where a write wears the memory out."""
@@ -58,8 +59,9 @@ def permitted(register: Register[Any], state: State, givens: Givens) -> None:
     if register.writable is None:
         return
     when, reason = register.writable
-    if not all(test.holds(state, givens) for test in when):
-        raise ConditionNotMet(register.path, reason, dict(_present(test, state) for test in when if test.register))
+    if not when.holds(state, givens):
+        present = dict(_present(test, state) for test in when.tests if test.register)
+        raise ConditionNotMet(register.path, reason, present)
 
 
 def _present(test: Is, state: State) -> tuple[str, str]:
@@ -79,7 +81,7 @@ def called(value: Any) -> str:
 
 def condition_needs(register: Register[Any]) -> tuple[str, ...]:
     """The registers that decide whether it can be written."""
-    return tuple(test.register for test in register.writable.when if test.register) if register.writable else ()
+    return register.writable.when.registers if register.writable else ()
 
 
 def run(command: Command, *, confirm: bool) -> Task[None]:

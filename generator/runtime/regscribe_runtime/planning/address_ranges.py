@@ -8,13 +8,10 @@ A view whose requests must be aligned has a stretch of its own.
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import NamedTuple
 
-from regscribe_runtime.values.specs import View
+from regscribe_runtime.values.views import Placed, View
 from regscribe_runtime.values.wire_types import Space
-
-if TYPE_CHECKING:
-    from regscribe_runtime.registers.register import Register
 
 ADDRESSES = 1 << 16
 Range = tuple[int, int]
@@ -144,7 +141,7 @@ def _aligned(item: RegisterSpan, align: int) -> RegisterSpan:
 
 
 def ground_of(
-    registers: Iterable["Register[Any]"],
+    registers: Iterable[Placed],
     *,
     unused: Iterable[tuple[Space, int, int]] = (),
     holes: bool = False,
@@ -170,7 +167,7 @@ def ground_of(
     return AddressRanges(readable, unreadable=unreadable, aligned=regions, holes=holes)
 
 
-def places(register: "Register[Any]") -> Iterator[tuple[View, int]]:
+def places(register: Placed) -> Iterator[tuple[View, int]]:
     """Every place where a register is transmitted: its views, then the aliases of the base view."""
     for view in register.views:
         yield view, view.address(register.at)

@@ -5,7 +5,8 @@ Costs are whole nanoseconds, so that plans are exact and the same on every machi
 
 from typing import NamedTuple
 
-from regscribe_runtime.values.protocol import Latency, Number, Protocol, SerialDefaults
+from regscribe_runtime.values.numbers import Number
+from regscribe_runtime.values.protocol import Latency, Protocol, SerialDefaults
 from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.values.wire_types import Space
 

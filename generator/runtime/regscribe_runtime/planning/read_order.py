@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from regscribe_runtime.planning.plan import Block, Terms, blocks
 from regscribe_runtime.planning.read_places import ReadPlace
-from regscribe_runtime.values.specs import View
+from regscribe_runtime.values.views import View
 
 
 class WordPosition(NamedTuple):

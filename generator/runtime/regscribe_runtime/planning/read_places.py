@@ -6,13 +6,10 @@ the base view, so they count where the base view does. The others are for units 
 """
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import NamedTuple
 
 from regscribe_runtime.planning.address_ranges import AddressRanges, RegisterSpan, places
-from regscribe_runtime.values.specs import View
-
-if TYPE_CHECKING:
-    from regscribe_runtime.registers.register import Register
+from regscribe_runtime.values.views import Placed, View, read_view
 
 
 class ReadPlace(NamedTuple):
@@ -22,9 +19,9 @@ class ReadPlace(NamedTuple):
     span: RegisterSpan
 
 
-def read_places(register: "Register[Any]") -> tuple[ReadPlace, ...]:
+def read_places(register: Placed) -> tuple[ReadPlace, ...]:
     """All places to read a register at, the view to prefer first; at least one."""
-    preferred = register.read_view()
+    preferred = read_view(register)
     if len(register.views) == 1 and not register.aliases:
         return (_place(preferred, preferred.address(register.at)),)
     found: dict[RegisterSpan, ReadPlace] = {}
@@ -36,7 +33,7 @@ def read_places(register: "Register[Any]") -> tuple[ReadPlace, ...]:
     return readable or tuple(found.values())[:1]
 
 
-def place_of(register: "Register[Any]", ranges: AddressRanges) -> ReadPlace | None:
+def place_of(register: Placed, ranges: AddressRanges) -> ReadPlace | None:
     """The first place that may be read; None if this unit has the register nowhere."""
     return next((place for place in read_places(register) if ranges.stretch(place.span) is not None), None)
 
@@ -65,7 +62,7 @@ def same_precision(view: View, other: View) -> bool:
     )
 
 
-def _from_preferred(register: "Register[Any]", preferred: View) -> Iterator[tuple[View, int]]:
+def _from_preferred(register: Placed, preferred: View) -> Iterator[tuple[View, int]]:
     yield preferred, preferred.address(register.at)
     yield from places(register)
 

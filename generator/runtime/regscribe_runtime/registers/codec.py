@@ -9,21 +9,23 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from regscribe_runtime.errors import NotDecodable, Saturated, SensorFault, ValueNotDecodable, ValueRefused
+from regscribe_runtime.values.conditions import Givens, State, choose
 from regscribe_runtime.values.kinds import Kind
 from regscribe_runtime.values.numbers import ROUNDINGS, brief, exact, half_up, rough, shortest
-from regscribe_runtime.values.specs import Conversion, Converter, Givens, Limits, Ref, State, Text, View, choose
+from regscribe_runtime.values.scales import NAN, Conversion, Decimals, Limit, NotANumber, Open, Ref
+from regscribe_runtime.values.views import View
 from regscribe_runtime.values.wire_types import Order, WireType
 
 if TYPE_CHECKING:
     from regscribe_runtime.registers.register import Register
 
-NAN = "nan"
-"""How a sentinel says that it is any float that is no number."""
-
 Unknown = Mapping[str, object]
 """Registers of no known value, by path, and why."""
 
 NOTHING: Unknown = MappingProxyType({})
+
+Converter = Callable[[Any], Any]
+"""From a wire number to a value of use."""
 
 LARGEST_FLOAT = Fraction(sys.float_info.max)
 
@@ -34,30 +36,41 @@ MAX_DECIMALS = 9
 """A decimals register above this is no decimal position of any device; scaling by it would only hide a fault."""
 
 
-def power(name: str, register: str, at_most: int | None, state: State) -> int:
-    """10^d with d from `register`; NotDecodable if that register holds no plausible number of decimals."""
-    if not register:
+def power(name: str, decimals: Decimals | None, state: State) -> int:
+    """10^d with d from a register; NotDecodable if that holds no plausible number of decimals."""
+    if decimals is None:
         return 1
-    digits = int(state[register])
+    digits = int(state[decimals.register])
     if not 0 <= digits <= MAX_DECIMALS:
-        raise NotDecodable(name, f"{register} is {digits}, which is no number of decimals")
-    return int(10 ** (digits if at_most is None else min(digits, at_most)))
+        raise NotDecodable(name, f"{decimals.register} is {digits}, which is no number of decimals")
+    return int(10 ** (digits if decimals.at_most is None else min(digits, decimals.at_most)))
 
 
 def _conversion(register: "Register[Any]", state: State, givens: Givens) -> tuple[Conversion, int]:
-    found: Conversion | None = choose(register.scale, state, givens)
+    found = choose(register.scale, state, givens)
     if found is None:
         known = ", ".join(f"{name} = {state[name]}" for name in register.scale_needs)
         raise NotDecodable(register.path, f"no scale of the manual holds with {known}")
-    return found, power(register.path, found.decimals, found.at_most, state)
+    return found, power(register.path, found.decimals, state)
 
 
 Words = Sequence[int]
 
 
+def word_order(view: View, register: str, state: State) -> Order:
+    """The order of the words as things stand; NotDecodable for a code that the manual does not list."""
+    if isinstance(view.order, Order):
+        return view.order
+    code = int(state[view.order.register])
+    found = view.order.order(code)
+    if found is None:
+        raise NotDecodable(register, f"{view.order.register} is {code}, which sets no word order")
+    return found
+
+
 def arranger(view: View, name: str, state: State) -> Callable[[Words], Words]:
     """What turns words from wire order to most-significant-first under the present `state`; the same step both ways."""
-    backward = view.words > 1 and view.word_order(name, state) is Order.LITTLE
+    backward = view.words > 1 and word_order(view, name, state) is Order.LITTLE
     if view.byte_order is Order.LITTLE:
         return _backward_and_swapped if backward else _swapped
     return _backward if backward else _as_they_are
@@ -97,7 +110,7 @@ def reader(
     try:
         convert = _with_specials(register, view, known(register, state, unknown), givens, named=named)
     except ValueNotDecodable as error:
-        convert = always(error)
+        convert = failing(error)
     return _guarded(register, view, convert)
 
 
@@ -118,7 +131,7 @@ def known(register: "Register[Any]", state: State, unknown: Unknown) -> State:
     return _Known(register, state, unknown) if unknown else state
 
 
-def always(error: ValueNotDecodable) -> Converter:
+def failing(error: ValueNotDecodable) -> Converter:
     """A reader of what cannot be read: it raises `error`."""
 
     def fail(_: object) -> NoReturn:
@@ -199,10 +212,10 @@ def _specials(register: "Register[Any]", state: State, givens: Givens) -> dict[F
     special, means = register.value_type.special, register.value_type.means
     if special is None and not means:
         return {}
-    chosen: Conversion | None = choose(register.special_scale, state, givens)
+    chosen = choose(register.special_scale, state, givens)
     if chosen is None:
         raise NotDecodable(register.path, "no decimals of the manual hold for its special values")
-    divisor = power(register.path, chosen.decimals, chosen.at_most, state)
+    divisor = power(register.path, chosen.decimals, state)
     found = {exact(member.value) / divisor: member for member in special or ()}
     meant = {Fraction(code) / divisor: Fraction(number) for code, number in means.items()}
     return {code: (member, code) for code, member in found.items()} | {
@@ -232,8 +245,8 @@ Faults = dict[float | None, tuple[str, str]]
 def _faults(register: "Register[Any]", view: View) -> Faults:
     found: Faults = {}
     for stored, name, label in register.sentinels:
-        wire = None if stored == NAN else _on_wire(view, Fraction(stored))
-        if wire is not None or stored == NAN:
+        wire = None if isinstance(stored, NotANumber) else _on_wire(view, Fraction(stored))
+        if wire is not None or stored is NAN:
             found[wire] = (name, label)
     return found
 
@@ -391,8 +404,8 @@ def _amount(register: "Register[Any]", value: object, state: State, givens: Give
     return amount, amount in specials
 
 
-def _limit(bound: Text | Ref | None, divisor: int, state: State) -> Fraction | None:
-    if bound is None:
+def _limit(bound: Limit, divisor: int, state: State) -> Fraction | None:
+    if isinstance(bound, Open):
         return None
     if isinstance(bound, Ref):
         return exact(state[bound.register])
@@ -402,10 +415,10 @@ def _limit(bound: Text | Ref | None, divisor: int, state: State) -> Fraction | N
 def _within_limits(register: "Register[Any]", amount: Fraction, state: State, givens: Givens) -> None:
     if not register.range:
         return
-    limits: Limits | None = choose(register.range, state, givens)
+    limits = choose(register.range, state, givens)
     if limits is None:
         raise ValueRefused(register.path, "no range of the manual holds as the device is configured")
-    divisor = power(register.path, limits.decimals, limits.at_most, state)
+    divisor = power(register.path, limits.decimals, state)
     ends = [(_limit(low, divisor, state), _limit(high, divisor, state)) for low, high in limits.intervals]
     if not any((low is None or low <= amount) and (high is None or amount <= high) for low, high in ends):
         allowed = " or ".join(
@@ -419,12 +432,12 @@ def _stored(register: "Register[Any]", amount: Fraction, state: State, givens: G
     conversion, divisor = _conversion(register, state, givens)
     stored = (amount * divisor - Fraction(conversion.add)) / Fraction(conversion.multiply)
     if conversion.step is not None:
-        increment = Fraction(conversion.step) / power(register.path, conversion.places, conversion.at_most, state)
+        increment = Fraction(conversion.step) / power(register.path, conversion.places, state)
         steps = stored / increment
         if steps.denominator != 1:
             step = increment * Fraction(conversion.multiply) / divisor
             if not rounded:
-                of = f" of {conversion.places}" if conversion.places else ""
+                of = f" of {conversion.places.register}" if conversion.places else ""
                 message = f"{rough(amount)} is finer than the resolution {rough(abs(step))}{of} (rounded=True rounds)"
                 raise ValueRefused(register.path, message)
             stored = half_up(steps) * increment

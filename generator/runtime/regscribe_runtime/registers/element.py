@@ -8,7 +8,7 @@ import re
 from typing import Any
 
 OPEN = "[]"
-PATHS = frozenset({"register", "decimals", "places"})
+PATHS = frozenset({"register"})
 """The fields that hold the path of a register, in all that a declaration is made of (see `spec`)."""
 _INDEX = re.compile(r"\[(\d+)\]")
 

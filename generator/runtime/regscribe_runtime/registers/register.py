@@ -15,20 +15,11 @@ from regscribe_runtime.driver.attributes import (
 from regscribe_runtime.errors import ValueRefused
 from regscribe_runtime.registers import codec, element
 from regscribe_runtime.registers.value_types import ValueType
+from regscribe_runtime.values.conditions import Cases, Givens, State, always
 from regscribe_runtime.values.facts import Governs, WriteCondition
 from regscribe_runtime.values.kinds import Access
-from regscribe_runtime.values.specs import (
-    SAME,
-    Cases,
-    Conversion,
-    Givens,
-    Limits,
-    Ref,
-    State,
-    View,
-    When,
-    registers_of,
-)
+from regscribe_runtime.values.scales import SAME, Conversion, Range, Sentinel
+from regscribe_runtime.values.views import View, limit_needs, needs, scale_needs
 
 if TYPE_CHECKING:
     from regscribe_runtime.driver.parts import AsyncPart, Part
@@ -36,7 +27,6 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 SPEAKING = ("views", "scale", "special_scale", "range", "unit", "writable")
 """The attributes of a register that may speak of other registers."""
-Sentinels = tuple[tuple[int | str, str, str], ...]
 
 
 class Register(Generic[T]):
@@ -59,13 +49,13 @@ class Register(Generic[T]):
         views: tuple[View, ...],
         value_type: ValueType[T],
         *,
-        scale: Cases = SAME,
-        special_scale: Cases = SAME,
-        range: Cases = (),  # noqa: A002 (the manuals' own word)
+        scale: Cases[Conversion] = SAME,
+        special_scale: Cases[Conversion] = SAME,
+        range: Cases[Range] = (),  # noqa: A002 (the manuals' own word)
         default: float | str | None = None,
-        unit: str | Cases = "",
+        unit: str | Cases[str] = "",
         section: str = "",
-        sentinels: Sentinels = (),
+        sentinels: tuple[Sentinel, ...] = (),
         aliases: tuple[int, ...] = (),
         writable: WriteCondition | None = None,
         persistence: str = "",
@@ -80,7 +70,8 @@ class Register(Generic[T]):
         self.at, self.views, self.value_type, self.kind = at, views, value_type, value_type.kind
         self.scale, self.range, self.sentinels = scale, range, sentinels
         self.special_scale = special_scale
-        self.default, self.unit, self.section, self.aliases = default, unit, section, aliases
+        self.default, self.section, self.aliases = default, section, aliases
+        self.unit: Cases[str] = always(unit) if isinstance(unit, str) else unit
         self.writable, self.persistence = writable, persistence
         self.unlock, self.apply, self.danger = unlock, apply, danger
         self.stays, self.governs, self.settle, self.rescales = stays, governs, settle, rescales
@@ -177,23 +168,16 @@ class Register(Generic[T]):
     @property
     def scale_needs(self) -> tuple[str, ...]:
         """Registers that decide or set the scale, or that of special values."""
-        cases = cast("tuple[tuple[When, Conversion], ...]", (*self.scale, *self.special_scale))
-        found = [*registers_of(cases), *(conversion.decimals for _, conversion in cases if conversion.decimals)]
-        return tuple(dict.fromkeys(found))
+        return scale_needs(self)
 
     def needs(self, view: View) -> tuple[str, ...]:
         """Registers whose values the meaning of `view` depends on."""
-        return tuple(dict.fromkeys((*view.needs(), *self.scale_needs)))
+        return needs(self, view)
 
     @property
     def limit_needs(self) -> tuple[str, ...]:
         """Registers that decide or are limits of a write."""
-        found = list(registers_of(self.range))
-        found += [conversion.places for _, conversion in self.scale if conversion.places]
-        for _, limits in cast("tuple[tuple[When, Limits], ...]", self.range):
-            found += [limits.decimals] if limits.decimals else []
-            found += [end.register for interval in limits.intervals for end in interval if isinstance(end, Ref)]
-        return tuple(dict.fromkeys(found))
+        return limit_needs(self)
 
     def decode(
         self, words: Sequence[int], *, view: str | None = None, state: State | None = None, givens: Givens | None = None

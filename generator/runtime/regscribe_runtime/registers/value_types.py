@@ -8,8 +8,7 @@ from typing import Any, Generic, NoReturn, TypeVar
 from regscribe_runtime.errors import NotDecodable, ValueRefused
 from regscribe_runtime.registers.enums import Choice, Flags, SpecialNumber, Word
 from regscribe_runtime.values.kinds import Kind
-from regscribe_runtime.values.numbers import brief, exact, rough
-from regscribe_runtime.values.specs import Text
+from regscribe_runtime.values.numbers import Number, brief, exact, rough
 
 T = TypeVar("T")
 C = TypeVar("C", bound=Choice)
@@ -41,7 +40,7 @@ class ValueType(Generic[T]):
         *,
         coded: bool = False,
         special: type[Enum] | None = None,
-        means: dict[Text, Text] | None = None,
+        means: dict[Number, Number] | None = None,
     ) -> None:
         self.kind, self.make, self.number, self.coded = kind, make, number, coded
         self.special, self.means = special, means or {}
@@ -67,22 +66,22 @@ raw: ValueType[int] = ValueType(Kind.RAW, int, _whole_number)
 raw_float: ValueType[float] = ValueType(Kind.RAW, float, _any_number)
 
 
-def number_or(special: type[S], means: dict[Text, Text] | None = None) -> "ValueType[float | S]":
+def number_or(special: type[S], means: dict[Number, Number] | None = None) -> "ValueType[float | S]":
     """A number with special values: a code in `means` stands for a number, the others are members of `special`."""
     return ValueType(Kind.NUMBER, float, _any_number, special=special, means=means)
 
 
-def integer_or(special: type[C], means: dict[Text, Text] | None = None) -> "ValueType[int | C]":
+def integer_or(special: type[C], means: dict[Number, Number] | None = None) -> "ValueType[int | C]":
     """As `number_or`, of whole numbers."""
     return ValueType(Kind.INTEGER, int, _whole_number, special=special, means=means)
 
 
-def number_with(means: dict[Text, Text]) -> ValueType[float]:
+def number_with(means: dict[Number, Number]) -> ValueType[float]:
     """A number some of whose codes stand for another number (0 for 0.2 s)."""
     return ValueType(Kind.NUMBER, float, _any_number, means=means)
 
 
-def integer_with(means: dict[Text, Text]) -> ValueType[int]:
+def integer_with(means: dict[Number, Number]) -> ValueType[int]:
     """As `number_with`, of whole numbers."""
     return ValueType(Kind.INTEGER, int, _whole_number, means=means)
 

@@ -1,9 +1,9 @@
 """Facts about registers and commands: what sets the line, how a model shows itself, what a command sends."""
 
-from collections.abc import Mapping
 from enum import StrEnum
 from typing import Any, NamedTuple
 
+from regscribe_runtime.values.conditions import ALWAYS, Condition, State
 from regscribe_runtime.values.wire_types import Space
 
 
@@ -39,24 +39,24 @@ class Governs(NamedTuple):
 class WriteCondition(NamedTuple):
     """When a write is accepted: the condition, and the manual's reason in own words."""
 
-    when: Any
+    when: Condition
     reason: str
 
 
 class Identity(NamedTuple):
     """How a device shows its model: the condition holds, and each text register begins with the text beside it."""
 
-    when: Any
+    when: Condition = ALWAYS
     texts: tuple[tuple[str, str], ...] = ()
 
     def registers(self) -> tuple[str, ...]:
         """The registers that must be read."""
-        return tuple(dict.fromkeys([test.register for test in self.when] + [path for path, _ in self.texts]))
+        return tuple(dict.fromkeys([*self.when.registers, *(path for path, _ in self.texts)]))
 
-    def fits(self, state: Mapping[str, Any]) -> bool:
+    def fits(self, state: State) -> bool:
         """Tell whether the values read are those of the model."""
         told = all(str(state[path]).startswith(text) for path, text in self.texts)
-        return told and all(test.holds(state, {}) for test in self.when)
+        return told and self.when.holds(state, {})
 
 
 class CommandStep(NamedTuple):

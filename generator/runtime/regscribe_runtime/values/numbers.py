@@ -7,6 +7,9 @@ from fractions import Fraction
 
 from regscribe_runtime.values.wire_types import Rounding, WireType
 
+Number = int | Fraction
+"""An exact number."""
+
 MOST_DIGITS = 400
 """Beyond the largest and the smallest number of 64 bits; what has more digits would only cost time."""
 _MOST_BITS = (10**MOST_DIGITS).bit_length()
@@ -50,7 +53,7 @@ def parse(text: str) -> Fraction:
         raise ValueError(message) from None
 
 
-def show(number: int | Fraction) -> str:
+def show(number: Number) -> str:
     """The number as decimal text without exponent, or `a/b` where no decimal text is exact."""
     if number.denominator == 1:
         return str(number.numerator)

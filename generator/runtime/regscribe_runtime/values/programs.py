@@ -4,10 +4,10 @@ A path has `{i}` for the number of the program and `{j}` for that of the segment
 """
 
 from enum import StrEnum
-from fractions import Fraction
 from typing import NamedTuple
 
 from regscribe_runtime.values.facts import WriteCondition
+from regscribe_runtime.values.numbers import Number
 
 PROGRAM = "{i}"
 SEGMENT = "{j}"
@@ -16,7 +16,7 @@ SEGMENT = "{j}"
 Named = tuple[tuple[str, str], ...]
 """Outputs: a name and the path of a register."""
 
-Values = tuple[tuple[str, int | Fraction], ...]
+Values = tuple[tuple[str, Number], ...]
 """Paths of registers and the numbers that they are given."""
 
 

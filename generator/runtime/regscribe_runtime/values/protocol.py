@@ -3,11 +3,8 @@
 from fractions import Fraction
 from typing import NamedTuple
 
+from regscribe_runtime.values.numbers import Number
 from regscribe_runtime.values.serial_line import SerialLine
-
-Number = int | Fraction
-"""An exact number."""
-
 
 SHORTEST_TIMEOUT, MARGIN = 1.0, 0.5
 """In seconds: the least timeout, and what is added to the longest latency for the frames themselves."""

@@ -18,7 +18,7 @@ from regscribe.emit.docs_index import render_index
 from regscribe.emit.header import header
 from regscribe.emit.markdown import render
 from regscribe.evidence import card
-from regscribe.model import RegisterMap
+from regscribe.model import Open, RegisterMap
 
 ROOT = Path(__file__).parents[4]
 MAPS = [path for path in sorted((ROOT / "maps").glob("*/*.yaml")) if not path.name.endswith(".library.yaml")]
@@ -38,6 +38,8 @@ TAGS = {
 
 def hostile(value: Any) -> Any:
     """Replace every free text of a map; ids, paths, model names and orders of registers stay."""
+    if isinstance(value, Open):
+        return Open(HOSTILE)
     if isinstance(value, tuple) and not hasattr(value, "_fields"):
         return tuple(hostile(item) for item in value)
     if isinstance(value, tuple):

@@ -130,14 +130,14 @@ def _write(stage: Stage, driver: Any, register: Register, view: View, name: str)
             writer.write(value, view=view.name, confirm=True)
         except (ValueRefused, ExceptionAnswer):
             continue
-        pdu = next((one for one in stage.writes() if int.from_bytes(one[1:3], "big") == view.address), b"")
+        pdu = next((one for one in stage.writes() if int.from_bytes(one[1:3], "big") == view.address(register.at)), b"")
         words = stage.device.peek_words(register.path, view.name)
         stored = state.stored(register.path)
         if not pdu or isinstance(stored, str) or stored == before:
             continue
         state.store(register.path, before)
         number = float(stored * view.factor)
-        return Case(register.path, view.name, name, view.address, pdu[0], words, pdu, number, value)
+        return Case(register.path, view.name, name, view.address(register.at), pdu[0], words, pdu, number, value)
     state.store(register.path, before)
     return None
 

@@ -48,7 +48,7 @@ def shown(device: SimulatedDevice) -> list[Shown]:
         for register in device.model.registers
         if register.access.readable
         for view in register.views
-        for address in (view.address, *(register.aliases if view is register.base else ()))
+        for address in (view.address(register.at), *(register.aliases if view is register.base else ()))
     ]
     return sorted(found, key=lambda each: (each.view.space, each.address))
 

@@ -116,7 +116,7 @@ def platinum(model: Model) -> Iterator[Case]:
         yield Case("a write to an unused bit", "5.4", Write(5, address, (1,)), Refused(7))
         yield Case("a write of several to an unused bit", "5.4", Write(15, address, (1, 1)), Refused(7))
     choice = next(each for each in model.registers if each.enum and _is_free(each) and each.base.space is Space.HOLDING)
-    yield Case("a write of a code that is none", "5.5", Write(6, choice.base.address, (99,)), Refused(3))
+    yield Case("a write of a code that is none", "5.5", Write(6, choice.address, (99,)), Refused(3))
     yield Case("a read of a word that can be written", "3.3", Read(3, free), Values(()), first=1)
     if any(command.id == "apply_configuration" for command in model.commands):
         apply = next(command for command in model.commands if command.id == "apply_configuration").steps[0].address
@@ -127,14 +127,14 @@ def platinum(model: Model) -> Iterator[Case]:
 def broadcasts(model: Model) -> Iterator[tuple[Write, str, int]]:
     """Yield writes to all units, with a register that one of them sets if it obeys, and to what (0 before)."""
     plain = [each for each in model.registers if _is_plain(each)]
-    beside = {each.base.address: each for each in plain}
-    first = next(each for each in plain if each.base.address + 1 in beside)
-    yield Write(6, first.base.address, (1,)), first.path, 1
-    yield Write(16, first.base.address, (1, 1)), first.path, 1
+    beside = {each.address: each for each in plain}
+    first = next(each for each in plain if each.address + 1 in beside)
+    yield Write(6, first.address, (1,)), first.path, 1
+    yield Write(16, first.address, (1, 1)), first.path, 1
     coils = [each for each in model.registers if each.base.space is Space.COIL and _is_free(each)]
     if coils:
-        yield Write(5, coils[0].base.address, (1,)), coils[0].path, 1
-        yield Write(15, coils[0].base.address, (1,)), coils[0].path, 1
+        yield Write(5, coils[0].address, (1,)), coils[0].path, 1
+        yield Write(15, coils[0].address, (1,)), coils[0].path, 1
 
 
 def _is_plain(register: Register) -> bool:
@@ -149,7 +149,7 @@ def _is_free(register: Register) -> bool:
 
 def _first(model: Model, space: Space, access: Access) -> int:
     found = (each for each in model.registers if each.base.space is space and each.access is access)
-    return next(each.base.address for each in found if each.base.words == 1)
+    return next(each.address for each in found if each.base.words == 1)
 
 
 def _unused(model: Model, space: Space) -> Iterator[int]:

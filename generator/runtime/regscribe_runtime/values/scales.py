@@ -1,0 +1,93 @@
+"""What a stored number means: scales, limits and the numbers that report faults."""
+
+from enum import Enum
+from functools import cache
+from typing import NamedTuple
+
+from regscribe_runtime.values.conditions import Cases, always
+from regscribe_runtime.values.numbers import Number, show
+
+
+class Decimals(NamedTuple):
+    """A register holds the number of decimals: the divisor is 10 to the power of it, at most `at_most`."""
+
+    register: str
+    at_most: int | None = None
+
+
+class Conversion(NamedTuple):
+    """value = (`multiply` x stored + `add`) / 10^d, d from `decimals` (0 without); exact.
+
+    `step` is the smallest increment of the *stored* value, if the device has one (1: it stores whole digits). With
+    `places`, a register says how many decimals that value can have: the increment is `step` / 10^d of it.
+    """
+
+    multiply: Number = 1
+    add: Number = 0
+    decimals: Decimals | None = None
+    step: Number | None = None
+    places: Decimals | None = None
+
+
+IDENTITY = Conversion()
+SAME: Cases[Conversion] = always(IDENTITY)
+
+
+class Ref(NamedTuple):
+    """A limit that is the present value of another register."""
+
+    register: str
+
+
+class Open(str):
+    """A limit that the manual names, in these words, but does not give: nothing is checked against it."""
+
+    __slots__ = ()
+
+
+Limit = Number | Ref | Open
+
+
+class Interval(NamedTuple):
+    """From `low` to `high`, both included."""
+
+    low: Limit
+    high: Limit
+
+
+class Range(NamedTuple):
+    """A union of intervals; limits that are numbers are divided by 10^d of `decimals`, if there is one."""
+
+    intervals: tuple[Interval, ...]
+    decimals: Decimals | None = None
+
+
+@cache
+def within(low: Limit, high: Limit) -> Cases[Range]:
+    """The range of one interval that holds under no condition."""
+    return always(Range((Interval(low, high),)))
+
+
+class NotANumber(Enum):
+    """Any IEEE 754 pattern that is no number, as what a device sends in place of a value; no text equals it."""
+
+    NAN = "nan"
+
+
+NAN = NotANumber.NAN
+
+
+class Sentinel(NamedTuple):
+    """A stored number that is a fault and no value: -32768 = sensor low; `NAN`: no number at all.
+
+    It counts before any scale, and whatever the kind of the register: for bits, as the number that the type spells.
+    """
+
+    stored: Number | NotANumber
+    id: str
+    label: str
+
+    @property
+    def spelled(self) -> str:
+        """The stored number as decimal text, or `nan`."""
+        return self.stored.value if isinstance(self.stored, NotANumber) else show(self.stored)

@@ -1,0 +1,143 @@
+"""How a value is transmitted: views, and the order of their words."""
+
+from typing import Any, NamedTuple, Protocol
+
+from regscribe_runtime.values.conditions import Cases, registers_of
+from regscribe_runtime.values.kinds import Access
+from regscribe_runtime.values.numbers import Number
+from regscribe_runtime.values.scales import Conversion, Range, Ref
+from regscribe_runtime.values.wire_types import Order, Rounding, Space, WireType
+
+
+class OrderFrom(NamedTuple):
+    """The word order is set by a register: `codes` are pairs of its value and an order."""
+
+    register: str
+    codes: tuple[tuple[int, Order], ...]
+
+    def order(self, code: Number) -> Order | None:
+        """The order that a value of the register sets; None for one that the manual does not list."""
+        return next((order for known, order in self.codes if known == code), None)
+
+
+class View(NamedTuple):
+    """One way to transmit a value.
+
+    wire address = `offset` + `stride` x at, `at` of its register; `words` are from there on. wire number = stored value
+    x `factor`, rounded by `rounding`; with `saturates`, clipped to the limits of `type`. `functions` are the function
+    codes that may address the view (empty: whatever the device supports); `align` is what an address and a count where
+    the view stands must be multiples of; `region` the first and last address that the view set gives to this view.
+    """
+
+    name: str
+    type: WireType
+    offset: int = 0
+    stride: int = 1
+    words: int = 1
+    factor: Number = 1
+    rounding: Rounding = Rounding.NONE
+    saturates: bool = False
+    order: Order | OrderFrom = Order.BIG
+    byte_order: Order = Order.BIG
+    functions: tuple[int, ...] = ()
+    space: Space = Space.HOLDING
+    preferred: bool = False
+    align: int = 1
+    region: tuple[int, int] | None = None
+
+    def address(self, at: int) -> int:
+        """The wire address of the first word for a register at `at`."""
+        return self.offset + self.stride * at
+
+    def last(self, at: int) -> int:
+        """The wire address of the last word for a register at `at`."""
+        return self.address(at) + self.words - 1
+
+    def allows(self, function: int) -> bool:
+        """Whether a function code may address it."""
+        return not self.functions or function in self.functions
+
+    @property
+    def readable(self) -> bool:
+        """Whether the read function of its space may address it."""
+        return self.allows(self.space.read_function)
+
+    @property
+    def writable(self) -> bool:
+        """Whether a write function of its space may address it, all words of a value at once."""
+        single, several = self.space.write_functions or (0, 0)
+        return self.allows(several) or (self.words == 1 and self.allows(single))
+
+    def needs(self) -> tuple[str, ...]:
+        """The register that sets the word order, if one does."""
+        return (self.order.register,) if isinstance(self.order, OrderFrom) else ()
+
+
+def word(view_type: WireType, **more: Any) -> tuple[View, ...]:
+    """The single base view of a plain register."""
+    return (View("base", view_type, words=view_type.words, **more),)
+
+
+class Placed(Protocol):
+    """What a plan must know of a register, be it one of a driver or of the compiler's model."""
+
+    @property
+    def path(self) -> str: ...  # noqa: D102 (a field)
+    @property
+    def at(self) -> int: ...  # noqa: D102
+    @property
+    def views(self) -> tuple[View, ...]: ...  # noqa: D102
+    @property
+    def aliases(self) -> tuple[int, ...]: ...  # noqa: D102
+    @property
+    def access(self) -> Access: ...  # noqa: D102
+
+
+class Scaled(Protocol):
+    """What decides what the words of a register mean and what may be written to it."""
+
+    @property
+    def views(self) -> tuple[View, ...]: ...  # noqa: D102 (a field)
+    @property
+    def scale(self) -> Cases[Conversion]: ...  # noqa: D102
+    @property
+    def special_scale(self) -> Cases[Conversion]: ...  # noqa: D102
+    @property
+    def range(self) -> Cases[Range]: ...  # noqa: D102
+
+
+class Readable(Placed, Scaled, Protocol):
+    """A register that can be planned and decoded."""
+
+
+def preferred(views: tuple[View, ...]) -> View:
+    """The view that drivers use unless told otherwise."""
+    return next((view for view in views if view.preferred), views[0])
+
+
+def read_view(register: Placed) -> View:
+    """The view that drivers read: that to prefer, or else the first that its functions let be read."""
+    wanted = preferred(register.views)
+    return wanted if wanted.readable else next((view for view in register.views if view.readable), wanted)
+
+
+def scale_needs(register: Scaled) -> tuple[str, ...]:
+    """Registers that decide or set the scale, or that of special values."""
+    cases = (*register.scale, *register.special_scale)
+    found = [*registers_of(cases), *(case.then.decimals.register for case in cases if case.then.decimals)]
+    return tuple(dict.fromkeys(found))
+
+
+def needs(register: Scaled, view: View) -> tuple[str, ...]:
+    """Registers whose values the meaning of `view` depends on."""
+    return tuple(dict.fromkeys((*view.needs(), *scale_needs(register))))
+
+
+def limit_needs(register: Scaled) -> tuple[str, ...]:
+    """Registers that decide or are limits of a write."""
+    found = list(registers_of(register.range))
+    found += [case.then.places.register for case in register.scale if case.then.places]
+    for _, limits in register.range:
+        found += [limits.decimals.register] if limits.decimals else []
+        found += [end.register for interval in limits.intervals for end in interval if isinstance(end, Ref)]
+    return tuple(dict.fromkeys(found))
