@@ -18,11 +18,26 @@ import regscribe_runtime
 PACKAGES = {package.__name__: Path(str(package.__file__)).parent for package in (regscribe, regscribe_runtime)}
 
 RUNTIME = "regscribe_runtime"
+
+
+def _inside(names: str) -> set[str]:
+    return {f"{RUNTIME}.{name}" for name in names.split()}
+
+
 VALUES, WIRE = f"{RUNTIME}.values", f"{RUNTIME}.wire"
+WHOLE = {RUNTIME, *_inside("errors report wire link registers planning operations driver")}
 ROOMS = {
     VALUES: set[str](),
-    WIRE: {RUNTIME},
-    RUNTIME: {WIRE},
+    f"{RUNTIME}.report": set[str](),
+    f"{RUNTIME}.errors": _inside("report"),
+    WIRE: _inside("errors"),
+    f"{RUNTIME}.link": _inside("errors wire"),
+    f"{RUNTIME}.registers": _inside("errors"),
+    f"{RUNTIME}.planning": set[str](),
+    f"{RUNTIME}.operations": _inside("errors report wire link registers planning"),
+    f"{RUNTIME}.driver": _inside("errors report wire link registers planning operations"),
+    f"{RUNTIME}.public": WHOLE,
+    RUNTIME: _inside("public"),
     "model": set[str](),
     "visible": set[str](),
     "map_files": set[str](),
@@ -42,12 +57,17 @@ ROOMS = {
     "pipeline": {"model", "source", "schema", "compose", "lower", "checks"},
     "simulate": {"model", "reference", "source", "files", "map_files", "pipeline", WIRE},
     "pytest_plugin": {"model", "simulate"},
-    "testing": {RUNTIME, WIRE},
-    "tools": {"model", "source", "schema", "files", "visible", "emit", "pictures", RUNTIME, WIRE},
+    "testing": WHOLE,
+    "tools": {"model", "source", "schema", "files", "visible", "emit", "pictures"} | WHOLE,
     "cli": {"model", "reference", "source", "schema", "compose", "lower", "checks", "emit", "pictures", "evidence"}
-    | {"plugins", "simulate", "pipeline", "files", "tools", "map_files", "visible", RUNTIME, WIRE},
+    | {"plugins", "simulate", "pipeline", "files", "tools", "map_files", "visible"}
+    | WHOLE,
 }
 """Which other rooms a room may import, besides the vocabulary in `regscribe_runtime.values`."""
+
+LINK = f"{RUNTIME}.link"
+LINK_OF_OPERATIONS = {f"{RUNTIME}.link.{name}" for name in ("links", "timing", "retry")}
+"""What operations may know of links: what they are like, not how they work."""
 
 LIBRARIES = {
     "yaml": {"source", "files"},
@@ -99,7 +119,7 @@ def room_of(module: str) -> str:
     top, *inner = module.split(".")
     if top == RUNTIME:
         room = ".".join((top, *inner[:1]))
-        return room if room in {VALUES, WIRE} else RUNTIME
+        return room if room in ROOMS else RUNTIME
     return inner[0] if top == "regscribe" and inner and inner[0] in ROOMS else ""
 
 
@@ -119,6 +139,18 @@ def test_a_room_imports_only_what_it_may(room: str) -> None:
     assert wrong == set()
 
 
+def test_operations_know_of_links_what_they_are_like_and_not_how_they_work() -> None:
+    operations = {module: names for module, names in imports().items() if room_of(module) == f"{RUNTIME}.operations"}
+    known = {name.rpartition(".")[0] for names in operations.values() for name in names if room_of(name) == LINK}
+    assert known <= LINK_OF_OPERATIONS
+
+
+def test_the_runtime_imports_nothing_for_type_checkers_alone() -> None:
+    # but for its front, which loads its names as they are asked for
+    users = {module for module, names in imports().items() if "typing.TYPE_CHECKING" in names}
+    assert {module for module in users if module.startswith(f"{RUNTIME}.")} == set()
+
+
 def test_nothing_but_its_entry_point_knows_collectd() -> None:
     own = "regscribe.export.collectd"
     others = {module: names for module, names in imports().items() if not module.startswith(own)}
@@ -131,10 +163,10 @@ def test_a_library_is_used_in_its_rooms_alone(library: str) -> None:
     assert {module for module in users if not {module, room_of(module)} & LIBRARIES[library]} == set()
 
 
-def test_no_modules_of_the_compiler_import_each_other_in_a_circle() -> None:
+def test_no_modules_import_each_other_in_a_circle() -> None:
     graph: dict[str, set[str]] = defaultdict(set)
     for module, names in imports().items():
-        if not room_of(module).startswith(RUNTIME):
+        if module != RUNTIME:  # loads its names as they are asked for
             graph[module] = {one for name in names for one in _loaded(name) if not f"{module}.".startswith(f"{one}.")}
     try:
         TopologicalSorter(graph).prepare()

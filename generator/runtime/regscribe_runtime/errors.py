@@ -28,13 +28,11 @@ write was good. Otherwise NotWritten or WriteUnknown say so, and they are NoAnsw
 whichever it was: who handles these handles the lost write with them.
 """
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping, Sequence
+from datetime import datetime
+from typing import Any
 
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-    from datetime import datetime
-
-    from regscribe_runtime.report import WriteReport
+from regscribe_runtime.report import WriteReport
 
 
 class RegscribeError(Exception):
@@ -109,7 +107,7 @@ class Absent(RegscribeError):  # noqa: N818 (as above)
     """
 
     def __init__(
-        self, register: str, *, unit: int, address: int, answer: RegscribeError, when: "datetime", minutes: float
+        self, register: str, *, unit: int, address: int, answer: RegscribeError, when: datetime, minutes: float
     ) -> None:
         self.register, self.unit, self.address, self.answer, self.when = register, unit, address, answer, when
         asked = f"{register}: unit {unit} does not have it at address {address}: {answer}; asked at {when:%H:%M:%S} UTC"
@@ -121,7 +119,7 @@ class Absent(RegscribeError):  # noqa: N818 (as above)
 class Unsteady(RegscribeError):  # noqa: N818 (as above)
     """The registers `changed`, which values depend on, changed during each of `tries` reads: no value is certain."""
 
-    def __init__(self, *, unit: int, changed: "Sequence[str]", tries: int) -> None:
+    def __init__(self, *, unit: int, changed: Sequence[str], tries: int) -> None:
         self.unit, self.changed, self.tries = unit, tuple(changed), tries
         super().__init__(
             f"unit {unit}: {', '.join(self.changed)} changed while the values that depend on it were read, {tries} "
@@ -140,7 +138,7 @@ class ValueRefused(RegscribeError, ValueError):  # noqa: N818 (as above)
 class ConditionNotMet(ValueRefused):
     """The register cannot be written in the present state of the device: `present` is that state by path."""
 
-    def __init__(self, register: str, reason: str, present: "Mapping[str, str]") -> None:
+    def __init__(self, register: str, reason: str, present: Mapping[str, str]) -> None:
         self.present = dict(present)
         now = ", ".join(f"{path} is {value}" for path, value in self.present.items())
         super().__init__(register, f"{reason}; {now}")
@@ -150,7 +148,7 @@ class ConditionNotMet(ValueRefused):
 class ValuesRefused(ValueRefused):
     """Several values were refused before anything was sent: `refusals` has one error for each register."""
 
-    def __init__(self, refusals: "Sequence[ValueRefused]") -> None:
+    def __init__(self, refusals: Sequence[ValueRefused]) -> None:
         self.refusals = tuple(refusals)
         super().__init__(", ".join(one.register for one in self.refusals), "; ".join(map(str, self.refusals)))
         self.args = (f"{len(self.refusals)} values refused, nothing was written: {self.reason}",)
@@ -191,7 +189,7 @@ class NotApplied(WriteFailed):
 class NotConfigured(WriteFailed):
     """`configure` broke off; `report` says of each register what became of it."""
 
-    def __init__(self, reason: str, report: "WriteReport") -> None:
+    def __init__(self, reason: str, report: WriteReport) -> None:
         self.report = report
         super().__init__("configure", f"{reason}. {report.told}")
 

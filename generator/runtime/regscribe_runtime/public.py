@@ -4,6 +4,7 @@ Nothing here imports the compiler; pymodbus is loaded when a link is made.
 """
 
 from regscribe_runtime.driver.bus import AsyncBus, Bus
+from regscribe_runtime.driver.declarations import ReadOnly, ReadWrite, WriteOnly
 from regscribe_runtime.driver.device import (
     AsyncBareDevice,
     AsyncDevice,
@@ -42,21 +43,13 @@ from regscribe_runtime.errors import (
     WriteUnknown,
     WrongAnswer,
 )
-from regscribe_runtime.link.links import (
-    AsyncClient,
-    AsyncLink,
-    ClientSettings,
-    Link,
-    LinkSettings,
-    SyncClient,
-    async_tcp,
-    tcp,
-)
+from regscribe_runtime.link.connect import async_tcp, tcp
+from regscribe_runtime.link.links import AsyncClient, AsyncLink, ClientSettings, Link, LinkSettings, SyncClient
 from regscribe_runtime.link.retry import Retry
 from regscribe_runtime.link.trace import Trace, Tracer
 from regscribe_runtime.operations.snapshot import Snapshot
 from regscribe_runtime.registers.enums import Bit, Choice, Field, Flags, SpecialNumber, Word
-from regscribe_runtime.registers.register import ReadOnly, ReadWrite, Register, WriteOnly
+from regscribe_runtime.registers.register import Register
 from regscribe_runtime.registers.value_types import (
     boolean,
     choice,

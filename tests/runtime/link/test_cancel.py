@@ -9,7 +9,7 @@ import pytest
 from regscribe.simulate import SimulatedDevice
 from regscribe_devices.athena.series_c import AsyncAthena16C
 from regscribe_runtime import AsyncBus, Retry
-from regscribe_runtime.link import links
+from regscribe_runtime.link import connect
 from regscribe_runtime.link.streams import wait
 from regscribe_runtime.wire.requests import Request
 
@@ -57,7 +57,7 @@ def test_a_cancelled_read_keeps_the_line_until_its_answer_came(far: FarEnd) -> N
     far.plan = lambda request: [(0.15, value_of(request))]
 
     async def talk() -> tuple[int, ...]:
-        link = links.async_serial(far.path, baud=115200, timeout=2, echo=False, retry=Retry(0))
+        link = connect.async_serial(far.path, baud=115200, timeout=2, echo=False, retry=Retry(0))
         await link.open()
         await cancelled_after(link.call(1, Request(3, 28)), 0.05)
         found = (await link.call(2, Request(3, 29))).words
@@ -72,7 +72,7 @@ def test_a_task_that_waits_for_its_turn_may_be_cancelled(far: FarEnd) -> None:
     far.plan = lambda request: [(0.05, value_of(request))]
 
     async def talk() -> list[tuple[int, ...]]:
-        link = links.async_serial(far.path, baud=115200, timeout=2, echo=False)
+        link = connect.async_serial(far.path, baud=115200, timeout=2, echo=False)
         await link.open()
         first, second, third = (asyncio.ensure_future(link.call(1, Request(3, at))) for at in (28, 29, 30))
         await asyncio.sleep(0.01)
@@ -111,7 +111,7 @@ def test_closing_while_a_request_is_under_way_waits_for_its_end(far: FarEnd) -> 
     far.plan = lambda request: [(0.1, value_of(request))]
 
     async def talk() -> tuple[int, ...]:
-        link = links.async_serial(far.path, baud=115200, timeout=2, echo=False)
+        link = connect.async_serial(far.path, baud=115200, timeout=2, echo=False)
         await link.open()
         reading = asyncio.ensure_future(link.call(1, Request(3, 28)))
         await asyncio.sleep(0.01)
@@ -124,7 +124,7 @@ def test_closing_while_a_request_is_under_way_waits_for_its_end(far: FarEnd) -> 
 def test_a_thread_that_is_interrupted_leaves_the_line_in_order(far: FarEnd, monkeypatch: pytest.MonkeyPatch) -> None:
     far.plan = lambda request: [(0.1, value_of(request))]
     sent: list[Any] = []
-    link = links.serial(far.path, baud=115200, timeout=2, echo=False, retry=Retry(0), trace=sent.append)
+    link = connect.serial(far.path, baud=115200, timeout=2, echo=False, retry=Retry(0), trace=sent.append)
     link.open()
 
     def interrupted(wire: Any, seconds: float) -> bool:
@@ -150,7 +150,7 @@ def test_a_tracer_that_fails_does_not_break_the_link(far: FarEnd) -> None:
             message = "the disk is full"
             raise ValueError(message)
 
-    link = links.serial(far.path, baud=115200, timeout=2, echo=False, trace=trace)
+    link = connect.serial(far.path, baud=115200, timeout=2, echo=False, trace=trace)
     link.open()
     with pytest.raises(ValueError, match="disk is full"):
         link.call(1, Request(3, 28))

@@ -18,7 +18,7 @@ from regscribe_devices.athena.platinum_m5000 import AsyncAthenaM5000, AthenaM500
 from regscribe_devices.athena.series_c import AsyncAthena16C, Athena16C, OutputAction
 from regscribe_devices.fdc.series_100 import FdcBTC9100
 from regscribe_runtime import AsyncBus, Bus, ExceptionAnswer, LinkLost, NoAnswer, NotWritten, Retry, WrongAnswer
-from regscribe_runtime.link import links
+from regscribe_runtime.link import connect
 from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.wire.requests import Request, verify
 
@@ -45,7 +45,7 @@ class Owner:
         return self.runner.run(value) if self.runner and inspect.isawaitable(value) else value
 
     def link(self, **settings: Any) -> Any:
-        return (links.async_over if self.runner else links.over)(self.client, **settings)
+        return (connect.async_over if self.runner else connect.over)(self.client, **settings)
 
     def driver(self, cls: str = "Athena16C", **settings: Any) -> Any:
         kinds = {"Athena16C": (Athena16C, AsyncAthena16C), "AthenaM5000": (AthenaM5000, AsyncAthenaM5000)}
@@ -353,7 +353,7 @@ def test_a_late_answer_on_a_serial_line_is_not_taken_for_the_next(far: FarEnd, o
 def test_a_cancelled_task_is_cancelled_and_leaves_the_client_in_order() -> None:
     async def talk(port: int) -> tuple[int, ...]:
         async with clients.AsyncModbusTcpClient("127.0.0.1", port=port, timeout=30) as client:
-            link = links.async_over(client)
+            link = connect.async_over(client)
             with pytest.raises(TimeoutError):
                 async with asyncio.timeout(0.2):
                     await link.call(1, READ)

@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from regscribe_runtime import NoAnswer, Retry, WrongAnswer
-from regscribe_runtime.link import links
+from regscribe_runtime.link import connect
 from regscribe_runtime.link.links import Link
 from regscribe_runtime.wire.requests import Request
 
@@ -16,7 +16,7 @@ READ, WRITE, LOOPBACK = Request(3, 28), Request(6, 28, 1, (7,)), Request(8, 0, 1
 
 
 def opened(far: FarEnd, **more: Any) -> Link:
-    link = links.serial(far.path, baud=115200, **{"timeout": 2.0, "retry": Retry(0), **more})
+    link = connect.serial(far.path, baud=115200, **{"timeout": 2.0, "retry": Retry(0), **more})
     link.open()
     return link
 

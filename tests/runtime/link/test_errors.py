@@ -13,7 +13,7 @@ import pytest
 import serial  # type: ignore[import-untyped] # pyserial ships no types
 
 from regscribe_runtime import LinkLost, Retry, WrongAnswer
-from regscribe_runtime.link import links
+from regscribe_runtime.link import connect
 from regscribe_runtime.wire.requests import Request
 
 HOLD = "import serial, sys; p = serial.Serial(sys.argv[1], exclusive=True); print('open', flush=True); sys.stdin.read()"
@@ -22,9 +22,9 @@ HOLD = "import serial, sys; p = serial.Serial(sys.argv[1], exclusive=True); prin
 def opened(kind: str, *arguments: Any, **settings: Any) -> None:
     """Open and close a link."""
     if kind in {"tcp", "serial"}:
-        getattr(links, kind)(*arguments, **settings).open()
+        getattr(connect, kind)(*arguments, **settings).open()
     else:
-        asyncio.run(getattr(links, kind)(*arguments, **settings).open())
+        asyncio.run(getattr(connect, kind)(*arguments, **settings).open())
 
 
 @pytest.mark.parametrize("kind", ["serial", "async_serial"])
@@ -88,7 +88,7 @@ def test_a_server_of_something_else_is_told_from_a_modbus_server() -> None:
 
         server = await asyncio.start_server(attend, "127.0.0.1", 0)
         async with server:
-            link = links.async_tcp("127.0.0.1", port=server.sockets[0].getsockname()[1], retry=Retry(0))
+            link = connect.async_tcp("127.0.0.1", port=server.sockets[0].getsockname()[1], retry=Retry(0))
             await link.open()
             with pytest.raises(WrongAnswer, match=r"is no header of Modbus TCP. Check the port and the framing"):
                 await link.call(1, Request(3, 0))

@@ -10,7 +10,7 @@ import pytest
 
 from regscribe.simulate import simulate
 from regscribe_runtime import NoAnswer, Retry, WrongAnswer, tcp
-from regscribe_runtime.link import links
+from regscribe_runtime.link import connect
 from regscribe_runtime.link.links import Link
 from regscribe_runtime.link.stale_replies import LATE_SECONDS, StaleReplies
 from regscribe_runtime.values.protocol import Protocol
@@ -56,7 +56,7 @@ def test_an_answer_is_not_waited_for_for_ever() -> None:
 
 
 def serial(far: FarEnd, **more: Any) -> Link:
-    link = links.serial(far.path, baud=115200, **{"timeout": 2.0, "retry": Retry(0), "echo": False, **more})
+    link = connect.serial(far.path, baud=115200, **{"timeout": 2.0, "retry": Retry(0), "echo": False, **more})
     link.open()
     return link
 
@@ -182,7 +182,7 @@ def test_an_answer_with_another_transaction_id_is_not_taken(athena: Any, kind: s
 
 
 async def _both(running: Any, expected: list[tuple[int, ...]]) -> None:
-    link = links.async_tcp(running.host, port=running.port, timeout=2.0)
+    link = connect.async_tcp(running.host, port=running.port, timeout=2.0)
     await link.open()
     assert [(await link.call(1, READ)).words, (await link.call(1, OTHER)).words] == expected
     await link.close()
@@ -228,7 +228,7 @@ def _two_reads(kind: str, host: str, **where: Any) -> tuple[int, ...]:
     """The words of the second read, after a first one that got no answer in time."""
 
     async def talk() -> tuple[int, ...]:
-        link = links.async_tcp(host, **where)
+        link = connect.async_tcp(host, **where)
         await link.open()
         with pytest.raises(NoAnswer):
             await link.call(1, READ)

@@ -16,7 +16,7 @@ import pytest
 from regscribe.simulate import SimulatedDevice, simulate
 from regscribe_devices.athena.series_c import AsyncAthena16C, Athena16C
 from regscribe_runtime import LinkLost, NoAnswer, RegscribeError, Retry
-from regscribe_runtime.link import links
+from regscribe_runtime.link import connect
 from regscribe_runtime.wire.requests import Request
 
 from .conftest import FarEnd, serving
@@ -61,7 +61,7 @@ def test_a_connection_that_the_server_closed_for_idleness_is_noticed_before_a_wr
 ) -> None:
     with serving(units) as server:
         port = server.port
-        link = links.tcp("127.0.0.1", port=port)
+        link = connect.tcp("127.0.0.1", port=port)
         link.open()
         link.call(1, Request(3, 28))
     with serving(units, port=port):
@@ -134,7 +134,7 @@ def running(end: FarEnd) -> Iterator[FarEnd]:
 @pytest.mark.parametrize("kind", ["sync", "async"])
 def test_an_adapter_that_is_pulled_out_and_put_in_again(tmp_path: Path, kind: str) -> None:
     adapter = Adapter(tmp_path / "ttyUSB0")
-    make = links.serial if kind == "sync" else links.async_serial
+    make = connect.serial if kind == "sync" else connect.async_serial
     link: Any = make(str(adapter.path), baud=9600, timeout=2, echo=False)
     runner = asyncio.Runner()
 
@@ -161,7 +161,7 @@ def test_an_adapter_that_is_pulled_out_and_put_in_again(tmp_path: Path, kind: st
 def test_an_adapter_that_is_pulled_out_in_the_middle_is_one_clear_error(tmp_path: Path) -> None:
     adapter = Adapter(tmp_path / "ttyUSB0")
     end = adapter.put_in()
-    link = links.serial(str(adapter.path), baud=9600, timeout=5, echo=False)
+    link = connect.serial(str(adapter.path), baud=9600, timeout=5, echo=False)
     link.open()
     os.close(adapter.ends[1])
 
@@ -239,7 +239,7 @@ def test_a_host_that_does_not_answer_fails_in_seconds(monkeypatch: pytest.Monkey
             one.settimeout(0)
             one.connect_ex(full.getsockname())
         with pytest.raises(LinkLost, match=r"did not answer within 0.1 s. Check power"):
-            links.tcp("127.0.0.1", port=full.getsockname()[1]).open()
+            connect.tcp("127.0.0.1", port=full.getsockname()[1]).open()
         for one in waiting:
             one.close()
 
@@ -317,7 +317,7 @@ def test_a_write_to_a_connection_that_the_server_just_closed_is_sent_over_a_new_
     heard: list[bytes] = []
 
     async def talk(port: int) -> tuple[int, ...]:
-        link = links.async_tcp("127.0.0.1", port=port)
+        link = connect.async_tcp("127.0.0.1", port=port)
         await link.open()
         await link.call(1, Request(3, 28))
         await asyncio.sleep(0.002)  # less than an answer is trusted for
@@ -329,7 +329,7 @@ def test_a_write_to_a_connection_that_the_server_just_closed_is_sent_over_a_new_
         if kind == "async":
             assert asyncio.run(talk(port)) == (7,)
         else:
-            link = links.tcp("127.0.0.1", port=port)
+            link = connect.tcp("127.0.0.1", port=port)
             link.open()
             link.call(1, Request(3, 28))
             time.sleep(0.002)  # as above

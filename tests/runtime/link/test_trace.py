@@ -8,7 +8,7 @@ import pytest
 from regscribe.simulate import SimulatedDevice
 from regscribe_devices.athena.series_c import Athena16C
 from regscribe_runtime import Bus, Retry, Trace, WrongAnswer
-from regscribe_runtime.link import links
+from regscribe_runtime.link import connect
 from regscribe_runtime.wire.requests import Request
 
 from .conftest import FarEnd, frame, serving, words
@@ -28,7 +28,7 @@ def test_requests_and_answers_come_in_their_order_with_unit_and_time(units: list
 def test_what_is_rejected_is_shown(far: FarEnd) -> None:
     seen: list[Trace] = []
     far.plan = lambda _: [(0.0, words(7, 99)), (0.02, b"\x01\x03")]
-    link = links.serial(far.path, baud=115200, timeout=0.25, echo=False, retry=Retry(0), trace=seen.append)
+    link = connect.serial(far.path, baud=115200, timeout=0.25, echo=False, retry=Retry(0), trace=seen.append)
     link.open()
     with pytest.raises(WrongAnswer):
         link.call(1, Request(3, 28))

@@ -10,7 +10,7 @@ from regscribe.simulate import simulate
 from regscribe_devices.athena.platinum_m5000 import AsyncAthenaM5000, AthenaM5000
 from regscribe_devices.athena.series_c import AsyncAthena16C, Athena16C
 from regscribe_runtime import NoAnswer, Trace, WrongAnswer
-from regscribe_runtime.link import links
+from regscribe_runtime.link import connect
 from regscribe_runtime.wire.requests import Request
 
 from .conftest import FarEnd, frame
@@ -77,7 +77,7 @@ def test_jbus_addresses_are_one_higher_on_the_line_and_the_same_to_the_driver(
 def test_ascii_frames_go_over_a_serial_line(far: FarEnd) -> None:
     answer = b":010302002AD0\r\n"  # LRC: 01h + 03h + 02h + 00h + 2Ah = 30h, 100h - 30h = D0h
     far.echo = lambda data: answer if data.endswith(b"\r\n") else b""
-    link = links.serial(far.path, baud=19200, framing="ascii", timeout=2, echo=False)
+    link = connect.serial(far.path, baud=19200, framing="ascii", timeout=2, echo=False)
     link.open()
     assert link.call(1, Request(3, 0)).words == (42,)
     link.close()
@@ -86,7 +86,7 @@ def test_ascii_frames_go_over_a_serial_line(far: FarEnd) -> None:
 @pytest.mark.parametrize("bad", [b":010302002AD1\r\n", b":010302002A\r\n", b"rubbish\r\n", b":zz0302002AD0\r\n"])
 def test_an_ascii_frame_with_a_wrong_check_is_no_answer(far: FarEnd, bad: bytes) -> None:
     far.echo = lambda data: bad if data.endswith(b"\r\n") else b""
-    link = links.serial(far.path, baud=19200, framing="ascii", timeout=0.1, echo=False)
+    link = connect.serial(far.path, baud=19200, framing="ascii", timeout=0.1, echo=False)
     link.open()
     with pytest.raises((WrongAnswer, NoAnswer)):
         link.call(1, Request(3, 0))
@@ -96,7 +96,7 @@ def test_an_ascii_frame_with_a_wrong_check_is_no_answer(far: FarEnd, bad: bytes)
 def test_a_silence_separates_an_answer_from_the_next_request(far: FarEnd) -> None:
     sent: list[float] = []
     far.plan = lambda _: [(0.0, frame(1, b"\x03\x02\x00\x05"))]
-    link = links.serial(far.path, baud=1200, timeout=2, echo=False, gap=4, trace=lambda one: sent.append(one.seconds))
+    link = connect.serial(far.path, baud=1200, timeout=2, echo=False, gap=4, trace=lambda one: sent.append(one.seconds))
     link.open()
     for _ in range(4):
         link.call(1, Request(3, 0))
@@ -116,7 +116,7 @@ def test_a_strict_device_hears_every_request_because_of_the_silence(athena: Regi
 @pytest.mark.parametrize("wrong", [{"framing": "tcp"}, {"framing": "xyz"}, {"addressing": "plc"}, {"timeout": 0}])
 def test_a_setting_that_does_not_exist_is_refused(wrong: dict[str, Any]) -> None:
     with pytest.raises(ValueError, match=r"framing|addressing|timeout"):
-        links.serial("/dev/null", baud=9600, **wrong)
+        connect.serial("/dev/null", baud=9600, **wrong)
 
 
 @pytest.mark.parametrize("kind", ["sync", "async"])

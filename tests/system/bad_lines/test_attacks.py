@@ -14,7 +14,7 @@ import pytest
 
 from regscribe.simulate import Patience, Service, SimulatedDevice, Transport, simulate, start
 from regscribe_runtime import Retry
-from regscribe_runtime.link import links
+from regscribe_runtime.link import connect
 from regscribe_runtime.wire.framing import build
 from regscribe_runtime.wire.requests import Request
 
@@ -67,7 +67,9 @@ def framed(transport: str, pdu: bytes) -> bytes:
 @contextmanager
 def honest(server: Any, transport: str) -> Iterator[Any]:
     """A link of our own, without any retry."""
-    made = links.tcp(server.host, port=server.port, framing=LINE_FRAMINGS[transport], timeout=PATIENCE, retry=Retry(0))
+    made = connect.tcp(
+        server.host, port=server.port, framing=LINE_FRAMINGS[transport], timeout=PATIENCE, retry=Retry(0)
+    )
     made.open()
     try:
         yield made

@@ -14,7 +14,7 @@ import pytest
 
 from regscribe.simulate.line.line_faults import USUAL, LineFault
 from regscribe_runtime import LinkLost, NoAnswer, NotWritten, RegscribeError, Retry, WrongAnswer
-from regscribe_runtime.link import links
+from regscribe_runtime.link import connect
 from regscribe_runtime.link.exchange import Conversation
 from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.wire.client_framing import framing_for
@@ -316,7 +316,7 @@ def asked_twice(kind: str, path: str) -> tuple[int, ...]:
     how: dict[str, Any] = {"baud": 115200, "timeout": 0.2, "echo": False}
 
     async def talk() -> tuple[int, ...]:
-        made = links.async_serial(path, **how)
+        made = connect.async_serial(path, **how)
         await made.open()
         with pytest.raises(LinkLost):
             await made.call(UNIT, Request(3, 28))
@@ -326,7 +326,7 @@ def asked_twice(kind: str, path: str) -> tuple[int, ...]:
 
     if kind == "async":
         return asyncio.run(talk())
-    made = links.serial(path, **how)
+    made = connect.serial(path, **how)
     made.open()
     with pytest.raises(LinkLost):
         made.call(UNIT, Request(3, 28))

@@ -18,7 +18,7 @@ from regscribe.simulate import Exchange, Frame, Service, SimulatedDevice, Transp
 from regscribe.simulate.line.connection import Chunk, Patience
 from regscribe.simulate.line.line_faults import USUAL, LineFault, LineFaults
 from regscribe_runtime import AsyncBus, Bus, Retry
-from regscribe_runtime.link import links
+from regscribe_runtime.link import connect
 from regscribe_runtime.link.trace import SENT, Trace
 from regscribe_runtime.wire.pdu import EXCEPTION_BIT
 
@@ -192,7 +192,7 @@ class SyncSide:
         self.perform(Op("open"))
 
     def _links(self) -> Any:
-        return links.serial, links.tcp
+        return connect.serial, connect.tcp
 
     def _bus(self, line: Any) -> Any:
         return Bus(line)
@@ -225,7 +225,7 @@ class AsyncSide(SyncSide):
         super().__init__(far, transport)
 
     def _links(self) -> Any:
-        return links.async_serial, links.async_tcp
+        return connect.async_serial, connect.async_tcp
 
     def _bus(self, line: Any) -> Any:
         return AsyncBus(line)

@@ -22,7 +22,7 @@ from regscribe.pipeline import compile_map
 from regscribe.simulate import SerialLine, simulate
 from regscribe.tools.live import catalogue
 from regscribe_runtime import RegscribeError
-from regscribe_runtime.link.links import serial
+from regscribe_runtime.link.connect import serial
 from regscribe_runtime.planning.address_ranges import RegisterSpan
 from regscribe_runtime.planning.cost import Cost
 from regscribe_runtime.wire.requests import Request

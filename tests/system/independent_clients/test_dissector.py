@@ -15,7 +15,7 @@ from independent.stage import service, staged
 
 from regscribe.model import Space, WireType
 from regscribe.simulate import SimulatedDevice
-from regscribe_runtime.link.links import tcp
+from regscribe_runtime.link.connect import tcp
 from regscribe_runtime.wire.requests import Reply, Request
 
 pytestmark = pytest.mark.wire

@@ -20,7 +20,8 @@ from independent.stage import Stage, service, staged
 from regscribe.model import FrameExample, RegisterMap, Space
 from regscribe.simulate import SimulatedDevice
 from regscribe_runtime.errors import NoAnswer
-from regscribe_runtime.link.links import Link, tcp
+from regscribe_runtime.link.connect import tcp
+from regscribe_runtime.link.links import Link
 from regscribe_runtime.wire.requests import LOOPBACK, READ_STATUS, Request
 
 SOON = 0.2

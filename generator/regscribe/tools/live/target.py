@@ -13,7 +13,7 @@ from regscribe.tools.live.errors import TargetError, unknown
 from regscribe.tools.live.link_names import LinkName
 from regscribe_runtime import BareDevice, Link, LinkLost, NoAnswer, identify, tcp
 from regscribe_runtime.driver.identify import Identification, Known, identity_of
-from regscribe_runtime.link.links import serial
+from regscribe_runtime.link.connect import serial
 from regscribe_runtime.link.trace import Tracer
 
 LAST_UNIT = 255

@@ -1,13 +1,11 @@
 """Registers as attributes of a driver: the verbs read, write and change, synchronous and awaitable."""
 
 from collections.abc import Awaitable, Callable
-from typing import TYPE_CHECKING, Generic, TypedDict, TypeVar, Unpack
+from typing import Generic, TypedDict, TypeVar, Unpack
 
+from regscribe_runtime.driver.parts import AsyncPart, Part
 from regscribe_runtime.operations import tasks
-
-if TYPE_CHECKING:
-    from regscribe_runtime.driver.parts import AsyncPart, Part
-    from regscribe_runtime.registers.register import Register
+from regscribe_runtime.registers.register import Register
 
 T = TypeVar("T")
 
@@ -29,7 +27,7 @@ class WriteOptions(TypedDict, total=False):
 class _Bound(Generic[T]):
     __slots__ = ("_part", "register")
 
-    def __init__(self, register: "Register[T]", part: "Part") -> None:
+    def __init__(self, register: Register[T], part: Part) -> None:
         self.register = register
         self._part = part
 
@@ -98,7 +96,7 @@ class ReadWritable(Readable[T], WritableAttribute[T]):
 class _AsyncBound(Generic[T]):
     __slots__ = ("_part", "register")
 
-    def __init__(self, register: "Register[T]", part: "AsyncPart") -> None:
+    def __init__(self, register: Register[T], part: AsyncPart) -> None:
         self.register = register
         self._part = part
 

@@ -1,19 +1,17 @@
 """What may be sent to all units of a line at once, and as which request."""
 
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from regscribe_runtime.driver.device import AsyncBareDevice, BareDevice
 from regscribe_runtime.errors import ValueRefused
 from regscribe_runtime.link.timing import broadcast_seconds
 from regscribe_runtime.operations.write_request import condition_needs, confirmed, permitted
+from regscribe_runtime.registers.register import Register
+from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.serial_line import SerialLine
+from regscribe_runtime.values.views import View
 from regscribe_runtime.wire.requests import Request
-
-if TYPE_CHECKING:
-    from regscribe_runtime.driver.device import AsyncBareDevice, BareDevice
-    from regscribe_runtime.registers.register import Register
-    from regscribe_runtime.values.protocol import Protocol
-    from regscribe_runtime.values.views import View
 
 SINGLE, SEVERAL = {"coil": 5}, {"coil": 15}
 WRITE_ONE, WRITE_MANY = 6, 16
@@ -24,7 +22,7 @@ State = Mapping[str, Any]
 
 
 def request_for(
-    register: "Register[Any]",
+    register: Register[Any],
     value: object,
     drivers: Mapping[str, Driver],
     *,
@@ -53,7 +51,7 @@ def request_for(
     return Request(function, address, len(words), words)
 
 
-def _known_to_all(register: "Register[Any]", drivers: Mapping[str, Driver]) -> None:
+def _known_to_all(register: Register[Any], drivers: Mapping[str, Driver]) -> None:
     if not drivers:
         raise ValueRefused(register.path, NOBODY)
     for name, driver in drivers.items():
@@ -63,7 +61,7 @@ def _known_to_all(register: "Register[Any]", drivers: Mapping[str, Driver]) -> N
             raise ValueRefused(register.path, reason)
 
 
-def _no_dialogue(register: "Register[Any]") -> None:
+def _no_dialogue(register: Register[Any]) -> None:
     """Refuse what takes more than one write that nobody answers."""
     command = register.unlock or register.apply
     if command:
@@ -72,7 +70,7 @@ def _no_dialogue(register: "Register[Any]") -> None:
         raise ValueRefused(register.path, "it changes how units talk, or their ids: write unit by unit")
 
 
-def _function(register: "Register[Any]", view: "View", words: int, protocols: "Iterable[Protocol]") -> int:
+def _function(register: Register[Any], view: View, words: int, protocols: Iterable[Protocol]) -> int:
     single, several = SINGLE.get(view.space, WRITE_ONE), SEVERAL.get(view.space, WRITE_MANY)
     able = [several, single] if words > 1 else [single, several]
     for function in able[: 1 if words > 1 else 2]:

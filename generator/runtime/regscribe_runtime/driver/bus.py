@@ -13,7 +13,7 @@ from regscribe_runtime.driver import broadcast
 from regscribe_runtime.driver.device import AsyncBareDevice, BareDevice
 from regscribe_runtime.driver.member import AsyncMember, Member
 from regscribe_runtime.errors import ValueRefused
-from regscribe_runtime.link import links
+from regscribe_runtime.link import connect
 from regscribe_runtime.link.links import (
     MODBUS_TCP_PORT,
     AsyncClient,
@@ -72,7 +72,7 @@ class _Common(Generic[D]):
             raise ValueError(message)
         self._devices.append(device)
 
-    def _drivers(self, driver: "broadcast.Driver | None") -> "dict[str, broadcast.Driver]":
+    def _drivers(self, driver: broadcast.Driver | None) -> dict[str, broadcast.Driver]:
         known: dict[str, Any] = {f"unit {one.session.unit}": type(one) for one in self._devices}
         return known | ({driver.__name__: driver} if driver is not None else {})
 
@@ -109,19 +109,19 @@ class Bus(_Common[BareDevice]):
     @classmethod
     def tcp(cls, host: str, *, port: int = MODBUS_TCP_PORT, **settings: Unpack[LinkSettings]) -> Self:
         """A bus behind a gateway; see `LinkSettings`."""
-        return cls(links.tcp(host, port=port, **settings))
+        return cls(connect.tcp(host, port=port, **settings))
 
     @classmethod
     def rtu(cls, port: str, *, baud: int, **settings: Unpack[LineSettings]) -> Self:
         """A bus on a serial port, 8N1 unless said otherwise; see `LineSettings`."""
         gap = settings.setdefault("gap", USUAL_GAP)
-        return cls(links.serial(port, baud=baud, **settings), gap=gap)
+        return cls(connect.serial(port, baud=baud, **settings), gap=gap)
 
     @classmethod
     def over(cls, client: SyncClient, **settings: Unpack[ClientSettings]) -> Self:
         """A bus over a connected pymodbus client, which stays the caller's; see `ClientSettings`."""
         gap = settings.setdefault("gap", USUAL_GAP)
-        return cls(links.over(client, **settings), gap=gap)
+        return cls(connect.over(client, **settings), gap=gap)
 
     def device(self, driver: type[S], *, unit: int, **givens: Any) -> S:
         """A driver of a unit of this bus; ValueError if the unit has one already.
@@ -188,19 +188,19 @@ class AsyncBus(_Common[AsyncBareDevice]):
     @classmethod
     def tcp(cls, host: str, *, port: int = MODBUS_TCP_PORT, **settings: Unpack[LinkSettings]) -> Self:
         """As `Bus.tcp`."""
-        return cls(links.async_tcp(host, port=port, **settings))
+        return cls(connect.async_tcp(host, port=port, **settings))
 
     @classmethod
     def rtu(cls, port: str, *, baud: int, **settings: Unpack[LineSettings]) -> Self:
         """As `Bus.rtu`."""
         gap = settings.setdefault("gap", USUAL_GAP)
-        return cls(links.async_serial(port, baud=baud, **settings), gap=gap)
+        return cls(connect.async_serial(port, baud=baud, **settings), gap=gap)
 
     @classmethod
     def over(cls, client: AsyncClient, **settings: Unpack[ClientSettings]) -> Self:
         """As `Bus.over`, with an asyncio client."""
         gap = settings.setdefault("gap", USUAL_GAP)
-        return cls(links.async_over(client, **settings), gap=gap)
+        return cls(connect.async_over(client, **settings), gap=gap)
 
     def device(self, driver: type[A], *, unit: int, **givens: Any) -> A:
         """As `Bus.device`."""

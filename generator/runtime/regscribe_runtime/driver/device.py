@@ -6,7 +6,7 @@ from typing import Any, ClassVar, Self, TypeVar, Unpack
 from regscribe_runtime.driver.attributes import _AsyncBound, _Bound
 from regscribe_runtime.driver.executor import run, run_async
 from regscribe_runtime.driver.parts import AsyncPart, Catalogue, Command, Group, Part, SubPart, groups_of
-from regscribe_runtime.link import links
+from regscribe_runtime.link import connect
 from regscribe_runtime.link.links import (
     AsyncClient,
     AsyncLink,
@@ -156,7 +156,7 @@ class Device(BareDevice):
     @classmethod
     def tcp(cls, host: str, *, unit: int, **settings: Unpack[TcpSettings]) -> Self:
         """A driver over TCP; see `TcpSettings`."""
-        return cls(links.tcp(host, **settings), unit=unit)
+        return cls(connect.tcp(host, **settings), unit=unit)
 
     @classmethod
     def rtu(cls, port: str, *, unit: int, **line: Unpack[SerialSettings]) -> Self:
@@ -226,7 +226,7 @@ class AsyncDevice(AsyncBareDevice):
     @classmethod
     def tcp(cls, host: str, *, unit: int, **settings: Unpack[TcpSettings]) -> Self:
         """As `Device.tcp`."""
-        return cls(links.async_tcp(host, **settings), unit=unit)
+        return cls(connect.async_tcp(host, **settings), unit=unit)
 
     @classmethod
     def rtu(cls, port: str, *, unit: int, **line: Unpack[SerialSettings]) -> Self:
@@ -246,22 +246,22 @@ def _usual(protocol: Protocol, line: SerialSettings) -> dict[str, Any]:
 def serial_link(protocol: Protocol, port: str, **line: Unpack[SerialSettings]) -> Link:
     """A serial link with the settings that the manual gives as default, unless `line` says otherwise."""
     settings: dict[str, Any] = {**_usual(protocol, line), "port": port}
-    return links.serial(**settings)
+    return connect.serial(**settings)
 
 
 def async_serial_link(protocol: Protocol, port: str, **line: Unpack[SerialSettings]) -> AsyncLink:
     """As `serial_link`, for asyncio."""
     settings: dict[str, Any] = {**_usual(protocol, line), "port": port}
-    return links.async_serial(**settings)
+    return connect.async_serial(**settings)
 
 
 def client_link(protocol: Protocol, client: SyncClient, **settings: Unpack[ClientSettings]) -> Link:
     """A link over a client of one's own, with the silence between frames that the manual asks for."""
     settings.setdefault("gap", float(protocol.serial.gap))
-    return links.over(client, **settings)
+    return connect.over(client, **settings)
 
 
 def async_client_link(protocol: Protocol, client: AsyncClient, **settings: Unpack[ClientSettings]) -> AsyncLink:
     """As `client_link`, for asyncio."""
     settings.setdefault("gap", float(protocol.serial.gap))
-    return links.async_over(client, **settings)
+    return connect.async_over(client, **settings)

@@ -2,19 +2,50 @@
 
 from collections.abc import Awaitable, Callable, Iterator, Mapping
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar, overload
+from typing import Any, Generic, Protocol, Self, TypeVar, overload
 
 from regscribe_runtime.operations import tasks
 from regscribe_runtime.operations.snapshot import Snapshot
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.facts import CommandStep
 
-if TYPE_CHECKING:
-    from regscribe_runtime.driver.device import AsyncBareDevice, BareDevice
-
 T = TypeVar("T")
 P = TypeVar("P", bound="Part")
 A = TypeVar("A", bound="AsyncPart")
+
+
+class Runner(Protocol):
+    """What a part asks of the synchronous device that it belongs to."""
+
+    @property
+    def registers(self) -> Mapping[str, Register[Any]]:
+        """All registers of the device by path."""
+        raise NotImplementedError
+
+    def run(self, task: tasks.Task[T]) -> T:
+        """Run an operation on the device."""
+        raise NotImplementedError
+
+    def read_part(self, part: "Part") -> Snapshot:
+        """Read all registers of a part."""
+        raise NotImplementedError
+
+
+class AsyncRunner(Protocol):
+    """As `Runner`, for asyncio."""
+
+    @property
+    def registers(self) -> Mapping[str, Register[Any]]:
+        """All registers of the device by path."""
+        raise NotImplementedError
+
+    async def run(self, task: tasks.Task[T]) -> T:
+        """Run an operation on the device."""
+        raise NotImplementedError
+
+    async def read_part(self, part: "AsyncPart") -> Snapshot:
+        """Read all registers of a part."""
+        raise NotImplementedError
 
 
 class Catalogue:
@@ -104,17 +135,17 @@ def _placed(part: "Part | AsyncPart") -> dict[str, Register[Any]]:
 
 
 def _everything(part: "Part | AsyncPart") -> Mapping[str, Register[Any]]:
-    return type(part._device).registers  # noqa: SLF001 (as above)
+    return part._device.registers  # noqa: SLF001 (as above)
 
 
 class Part:
     """A place of registers in a synchronous driver: the device, an array element, its commands."""
 
     registers = Catalogue()
-    _device: "BareDevice"
+    _device: Runner
     _prefix = ""
 
-    def __init__(self, device: "BareDevice", prefix: str = "") -> None:
+    def __init__(self, device: Runner, prefix: str = "") -> None:
         self._device, self._prefix = device, prefix
 
     def bind(self, register: Register[T], sync: Any, _: object) -> Any:
@@ -138,10 +169,10 @@ class AsyncPart:
     """As `Part`, for asyncio."""
 
     registers = Catalogue()
-    _device: "AsyncBareDevice"
+    _device: AsyncRunner
     _prefix = ""
 
-    def __init__(self, device: "AsyncBareDevice", prefix: str = "") -> None:
+    def __init__(self, device: AsyncRunner, prefix: str = "") -> None:
         self._device, self._prefix = device, prefix
 
     def bind(self, register: Register[T], _: object, awaitable: Any) -> Any:
@@ -202,7 +233,7 @@ class Array(Generic[P, A]):
     def __get__(self, instance: Part, owner: type) -> Elements[P]: ...
     @overload
     def __get__(self, instance: AsyncPart, owner: type) -> Elements[A]: ...
-    def __get__(self, instance: Part | AsyncPart | None, owner: type) -> "Self | Elements[P] | Elements[A]":
+    def __get__(self, instance: Part | AsyncPart | None, owner: type) -> Self | Elements[P] | Elements[A]:
         if instance is None:
             return self
         make: Any = self.element if isinstance(instance, Part) else self.awaitable
@@ -251,7 +282,7 @@ class Command:
     def __get__(self, instance: Part, owner: type) -> _BoundCommand: ...
     @overload
     def __get__(self, instance: AsyncPart, owner: type) -> _AsyncBoundCommand: ...
-    def __get__(self, instance: Part | AsyncPart | None, owner: type) -> "Self | _BoundCommand | _AsyncBoundCommand":
+    def __get__(self, instance: Part | AsyncPart | None, owner: type) -> Self | _BoundCommand | _AsyncBoundCommand:
         if instance is None:
             return self
         return _BoundCommand(self, instance) if isinstance(instance, Part) else _AsyncBoundCommand(self, instance)
@@ -269,7 +300,7 @@ class SubPart(Generic[P, A]):
     def __get__(self, instance: Part, owner: type) -> P: ...
     @overload
     def __get__(self, instance: AsyncPart, owner: type) -> A: ...
-    def __get__(self, instance: Part | AsyncPart | None, owner: type) -> "Self | P | A":
+    def __get__(self, instance: Part | AsyncPart | None, owner: type) -> Self | P | A:
         if instance is None:
             return self
         if isinstance(instance, Part):

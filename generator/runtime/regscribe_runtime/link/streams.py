@@ -239,6 +239,6 @@ async def wait_async(wire: Stream, seconds: float) -> bool:
         loop.remove_reader(wire.descriptor)
 
 
-def _settle(future: "asyncio.Future[bool]", result: bool) -> None:  # noqa: FBT001 (as above)
+def _settle(future: asyncio.Future[bool], result: bool) -> None:  # noqa: FBT001 (as above)
     if not future.done():
         future.set_result(result)

@@ -9,16 +9,14 @@ without being asked for: one absent register among n takes between log2(n) and 2
 """
 
 from collections.abc import Generator, Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from regscribe_runtime.errors import ExceptionAnswer, NoAnswer, RegscribeError
+from regscribe_runtime.operations.session import Session
 from regscribe_runtime.planning.address_ranges import RegisterSpan
 from regscribe_runtime.planning.plan import Block
 from regscribe_runtime.planning.read_places import read_places
 from regscribe_runtime.wire.requests import Request
-
-if TYPE_CHECKING:
-    from regscribe_runtime.operations.session import Session
 
 MOST_SILENT = 3
 """Requests in a row without an answer after which the unit is not asked any more."""
@@ -40,7 +38,7 @@ def is_absence(error: RegscribeError, absent: int) -> bool:
 class Bisection:
     """Reads of a refused block whatever can be read, and remembers in the session what cannot."""
 
-    def __init__(self, session: "Session", block: Block, error: RegscribeError, *, heard: bool) -> None:
+    def __init__(self, session: Session, block: Block, error: RegscribeError, *, heard: bool) -> None:
         self.session, self.block, self.error = session, block, error
         self.words: list[int | None] = [None] * block.quantity
         self.refused: dict[RegisterSpan, RegscribeError] = {}

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, TypedDict
+from collections.abc import Mapping, Sequence
+from typing import Any, TypedDict
 
 from regscribe_runtime.errors import (
     ExceptionAnswer,
@@ -14,19 +15,12 @@ from regscribe_runtime.errors import (
     ValueRefused,
 )
 from regscribe_runtime.operations.line_change import follow
-from regscribe_runtime.operations.session import Pause
+from regscribe_runtime.operations.session import Operation, Pause, Session, Task
 from regscribe_runtime.operations.transaction import Transaction
 from regscribe_runtime.operations.write_order import batches
-from regscribe_runtime.operations.write_plan import intend, look, wanted, words_of_wanted
+from regscribe_runtime.operations.write_plan import Assignment, Present, intend, look, wanted, words_of_wanted
 from regscribe_runtime.operations.write_request import EEPROM
-from regscribe_runtime.report import Fate, Sent, Teller
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
-    from regscribe_runtime.operations.session import Operation, Session, Task
-    from regscribe_runtime.operations.write_plan import Assignment, Present
-    from regscribe_runtime.report import Change, WriteReport
+from regscribe_runtime.report import Change, Fate, Sent, Teller, WriteReport
 
 
 class ConfigureOptions(TypedDict, total=False):

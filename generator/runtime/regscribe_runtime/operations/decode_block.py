@@ -3,20 +3,18 @@
 import struct
 from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from regscribe_runtime.errors import RegscribeError, ValueNotDecodable
+from regscribe_runtime.operations.bisect import Words
+from regscribe_runtime.operations.session import Session
 from regscribe_runtime.planning.plan import Block
 from regscribe_runtime.registers import codec
+from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.kinds import Kind
 from regscribe_runtime.values.views import View
 from regscribe_runtime.values.wire_types import Order
 from regscribe_runtime.wire.requests import Request
-
-if TYPE_CHECKING:
-    from regscribe_runtime.operations.bisect import Words
-    from regscribe_runtime.operations.session import Session
-    from regscribe_runtime.registers.register import Register
 
 Placed = tuple["Register[Any]", View, int]
 """A register, its view, and the place of its first word in the block."""
@@ -35,7 +33,7 @@ class PreparedBlock:
         self,
         block: Block,
         placed: Sequence[Placed],
-        session: "Session",
+        session: Session,
         unknown: Mapping[str, RegscribeError] = MappingProxyType({}),
     ) -> None:
         self.block, self.placed = block, placed
@@ -58,9 +56,7 @@ class PreparedBlock:
             found[register.path] = _caught(decode, words[start : start + view.words])
         return found
 
-    def decode_partly(
-        self, words: "Words", session: "Session", unknown: Mapping[str, RegscribeError]
-    ) -> dict[str, Any]:
+    def decode_partly(self, words: Words, session: Session, unknown: Mapping[str, RegscribeError]) -> dict[str, Any]:
         """As `decode`, of the registers whose words are all there."""
         found = {}
         for register, view, start in self.placed:
@@ -100,7 +96,7 @@ def _format(together: Sequence[Placed], quantity: int) -> str:
     return "".join(codes) + "xx" * (quantity - end)
 
 
-def _order(together: Sequence[Placed], quantity: int, session: "Session") -> list[int] | None:
+def _order(together: Sequence[Placed], quantity: int, session: Session) -> list[int] | None:
     places = list(range(quantity))
     for register, view, start in together:
         if view.words > 1 and _backward(register, view, session):
@@ -108,7 +104,7 @@ def _order(together: Sequence[Placed], quantity: int, session: "Session") -> lis
     return None if places == sorted(places) else places
 
 
-def _backward(register: "Register[Any]", view: View, session: "Session") -> bool:
+def _backward(register: Register[Any], view: View, session: Session) -> bool:
     try:
         return codec.word_order(view, register.path, session.memory) is Order.LITTLE
     except (ValueNotDecodable, KeyError):
@@ -116,7 +112,7 @@ def _backward(register: "Register[Any]", view: View, session: "Session") -> bool
 
 
 def _converter(
-    register: "Register[Any]", view: View, _: int, session: "Session", unknown: Mapping[str, RegscribeError]
+    register: Register[Any], view: View, _: int, session: Session, unknown: Mapping[str, RegscribeError]
 ) -> Callable[[Any], Any]:
     try:
         if view.words > 1:
@@ -127,7 +123,7 @@ def _converter(
 
 
 def _decoder(
-    register: "Register[Any]", view: View, _: int, session: "Session", unknown: Mapping[str, RegscribeError]
+    register: Register[Any], view: View, _: int, session: Session, unknown: Mapping[str, RegscribeError]
 ) -> Callable[[Any], Any]:
     try:
         return codec.decoder(register, view, session.memory, session.givens, unknown)

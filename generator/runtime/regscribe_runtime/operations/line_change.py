@@ -6,25 +6,22 @@ write it is looked for in the new setting, then in the old one, by reading the r
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Iterator
+from typing import Any, NamedTuple
 
 from regscribe_runtime.errors import LeftAt, NotWritten, RegscribeError, ValueRefused, lost
 from regscribe_runtime.operations.read import read_request
 from regscribe_runtime.operations.read_back import Target, differs, is_lost, meaning, same, words_of
 from regscribe_runtime.operations.session import Operation, Pause, Session
 from regscribe_runtime.operations.write_request import applied, called, send
+from regscribe_runtime.registers.register import Register
+from regscribe_runtime.report import Words
+from regscribe_runtime.values.conditions import State
 from regscribe_runtime.values.facts import Governs, Setting
 from regscribe_runtime.values.kinds import Kind
 from regscribe_runtime.values.numbers import brief
 from regscribe_runtime.values.serial_line import ADDRESSINGS, PARITIES, LineChange
 from regscribe_runtime.wire.requests import verify
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from regscribe_runtime.registers.register import Register
-    from regscribe_runtime.report import Words
-    from regscribe_runtime.values.conditions import State
 
 MARKS = frozenset({Kind.STRING, Kind.VERSION})
 """Kinds of registers whose words tell a device: they do not change, and no neighbour holds the same."""

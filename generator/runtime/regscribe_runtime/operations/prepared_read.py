@@ -6,20 +6,18 @@ time between, so every value was made under the state that it is decoded with.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 from regscribe_runtime.errors import RegscribeError, ValueNotDecodable
+from regscribe_runtime.operations.bisect import Words
 from regscribe_runtime.operations.decode_block import Placed, PreparedBlock
+from regscribe_runtime.operations.session import Session
 from regscribe_runtime.planning.plan import Terms
 from regscribe_runtime.planning.read_order import ReadOrder, WordPosition, lay_out
 from regscribe_runtime.planning.read_places import place_of, read_places
 from regscribe_runtime.registers import codec
+from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.views import Readable, needs, read_view
-
-if TYPE_CHECKING:
-    from regscribe_runtime.operations.bisect import Words
-    from regscribe_runtime.operations.session import Session
-    from regscribe_runtime.registers.register import Register
 
 MISSING = object()
 """In place of a value that is not known."""
@@ -35,7 +33,7 @@ class PreparedRead:
         blocks_: list[PreparedBlock],
         paths: Iterable[str],
         *,
-        watched: "list[tuple[Register[Any], WordPosition]]",
+        watched: list[tuple[Register[Any], WordPosition]],
         atomic: bool,
         absent: Mapping[str, RegscribeError],
         unknown: Mapping[str, RegscribeError],
@@ -45,7 +43,7 @@ class PreparedRead:
         self._watched = watched
         self._seen: list[Words] | None = None if watched else []
 
-    def changed(self, answers: "Sequence[Words]", session: "Session") -> dict[str, Any]:
+    def changed(self, answers: Sequence[Words], session: Session) -> dict[str, Any]:
         """What the values depend on and is not as it was known: new values, MISSING for what is none any more."""
         words = [_words(place, answers) for _, place in self._watched]
         if words == self._seen:
@@ -71,7 +69,7 @@ class PreparedRead:
             values.update(block.decode(words))
         return values
 
-    def decode_partly(self, answers: "Sequence[Words]", session: "Session") -> dict[str, Any]:
+    def decode_partly(self, answers: Sequence[Words], session: Session) -> dict[str, Any]:
         """As `decode`, where words may be missing: None for a register that could not be read."""
         values: dict[str, Any] = dict.fromkeys(self.paths)
         values.update(self.absent)
@@ -79,7 +77,7 @@ class PreparedRead:
             values.update(block.decode_partly(words, session, self.unknown))
         return values
 
-    def blind(self, answers: "Sequence[Words]") -> bool:
+    def blind(self, answers: Sequence[Words]) -> bool:
         """Whether something that values depend on could not be read."""
         return any(None in _words(place, answers) for _, place in self._watched)
 
@@ -88,12 +86,12 @@ class PreparedRead:
         return [block.request for block in self.blocks] == [block.request for block in other.blocks]
 
 
-def _words(place: WordPosition, answers: "Sequence[Words]") -> "Words":
+def _words(place: WordPosition, answers: Sequence[Words]) -> Words:
     return answers[place.block][place.start : place.start + place.view.words]
 
 
 def _value(
-    register: "Register[Any]", place: WordPosition, words: "Words", state: Mapping[str, Any], session: "Session"
+    register: Register[Any], place: WordPosition, words: Words, state: Mapping[str, Any], session: Session
 ) -> Any:
     try:
         return codec.decode(register, place.view, words, state, session.givens, named=False)  # type: ignore[arg-type] # asked: `blind`
@@ -133,7 +131,7 @@ def laid_out(
 
 
 def make_ready(
-    session: "Session", registers: "Sequence[Register[Any]]", *, fresh: bool, unknown: Mapping[str, RegscribeError]
+    session: Session, registers: Sequence[Register[Any]], *, fresh: bool, unknown: Mapping[str, RegscribeError]
 ) -> PreparedRead:
     """Plan the read of registers and, with `fresh`, of what they depend on; `unknown` are those of no known value."""
     layout, wanted, needs = laid_out(session.registers, registers, session.terms(), fresh=fresh)
@@ -156,7 +154,7 @@ def make_ready(
     )
 
 
-def missing(session: "Session", register: "Register[Any]") -> RegscribeError | None:
+def missing(session: Session, register: Register[Any]) -> RegscribeError | None:
     """Why a register is left out of every plan; None if it can be read somewhere."""
     if place_of(register, session.terms().ground):
         return None

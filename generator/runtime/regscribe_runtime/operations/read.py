@@ -6,25 +6,22 @@ An operation is created with a register and run by a part of a driver, which sen
 # an annotation of an inner function is evaluated at every call otherwise, which costs a read a hundredth of its time
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, TypeVar
+from collections.abc import Iterable, Sequence
+from typing import Any, TypeVar
 
 from regscribe_runtime.errors import ExceptionAnswer, RegscribeError, Unsteady, ValueNotDecodable
 from regscribe_runtime.operations.bisect import REFUSALS, Bisection, is_absence
 from regscribe_runtime.operations.prepared_read import MISSING, PreparedRead, dependencies, make_ready, missing
+from regscribe_runtime.operations.session import Operation, Session, Task
 from regscribe_runtime.operations.snapshot import Snapshot
 from regscribe_runtime.planning.address_ranges import RegisterSpan
 from regscribe_runtime.planning.plan import RequestLimits, Terms, blocks
 from regscribe_runtime.registers import codec
+from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.conditions import choose, registers_of
+from regscribe_runtime.values.views import View
 from regscribe_runtime.values.wire_types import Space
 from regscribe_runtime.wire.requests import Request
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
-    from regscribe_runtime.operations.session import Operation, Session, Task
-    from regscribe_runtime.registers.register import Register
-    from regscribe_runtime.values.views import View
 
 T = TypeVar("T")
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable, Mapping
+from typing import Any
 
 from regscribe_runtime.errors import (
     LOST,
@@ -18,19 +19,14 @@ from regscribe_runtime.errors import (
     lost,
 )
 from regscribe_runtime.operations.read import fetch, item_of, read_request
-from regscribe_runtime.operations.session import Pause
+from regscribe_runtime.operations.session import Operation, Pause, Session
 from regscribe_runtime.planning.read_places import same_precision
 from regscribe_runtime.registers import codec
+from regscribe_runtime.registers.register import Register
+from regscribe_runtime.report import Words
+from regscribe_runtime.values.conditions import State
 from regscribe_runtime.values.kinds import Access
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-
-    from regscribe_runtime.operations.session import Operation, Session
-    from regscribe_runtime.registers.register import Register
-    from regscribe_runtime.report import Words
-    from regscribe_runtime.values.conditions import State
-    from regscribe_runtime.values.views import View
+from regscribe_runtime.values.views import View
 
 Target = tuple["Register[Any]", "View"]
 

@@ -2,24 +2,22 @@
 
 from collections.abc import Callable, Generator, Iterable, Mapping
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 from regscribe_runtime.errors import ExceptionAnswer, LinkLost, NoAnswer, RegscribeError, WrongAnswer
+from regscribe_runtime.link.links import AsyncLink, Link
 from regscribe_runtime.link.retry import Retry
 from regscribe_runtime.link.timing import response_seconds
 from regscribe_runtime.operations.missing_registers import MissingRegisters
 from regscribe_runtime.planning.address_ranges import AddressRanges, ground_of
 from regscribe_runtime.planning.cost import Cost
 from regscribe_runtime.planning.plan import RequestLimits, Terms
+from regscribe_runtime.registers.register import Register
 from regscribe_runtime.report import Wear, WriteReport
 from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.serial_line import MODBUS, LineChange, SerialLine
 from regscribe_runtime.values.wire_types import Space
 from regscribe_runtime.wire.requests import READ_SPACES, Reply, Request, verify
-
-if TYPE_CHECKING:
-    from regscribe_runtime.link.links import AsyncLink, Link
-    from regscribe_runtime.registers.register import Register
 
 T = TypeVar("T")
 
@@ -96,7 +94,7 @@ class Session:
         self.unused, self.absences = unused, MissingRegisters()
         self._ground: AddressRanges | None = None
 
-    def own(self, register: "Register[Any]") -> "Register[Any]":
+    def own(self, register: Register[Any]) -> Register[Any]:
         """The register of this device that a declaration means.
 
         ValueError for one of another device, or of the elements of an array as such, which stands nowhere.
@@ -144,7 +142,7 @@ class Session:
         found: Terms = self.prepared[TERMS]
         return found
 
-    def begin(self, link: "Link | AsyncLink") -> None:
+    def begin(self, link: Link | AsyncLink) -> None:
         """Before an operation: what its link is like now."""
         if link.epoch != self.epoch:
             self.at_epoch(link.epoch)

@@ -1,13 +1,11 @@
 """The result of reading several registers at once."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, TypeVar, overload
+from typing import Any, TypeVar, overload
 
 from regscribe_runtime.errors import RegscribeError
-
-if TYPE_CHECKING:
-    from regscribe_runtime.operations.decode_block import PreparedBlock
-    from regscribe_runtime.registers.register import Register
+from regscribe_runtime.operations.decode_block import PreparedBlock
+from regscribe_runtime.registers.register import Register
 
 T = TypeVar("T")
 Answers = tuple[tuple["PreparedBlock", "Sequence[int | None]"], ...]
@@ -27,10 +25,10 @@ class Snapshot(Mapping[str, Any]):
         self.answers = answers
 
     @overload
-    def __getitem__(self, key: "Register[T]") -> T: ...
+    def __getitem__(self, key: Register[T]) -> T: ...
     @overload
     def __getitem__(self, key: str) -> Any: ...
-    def __getitem__(self, key: "Register[Any] | str") -> Any:
+    def __getitem__(self, key: Register[Any] | str) -> Any:
         value = self._values[key if isinstance(key, str) else key.path]
         if isinstance(value, RegscribeError):
             raise value

@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable, Sequence
+from typing import Any
 
 from regscribe_runtime.errors import ExceptionAnswer, PartialWrite, RegscribeError, WriteUnknown
 from regscribe_runtime.operations.read_back import Target, is_lost, look_back, meaning, rest, same, steady, words_of
-from regscribe_runtime.operations.session import Pause
+from regscribe_runtime.operations.session import Operation, Pause, Session
 from regscribe_runtime.operations.write_order import Batch, RegisterWrite, batches
 from regscribe_runtime.operations.write_request import EEPROM, run
-from regscribe_runtime.report import Change, Fate, Progress, Sent, Teller, WriteReport
+from regscribe_runtime.registers.register import Register
+from regscribe_runtime.report import Change, Fate, Progress, Sent, Teller, Words, WriteReport
 from regscribe_runtime.values.kinds import Access
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
-    from regscribe_runtime.operations.session import Operation, Session
-    from regscribe_runtime.registers.register import Register
-    from regscribe_runtime.report import Words
 
 TOUCHED = frozenset({Fate.WRITTEN, Fate.DIFFERS, Fate.UNKNOWN})
 """Fates of registers that may hold something else than before."""

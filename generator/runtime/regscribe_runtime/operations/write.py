@@ -6,12 +6,22 @@ A write is sent once. If its answer is lost, the register is read back, and only
 # an annotation of an inner function is evaluated at every call otherwise, which costs a read a hundredth of its time
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, TypeVar
+from collections.abc import Callable
+from typing import Any, TypeVar
 
 from regscribe_runtime.errors import RegscribeError, ValueRefused
 from regscribe_runtime.operations.line_change import allowed, follow
 from regscribe_runtime.operations.read import know, read
-from regscribe_runtime.operations.read_back import fate_of_lost, in_view, is_lost, read_back_needs, verified, words_of
+from regscribe_runtime.operations.read_back import (
+    Target,
+    fate_of_lost,
+    in_view,
+    is_lost,
+    read_back_needs,
+    verified,
+    words_of,
+)
+from regscribe_runtime.operations.session import Operation, Session, Task
 from regscribe_runtime.operations.write_request import (
     EEPROM,
     applied,
@@ -23,17 +33,11 @@ from regscribe_runtime.operations.write_request import (
 )
 from regscribe_runtime.registers import codec
 from regscribe_runtime.registers.enums import Flags, unnamed_bits
+from regscribe_runtime.registers.register import Register
+from regscribe_runtime.report import Words
+from regscribe_runtime.values.conditions import State
 from regscribe_runtime.values.kinds import Access
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from regscribe_runtime.operations.read_back import Target
-    from regscribe_runtime.operations.session import Operation, Session, Task
-    from regscribe_runtime.registers.register import Register
-    from regscribe_runtime.report import Words
-    from regscribe_runtime.values.conditions import State
-    from regscribe_runtime.values.views import View
+from regscribe_runtime.values.views import View
 
 T = TypeVar("T")
 

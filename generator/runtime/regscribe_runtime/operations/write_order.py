@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 import heapq
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
+from regscribe_runtime.operations.session import Session
 from regscribe_runtime.operations.write_request import condition_needs, write_request
+from regscribe_runtime.registers.register import Register
+from regscribe_runtime.report import Change, Words
 from regscribe_runtime.values.conditions import registers_of
-from regscribe_runtime.wire.requests import WRITE_COILS, WRITE_REGISTERS
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
-
-    from regscribe_runtime.operations.session import Session
-    from regscribe_runtime.registers.register import Register
-    from regscribe_runtime.report import Change, Words
-    from regscribe_runtime.values.views import View
-    from regscribe_runtime.wire.requests import Request
+from regscribe_runtime.values.views import View
+from regscribe_runtime.wire.requests import WRITE_COILS, WRITE_REGISTERS, Request
 
 LAST = 1 << 30
 """The place of a group without one."""

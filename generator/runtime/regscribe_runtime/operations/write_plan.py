@@ -3,29 +3,24 @@
 from __future__ import annotations
 
 import copy
+from collections.abc import Iterable, Mapping, Sequence
 from difflib import get_close_matches
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from regscribe_runtime.errors import ExceptionAnswer, ValueRefused, ValuesRefused
 from regscribe_runtime.operations.line_change import allowed
 from regscribe_runtime.operations.read import know
-from regscribe_runtime.operations.read_back import in_view, meaning, read_back_needs, words_of
+from regscribe_runtime.operations.read_back import Target, in_view, meaning, read_back_needs, words_of
+from regscribe_runtime.operations.session import Operation, Session
 from regscribe_runtime.operations.write_order import needs, order
 from regscribe_runtime.operations.write_request import confirmed, permitted
 from regscribe_runtime.registers import codec
 from regscribe_runtime.registers.enums import unnamed_bits
-from regscribe_runtime.report import Change, Fate
+from regscribe_runtime.registers.register import Register
+from regscribe_runtime.report import Change, Fate, Words
 from regscribe_runtime.values.conditions import registers_of
 from regscribe_runtime.values.kinds import Access, Kind
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
-
-    from regscribe_runtime.operations.read_back import Target
-    from regscribe_runtime.operations.session import Operation, Session
-    from regscribe_runtime.registers.register import Register
-    from regscribe_runtime.report import Words
-    from regscribe_runtime.values.views import View
+from regscribe_runtime.values.views import View
 
 SUGGESTED = 3
 

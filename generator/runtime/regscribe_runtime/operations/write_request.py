@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 from regscribe_runtime.errors import (
     ConditionNotMet,
@@ -16,15 +16,21 @@ from regscribe_runtime.errors import lost as failed
 from regscribe_runtime.operations.read_back import is_lost
 from regscribe_runtime.operations.session import Operation, Pause, Session, Task
 from regscribe_runtime.registers.enums import Choice, SpecialNumber
+from regscribe_runtime.registers.register import Register
+from regscribe_runtime.report import Words
+from regscribe_runtime.values.conditions import Givens, Is, State
+from regscribe_runtime.values.facts import CommandStep
+from regscribe_runtime.values.views import View
 from regscribe_runtime.wire.requests import Request
 
-if TYPE_CHECKING:
-    from regscribe_runtime.driver.parts import Command
-    from regscribe_runtime.registers.register import Register
-    from regscribe_runtime.report import Words
-    from regscribe_runtime.values.conditions import Givens, Is, State
-    from regscribe_runtime.values.facts import CommandStep
-    from regscribe_runtime.values.views import View
+
+class Sendable(Protocol):
+    """What is sent of a command."""
+
+    id: str
+    danger: str
+    steps: tuple[CommandStep, ...]
+
 
 EEPROM = frozenset({"eeprom", "both"})
 """Where a write wears the memory out."""
@@ -84,7 +90,7 @@ def condition_needs(register: Register[Any]) -> tuple[str, ...]:
     return register.writable.when.registers if register.writable else ()
 
 
-def run(command: Command, *, confirm: bool) -> Task[None]:
+def run(command: Sendable, *, confirm: bool) -> Task[None]:
     """Send the steps of a command; afterwards nothing remembered counts."""
 
     def task(session: Session) -> Operation[None]:
@@ -99,7 +105,7 @@ def run(command: Command, *, confirm: bool) -> Task[None]:
     return task
 
 
-def _step(session: Session, command: Command, number: int, step: CommandStep) -> Operation[None]:
+def _step(session: Session, command: Sendable, number: int, step: CommandStep) -> Operation[None]:
     if not step.words:
         yield Pause(step.wait / 1000)
         return

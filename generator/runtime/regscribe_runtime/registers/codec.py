@@ -6,18 +6,30 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import Any, NoReturn, Protocol
 
 from regscribe_runtime.errors import NotDecodable, Saturated, SensorFault, ValueNotDecodable, ValueRefused
+from regscribe_runtime.registers.value_types import ValueType
 from regscribe_runtime.values.conditions import Givens, State, choose
 from regscribe_runtime.values.kinds import Kind
 from regscribe_runtime.values.numbers import ROUNDINGS, brief, exact, half_up, rough, shortest
-from regscribe_runtime.values.scales import NAN, Conversion, Decimals, Limit, NotANumber, Open, Ref
-from regscribe_runtime.values.views import View
+from regscribe_runtime.values.scales import NAN, Conversion, Decimals, Limit, NotANumber, Open, Ref, Sentinel
+from regscribe_runtime.values.views import Scaled, View, scale_needs
 from regscribe_runtime.values.wire_types import Order, WireType
 
-if TYPE_CHECKING:
-    from regscribe_runtime.registers.register import Register
+
+class Coded(Scaled, Protocol):
+    """What decides how the words of a register spell its value."""
+
+    @property
+    def path(self) -> str: ...  # noqa: D102 (a field)
+    @property
+    def kind(self) -> Kind: ...  # noqa: D102
+    @property
+    def value_type(self) -> ValueType[Any]: ...  # noqa: D102
+    @property
+    def sentinels(self) -> tuple[Sentinel, ...]: ...  # noqa: D102
+
 
 Unknown = Mapping[str, object]
 """Registers of no known value, by path, and why."""
@@ -46,10 +58,10 @@ def power(name: str, decimals: Decimals | None, state: State) -> int:
     return int(10 ** (digits if decimals.at_most is None else min(digits, decimals.at_most)))
 
 
-def _conversion(register: "Register[Any]", state: State, givens: Givens) -> tuple[Conversion, int]:
+def _conversion(register: Coded, state: State, givens: Givens) -> tuple[Conversion, int]:
     found = choose(register.scale, state, givens)
     if found is None:
-        known = ", ".join(f"{name} = {state[name]}" for name in register.scale_needs)
+        known = ", ".join(f"{name} = {state[name]}" for name in scale_needs(register))
         raise NotDecodable(register.path, f"no scale of the manual holds with {known}")
     return found, power(register.path, found.decimals, state)
 
@@ -93,7 +105,7 @@ def _backward_and_swapped(words: Words) -> Words:
 
 
 def reader(
-    register: "Register[Any]",
+    register: Coded,
     view: View,
     state: State,
     givens: Givens,
@@ -117,7 +129,7 @@ def reader(
 class _Known(dict[str, Any]):
     """The values that are known; asking for one that is not says so of the register that depends on it."""
 
-    def __init__(self, register: "Register[Any]", state: State, unknown: Unknown) -> None:
+    def __init__(self, register: Coded, state: State, unknown: Unknown) -> None:
         super().__init__({path: value for path, value in state.items() if path not in unknown})
         self._register, self._unknown = register, unknown
 
@@ -126,7 +138,7 @@ class _Known(dict[str, Any]):
         raise NotDecodable(self._register.path, f"its meaning depends on {path}: {why}")
 
 
-def known(register: "Register[Any]", state: State, unknown: Unknown) -> State:
+def known(register: Coded, state: State, unknown: Unknown) -> State:
     """The state as it decides about a register: NotDecodable for what is asked of it and `unknown` (path, and why)."""
     return _Known(register, state, unknown) if unknown else state
 
@@ -145,7 +157,7 @@ def same(wire: int) -> int:
     return wire
 
 
-def _scaled(register: "Register[Any]", view: View, state: State, givens: Givens) -> Converter:
+def _scaled(register: Coded, view: View, state: State, givens: Givens) -> Converter:
     if register.kind in PATTERNS:
         make, mask = register.value_type.make, view.type.maximum - view.type.minimum
         return lambda wire: make(wire & mask)
@@ -157,7 +169,7 @@ def _scaled(register: "Register[Any]", view: View, state: State, givens: Givens)
     return _ieee(register, view, slope, offset) if view.type.is_float else _whole(register, view, slope, offset)
 
 
-def _whole(register: "Register[Any]", view: View, slope: Fraction, offset: Fraction) -> Callable[[int], Any]:
+def _whole(register: Coded, view: View, slope: Fraction, offset: Fraction) -> Callable[[int], Any]:
     # int / int is correctly rounded in Python, so (a x wire + b) / c is the float nearest to the exact value
     scale = math.lcm(slope.denominator, offset.denominator)
     a, b = int(slope * scale), int(offset * scale)
@@ -172,20 +184,20 @@ def _whole(register: "Register[Any]", view: View, slope: Fraction, offset: Fract
     return lambda wire: _no_fraction(register, Fraction(a * wire + b, scale))
 
 
-def _no_fraction(register: "Register[Any]", value: Fraction) -> int:
+def _no_fraction(register: Coded, value: Fraction) -> int:
     if value.denominator != 1:
         raise NotDecodable(register.path, f"{rough(value)} is no whole number")
     return value.numerator
 
 
-def _float(register: "Register[Any]", value: Fraction) -> float:
+def _float(register: Coded, value: Fraction) -> float:
     try:
         return float(value)
     except OverflowError:
         raise NotDecodable(register.path, f"{rough(value)} is beyond every float of a program") from None
 
 
-def _ieee(register: "Register[Any]", view: View, slope: Fraction, offset: Fraction) -> Callable[[float], Any]:
+def _ieee(register: Coded, view: View, slope: Fraction, offset: Fraction) -> Callable[[float], Any]:
     def scaled(wire: float) -> Any:
         if not math.isfinite(wire):
             raise NotDecodable(register.path, f"the {view.name} view holds {wire}, which is no number")
@@ -207,7 +219,7 @@ def _on_wire(view: View, stored: Fraction) -> float | None:
     return exactly.numerator if fits else None
 
 
-def _specials(register: "Register[Any]", state: State, givens: Givens) -> dict[Fraction, tuple[Any, Fraction]]:
+def _specials(register: Coded, state: State, givens: Givens) -> dict[Fraction, tuple[Any, Fraction]]:
     """Of each special value, by its code as a value of use: its member (None where it has none) and its number."""
     special, means = register.value_type.special, register.value_type.means
     if special is None and not means:
@@ -223,7 +235,7 @@ def _specials(register: "Register[Any]", state: State, givens: Givens) -> dict[F
     }
 
 
-def _with_specials(register: "Register[Any]", view: View, state: State, givens: Givens, *, named: bool) -> Converter:
+def _with_specials(register: Coded, view: View, state: State, givens: Givens, *, named: bool) -> Converter:
     scaled = _scaled(register, view, state, givens)
     specials = _specials(register, state, givens)
     if not specials:
@@ -242,7 +254,7 @@ Faults = dict[float | None, tuple[str, str]]
 """By the number on the wire, as it is unpacked: id and label of a fault; None stands for a float that is no number."""
 
 
-def _faults(register: "Register[Any]", view: View) -> Faults:
+def _faults(register: Coded, view: View) -> Faults:
     found: Faults = {}
     for stored, name, label in register.sentinels:
         wire = None if isinstance(stored, NotANumber) else _on_wire(view, Fraction(stored))
@@ -255,7 +267,7 @@ def _fault(faults: Faults, wire: float) -> tuple[str, str] | None:
     return faults.get(None if math.isnan(wire) else wire)
 
 
-def _guarded(register: "Register[Any]", view: View, scaled: Converter) -> Converter:
+def _guarded(register: Coded, view: View, scaled: Converter) -> Converter:
     ends = (view.type.minimum, view.type.maximum) if view.saturates and view.type.is_integer else ()
     faults = _faults(register, view)
     if not ends and not faults:
@@ -274,7 +286,7 @@ def _guarded(register: "Register[Any]", view: View, scaled: Converter) -> Conver
 
 
 def decoder(
-    register: "Register[Any]",
+    register: Coded,
     view: View,
     state: State,
     givens: Givens,
@@ -310,7 +322,7 @@ def _number_reader(view: View, convert: Converter) -> Callable[[Words], Any]:
 
 
 def decode(
-    register: "Register[Any]",
+    register: Coded,
     view: View,
     words: Sequence[int],
     state: State,
@@ -330,7 +342,7 @@ def decode(
         raise
 
 
-def _text_reader(register: "Register[Any]") -> Callable[[Sequence[int]], str]:
+def _text_reader(register: Coded) -> Callable[[Sequence[int]], str]:
     def text(words: Sequence[int]) -> str:
         raw = struct.pack(f">{len(words)}H", *words).partition(b"\0")[0]  # what follows is whatever was there before
         try:
@@ -341,7 +353,7 @@ def _text_reader(register: "Register[Any]") -> Callable[[Sequence[int]], str]:
     return text
 
 
-def carried_over(register: "Register[Any]", view: View, other: View, words: Words, state: State) -> tuple[int, ...]:
+def carried_over(register: Coded, view: View, other: View, words: Words, state: State) -> tuple[int, ...]:
     """The words by which a device shows in the view `other` what `words` in `view` set; ValueRefused if it cannot."""
     numbers = arranger(view, register.path, state)(words)
     if register.kind is Kind.STRING:
@@ -353,7 +365,7 @@ def carried_over(register: "Register[Any]", view: View, other: View, words: Word
 
 
 def encode(
-    register: "Register[Any]",
+    register: Coded,
     view: View,
     value: object,
     state: State,
@@ -388,7 +400,7 @@ def encode(
     return tuple(arrange(words))
 
 
-def _amount(register: "Register[Any]", value: object, state: State, givens: Givens) -> tuple[Fraction, bool]:
+def _amount(register: Coded, value: object, state: State, givens: Givens) -> tuple[Fraction, bool]:
     """`value` as an exact value of use, and whether it is a special value, which no range limits."""
     specials = _specials(register, state, givens)
     for code, (member, _) in specials.items():
@@ -412,7 +424,7 @@ def _limit(bound: Limit, divisor: int, state: State) -> Fraction | None:
     return Fraction(bound) / divisor
 
 
-def _within_limits(register: "Register[Any]", amount: Fraction, state: State, givens: Givens) -> None:
+def _within_limits(register: Coded, amount: Fraction, state: State, givens: Givens) -> None:
     if not register.range:
         return
     limits = choose(register.range, state, givens)
@@ -428,7 +440,7 @@ def _within_limits(register: "Register[Any]", amount: Fraction, state: State, gi
         raise ValueRefused(register.path, f"{rough(amount)} lies outside {allowed}")
 
 
-def _stored(register: "Register[Any]", amount: Fraction, state: State, givens: Givens, *, rounded: bool) -> Fraction:
+def _stored(register: Coded, amount: Fraction, state: State, givens: Givens, *, rounded: bool) -> Fraction:
     conversion, divisor = _conversion(register, state, givens)
     stored = (amount * divisor - Fraction(conversion.add)) / Fraction(conversion.multiply)
     if conversion.step is not None:
@@ -444,9 +456,7 @@ def _stored(register: "Register[Any]", amount: Fraction, state: State, givens: G
     return stored
 
 
-def _carried(
-    register: "Register[Any]", view: View, amount: Fraction, stored: Fraction, state: State, givens: Givens
-) -> None:
+def _carried(register: Coded, view: View, amount: Fraction, stored: Fraction, state: State, givens: Givens) -> None:
     exactly = stored * Fraction(view.factor)
     if view.type.is_float or exactly.denominator == 1:
         return
@@ -460,7 +470,7 @@ def _carried(
     raise ValueRefused(register.path, message)
 
 
-def _wire_words(register: "Register[Any]", view: View, stored: Fraction, *, rounded: bool) -> tuple[int, ...]:
+def _wire_words(register: Coded, view: View, stored: Fraction, *, rounded: bool) -> tuple[int, ...]:
     exactly = stored * Fraction(view.factor)
     if view.type.is_float:
         return _float_words(register, view, exactly, rounded=rounded)
@@ -477,7 +487,7 @@ def _wire_words(register: "Register[Any]", view: View, stored: Fraction, *, roun
     return view.type.pack(wire)
 
 
-def _float_words(register: "Register[Any]", view: View, exactly: Fraction, *, rounded: bool) -> tuple[int, ...]:
+def _float_words(register: Coded, view: View, exactly: Fraction, *, rounded: bool) -> tuple[int, ...]:
     try:
         there = view.type.nearest(exactly)
     except OverflowError:
@@ -488,7 +498,7 @@ def _float_words(register: "Register[Any]", view: View, exactly: Fraction, *, ro
     return view.type.pack(there)
 
 
-def _from_text(register: "Register[Any]", view: View, value: object) -> tuple[int, ...]:
+def _from_text(register: Coded, view: View, value: object) -> tuple[int, ...]:
     if not isinstance(value, str) or not value.isascii() or "\0" in value:
         raise ValueRefused(register.path, f"{brief(value)} is no ASCII text without NUL")
     if len(value) > 2 * view.words:

@@ -78,7 +78,7 @@ class Bit:
     def __get__(self, instance: None, owner: type) -> Self: ...
     @overload
     def __get__(self, instance: "Word", owner: type) -> bool: ...
-    def __get__(self, instance: "Word | None", owner: type) -> "Self | bool":
+    def __get__(self, instance: "Word | None", owner: type) -> Self | bool:
         return self if instance is None else bool(int(instance) >> self.low & 1)
 
 
@@ -92,7 +92,7 @@ class Field(Generic[V]):
     def __get__(self, instance: None, owner: type) -> Self: ...
     @overload
     def __get__(self, instance: "Word", owner: type) -> V: ...
-    def __get__(self, instance: "Word | None", owner: type) -> "Self | V":
+    def __get__(self, instance: "Word | None", owner: type) -> Self | V:
         if instance is None:
             return self
         kind: Any = self.kind

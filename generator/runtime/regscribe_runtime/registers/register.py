@@ -1,17 +1,9 @@
-"""The declaration of a register: one descriptor that serves synchronous and asynchronous drivers."""
+"""The declaration of a register: where it stands, what its words mean, when it may be written."""
 
 from collections.abc import Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Generic, Never, Self, TypeVar, cast, overload
+from typing import Generic, Never, Self, TypeVar, cast
 
-from regscribe_runtime.driver.attributes import (
-    AsyncReadable,
-    AsyncReadWritable,
-    AsyncWritable,
-    Readable,
-    ReadWritable,
-    WritableAttribute,
-)
 from regscribe_runtime.errors import ValueRefused
 from regscribe_runtime.registers import codec, element
 from regscribe_runtime.registers.value_types import ValueType
@@ -20,9 +12,6 @@ from regscribe_runtime.values.facts import Governs, WriteCondition
 from regscribe_runtime.values.kinds import Access
 from regscribe_runtime.values.scales import SAME, Conversion, Range, Sentinel
 from regscribe_runtime.values.views import View, limit_needs, needs, scale_needs
-
-if TYPE_CHECKING:
-    from regscribe_runtime.driver.parts import AsyncPart, Part
 
 T = TypeVar("T")
 SPEAKING = ("views", "scale", "special_scale", "range", "unit", "writable")
@@ -200,56 +189,3 @@ class Register(Generic[T]):
             raise ValueRefused(self.path, "the register is read-only")
         chosen = self.view(view) if view else self.write_view()
         return codec.encode(self, chosen, value, state or {}, givens or {}, rounded=rounded)
-
-
-class ReadOnly(Register[T]):
-    """A register that can only be read."""
-
-    @overload
-    def __get__(self, instance: None, owner: type) -> Self: ...
-    @overload
-    def __get__(self, instance: "Part", owner: type) -> Readable[T]: ...
-    @overload
-    def __get__(self, instance: "AsyncPart", owner: type) -> AsyncReadable[T]: ...
-    def __get__(self, instance: "Part | AsyncPart | None", owner: type) -> "Self | Readable[T] | AsyncReadable[T]":
-        if instance is None:
-            return self
-        return cast("Readable[T]", instance.bind(self, Readable, AsyncReadable))
-
-
-class ReadWrite(Register[T]):
-    """A register that can be read and written."""
-
-    access = Access.READ_WRITE
-
-    @overload
-    def __get__(self, instance: None, owner: type) -> Self: ...
-    @overload
-    def __get__(self, instance: "Part", owner: type) -> ReadWritable[T]: ...
-    @overload
-    def __get__(self, instance: "AsyncPart", owner: type) -> AsyncReadWritable[T]: ...
-    def __get__(
-        self, instance: "Part | AsyncPart | None", owner: type
-    ) -> "Self | ReadWritable[T] | AsyncReadWritable[T]":
-        if instance is None:
-            return self
-        return cast("ReadWritable[T]", instance.bind(self, ReadWritable, AsyncReadWritable))
-
-
-class WriteOnly(Register[T]):
-    """A register that can only be written."""
-
-    access = Access.WRITE
-
-    @overload
-    def __get__(self, instance: None, owner: type) -> Self: ...
-    @overload
-    def __get__(self, instance: "Part", owner: type) -> WritableAttribute[T]: ...
-    @overload
-    def __get__(self, instance: "AsyncPart", owner: type) -> AsyncWritable[T]: ...
-    def __get__(
-        self, instance: "Part | AsyncPart | None", owner: type
-    ) -> "Self | WritableAttribute[T] | AsyncWritable[T]":
-        if instance is None:
-            return self
-        return cast("WritableAttribute[T]", instance.bind(self, WritableAttribute, AsyncWritable))

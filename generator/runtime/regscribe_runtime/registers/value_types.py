@@ -66,12 +66,12 @@ raw: ValueType[int] = ValueType(Kind.RAW, int, _whole_number)
 raw_float: ValueType[float] = ValueType(Kind.RAW, float, _any_number)
 
 
-def number_or(special: type[S], means: dict[Number, Number] | None = None) -> "ValueType[float | S]":
+def number_or(special: type[S], means: dict[Number, Number] | None = None) -> ValueType[float | S]:
     """A number with special values: a code in `means` stands for a number, the others are members of `special`."""
     return ValueType(Kind.NUMBER, float, _any_number, special=special, means=means)
 
 
-def integer_or(special: type[C], means: dict[Number, Number] | None = None) -> "ValueType[int | C]":
+def integer_or(special: type[C], means: dict[Number, Number] | None = None) -> ValueType[int | C]:
     """As `number_or`, of whole numbers."""
     return ValueType(Kind.INTEGER, int, _whole_number, special=special, means=means)
 

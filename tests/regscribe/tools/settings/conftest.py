@@ -15,7 +15,7 @@ from regscribe.simulate import SimulatedDevice, simulate
 from regscribe.tools.live import catalogue
 from regscribe_runtime import BareDevice, LinkLost
 from regscribe_runtime.driver import executor
-from regscribe_runtime.link.links import tcp
+from regscribe_runtime.link.connect import tcp
 
 ROOT = Path(regscribe.__file__).parents[2]
 

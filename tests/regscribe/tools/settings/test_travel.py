@@ -12,7 +12,7 @@ from regscribe.tools import settings
 from regscribe.tools.settings import Backup, Saved, UnfitError
 from regscribe_devices.athena.series_c import AsyncAthena16C
 from regscribe_runtime import RegscribeError
-from regscribe_runtime.link.links import async_tcp
+from regscribe_runtime.link.connect import async_tcp
 
 Serve = Callable[..., Any]
 MODELS = (

@@ -12,7 +12,8 @@ from independent.minimal import MinimalAscii, MinimalRtu
 from independent.node import NodeAscii, NodeRtu, NodeRtuTcp, NodeTcp
 from independent.stage import Stage, service, staged
 from regscribe.simulate import Foreign, SimulatedDevice
-from regscribe_runtime.link.links import Link, tcp
+from regscribe_runtime.link.connect import tcp
+from regscribe_runtime.link.links import Link
 
 OVER_TCP: dict[type[Client], str] = {MbpollTcp: "tcp", NodeTcp: "tcp", NodeRtuTcp: "rtu-tcp"}
 ON_A_LINE: tuple[type[Client], ...] = (MbpollRtu, MinimalRtu, NodeRtu)
