@@ -1,10 +1,13 @@
 """The first read of a register asks for what its value depends on by itself: no plan of the device is made for it."""
 
+import sys
 from collections.abc import Callable
+from types import FrameType
 from typing import Any
 
 import pytest
 
+from regscribe_devices.athena.series_c import Athena16C
 from regscribe_runtime.operations.session import Session
 
 MAP = """\
@@ -72,3 +75,25 @@ def test_more_than_a_few_are_read_in_the_cheapest_requests(talk: Callable[[str, 
     talking = talk(text, HOLDS)
     assert talking.driver.value.read() == 12.34
     assert talking.sent == [(3, 100, 11), (3, 0, 1)]
+
+
+MOST_CALLS = 300
+"""Of functions of the runtime, over a link without a line: what the first read of a conditional value may take."""
+
+
+def test_the_first_read_of_a_conditional_value_takes_few_calls(direct: Callable[..., Any], words: type) -> None:
+    driver = Athena16C(direct(words({4049: 3, 4084: 0, 8000: 0x4316, 8001: 0x2000})), unit=1)
+    calls = 0
+
+    def count(frame: FrameType, event: str, _: object) -> None:
+        nonlocal calls
+        calls += event == "call" and "regscribe_runtime" in frame.f_code.co_filename
+
+    before = sys.getprofile()
+    sys.setprofile(count)
+    try:
+        value = driver.process_value.read()
+    finally:
+        sys.setprofile(before)
+    assert value == 150.125  # the IEEE view, most significant word first: 43162000
+    assert calls <= MOST_CALLS

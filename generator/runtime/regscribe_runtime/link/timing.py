@@ -47,10 +47,15 @@ def slowest(protocol: Protocol) -> SerialLine:
     return protocol.serial.line._replace(baud=min((*protocol.serial.bauds, protocol.serial.baud)))
 
 
-def response_seconds(protocol: Protocol, request: Request, line: SerialLine | None) -> float:
-    """The response timeout of a request: in RTU frames on `line`, or over TCP without one."""
+def response_seconds(
+    protocol: Protocol, request: Request, line: SerialLine | None, *, behind: SerialLine | None = None
+) -> float:
+    """The response timeout of a request: in RTU frames on `line`, or over TCP without one.
+
+    `behind` is the line that a gateway is assumed to have, the slowest that the manual allows.
+    """
     if line is None:
-        return on_line(protocol, request, slowest(protocol)) + MARGIN_SECONDS + GATEWAY_SECONDS
+        return on_line(protocol, request, behind or slowest(protocol)) + MARGIN_SECONDS + GATEWAY_SECONDS
     return on_line(protocol, request, line) + MARGIN_SECONDS
 
 

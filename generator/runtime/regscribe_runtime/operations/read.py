@@ -91,12 +91,11 @@ def know(session: Session, paths: Iterable[str], *, fresh: bool = False, depth: 
     views = [register.read_view() for register in registers]
     needs = dict.fromkeys(path for one, view in zip(registers, views, strict=True) for path in one.needs(view))
     unknown = yield from _unknown(session, needs, depth=depth + 1)
-    found = yield from fetch(session, map(item_of, registers, views))
+    spans = list(map(item_of, registers, views))
+    found = yield from fetch(session, spans)
     values = {
-        register.path: codec.decode(
-            register, view, found[item_of(register, view)], session.memory, session.givens, unknown, named=False
-        )
-        for register, view in zip(registers, views, strict=True)
+        register.path: codec.decode(register, view, found[span], session.memory, session.givens, unknown, named=False)
+        for register, view, span in zip(registers, views, spans, strict=True)
     }
     for path, value in values.items():
         if not fresh or session.memory.get(path, value) != value:

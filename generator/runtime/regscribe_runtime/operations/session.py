@@ -7,7 +7,7 @@ from typing import Any, NamedTuple, TypeVar
 from regscribe_runtime.errors import ExceptionAnswer, LinkLost, NoAnswer, RegscribeError, WrongAnswer
 from regscribe_runtime.link.links import AsyncLink, Link
 from regscribe_runtime.link.retry import Retry
-from regscribe_runtime.link.timing import response_seconds
+from regscribe_runtime.link.timing import response_seconds, slowest
 from regscribe_runtime.operations.missing_registers import MissingRegisters
 from regscribe_runtime.planning.address_ranges import AddressRanges, ground_of
 from regscribe_runtime.planning.cost import Cost
@@ -56,7 +56,7 @@ class Session:
     """
 
     __slots__ = (
-        "_ground", "_timed", "_tries", "absences", "addressing", "broken_off", "commands", "epoch", "givens",
+        "_behind", "_ground", "_timed", "_tries", "absences", "addressing", "broken_off", "commands", "epoch", "givens",
         "groups", "home", "line", "memory", "prepared", "protocol", "proven", "registers", "retry", "unit", "unused",
         "wear", "wrote",
     )  # fmt: skip # one name a line says no more
@@ -91,6 +91,7 @@ class Session:
         self.home: LineChange | None = None
         self._tries = Retry()
         self._timed: dict[Request, Request] = {}
+        self._behind = slowest(protocol)
         self.unused, self.absences = unused, MissingRegisters()
         self._ground: AddressRanges | None = None
 
@@ -172,7 +173,7 @@ class Session:
         """The request with its response timeout, from the manual's latencies and the line."""
         found = self._timed.get(request)
         if found is None:
-            found = request._replace(seconds=response_seconds(self.protocol, request, self.line))
+            found = request._replace(seconds=response_seconds(self.protocol, request, self.line, behind=self._behind))
             if request.reads and len(self._timed) < MOST_TIMED:
                 self._timed[request] = found
         return found
