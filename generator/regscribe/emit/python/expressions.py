@@ -61,10 +61,11 @@ class Specs:
         return expression(value, self._known)
 
     def _known(self, value: object) -> Expression | None:
-        if isinstance(value, Condition) and value.name and value.tests:
-            return self.pool.share(expression(value), value.name, f"{value.name}_{self.model.name}")
-        if isinstance(value, tuple) and len(value) == 1 and isinstance(value[0], Case) and value[0].when.always:
-            return self._always(value[0].then)
+        match value:
+            case Condition(tests, name) if tests and name:
+                return self.pool.share(expression(value), name, f"{name}_{self.model.name}")
+            case (Case(when, then),) if when.always:
+                return self._always(then)
         return None
 
     def _always(self, then: object) -> Call:

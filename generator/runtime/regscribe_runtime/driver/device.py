@@ -53,7 +53,7 @@ class _Common:
     identity: ClassVar[tuple[Identity, ...]] = ()
     setpoint_programs: ClassVar[tuple[SetpointProgram, ...]] = ()
     _unused: ClassVar[tuple[tuple[Space, int, int], ...]] = ()
-    registers = Catalogue(whole=True)
+    registers: ClassVar[Catalogue] = Catalogue(whole=True)
     session: Session
 
     def _begin(self, unit: int, givens: Mapping[str, Any]) -> None:

@@ -2,7 +2,7 @@
 
 from collections.abc import Awaitable, Callable, Iterator, Mapping
 from types import MappingProxyType
-from typing import Any, Generic, Protocol, Self, TypeVar, overload
+from typing import Any, ClassVar, Generic, Protocol, Self, TypeVar, overload
 
 from regscribe_runtime.operations import tasks
 from regscribe_runtime.operations.snapshot import Snapshot
@@ -12,40 +12,6 @@ from regscribe_runtime.values.facts import CommandStep
 T = TypeVar("T")
 P = TypeVar("P", bound="Part")
 A = TypeVar("A", bound="AsyncPart")
-
-
-class Runner(Protocol):
-    """What a part asks of the synchronous device that it belongs to."""
-
-    @property
-    def registers(self) -> Mapping[str, Register[Any]]:
-        """All registers of the device by path."""
-        raise NotImplementedError
-
-    def run(self, task: tasks.Task[T]) -> T:
-        """Run an operation on the device."""
-        raise NotImplementedError
-
-    def read_part(self, part: "Part") -> Snapshot:
-        """Read all registers of a part."""
-        raise NotImplementedError
-
-
-class AsyncRunner(Protocol):
-    """As `Runner`, for asyncio."""
-
-    @property
-    def registers(self) -> Mapping[str, Register[Any]]:
-        """All registers of the device by path."""
-        raise NotImplementedError
-
-    async def run(self, task: tasks.Task[T]) -> T:
-        """Run an operation on the device."""
-        raise NotImplementedError
-
-    async def read_part(self, part: "AsyncPart") -> Snapshot:
-        """Read all registers of a part."""
-        raise NotImplementedError
 
 
 class Catalogue:
@@ -65,6 +31,34 @@ class Catalogue:
             cached = MappingProxyType({path: register.closed() if self.whole else register for path, register in found})
             owner._catalogue = cached  # type: ignore[attr-defined] # noqa: SLF001 (its own cache)
         return cached
+
+
+class Runner(Protocol):
+    """What a part asks of the synchronous device that it belongs to."""
+
+    registers: ClassVar[Catalogue]
+
+    def run(self, task: tasks.Task[T]) -> T:
+        """Run an operation on the device."""
+        raise NotImplementedError
+
+    def read_part(self, part: "Part") -> Snapshot:
+        """Read all registers of a part."""
+        raise NotImplementedError
+
+
+class AsyncRunner(Protocol):
+    """As `Runner`, for asyncio."""
+
+    registers: ClassVar[Catalogue]
+
+    async def run(self, task: tasks.Task[T]) -> T:
+        """Run an operation on the device."""
+        raise NotImplementedError
+
+    async def read_part(self, part: "AsyncPart") -> Snapshot:
+        """Read all registers of a part."""
+        raise NotImplementedError
 
 
 def _place(owner: type) -> Callable[[tuple[str, object]], int]:

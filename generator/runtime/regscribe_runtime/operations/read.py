@@ -6,7 +6,7 @@ An operation is created with a register and run by a part of a driver, which sen
 # an annotation of an inner function is evaluated at every call otherwise, which costs a read a hundredth of its time
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, TypeVar
 
 from regscribe_runtime.errors import ExceptionAnswer, RegscribeError, Unsteady, ValueNotDecodable
@@ -55,7 +55,7 @@ def fetch(session: Session, items: Iterable[RegisterSpan]) -> Operation[dict[Reg
     return found
 
 
-def _planned(items: Sequence[RegisterSpan], terms: Terms) -> dict[RegisterSpan, Sequence[RegisterSpan]]:
+def _planned(items: Sequence[RegisterSpan], terms: Terms) -> Mapping[RegisterSpan, Sequence[RegisterSpan]]:
     """Items by the span that reads them at the least cost; what plans go round is asked for alone."""
     alone = [item for item in items if terms.ground.stretch(item) is None]
     planned = blocks([item for item in items if item not in alone], terms)
@@ -64,7 +64,7 @@ def _planned(items: Sequence[RegisterSpan], terms: Terms) -> dict[RegisterSpan, 
     }
 
 
-def _joined(items: Sequence[RegisterSpan], limits: RequestLimits) -> dict[RegisterSpan, Sequence[RegisterSpan]]:
+def _joined(items: Sequence[RegisterSpan], limits: RequestLimits) -> Mapping[RegisterSpan, Sequence[RegisterSpan]]:
     """Sorted items by the span that reads them: those that follow each other without a gap are read together."""
     found: dict[RegisterSpan, Sequence[RegisterSpan]] = {}
     last = RegisterSpan(Space.HOLDING, -1, 0)

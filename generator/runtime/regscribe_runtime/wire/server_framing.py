@@ -106,7 +106,7 @@ class RtuFramer(Framer):
     def expire(self) -> list[Frame]:
         """Return the sound frames behind an unfinished one, and forget the rest."""
         found = self._take(wait=False)
-        self._buffer.clear()
+        del self._buffer[:]
         self._in_step = True
         return found
 
