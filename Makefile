@@ -4,8 +4,13 @@ PYTHON ?= python3
 BIN := .venv/bin
 INSTALLED := .venv/.installed
 
+# the tests that coverage is measured with: quick ones that go through all rooms
+COVERING := tests/conformance/test_cases.py tests/regscribe/cli/test_commands.py \
+	$(addprefix tests/regscribe/,source schema compose lower checks export) \
+	$(addprefix tests/runtime/,wire registers planning operations driver)
+
 .DEFAULT_GOAL := generate
-.PHONY: generate test test-all test-wire test-versions check format bench conformance fuzz mutate sessions lock clean
+.PHONY: generate test test-all coverage test-wire test-versions check format bench conformance fuzz mutate sessions lock clean
 
 generate: $(INSTALLED) ## compile all maps; only what changed is written
 	@$(BIN)/regscribe generate
@@ -23,12 +28,18 @@ test-wire: $(INSTALLED) ## let clients by others talk to the simulated devices; 
 test-versions: ## run the tests of runtime and drivers with the oldest and newest pymodbus, on every Python that is here
 	$(PYTHON) tests/repository/versions.py
 
-check: $(INSTALLED) ## lint, types of code and generated drivers, drift of generated files
+coverage: $(INSTALLED) ## how much of generator/ the quick tests run, against the floor in pyproject.toml
+	@$(BIN)/pytest -q -n 2 -m "not slow and not wire" --cov --cov-report= $(COVERING)
+	@$(BIN)/coverage report --format=total
+	@$(BIN)/coverage report >/dev/null
+
+check: $(INSTALLED) ## lint, types of code and generated drivers, drift of generated files, coverage
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/mypy generator generated/regscribe_devices
 	$(BIN)/pyright
 	$(BIN)/regscribe generate --check
+	$(MAKE) coverage
 
 format: $(INSTALLED) ## format the code
 	$(BIN)/ruff check --fix
