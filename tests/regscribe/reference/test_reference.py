@@ -64,6 +64,11 @@ def test_a_float32_is_its_shortest_decimal(words: tuple[int, int], value: str) -
     assert encode(register(FLOAT), FLOAT, Fraction(value)) == words
 
 
+def test_a_number_midway_between_two_floats_is_sent_as_the_even_one() -> None:
+    assert transmit(FLOAT, Fraction(2**24 + 1)) == (0x4B80, 0x0000)
+    assert transmit(FLOAT, Fraction(2**24 + 3)) == (0x4B80, 0x0002)
+
+
 def test_the_word_order_can_come_from_a_register() -> None:
     view = FLOAT._replace(order=OrderFrom("order", ((0, Order.BIG), (1, Order.LITTLE))))
     assert decode(register(view), view, (0x0000, 0x437A), state(order=1)).value == 250
