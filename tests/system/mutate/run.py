@@ -25,6 +25,7 @@ PACKAGE = Path("generator")
 WORKERS = 2
 SECONDS = 120
 SUITES = {
+    "expressions": ("tests/regscribe/emit/python/test_expressions.py",),
     "vectors": ("tests/regscribe/emit/vectors", "-k", "not schema and not seed"),
     "reference": ("tests/regscribe/reference/test_reference.py", "tests/regscribe/emit/vectors/test_numbers.py"),
     "testing": ("tests/regscribe/testing/test_driver_checks.py",),
@@ -203,7 +204,7 @@ def report(verdicts: list[Verdict], seconds: float) -> int:
     """Print the table and the survivors; return the exit code."""
     for verdict in verdicts:
         outcome = "??? " + verdict.broken if verdict.broken else verdict.caught or "SURVIVED"
-        print(f"{verdict.mutant.room:10} {verdict.mutant.name:42} {outcome[:SAID]}")  # noqa: T201 (a command)
+        print(f"{verdict.mutant.room:11} {verdict.mutant.name:42} {outcome[:SAID]}")  # noqa: T201 (a command)
     broken = [verdict.broken for verdict in verdicts if verdict.broken]
     survivors = [verdict.mutant for verdict in verdicts if not verdict.caught and not verdict.broken]
     caught = len(verdicts) - len(broken) - len(survivors)
