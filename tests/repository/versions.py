@@ -66,8 +66,9 @@ def judged(python: str, version: str) -> str:
     folder = CACHE / f"{python}-{version}"
     if not installed(program, folder, version):
         return "not installed"
-    pytest = (folder / "bin" / "python", "-m", "pytest", "-q", "-n", "2", "-p", "no:cacheprovider", "-m", "not slow")
-    return "passed" if run(*pytest, *TESTS) else "failed"
+    pytest = (folder / "bin" / "python", "-m", "pytest", "-q", "-n", "2", "-p", "no:cacheprovider")
+    chosen = ("-m", "not slow", "-k", "not mypy and not pyright")  # what is seen of types does not depend on pymodbus
+    return "passed" if run(*pytest, *chosen, *TESTS) else "failed"
 
 
 def main() -> int:
