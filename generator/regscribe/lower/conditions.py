@@ -6,7 +6,7 @@ from regscribe.lower.interval_text import ends
 from regscribe.lower.names import unknown
 from regscribe.lower.node import Value
 from regscribe.lower.rules import BAD_MATCHER, UNKNOWN_CONDITION, UNKNOWN_GIVEN, WRONG_SORT
-from regscribe.lower.scope import Scope, path_of
+from regscribe.lower.scope import Scope
 from regscribe.lower.subject import Subject, code_of_text, subject_of
 from regscribe.model import ALWAYS, Condition, Is
 
@@ -80,7 +80,7 @@ def _given(node: Value, scope: Scope, kind: str) -> str:
 
 
 def _test(matcher: Value, subject: Subject, scope: Scope, *, negated: bool) -> Is:
-    asked = Is(path_of(subject.entry, subject.name), field=subject.field, bits=subject.bits)
+    asked = Is(subject.entry.path, field=subject.field, bits=subject.bits)
     for key, node in matcher.items():
         if key == "not":
             return _test(node, subject, scope, negated=not negated)

@@ -3,7 +3,6 @@
 from regscribe.lower.interval_text import whole_ends
 from regscribe.lower.names import identifier
 from regscribe.lower.node import Value, text_of, texts_of
-from regscribe.lower.presence import present
 from regscribe.lower.rules import BAD_BITS, UNKNOWN_ENUM
 from regscribe.lower.scope import Scope
 from regscribe.lower.tree import TreeNode
@@ -18,13 +17,10 @@ def enum_of(node: Value, scope: Scope, *, inline_id: str) -> Enum | None:
     """The enum that `node` names or spells; None with RS0304 where the name is unknown."""
     if not node.is_text:
         return enum_at(node, scope, inline_id)
-    name = node.text()
-    if name not in scope.enums:
-        table = scope.named(node, "enums", rule=UNKNOWN_ENUM, what="enum")
-        if table is None:
-            return None
-        scope.enums[name] = enum_at(table, scope, name)
-    return scope.enums[name]
+    table = scope.named(node, "enums", rule=UNKNOWN_ENUM, what="enum")
+    if table and table.key not in scope.enums:
+        scope.enums[table.key] = enum_at(table, scope, table.key)
+    return scope.enums[table.key] if table else None
 
 
 def enum_at(table: Value, scope: Scope, name: str) -> Enum:
@@ -32,7 +28,7 @@ def enum_at(table: Value, scope: Scope, name: str) -> Enum:
     members = []
     invalid = []
     for node in _codes(table):
-        here = scope.model in present(node, scope.models, scope.models)
+        here = scope.has(node)
         if here and _label(node):
             members.append(_member(node))
         elif node.child("invalid") and (here or _label(node)):
@@ -87,17 +83,10 @@ def enum_for(entry: TreeNode, scope: Scope, field: str = "") -> tuple[Value, Enu
 
 def fields_of(entry: TreeNode, scope: Scope) -> tuple[BitField, ...]:
     """The flags or fields of a register, those that the model has."""
-    flags = entry.settings.get("flags")
-    fields = entry.settings.get("fields")
-    found = [_flag(node) for _, node in (flags.items() if flags else ()) if _here(node, scope)]
-    for name, node in fields.items() if fields else ():
-        if _here(node, scope):
-            found.append(_field(name, node, scope, entry))
+    flags, fields = entry.settings.get("flags"), entry.settings.get("fields")
+    found = [_flag(node) for node in (flags.values() if flags else ()) if scope.has(node)]
+    found += [_field(node, scope, entry) for node in (fields.values() if fields else ()) if scope.has(node)]
     return tuple(found)
-
-
-def _here(node: Value, scope: Scope) -> bool:
-    return scope.model in present(node, scope.models, scope.models)
 
 
 def _flag(node: Value) -> BitField:
@@ -107,7 +96,8 @@ def _flag(node: Value) -> BitField:
     return BitField(id=name, label=label, low=bit, high=bit, description=text_of(node, "description"))
 
 
-def _field(name: str, node: Value, scope: Scope, entry: TreeNode) -> BitField:
+def _field(node: Value, scope: Scope, entry: TreeNode) -> BitField:
+    name, enum = node.key, node.child("enum")
     bits = node.child("bits") or node.child("bit")
     low, high = whole_ends(bits) if bits else (0, 0)
     if bits is None:
@@ -115,7 +105,6 @@ def _field(name: str, node: Value, scope: Scope, entry: TreeNode) -> BitField:
     else:
         _bit(bits, low)
         _bit(bits, high)
-    enum = node.child("enum")
     return BitField(
         id=name,
         label=text_of(node, "label", name.replace("_", " ")),

@@ -5,12 +5,12 @@ from fractions import Fraction
 
 from regscribe.lower.commands import unsigned, view_of
 from regscribe.lower.names import unknown
-from regscribe.lower.node import Value, elements_of, items_of, text_of, truth_of, whole_of, wholes_of
-from regscribe.lower.presence import named_models
+from regscribe.lower.node import Value, elements_of, fraction_of, items_of, text_of, truth_of, whole_of, wholes_of
 from regscribe.lower.rules import UNKNOWN_COMMAND, UNKNOWN_FLAG, UNKNOWN_MEMBER, UNKNOWN_SENTINEL, WRONG_SORT
 from regscribe.lower.scope import Scope
 from regscribe.lower.special_values import named_value
 from regscribe.lower.subject import Subject, code_of_text, subject_of
+from regscribe.lower.variants import named_models
 from regscribe.model import Example, FrameExample, Kind, Outcome, Register, TimingExample, ValueExample
 from regscribe.reference import number_of
 
@@ -45,14 +45,18 @@ def _example(node: Value, products: list[Product]) -> Example:
 def _product(node: Value, products: list[Product]) -> Product:
     """The model that the example names, or else the first that has all its registers."""
     told = node.child("model")
-    every = products[0].scope.models
     if told:
-        named = named_models([told], every)
+        named = named_models([told], products[0].scope.models)
         return next((each for each in products if each.scope.model in named), products[0])
     names = [text_of(node, "register"), *(key for key, _ in items_of(node, "writes"))]
-    wanted = [name for name in names if name]
-    first = [each for each in products if wanted and each.scope.find(wanted[0])]
-    return next((each for each in products if all(each.scope.find(name) for name in wanted)), (first or products)[0])
+    return _with_registers([name for name in names if name], products)
+
+
+def _with_registers(names: list[str], products: list[Product]) -> Product:
+    """The first model that has all of these registers, else the first that has the first of them, else the first."""
+    whole = [each for each in products if all(each.scope.find(name) for name in names)]
+    part = [each for each in products if names and each.scope.find(names[0])]
+    return (whole or part or products)[0]
 
 
 def _state(node: Value, product: Product) -> tuple[tuple[str, Fraction], ...]:
@@ -105,14 +109,17 @@ def _reading(node: Value | None, register: Register | None) -> tuple[Fraction | 
     if node is None or register is None:
         return None, None
     if node.is_list:
-        known = [each.id for each in register.fields if each.is_flag]
-        for element in node.elements():
-            if element.text() not in known:
-                unknown(element, UNKNOWN_FLAG, "flag", element.text(), known, of=register.path)
-        return None, tuple(element.text() for element in node.elements())
+        return None, tuple(_flag(element, register) for element in node.elements())
     if node.is_text and register.kind in {Kind.STRING, Kind.VERSION}:
         return node.text(), None
     return named_value(node, register.kind, register.enum, register.specials, UNKNOWN_MEMBER), None
+
+
+def _flag(node: Value, register: Register) -> str:
+    known = [each.id for each in register.fields if each.is_flag]
+    if node.text() not in known:
+        unknown(node, UNKNOWN_FLAG, "flag", node.text(), known, of=register.path)
+    return node.text()
 
 
 def _fault(node: Value, register: Register | None) -> str:
@@ -176,20 +183,14 @@ def _command(node: Value, product: Product) -> str:
 
 def _timing(node: Value) -> TimingExample:
     line = node.child("timing") or node
-    gap, earliest, latest = (_milliseconds(node, key) for key in ("gap", "earliest", "latest"))
     return TimingExample(
         source=text_of(node, "source"),
         baud=whole_of(line, "baud"),
         format=text_of(line, "format"),
         function=whole_of(line, "function"),
         words=whole_of(line, "words"),
-        gap=gap,
-        earliest=earliest,
-        latest=latest,
+        gap=fraction_of(node, "gap"),
+        earliest=fraction_of(node, "earliest"),
+        latest=fraction_of(node, "latest"),
         span=line.key_span,
     )
-
-
-def _milliseconds(node: Value, key: str) -> Fraction:
-    child = node.child(key)
-    return child.number() if child else Fraction(0)

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 from regscribe.lower.names import identifier, unknown
 from regscribe.lower.node import Value, elements_of, text_of, whole_of
-from regscribe.lower.presence import Models
 from regscribe.lower.rules import UNKNOWN_GROUP
 from regscribe.lower.tree import Item, TreeNode, TreePosition, entries_of, items_in, span_of
+from regscribe.lower.variants import Models
 from regscribe.model import Group
 
 

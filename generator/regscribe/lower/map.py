@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from regscribe.lower.commands import CommandScope, commands_of
 from regscribe.lower.conditions import condition
+from regscribe.lower.enums import enum_at
 from regscribe.lower.examples import Product, examples_of
 from regscribe.lower.groups import Bundle, bundles_of, groups_of
 from regscribe.lower.idle_keys import report_untaken
@@ -19,15 +20,16 @@ from regscribe.lower.map_header import (
 from regscribe.lower.members import members_of
 from regscribe.lower.names import letters_and_digits, module_id
 from regscribe.lower.node import Value, elements_of, items_of, text_of, texts_of
-from regscribe.lower.presence import Models, named_models
 from regscribe.lower.process import process_of
 from regscribe.lower.programs import programs_of
 from regscribe.lower.protocol import device_facts, protocol_of
-from regscribe.lower.scope import Scope, path_of
+from regscribe.lower.scales import rule_at, scale_at
+from regscribe.lower.scope import Scope
 from regscribe.lower.subject import subject_of
-from regscribe.lower.units import own_symbols
-from regscribe.lower.unused import look_at_tables
-from regscribe.model import Identity, IdentityRule, Model, Protocol, RegisterMap
+from regscribe.lower.units import cases_at, own_symbols
+from regscribe.lower.variants import Models, named_models
+from regscribe.lower.views import Home, set_at
+from regscribe.model import Identity, IdentityRule, Model, Protocol, RegisterMap, Space, WireType
 
 
 def map_of(root: Value) -> RegisterMap:
@@ -37,7 +39,7 @@ def map_of(root: Value) -> RegisterMap:
     products = [_product(root, scope, bundles[scope.model], protocol) for scope in scopes]
     report_untaken(root)
     for scope in scopes:
-        look_at_tables(root, replace(scope, lenient=True))
+        _look_at_tables(root, replace(scope, lenient=True))
     about = root.child("map") or root
     return RegisterMap(
         id=module_id(about),
@@ -96,7 +98,7 @@ def _product(root: Value, scope: Scope, bundles: list[Bundle], protocol: Protoco
         programs=tuple(program for program, _ in programs),
         program_notes=tuple(notes for _, notes in programs),
         process=process_of(root.child("process"), scope),
-        unused=unused_of(root, scope.model, scope.models),
+        unused=unused_of(root, scope),
         span=node.key_span,
     )
     return model, Product(scope, by_path, tuple(command.id for command in commands))
@@ -125,5 +127,29 @@ def _identity_texts(node: Value | None, scope: Scope) -> tuple[tuple[str, str], 
     for key, text in node.items() if node else ():
         subject = subject_of(text, key, scope)
         if subject is not None:
-            found.append((path_of(subject.entry, subject.name), text.text()))
+            found.append((subject.entry.path, text.text()))
     return tuple(found)
+
+
+def _look_at_tables(root: Value, scope: Scope) -> None:
+    """Lower every named thing of the map for one model and forget it; the mistakes stay in the context.
+
+    What a library or a base declares may be for other maps: there only what is used counts.
+    """
+    for _, node in _own(root, "conditions"):
+        condition(node, scope)
+    for name, node in _own(root, "enums"):
+        enum_at(node, scope, name)
+    for _, node in _own(root, "views"):
+        set_at(node, Home(Space.HOLDING, length=1), scope)
+    for _, node in _own(root, "decimals"):
+        rule_at(node, scope)
+    for _, node in _own(root, "scales"):
+        scale_at(node, WireType.INT16, scope)
+    for _, node in _own(root, "units"):
+        if node.is_list:
+            cases_at(node, scope)
+
+
+def _own(root: Value, table: str) -> list[tuple[str, Value]]:
+    return [(name, node) for name, node in items_of(root, table) if node.span.file == root.context.document.name]

@@ -2,9 +2,10 @@
 
 from regscribe.lower.interval_text import whole_ends
 from regscribe.lower.names import unknown
-from regscribe.lower.node import Value, elements_of, items_of, text_of, whole_of
-from regscribe.lower.presence import Models, present
+from regscribe.lower.node import Value, choice_of, elements_of, items_of, text_of, whole_of
 from regscribe.lower.rules import UNKNOWN_REGISTER
+from regscribe.lower.scope import Scope
+from regscribe.lower.variants import Models
 from regscribe.model import Erratum, Given, GivenKind, Manual, Notation, Space, Waiver
 
 
@@ -19,14 +20,9 @@ def manual_of(node: Value | None) -> Manual:
 def notations_of(root: Value) -> tuple[Notation, ...]:
     """Other ways to write addresses."""
     return tuple(
-        Notation(text_of(node, "name"), _space(node), whole_of(node, "offset"))
+        Notation(text_of(node, "name"), choice_of(node, "space", Space.HOLDING), whole_of(node, "offset"))
         for node in elements_of(root, "notations")
     )
-
-
-def _space(node: Value) -> Space:
-    told = node.child("space")
-    return told.choice(Space, Space.HOLDING) if told else Space.HOLDING
 
 
 def givens_of(root: Value, homes: dict[str, Models]) -> tuple[Given, ...]:
@@ -35,12 +31,12 @@ def givens_of(root: Value, homes: dict[str, Models]) -> tuple[Given, ...]:
 
 
 def _given(name: str, node: Value, homes: dict[str, Models]) -> Given:
-    told, register = node.child("type"), node.child("register")
+    register = node.child("register")
     if register and register.text() not in homes:
         unknown(register, UNKNOWN_REGISTER, "register", register.text(), homes)
     return Given(
         id=name,
-        kind=told.choice(GivenKind, GivenKind.CODES) if told else GivenKind.CODES,
+        kind=choice_of(node, "type", GivenKind.CODES),
         description=text_of(node, "description"),
         reason=text_of(node, "reason"),
         register=register.text() if register else "",
@@ -50,22 +46,17 @@ def _given(name: str, node: Value, homes: dict[str, Models]) -> Given:
 
 def reserved_of(root: Value) -> tuple[tuple[Space, int, int], ...]:
     """Stretches of addresses that the manual calls reserved: space, first, last."""
-    found = []
-    for node in elements_of(root, "reserved"):
-        at = node.child("at")
-        first, last = whole_ends(at) if at else (0, 0)
-        found.append((_space(node), first, last))
-    return tuple(found)
+    return tuple(_stretch(node) for node in elements_of(root, "reserved"))
 
 
-def unused_of(root: Value, model: str, every: Models) -> tuple[tuple[Space, int, int], ...]:
-    """Stretches of addresses that the manual calls unused on a model: space, first, last."""
-    found = []
-    for node in elements_of(root, "unused"):
-        at = node.child("at")
-        if at and model in present(node, every, every):
-            found.append((_space(node), *whole_ends(at)))
-    return tuple(found)
+def unused_of(root: Value, scope: Scope) -> tuple[tuple[Space, int, int], ...]:
+    """Stretches of addresses that the manual calls unused on the model of the scope: space, first, last."""
+    return tuple(_stretch(node) for node in elements_of(root, "unused") if scope.has(node))
+
+
+def _stretch(node: Value) -> tuple[Space, int, int]:
+    at = node.child("at")
+    return (choice_of(node, "space", Space.HOLDING), *(whole_ends(at) if at else (0, 0)))
 
 
 def errata_of(root: Value) -> tuple[Erratum, ...]:

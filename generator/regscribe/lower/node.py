@@ -14,6 +14,7 @@ from regscribe.source import Document
 Path = tuple[str | int, ...]
 Choice = TypeVar("Choice", bound=StrEnum)
 
+ZERO = Fraction(0)
 _LONGEST_NUMBER = 100
 _LONGEST_SHOWN = 60
 
@@ -165,8 +166,9 @@ class Value:
         """The value as true or false."""
         return self.value if isinstance(self.value, bool) else self._wrong("true or false", other=False)
 
-    def choice(self, among: type[Choice], otherwise: Choice) -> Choice:
-        """The value as one of the choices of an enumeration."""
+    def choice(self, otherwise: Choice) -> Choice:
+        """The value as one of the choices of the enumeration that `otherwise` is of."""
+        among = type(otherwise)
         try:
             return among(self.value)
         except ValueError:
@@ -216,6 +218,18 @@ def whole_of(node: Value, key: str, otherwise: int = 0) -> int:
     """The whole number of a key, or `otherwise` where it is absent."""
     child = node.child(key)
     return child.whole() if child else otherwise
+
+
+def fraction_of(node: Value, key: str, otherwise: Fraction = ZERO) -> Fraction:
+    """The exact number of a key, or `otherwise` where it is absent."""
+    child = node.child(key)
+    return child.number() if child else otherwise
+
+
+def choice_of(node: Value, key: str, otherwise: Choice) -> Choice:
+    """The choice of a key, or `otherwise` where it is absent."""
+    child = node.child(key)
+    return child.choice(otherwise) if child else otherwise
 
 
 def truth_of(node: Value, key: str, *, otherwise: bool = False) -> bool:

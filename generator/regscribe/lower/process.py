@@ -1,9 +1,8 @@
 """Which registers control the process value, and how: the key `process`."""
 
 from regscribe.lower.conditions import condition
-from regscribe.lower.followed_values import subject_at
 from regscribe.lower.node import Value, elements_of, text_of, whole_of
-from regscribe.lower.presence import present
+from regscribe.lower.register_links import subject_at
 from regscribe.lower.scope import Scope
 from regscribe.model import ALWAYS, Alarm, Condition, OnOff, Output, Pid, Process, Ramp, Trip, TripKind
 
@@ -33,7 +32,7 @@ def process_of(node: Value | None, scope: Scope) -> Process | None:
 
 
 def _here(node: Value, key: str, scope: Scope) -> list[Value]:
-    return [each for each in elements_of(node, key) if scope.model in present(each, scope.models, scope.models)]
+    return [each for each in elements_of(node, key) if scope.has(each)]
 
 
 def _role(node: Value, key: str, scope: Scope) -> str:

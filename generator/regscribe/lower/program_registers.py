@@ -48,13 +48,16 @@ class ProgramPlace:
         for path in candidates:
             if all(one in self.scope.entries for one in self._concrete(path)):
                 return path
-        elsewhere = [one for path in candidates for one in self._concrete(path) if one in self.scope.homes]
+        self._report(node, name, [one for path in candidates for one in self._concrete(path)], at_key=at_key)
+        return ""
+
+    def _report(self, node: Value, name: str, tried: list[str], *, at_key: bool) -> None:
+        elsewhere = [one for one in tried if one in self.scope.homes]
+        lacking = [one for one in elsewhere if one not in self.scope.entries]
         if elsewhere:
-            lacking = next((one for one in elsewhere if one not in self.scope.entries), elsewhere[0])
-            self.scope.missing(node, lacking, at_key=at_key)
+            self.scope.missing(node, (lacking or elsewhere)[0], at_key=at_key)
         else:
             unknown(node, UNKNOWN_REGISTER, "register", name, self._known(), at_key=at_key)
-        return ""
 
     def absent(self, name: str) -> bool:
         """Whether other models have the register in the segment, and this one does not."""
@@ -66,9 +69,8 @@ class ProgramPlace:
 
     def _known(self) -> list[str]:
         own = [numbered(prefix, self.numbers[0], self.first) for prefix in (self.inside, self.prefix) if prefix]
-        return [path.removeprefix(part) for part in own for path in self.scope.homes if path.startswith(part)] + [
-            path for path in self.scope.homes if "[" not in path
-        ]
+        inside = [path.removeprefix(part) for part in own for path in self.scope.homes if path.startswith(part)]
+        return inside + [path for path in self.scope.homes if "[" not in path]
 
     def code(self, node: Value, path: str) -> int:
         """The code of a member or special value of the register at `path`."""

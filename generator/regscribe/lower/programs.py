@@ -2,8 +2,7 @@
 
 from regscribe.lower.commands import CommandScope
 from regscribe.lower.conditions import condition
-from regscribe.lower.node import Value, elements_of, items_of, line_of, text_of
-from regscribe.lower.presence import present
+from regscribe.lower.node import Value, choice_of, elements_of, items_of, line_of, text_of
 from regscribe.lower.program_registers import ProgramPlace, numbers_of
 from regscribe.lower.rules import UNKNOWN_COMMAND
 from regscribe.lower.scope import Scope
@@ -28,9 +27,7 @@ def programs_of(root: Value, device: CommandScope) -> tuple[tuple[SetpointProgra
     """The setpoint programs that a model has, each with its notes."""
     scope = device.scope
     return tuple(
-        (_program(name, node, scope), _notes(node))
-        for name, node in items_of(root, "programs")
-        if scope.model in present(node, scope.models, scope.models)
+        (_program(name, node, scope), _notes(node)) for name, node in items_of(root, "programs") if scope.has(node)
     )
 
 
@@ -60,12 +57,11 @@ def _program(name: str, node: Value, scope: Scope) -> SetpointProgram:
 def _made(node: Value, place: ProgramPlace, program: SetpointProgram) -> SetpointProgram:
     """The program with what it is made of beside its segments."""
     count, cycles, forever = node.child("count"), place.path(node, "cycles"), node.child("forever")
-    counts = count.child("counts") if count else None
     limits = node.child("setpoint_limits")
     return program._replace(
         final=_final(node.child("final"), place),
         number_of_segments=place.path(count, "register"),
-        counts=counts.choice(ProgramCounts, ProgramCounts.ALL) if counts else ProgramCounts.ALL,
+        counts=choice_of(count, "counts", ProgramCounts.ALL) if count else ProgramCounts.ALL,
         cycles=cycles,
         forever=place.code(forever, cycles) if forever and cycles else None,
         time_unit=_time_unit(node.child("time_unit"), place),
@@ -79,7 +75,7 @@ def _made(node: Value, place: ProgramPlace, program: SetpointProgram) -> Setpoin
 
 def _run(node: Value, place: ProgramPlace, program: SetpointProgram) -> SetpointProgram:
     """The program with how it is run and watched."""
-    requires, running = node.child("requires"), node.child("while_running")
+    requires = node.child("requires")
     when = condition(requires.child("when"), place.scope) if requires else None
     return program._replace(
         enable=place.values(node.child("enable")),
@@ -92,12 +88,12 @@ def _run(node: Value, place: ProgramPlace, program: SetpointProgram) -> Setpoint
         hold=_action(node.child("hold"), place),
         resume=_action(node.child("resume"), place),
         reset=_action(node.child("reset"), place),
-        while_running=running.choice(WhileRunning, WhileRunning.NOT_STATED) if running else WhileRunning.NOT_STATED,
+        while_running=choice_of(node, "while_running", WhileRunning.NOT_STATED),
     )
 
 
 def _order(node: Value) -> tuple[ProgramPart, ...]:
-    told = tuple(one.choice(ProgramPart, ProgramPart.SEGMENTS) for one in elements_of(node, "write_order"))
+    told = tuple(one.choice(ProgramPart.SEGMENTS) for one in elements_of(node, "write_order"))
     return (*(part for part in ProgramPart if part not in told), *told)
 
 

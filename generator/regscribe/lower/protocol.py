@@ -6,9 +6,22 @@ from fractions import Fraction
 from typing import TypedDict
 
 from regscribe.lower.interval_text import ends, whole_ends
-from regscribe.lower.node import Value, elements_of, items_of, line_of, text_of, texts_of, truth_of, whole_of, wholes_of
+from regscribe.lower.node import (
+    ZERO,
+    Value,
+    choice_of,
+    elements_of,
+    fraction_of,
+    items_of,
+    line_of,
+    text_of,
+    texts_of,
+    truth_of,
+    whole_of,
+    wholes_of,
+)
 from regscribe.lower.rules import WRONG_SORT
-from regscribe.model import SILENCE, ExceptionCode, Faults, Latency, Later, Protocol, ProtocolNotes, SerialDefaults
+from regscribe.model import SILENCE, ExceptionCode, Faults, Latency, Protocol, ProtocolNotes, SerialDefaults
 
 _LATER = ("later_read", "later_write")
 _CODES = (
@@ -88,14 +101,13 @@ def faults_of(protocol: Value) -> Faults:
     faults, node = Faults(), protocol.child("faults")
     if node is None:
         return faults
-    read, write = node.child("later_read"), node.child("later_write")
     codes = {key: _code(each) for key, each in node.items() if key in _CODES}
     codes.setdefault("unused_write", codes.get("address", faults.unused_write))
     return replace(
         faults,
         **codes,
-        later_read=read.choice(Later, faults.later_read) if read else faults.later_read,
-        later_write=write.choice(Later, faults.later_write) if write else faults.later_write,
+        later_read=choice_of(node, "later_read", faults.later_read),
+        later_write=choice_of(node, "later_write", faults.later_write),
     )
 
 
@@ -109,13 +121,11 @@ def _exception(node: Value) -> ExceptionCode:
 
 def _latency(node: Value) -> Latency:
     fixed, each = _times(node.child("fixed")), _times(node.child("per_word"))
-    told = node.child("characters")
-    characters = told.number() if told else Fraction(0)
-    return Latency(node.key_whole(), *fixed, *each, characters)
+    return Latency(node.key_whole(), *fixed, *each, fraction_of(node, "characters"))
 
 
 def _times(node: Value | None) -> tuple[Fraction, Fraction]:
-    return ends(node) if node else (Fraction(0), Fraction(0))
+    return ends(node) if node else (ZERO, ZERO)
 
 
 def _serial(node: Value | None) -> SerialDefaults:
@@ -123,14 +133,13 @@ def _serial(node: Value | None) -> SerialDefaults:
     if node is None:
         return plain
     baud, form = _default(node.child("default"), plain)
-    gap = node.child("gap_characters")
     return SerialDefaults(
         modes=texts_of(node, "modes", plain.modes),
         bauds=wholes_of(node, "baud"),
         formats=texts_of(node, "formats"),
         baud=baud,
         format=form,
-        gap=gap.number() if gap else plain.gap,
+        gap=fraction_of(node, "gap_characters", Fraction(plain.gap)),
     )
 
 

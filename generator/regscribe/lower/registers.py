@@ -5,11 +5,10 @@ from fractions import Fraction
 
 from regscribe.lower.conditions import condition
 from regscribe.lower.enums import enum_of, fields_of
-from regscribe.lower.followed_values import followed_fields, follows_of, shadowed
-from regscribe.lower.governs import governs_of
 from regscribe.lower.idle_keys import report_idle
 from regscribe.lower.node import Value, line_of, text_of
 from regscribe.lower.ranges import range_of
+from regscribe.lower.register_links import followed_fields, follows_of, governs_of, shadowed
 from regscribe.lower.rules import NO_ACCESS, UNKNOWN_COMMAND
 from regscribe.lower.scales import NOT_STATED, Scaling, decimals_rule, scale_of
 from regscribe.lower.scope import Scope
@@ -107,7 +106,7 @@ def kind_of(entry: TreeNode, views: tuple[View, ...], scaling: tuple[Scaling, ..
     """What the value is to a program: told by the map, or else by the other keys."""
     settings = entry.settings
     if "kind" in settings:
-        return settings["kind"].choice(Kind, Kind.INTEGER)
+        return settings["kind"].choice(Kind.INTEGER)
     for key, kind in _BY_KEY.items():
         if key in settings:
             return kind
@@ -166,7 +165,7 @@ def folded(entry: TreeNode, everywhere: Scope) -> Register:
 def _access(entry: TreeNode) -> Access:
     node = entry.settings.get("access")
     if node is not None:
-        return node.choice(Access, Access.READ)
+        return node.choice(Access.READ)
     message = f"`{entry.id}` has no access"
     (entry.node.child("name") or entry.node).report(
         NO_ACCESS, message, remedy="give `access: r`, `rw` or `w` here or in the group's `each`"

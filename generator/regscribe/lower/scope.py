@@ -6,9 +6,9 @@ from typing import TypeVar, cast
 
 from regscribe.lower.names import unknown
 from regscribe.lower.node import Value
-from regscribe.lower.presence import Models
 from regscribe.lower.rules import OTHER_MODELS, UNKNOWN_REGISTER
 from regscribe.lower.tree import TreeNode
+from regscribe.lower.variants import Models, present
 from regscribe.model import Enum, Related
 from regscribe.model.identifiers import opened
 
@@ -44,6 +44,10 @@ class Scope:
     def at(self, entry: TreeNode) -> "Scope":
         """The same scope, seen from a register."""
         return replace(self, viewer=entry)
+
+    def has(self, node: Value) -> bool:
+        """Whether a command, effect, member or field is on this model; RS0314 for names of no model."""
+        return self.model in present(node, self.models, self.models)
 
     def once(self, key: object, make: Callable[[], Made]) -> Made:
         """What a thing of the map's tables, named by `key`, means here: the same to all registers of an element."""

@@ -21,6 +21,11 @@ class Subject:
     field: str = ""
     bits: tuple[int, int] | None = None
 
+    @property
+    def path(self) -> str:
+        """The path of the register, or `path.field`."""
+        return f"{self.entry.path}.{self.field}" if self.field else self.entry.path
+
 
 def subject_of(node: Value, key: str, scope: Scope) -> Subject | None:
     """The subject that the key of `node` names; RS0301, RS0302 or RS0303 and None where there is none."""

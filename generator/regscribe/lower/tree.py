@@ -5,10 +5,9 @@ from dataclasses import dataclass, replace
 from regscribe.lower.interval_text import whole_ends
 from regscribe.lower.names import identifier
 from regscribe.lower.node import Value, elements_of, text_of, whole_of
-from regscribe.lower.presence import Models, present
 from regscribe.lower.rules import ON_NO_MODEL, TOO_MANY_ELEMENTS
 from regscribe.lower.sets import left_of, table_of
-from regscribe.lower.variants import Keys, settings_of, with_variants
+from regscribe.lower.variants import Keys, Models, present, settings_of, with_variants
 from regscribe.model import Span
 
 ADDRESSES = 65536

@@ -1,11 +1,12 @@
-"""What counts for one register on one model: defaults of the group, own keys, variants, laid over each other."""
+"""Which models have a thing, and which keys count for a register on one: those of its group, its own, its variants."""
 
 from collections.abc import Iterable
 
 from regscribe.lower.names import unknown
 from regscribe.lower.node import Path, Value, elements_of, texts_of
-from regscribe.lower.presence import Models
 from regscribe.lower.rules import IDLE_VARIANT, UNKNOWN_MODEL
+
+Models = tuple[str, ...]
 
 NOT_SETTINGS = frozenset({"variants", "models", "except"})
 _NUMERIC = frozenset(
@@ -37,36 +38,54 @@ class Keys(dict[str, Value]):
         self.replaced: set[Path] = set()
 
     def lay(self, own: dict[str, Value]) -> None:
-        """Lay keys over these; one given as null removes what lies below."""
-        self.replace(own.keys())
-        self.update({key: node for key, node in own.items() if node.value is not None})
+        """Lay keys over these.
 
-    def replace(self, keys: Iterable[str]) -> None:
+        A key given as null removes what lies below; so does a key that says the same thing in another way (`decimals`
+        over `scale`), and codes, bits and texts take away the number that the group's defaults would make of the word.
+        """
+        given = {key: node for key, node in own.items() if node.value is not None}
+        for keys, rivals in _RIVALS:
+            if keys & given.keys():
+                self._replace(rivals - own.keys())
+        if _makes_no_number(given):
+            for key in self.keys() & (_NUMERIC - own.keys()):
+                del self[key]
+        self._replace(own.keys())
+        self.update(given)
+
+    def _replace(self, keys: Iterable[str]) -> None:
         """Remove keys for which something else stands."""
         self.replaced |= {self.pop(key).path for key in self.keys() & set(keys)}
 
-    def lose(self, keys: Iterable[str]) -> None:
-        """Remove keys that mean nothing beside what is laid over them."""
-        for key in keys:
-            self.pop(key, None)
+
+def _makes_no_number(given: dict[str, Value]) -> bool:
+    """Whether keys make codes, bits or a text of the register."""
+    return bool(given.keys() & _CODES) or any(
+        key in given and given[key].value in values for key, values in _NO_NUMBERS.items()
+    )
+
+
+def present(node: Value, among: Models, every: Models) -> Models:
+    """The models of `among` that a register, array, command, member or field is on; RS0314 for names of no model."""
+    only = node.child("models")
+    listed = named_models(only.elements(), every) if only else among
+    left_out = named_models(elements_of(node, "except"), every)
+    return tuple(model for model in among if model in listed and model not in left_out)
+
+
+def named_models(nodes: list[Value], every: Models) -> Models:
+    """The models that a list names; RS0314 for names of no model."""
+    for node in nodes:
+        if node.text() not in every:
+            unknown(node, UNKNOWN_MODEL, "model", node.text(), every)
+    return tuple(node.text() for node in nodes if node.text() in every)
 
 
 def settings_of(layers: list[Value]) -> Keys:
-    """Lay the layers over each other, the last on top.
-
-    A key given as null removes what lies below; so does a key that says the same thing in another way (`decimals`
-    over `scale`), and codes, bits and texts take away the number that the group's defaults would make of the word.
-    """
+    """The keys that count where layers lie over each other, the last on top."""
     settings = Keys()
     for layer in layers:
-        own = {key: node for key, node in layer.items() if key not in NOT_SETTINGS}
-        given = {key for key, node in own.items() if node.value is not None}
-        for keys, rivals in _RIVALS:
-            if keys & given:
-                settings.replace(rivals - own.keys())
-        if given & _CODES or any(key in own and own[key].value in values for key, values in _NO_NUMBERS.items()):
-            settings.lose(_NUMERIC - own.keys())
-        settings.lay(own)
+        settings.lay({key: node for key, node in layer.items() if key not in NOT_SETTINGS})
     return settings
 
 

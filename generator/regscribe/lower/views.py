@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from regscribe.lower.interval_text import whole_ends
-from regscribe.lower.node import Value, elements_of, text_of, truth_of, whole_of
+from regscribe.lower.node import Value, choice_of, fraction_of, truth_of, whole_of, wholes_of
 from regscribe.lower.rules import IDLE_KEY, IDLE_LENGTH, TYPE_BESIDE_VIEWS, UNKNOWN_VIEWS, WRONG_SORT
 from regscribe.lower.scope import Scope, path_of
 from regscribe.lower.tree import TreeNode
@@ -36,7 +36,7 @@ def views_of(entry: TreeNode, scope: Scope) -> tuple[View, ...]:
 
 def _views_of(entry: TreeNode, scope: Scope) -> tuple[View, ...]:
     settings = entry.settings
-    space = settings["space"].choice(Space, Space.HOLDING) if "space" in settings else Space.HOLDING
+    space = settings["space"].choice(Space.HOLDING) if "space" in settings else Space.HOLDING
     length = settings["length"].whole() if "length" in settings else 1
     home = Home(space, length)
     if "views" not in settings:
@@ -71,7 +71,7 @@ def set_at(node: Value, home: Home, scope: Scope) -> tuple[View, ...]:
 def _single(entry: TreeNode, home: Home, scope: Scope) -> View:
     settings = entry.settings
     default = _DEFAULT_TYPES.get(home.space, WireType.UINT16)
-    wire = settings["type"].choice(WireType, default) if "type" in settings else default
+    wire = settings["type"].choice(default) if "type" in settings else default
     functions = tuple(node.whole() for node in settings["functions"].elements()) if "functions" in settings else ()
     return View(
         name="base",
@@ -79,28 +79,27 @@ def _single(entry: TreeNode, home: Home, scope: Scope) -> View:
         type=wire,
         words=home.length if wire is WireType.STRING else wire.words,
         order=_order(settings.get("word_order"), scope),
-        byte_order=_byte_order(settings.get("byte_order")),
+        byte_order=settings["byte_order"].choice(Order.BIG) if "byte_order" in settings else Order.BIG,
         functions=functions,
     )
 
 
 def _view(name: str, node: Value, home: Home, scope: Scope) -> View:
-    told = node.child("type")
-    wire = told.choice(WireType, WireType.UINT16) if told else WireType.UINT16
+    wire = choice_of(node, "type", WireType.UINT16)
     _report_idle(name, node, wire)
-    factor, rounding, region = node.child("factor"), node.child("rounding"), node.child("region")
+    region = node.child("region")
     return View(
         name=name,
         space=home.space,
         offset=whole_of(node, "offset"),
         type=wire,
         words=home.length if wire is WireType.STRING else wire.words,
-        factor=factor.number() if factor else Fraction(1),
-        rounding=rounding.choice(Rounding, Rounding.NONE) if rounding else Rounding.NONE,
+        factor=fraction_of(node, "factor", Fraction(1)),
+        rounding=choice_of(node, "rounding", Rounding.NONE),
         saturates=truth_of(node, "saturates"),
         order=_order(node.child("word_order"), scope),
-        byte_order=_byte_order(node.child("byte_order")),
-        functions=tuple(element.whole() for element in elements_of(node, "functions")),
+        byte_order=choice_of(node, "byte_order", Order.BIG),
+        functions=wholes_of(node, "functions"),
         align=whole_of(node, "align", 1),
         region=whole_ends(region) if region else None,
         preferred=truth_of(node, "preferred"),
@@ -124,12 +123,8 @@ def _order(node: Value | None, scope: Scope) -> Order | OrderFrom:
     if node is None:
         return Order.BIG
     if not node.is_mapping:
-        return node.choice(Order, Order.BIG)
+        return node.choice(Order.BIG)
     register, codes = node.child("register"), node.child("codes")
-    path = path_of(scope.register(register), register.text()) if register else text_of(node, "register")
-    pairs = [(each.key_whole(), each.choice(Order, Order.BIG)) for each in codes.values()] if codes else []
+    path = path_of(scope.register(register), register.text()) if register else ""
+    pairs = [(each.key_whole(), each.choice(Order.BIG)) for each in codes.values()] if codes else []
     return OrderFrom(register=path, codes=tuple(pairs))
-
-
-def _byte_order(node: Value | None) -> Order:
-    return node.choice(Order, Order.BIG) if node else Order.BIG
