@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from itertools import combinations
 from operator import attrgetter
 
-from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule, model_rule, register_rule, warning
-from regscribe.model import Register, Related, Rule, Space, View
+from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule, model_rule, register_rule
+from regscribe.model import Register, Related, Space, View
 
 LAST_ADDRESS = 0xFFFF
 FAR = 10_000
@@ -42,11 +42,9 @@ def stretches(register: Register) -> Iterator[Stretch]:
 
 
 @model_rule(
-    Rule(
-        "RS0401",
-        "Addresses overlap",
-        "Two registers (or two views of one) at the same address cannot both be right: one of the rows was misread.",
-    )
+    "RS0401",
+    "Addresses overlap",
+    "Two registers (or two views of one) at the same address cannot both be right: one of the rows was misread.",
 )
 def overlap(scope: RuleScope) -> Iterator[Finding]:
     """Compare each stretch with the one before it that reaches furthest."""
@@ -69,7 +67,7 @@ def _overlap(earlier: Stretch, later: Stretch) -> Finding:
 
 
 @register_rule(
-    Rule("RS0402", "Address outside the address space", "A Modbus address is 16 bits; function 07 has one address, 0.")
+    "RS0402", "Address outside the address space", "A Modbus address is 16 bits; function 07 has one address, 0."
 )
 def outside_space(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Look at the first and the last address of each view and alias."""
@@ -80,7 +78,7 @@ def outside_space(register: Register, _: RuleScope) -> Iterator[Finding]:
 
 
 @register_rule(
-    Rule("RS0403", "Alias equals an address that the register has", "An alias says nothing if it is no other address.")
+    "RS0403", "Alias equals an address that the register has", "An alias says nothing if it is no other address."
 )
 def alias_of_itself(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare aliases with the base address and with one another."""
@@ -89,9 +87,7 @@ def alias_of_itself(register: Register, _: RuleScope) -> Iterator[Finding]:
             yield Finding.at(register, f"lists alias {alias}, which it has already", "remove this alias")
 
 
-@register_rule(
-    Rule("RS0404", "Register at a reserved address", "The manual cannot both reserve an address and describe it.")
-)
+@register_rule("RS0404", "Register at a reserved address", "The manual cannot both reserve an address and describe it.")
 def reserved(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """Compare each stretch with the reserved ones."""
     for space, first, last in scope.register_map.reserved:
@@ -102,7 +98,7 @@ def reserved(register: Register, scope: RuleScope) -> Iterator[Finding]:
 
 
 @register_rule(
-    Rule("RS0407", "Register at an unused address", "The manual cannot both list an address as unused and describe it.")
+    "RS0407", "Register at an unused address", "The manual cannot both list an address as unused and describe it."
 )
 def unused(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """Compare each stretch with those that the model does not use."""
@@ -114,7 +110,7 @@ def unused(register: Register, scope: RuleScope) -> Iterator[Finding]:
 
 
 @model_rule(
-    Rule("RS0662", "Addresses without a register listed twice", "They are reserved or unused, and need one entry only.")
+    "RS0662", "Addresses without a register listed twice", "They are reserved or unused, and need one entry only."
 )
 def listed_twice(scope: RuleScope) -> Iterator[Finding]:
     """Compare all entries of `reserved` and `unused` that count on the model in pairs."""
@@ -126,9 +122,7 @@ def listed_twice(scope: RuleScope) -> Iterator[Finding]:
             yield Finding(MAP, scope.register_map.span, message, "remove one entry, or shorten it")
 
 
-@map_rule(
-    Rule("RS0405", "Notation declared twice", "Two offsets under one name leave a printed address with two meanings.")
-)
+@map_rule("RS0405", "Notation declared twice", "Two offsets under one name leave a printed address with two meanings.")
 def notation_twice(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Find a notation whose name and space were seen before."""
     seen: set[tuple[str, Space]] = set()
@@ -142,11 +136,9 @@ def notation_twice(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
 
 
 @register_rule(
-    Rule(
-        "RS0406",
-        "The device has no function for this access",
-        "A register that can be read or written needs a function code of its space that the device supports.",
-    )
+    "RS0406",
+    "The device has no function for this access",
+    "A register that can be read or written needs a function code of its space that the device supports.",
 )
 def no_function(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """Look for functions that read and write the views that drivers take, and any other that may be named to them."""
@@ -169,11 +161,10 @@ def no_function(register: Register, scope: RuleScope) -> Iterator[Finding]:
 
 
 @map_rule(
-    warning(
-        "RS0636",
-        "Addresses in a notation",
-        "`at` is the address in the request, which counts from 0; a printed 40001 is address 0 on the wire.",
-    )
+    "RS0636",
+    "Addresses in a notation",
+    "`at` is the address in the request, which counts from 0; a printed 40001 is address 0 on the wire.",
+    warns=True,
 )
 def in_a_notation(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Look for spaces most of whose registers stand where a notation of the map counts, not at wire addresses."""

@@ -6,14 +6,14 @@ from itertools import combinations
 
 from regscribe.checks.identifiers import normalised
 from regscribe.checks.rule import Finding, RuleScope, register_rule
-from regscribe.model import BitField, Kind, Register, Rule, show
+from regscribe.model import BitField, Kind, Register, show
 
 
 def _where(bits: BitField) -> str:
     return f"`{bits.id}` (bit {bits.low})" if bits.width == 1 else f"`{bits.id}` (bits {bits.low}..{bits.high})"
 
 
-@register_rule(Rule("RS0450", "Bit fields overlap", "One bit has one meaning: a row of the bit table was misread."))
+@register_rule("RS0450", "Bit fields overlap", "One bit has one meaning: a row of the bit table was misread.")
 def bits_overlap(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare the fields of a word in pairs (there are 64 at most)."""
     for one, other in combinations(register.fields, 2):
@@ -22,7 +22,7 @@ def bits_overlap(register: Register, _: RuleScope) -> Iterator[Finding]:
             yield Finding.at(register, message, "correct the bits of one of them")
 
 
-@register_rule(Rule("RS0451", "Bit outside the word", "A bit beyond the word's width can never be read."))
+@register_rule("RS0451", "Bit outside the word", "A bit beyond the word's width can never be read.")
 def bit_outside_word(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare each field with the width of the base view."""
     for bits in register.fields:
@@ -31,7 +31,7 @@ def bit_outside_word(register: Register, _: RuleScope) -> Iterator[Finding]:
             yield Finding.at(register, message, "correct the bits or the type")
 
 
-@register_rule(Rule("RS0452", "Enum wider than its bit field", "A code that the bits cannot spell never occurs."))
+@register_rule("RS0452", "Enum wider than its bit field", "A code that the bits cannot spell never occurs.")
 def enum_wider_than_field(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare the codes of each field's enum with its width."""
     for bits in register.fields:
@@ -42,7 +42,7 @@ def enum_wider_than_field(register: Register, _: RuleScope) -> Iterator[Finding]
             yield Finding.at(register, message, "correct the codes or the bits")
 
 
-@register_rule(Rule("RS0453", "Bit fields of one name", "Two bits of one id or label cannot be told apart."))
+@register_rule("RS0453", "Bit fields of one name", "Two bits of one id or label cannot be told apart.")
 def bits_of_one_name(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare ids and labels of the fields of a word."""
     for one, other in combinations(register.fields, 2):
@@ -53,11 +53,9 @@ def bits_of_one_name(register: Register, _: RuleScope) -> Iterator[Finding]:
 
 
 @register_rule(
-    Rule(
-        "RS0655",
-        "Default with bits that mean nothing",
-        "A driver writes no bit that has no name, so it could never write this default.",
-    )
+    "RS0655",
+    "Default with bits that mean nothing",
+    "A driver writes no bit that has no name, so it could never write this default.",
 )
 def default_of_no_name(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare the bits of a default with the flags; a device may be delivered with more of them set."""

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from regscribe.checks.addresses import LAST_ADDRESS, Stretch, stretches
 from regscribe.checks.rule import Finding, RuleScope, model_rule
-from regscribe.model import Command, CommandStep, Register, Related, Rule, Space, View
+from regscribe.model import Command, CommandStep, Register, Related, Space, View
 
 ONE_VALUE = (5, 6)
 LONGEST = 125
@@ -81,9 +81,7 @@ def _around(step: CommandStep, space: Space, scope: RuleScope) -> Iterator[View]
             yield view
 
 
-@model_rule(
-    Rule("RS0478", "Command writes a read-only register", "The device refuses it: address or access was misread.")
-)
+@model_rule("RS0478", "Command writes a read-only register", "The device refuses it: address or access was misread.")
 def step_on_read_only(scope: RuleScope) -> Iterator[Finding]:
     """Look at the access of every register that a step touches."""
     for command, step, _, space in requests(scope):
@@ -96,7 +94,7 @@ def step_on_read_only(scope: RuleScope) -> Iterator[Finding]:
 
 
 @model_rule(
-    Rule("RS0637", "Command by a function that a view does not allow", "The device refuses it, as it would a driver.")
+    "RS0637", "Command by a function that a view does not allow", "The device refuses it, as it would a driver."
 )
 def step_by_another_function(scope: RuleScope) -> Iterator[Finding]:
     """Compare the function of a step with those of the views that it touches."""
@@ -117,11 +115,9 @@ def step_by_another_function(scope: RuleScope) -> Iterator[Finding]:
 
 
 @model_rule(
-    Rule(
-        "RS0479",
-        "Command at an address that it cannot mean",
-        "Commands may go to addresses of no register, but not to reserved or unused ones, nor to a part of a value.",
-    )
+    "RS0479",
+    "Command at an address that it cannot mean",
+    "Commands may go to addresses of no register, but not to reserved or unused ones, nor to a part of a value.",
 )
 def step_into_the_middle(scope: RuleScope) -> Iterator[Finding]:
     """Compare the addresses of a step with the ends of the space, with reserved ones, and with those of values."""
@@ -162,7 +158,7 @@ def _values_in_part(command: Command, step: CommandStep, path: str, found: list[
 
 
 @model_rule(
-    Rule("RS0480", "Command longer than a request", "A step is one request; the device refuses or ignores longer ones.")
+    "RS0480", "Command longer than a request", "A step is one request; the device refuses or ignores longer ones."
 )
 def step_too_long(scope: RuleScope) -> Iterator[Finding]:
     """Compare the words of a step with the limit, and with the one of functions 05 and 06."""
@@ -176,9 +172,7 @@ def step_too_long(scope: RuleScope) -> Iterator[Finding]:
 
 
 @model_rule(
-    Rule(
-        "RS0481", "Command by a function that the device lacks", "The device answers such a request with an exception."
-    )
+    "RS0481", "Command by a function that the device lacks", "The device answers such a request with an exception."
 )
 def step_function(scope: RuleScope) -> Iterator[Finding]:
     """Compare the function of a step with those of the protocol and with those that write its space."""
@@ -193,9 +187,7 @@ def step_function(scope: RuleScope) -> Iterator[Finding]:
             yield _at(command, message, help_text)
 
 
-@model_rule(
-    Rule("RS0650", "Command with words that are no bits", "A coil is 1 (on) or 0 (off), whatever is sent for it.")
-)
+@model_rule("RS0650", "Command with words that are no bits", "A coil is 1 (on) or 0 (off), whatever is sent for it.")
 def step_of_no_bits(scope: RuleScope) -> Iterator[Finding]:
     """Look for other numbers than 0 and 1 in steps that write coils."""
     for command, step, _, space in requests(scope):
@@ -205,7 +197,7 @@ def step_of_no_bits(scope: RuleScope) -> Iterator[Finding]:
             yield _at(command, message, "write 1 for on (FF00 in a frame of function 05) and 0 for off")
 
 
-@model_rule(Rule("RS0485", "Command without a request", "A command that sends nothing does nothing."))
+@model_rule("RS0485", "Command without a request", "A command that sends nothing does nothing.")
 def no_request(scope: RuleScope) -> Iterator[Finding]:
     """Find commands that have no steps but waits."""
     for command in scope.model.commands:

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from regscribe.checks.probe_states import Verdict, verdict
-from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule, warning
-from regscribe.model import Condition, Identity, Kind, OrderFrom, Register, Rule, Span
+from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule
+from regscribe.model import Condition, Identity, Kind, OrderFrom, Register, Span
 
 Ask = tuple[Condition, ...]
 
@@ -68,11 +68,9 @@ def _shown(condition: Condition, place: int) -> str:
 
 
 @map_rule(
-    Rule(
-        "RS0470",
-        "Condition that can never hold",
-        "It asks for a code, or for codes at once, that the tested registers cannot have on any model.",
-    )
+    "RS0470",
+    "Condition that can never hold",
+    "It asks for a code, or for codes at once, that the tested registers cannot have on any model.",
 )
 def never_holds(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Try every condition in every state that it tells apart; each condition is reported once."""
@@ -132,9 +130,7 @@ def _never_begins(register: Register, text: str) -> str:
     return next((why for why, holds in whys.items() if holds), "")
 
 
-@map_rule(
-    Rule("RS0471", "Case that is never reached", "The first case that holds counts, and an earlier one always does.")
-)
+@map_rule("RS0471", "Case that is never reached", "The first case that holds counts, and an earlier one always does.")
 def never_reached(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Find cases that can hold, but never first."""
     for ask, asked in _asked(scopes):
@@ -145,7 +141,9 @@ def never_reached(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
             yield Finding(asked.subject, asked.span, message, "put it before the case that hides it, or remove it")
 
 
-@map_rule(warning("RS0472", "States that no case covers", "In such a state a value can be neither read nor written."))
+@map_rule(
+    "RS0472", "States that no case covers", "In such a state a value can be neither read nor written.", warns=True
+)
 def not_covered(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Look for a state in which none of the cases of a scale or a range holds; units may be absent."""
     seen: set[Ask] = set()
@@ -158,9 +156,7 @@ def not_covered(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
             yield Finding(asked.subject, asked.span, message, help_text)
 
 
-@map_rule(
-    Rule("RS0473", "Given that nothing needs", "Users must find out every given; one that decides nothing is in vain.")
-)
+@map_rule("RS0473", "Given that nothing needs", "Users must find out every given; one that decides nothing is in vain.")
 def given_unused(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Collect the givens of all conditions of all models."""
     used = {test.given for ask, _ in _asked(scopes) for condition in ask for test in condition.tests}

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from regscribe.checks.held_values import no_member
 from regscribe.checks.identifiers import ENUM_NAMES, normalised
 from regscribe.checks.rule import Finding, RuleScope, model_rule, register_rule
-from regscribe.model import Enum, Member, Register, Rule, WireType
+from regscribe.model import Enum, Member, Register, WireType
 
 
 def enums_of(scope: RuleScope) -> Iterator[tuple[Register, str, Enum]]:
@@ -28,7 +28,7 @@ def _finding(register: Register, field: str, enum: Enum, message: str, help_text
 
 
 @register_rule(
-    Rule("RS0440", "Enum code outside the type", "A code that the word cannot spell can never be read or written.")
+    "RS0440", "Enum code outside the type", "A code that the word cannot spell can never be read or written."
 )
 def code_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare the codes with the type of the base view."""
@@ -58,7 +58,7 @@ def _codes(members: list[Member]) -> str:
     return ", ".join(str(member.code) for member in members)
 
 
-@model_rule(Rule("RS0441", "Label used twice in an enum", "Two codes of one meaning: one of them was misread."))
+@model_rule("RS0441", "Label used twice in an enum", "Two codes of one meaning: one of them was misread.")
 def label_twice(scope: RuleScope) -> Iterator[Finding]:
     """Compare labels without case and blanks."""
     for register, field, enum in enums_of(scope):
@@ -67,7 +67,7 @@ def label_twice(scope: RuleScope) -> Iterator[Finding]:
             yield _finding(register, field, enum, message, "correct a label, or say what tells them apart")
 
 
-@model_rule(Rule("RS0442", "Enum members of one id", "Labels that differ in signs only become one Python name."))
+@model_rule("RS0442", "Enum members of one id", "Labels that differ in signs only become one Python name.")
 def member_id_twice(scope: RuleScope) -> Iterator[Finding]:
     """Compare ids without case and `_`; equal labels are RS0441's."""
     for register, field, enum in enums_of(scope):
@@ -78,7 +78,7 @@ def member_id_twice(scope: RuleScope) -> Iterator[Finding]:
 
 
 @register_rule(
-    Rule("RS0443", "Default is no member of the enum", "The device leaves the factory with a code that has a meaning.")
+    "RS0443", "Default is no member of the enum", "The device leaves the factory with a code that has a meaning."
 )
 def default_no_member(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Look for the default among the codes of the register, and for its parts among those of the fields."""
@@ -88,7 +88,7 @@ def default_no_member(register: Register, _: RuleScope) -> Iterator[Finding]:
             yield Finding.at(register, f"has {what} {problem}", f"correct the {what}, or add the member")
 
 
-@model_rule(Rule("RS0444", "Enum without members", "A model on which no code is valid cannot have the register."))
+@model_rule("RS0444", "Enum without members", "A model on which no code is valid cannot have the register.")
 def no_members(scope: RuleScope) -> Iterator[Finding]:
     """Find enums that lost all members on this model."""
     for register, field, enum in enums_of(scope):
@@ -98,11 +98,7 @@ def no_members(scope: RuleScope) -> Iterator[Finding]:
 
 
 @model_rule(
-    Rule(
-        "RS0454",
-        "Cells and columns of an enum differ",
-        "A cell without a column, or the reverse, says nothing certain.",
-    )
+    "RS0454", "Cells and columns of an enum differ", "A cell without a column, or the reverse, says nothing certain."
 )
 def cells_of_columns(scope: RuleScope) -> Iterator[Finding]:
     """Count the cells of each member that has some."""
@@ -113,7 +109,7 @@ def cells_of_columns(scope: RuleScope) -> Iterator[Finding]:
                 yield _finding(register, field, enum, message, "give one cell for each of `columns`")
 
 
-@model_rule(Rule("RS0445", "Member id is no Python name", "A member becomes an attribute of an IntEnum class."))
+@model_rule("RS0445", "Member id is no Python name", "A member becomes an attribute of an IntEnum class.")
 def member_no_name(scope: RuleScope) -> Iterator[Finding]:
     """Refuse what is no identifier, a keyword, or a name that `enum` uses itself."""
     checks: tuple[Callable[[str], bool], ...] = (keyword.iskeyword, lambda name: name.upper() in ENUM_NAMES)

@@ -4,8 +4,8 @@ import keyword
 import re
 from collections.abc import Iterator
 
-from regscribe.checks.rule import Finding, RuleScope, model_rule, register_rule, warning
-from regscribe.model import Array, Enum, Kind, Register, Related, Rule, Span
+from regscribe.checks.rule import Finding, RuleScope, model_rule, register_rule
+from regscribe.model import Array, Enum, Kind, Register, Related, Span
 
 RUNTIME_NAMES = frozenset(
     """
@@ -56,9 +56,7 @@ def _named(scope: RuleScope) -> Iterator[tuple[str, str, Span]]:
 
 
 @model_rule(
-    Rule(
-        "RS0410", "Id is no Python name", "An id becomes an attribute of the driver, so it must be a Python identifier."
-    )
+    "RS0410", "Id is no Python name", "An id becomes an attribute of the driver, so it must be a Python identifier."
 )
 def not_a_name(scope: RuleScope) -> Iterator[Finding]:
     """Refuse keywords, and what is no identifier in lower case."""
@@ -70,9 +68,7 @@ def not_a_name(scope: RuleScope) -> Iterator[Finding]:
             yield Finding(name, span, message, "give it an `id` of letters, digits and `_` that starts with a letter")
 
 
-@model_rule(
-    Rule("RS0411", "Id hides a name of the driver", "A register called `write` would replace the method `write`.")
-)
+@model_rule("RS0411", "Id hides a name of the driver", "A register called `write` would replace the method `write`.")
 def hides_runtime(scope: RuleScope) -> Iterator[Finding]:
     """Refuse ids that a driver's class uses itself."""
     for what, name, span in _named(scope):
@@ -81,7 +77,7 @@ def hides_runtime(scope: RuleScope) -> Iterator[Finding]:
             yield Finding(name, span, message, f"give it another `id`, for example `{name}_{what.split()[-1]}`")
 
 
-@model_rule(Rule("RS0412", "Id used twice", "Two things of one id cannot both be reached from the driver."))
+@model_rule("RS0412", "Id used twice", "Two things of one id cannot both be reached from the driver.")
 def id_twice(scope: RuleScope) -> Iterator[Finding]:
     """Compare ids without `_`, among the registers and arrays of one owner, the groups and the commands."""
 
@@ -110,7 +106,7 @@ def _repeated(named: Iterator[tuple[str, str, Span]]) -> Iterator[Finding]:
 
 
 @model_rule(
-    warning("RS0413", "Name used twice", "Readers tell registers apart by their names; equal names mislead them.")
+    "RS0413", "Name used twice", "Readers tell registers apart by their names; equal names mislead them.", warns=True
 )
 def name_twice(scope: RuleScope) -> Iterator[Finding]:
     """Compare names, letters and digits only, inside each group and each array."""
@@ -126,7 +122,7 @@ def name_twice(scope: RuleScope) -> Iterator[Finding]:
 
 
 @model_rule(
-    Rule("RS0414", "Class name used twice", "Models and enums become classes of one module; each needs its own name.")
+    "RS0414", "Class name used twice", "Models and enums become classes of one module; each needs its own name."
 )
 def class_twice(scope: RuleScope) -> Iterator[Finding]:
     """Compare the classes of all models (sync and async) and of the enums of this one."""
@@ -159,7 +155,7 @@ def _classes(scope: RuleScope) -> tuple[str, str]:
 
 
 @register_rule(
-    warning("RS0415", "Description repeats the name", "A description that says no more than the name wastes a line.")
+    "RS0415", "Description repeats the name", "A description that says no more than the name wastes a line.", warns=True
 )
 def description_is_name(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare both, letters and digits only."""

@@ -5,7 +5,7 @@ from fractions import Fraction
 
 from regscribe.checks.representable import Fit, best_fit
 from regscribe.checks.rule import Finding, RuleScope, register_rule
-from regscribe.model import Governs, Kind, Register, Rule, SerialDefaults, Setting
+from regscribe.model import Governs, Kind, Register, SerialDefaults, Setting
 from regscribe.reference.states import domain
 from regscribe_runtime.values.serial_line import ADDRESSINGS, DATA_BITS, FORMATS, PARITIES, STOP_BITS
 
@@ -35,7 +35,7 @@ def _possible(setting: Setting, serial: SerialDefaults) -> tuple[str, ...]:
 
 
 @register_rule(
-    Rule("RS0474", "Setting that the line cannot have", "The driver follows the device to what the code stands for.")
+    "RS0474", "Setting that the line cannot have", "The driver follows the device to what the code stands for."
 )
 def impossible_setting(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """Compare the codes of `governs` with the serial line, and with the values that the register can have."""
@@ -75,11 +75,9 @@ def _has_value(register: Register, value: Fraction) -> bool:
 
 
 @register_rule(
-    Rule(
-        "RS0487",
-        "Setting of the line that would be copied",
-        "A copy of it to another device cuts that device off, or puts two at one address.",
-    )
+    "RS0487",
+    "Setting of the line that would be copied",
+    "A copy of it to another device cuts that device off, or puts two at one address.",
 )
 def copied_setting(register: Register, _: RuleScope) -> Iterator[Finding]:
     """A register with `governs` needs `stays: address` or `stays: line`."""
@@ -93,7 +91,7 @@ def copied_setting(register: Register, _: RuleScope) -> Iterator[Finding]:
 
 
 @register_rule(
-    Rule("RS0493", "Applied without a command", "What holds from its application on needs the command that applies it.")
+    "RS0493", "Applied without a command", "What holds from its application on needs the command that applies it."
 )
 def applied_without_command(register: Register, _: RuleScope) -> Iterator[Finding]:
     """`from: apply` needs `apply`."""

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from regscribe.checks.held_values import impossible, impossible_part, shown
 from regscribe.checks.rule import Finding, RuleScope, model_rule, register_rule
-from regscribe.model import Alarm, BitField, Effect, Kind, Output, Process, Register, Related, Rule, WireType
+from regscribe.model import Alarm, BitField, Effect, Kind, Output, Process, Register, Related, WireType
 
 RAM = "ram"
 Role = tuple[str, str, bool]
@@ -20,9 +20,7 @@ def _sources(register: Register) -> set[str]:
     return followed | shadowed | {path for condition in conditions for path in condition.registers}
 
 
-@model_rule(
-    Rule("RS0431", "Registers follow or shadow each other", "Each would wait for the other to tell what it is.")
-)
+@model_rule("RS0431", "Registers follow or shadow each other", "Each would wait for the other to tell what it is.")
 def follows_itself(scope: RuleScope) -> Iterator[Finding]:
     """Walk from each register along what it follows and shadows, and look for a way back."""
     edges = {register.path: _sources(register) for register in scope.model.registers}
@@ -38,11 +36,9 @@ def follows_itself(scope: RuleScope) -> Iterator[Finding]:
 
 
 @register_rule(
-    Rule(
-        "RS0433",
-        "Register that cannot take another's value",
-        "A text is no number, memory that loses its contents restores nothing, and a condition is yes or no.",
-    )
+    "RS0433",
+    "Register that cannot take another's value",
+    "A text is no number, memory that loses its contents restores nothing, and a condition is yes or no.",
 )
 def cannot_take(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """Compare the kinds of a follower and of what it follows, and the memory of a shadow and of its origin."""
@@ -66,9 +62,7 @@ def cannot_take(register: Register, scope: RuleScope) -> Iterator[Finding]:
 
 
 @model_rule(
-    Rule(
-        "RS0434", "Role in the process that the register cannot play", "A bit tells yes or no, and a value is a number."
-    )
+    "RS0434", "Role in the process that the register cannot play", "A bit tells yes or no, and a value is a number."
 )
 def roles(scope: RuleScope) -> Iterator[Finding]:
     """Compare what each register is in the process with what it can be."""
@@ -131,11 +125,9 @@ def _alarm(alarm: Alarm) -> Iterator[Role]:
 
 
 @model_rule(
-    Rule(
-        "RS0497",
-        "Effect that a register cannot take",
-        "A register without a default cannot return to it, and none can be set to what its words cannot spell.",
-    )
+    "RS0497",
+    "Effect that a register cannot take",
+    "A register without a default cannot return to it, and none can be set to what its words cannot spell.",
 )
 def impossible_effect(scope: RuleScope) -> Iterator[Finding]:
     """Look at the defaults of all registers that an effect names, and at what it sets; ranges limit masters only."""

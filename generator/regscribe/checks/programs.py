@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Iterator
 
 from regscribe.checks.rule import Finding, RuleScope, model_rule
-from regscribe.model import Kind, Limit, Number, ProgramCounts, Register, Related, Rule, SetpointProgram, numbered
+from regscribe.model import Kind, Limit, Number, ProgramCounts, Register, Related, SetpointProgram, numbered
 
 NUMBERS = frozenset({Kind.NUMBER, Kind.INTEGER, Kind.RAW})
 WHOLE = frozenset({Kind.INTEGER, Kind.RAW})
@@ -65,7 +65,7 @@ def _here(register: Register) -> Related:
 
 
 @model_rule(
-    Rule("RS0408", "Program in registers that cannot be written", "A program is written, and read back to be verified.")
+    "RS0408", "Program in registers that cannot be written", "A program is written, and read back to be verified."
 )
 def not_writable(scope: RuleScope) -> Iterator[Finding]:
     """Look at the access of all registers that a program names."""
@@ -85,9 +85,7 @@ def not_writable(scope: RuleScope) -> Iterator[Finding]:
 
 
 @model_rule(
-    Rule(
-        "RS0409", "Program in registers of the wrong kind", "A setpoint is a number, and a state is one of some codes."
-    )
+    "RS0409", "Program in registers of the wrong kind", "A setpoint is a number, and a state is one of some codes."
 )
 def wrong_kind(scope: RuleScope) -> Iterator[Finding]:
     """Compare the kind of each register with what it is in the program."""
@@ -100,9 +98,7 @@ def wrong_kind(scope: RuleScope) -> Iterator[Finding]:
                 yield _at(program, scope, message, f"name a register of kind {wanted}", _here(register))
 
 
-@model_rule(
-    Rule("RS0416", "State of a program not told apart", "In every state a program runs, is held or does neither.")
-)
+@model_rule("RS0416", "State of a program not told apart", "In every state a program runs, is held or does neither.")
 def states(scope: RuleScope) -> Iterator[Finding]:
     """Compare the codes of the states with the members of the register that tells them."""
     for program in scope.model.programs:
@@ -121,9 +117,7 @@ def states(scope: RuleScope) -> Iterator[Finding]:
                 )
 
 
-@model_rule(
-    Rule("RS0417", "Times of a program without a unit", "Thirty seconds and thirty hours are not the same program.")
-)
+@model_rule("RS0417", "Times of a program without a unit", "Thirty seconds and thirty hours are not the same program.")
 def times(scope: RuleScope) -> Iterator[Finding]:
     """Look for the unit of each time: its own, or one for every member of the register that sets it."""
     for program in scope.model.programs:
@@ -143,9 +137,7 @@ def times(scope: RuleScope) -> Iterator[Finding]:
 
 
 @model_rule(
-    Rule(
-        "RS0418", "More segments than there are", "A number of segments beyond the last one was misread, or the array."
-    )
+    "RS0418", "More segments than there are", "A number of segments beyond the last one was misread, or the array."
 )
 def too_many(scope: RuleScope) -> Iterator[Finding]:
     """Compare the range of the number of segments with the array."""

@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 from dataclasses import fields
 
-from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule, warning
-from regscribe.model import SILENCE, Protocol, RegisterMap, Rule
+from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule
+from regscribe.model import SILENCE, Protocol, RegisterMap
 
 READS = frozenset({1, 2, 3, 4, 7, 11, 12, 17, 20, 24})
 """Functions whose point is the answer, so that they cannot be broadcast."""
@@ -21,7 +21,10 @@ def _the_map(scopes: tuple[RuleScope, ...]) -> tuple[RegisterMap, Protocol]:
 
 
 @map_rule(
-    warning("RS0486", "Fault without a meaning", "An exception reaches the user with the device's own meaning of it.")
+    "RS0486",
+    "Fault without a meaning",
+    "An exception reaches the user with the device's own meaning of it.",
+    warns=True,
 )
 def fault_without_meaning(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Compare the codes of the faults with the exceptions, if the map lists any."""
@@ -34,9 +37,7 @@ def fault_without_meaning(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
             yield Finding(MAP, register_map.span, message, "list the code with its name, or correct the fault")
 
 
-@map_rule(
-    Rule("RS0690", "Accepted limit that is no more than the limit", "What a device accepts beyond its limits is more.")
-)
+@map_rule("RS0690", "Accepted limit that is no more than the limit", "What a device accepts beyond its limits is more.")
 def accepts(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Compare `protocol.accepts` with `protocol.limits`."""
     register_map, protocol = _the_map(scopes)
@@ -46,9 +47,7 @@ def accepts(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
             yield Finding(MAP, register_map.span, message, "leave it out, or lower the limit that a driver keeps to")
 
 
-@map_rule(
-    Rule("RS0488", "Unit ids that cannot be", "A unit id is 1 to 255 (0 broadcasts); the default is one of them.")
-)
+@map_rule("RS0488", "Unit ids that cannot be", "A unit id is 1 to 255 (0 broadcasts); the default is one of them.")
 def unit_ids(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Look at both ends and at the default."""
     register_map, protocol = _the_map(scopes)
@@ -61,9 +60,7 @@ def unit_ids(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
         yield Finding(MAP, register_map.span, message, "correct `protocol.default_unit` or `unit_ids`")
 
 
-@map_rule(
-    Rule("RS0489", "Latency that cannot be", "A latency belongs to a function that the device has, and is a time.")
-)
+@map_rule("RS0489", "Latency that cannot be", "A latency belongs to a function that the device has, and is a time.")
 def latency(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Look at the function and the ends of every latency."""
     register_map, protocol = _the_map(scopes)
@@ -77,7 +74,7 @@ def latency(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
             yield Finding(MAP, register_map.span, message, "write the shorter time first")
 
 
-@map_rule(Rule("RS0490", "Function that cannot be broadcast", "Nobody answers a broadcast, so it can only be a write."))
+@map_rule("RS0490", "Function that cannot be broadcast", "Nobody answers a broadcast, so it can only be a write.")
 def broadcast(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Compare the broadcast functions with the supported ones and with those that need an answer."""
     register_map, protocol = _the_map(scopes)
@@ -89,9 +86,7 @@ def broadcast(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
 
 
 @map_rule(
-    Rule(
-        "RS0492", "Functions alike that cannot be", "Each function of the device does one thing, alone or like others."
-    )
+    "RS0492", "Functions alike that cannot be", "Each function of the device does one thing, alone or like others."
 )
 def alike(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Look for functions that the device lacks, and for those that stand in two lists."""
@@ -104,9 +99,7 @@ def alike(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
             yield Finding(MAP, register_map.span, message, "correct `protocol.alike`")
 
 
-@map_rule(
-    Rule("RS0491", "Default of the serial line is not offered", "The default is one of the speeds and formats listed.")
-)
+@map_rule("RS0491", "Default of the serial line is not offered", "The default is one of the speeds and formats listed.")
 def serial_default(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Compare the default speed and format with the lists."""
     register_map, protocol = _the_map(scopes)
@@ -119,11 +112,9 @@ def serial_default(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
 
 
 @map_rule(
-    Rule(
-        "RS0661",
-        "Character format too short for RTU",
-        "RTU sends bytes of 8 bits; 7 carry ASCII alone (Modbus over serial line V1.02, 2.5.1).",
-    )
+    "RS0661",
+    "Character format too short for RTU",
+    "RTU sends bytes of 8 bits; 7 carry ASCII alone (Modbus over serial line V1.02, 2.5.1).",
 )
 def too_short_for_rtu(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Look for formats of 7 data bits where the line has no other mode than RTU."""

@@ -3,11 +3,11 @@
 from collections import Counter
 from collections.abc import Iterable, Iterator
 
-from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule, register_rule, warning
-from regscribe.model import Identity, IdentityRule, Register, RegisterMap, Rule
+from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule, register_rule
+from regscribe.model import Identity, IdentityRule, Register, RegisterMap
 
 
-@map_rule(Rule("RS0494", "Models not told apart", "`identify` says for every model, once, how it answers."))
+@map_rule("RS0494", "Models not told apart", "`identify` says for every model, once, how it answers.")
 def identification(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Count models and conditions of the identification, if the map has one."""
     register_map = scopes[0].register_map
@@ -37,7 +37,7 @@ def _left_out(register_map: RegisterMap) -> Iterator[tuple[str, str]]:
 
 
 @register_rule(
-    warning("RS0495", "Register without section", "A reader must be able to look every value up in the manual.")
+    "RS0495", "Register without section", "A reader must be able to look every value up in the manual.", warns=True
 )
 def no_section(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Look at the section, inherited from the group or its own."""
@@ -46,9 +46,10 @@ def no_section(register: Register, _: RuleScope) -> Iterator[Finding]:
 
 
 @map_rule(
-    warning(
-        "RS0496", "Manual not identified", "Makers reissue manuals: number or date tells which one was transcribed."
-    )
+    "RS0496",
+    "Manual not identified",
+    "Makers reissue manuals: number or date tells which one was transcribed.",
+    warns=True,
 )
 def manual_not_identified(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Look for the number or the date."""
@@ -58,7 +59,7 @@ def manual_not_identified(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
         yield Finding(MAP, register_map.span, message, "add `manual.number` or `manual.date`")
 
 
-@map_rule(Rule("RS0498", "Erratum or given that does not say enough", "A blank reason cannot be judged by a reviewer."))
+@map_rule("RS0498", "Erratum or given that does not say enough", "A blank reason cannot be judged by a reviewer.")
 def blank_reasons(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Look for blank texts."""
     register_map = scopes[0].register_map

@@ -5,15 +5,13 @@ from itertools import pairwise
 
 from regscribe.checks.representable import values_of
 from regscribe.checks.rule import Finding, RuleScope, register_rule
-from regscribe.model import Number, Register, Rule, Sentinel, Special, show
+from regscribe.model import Number, Register, Sentinel, Special, show
 from regscribe.reference import RefusedError, UnknownValueError, choose, limits
 from regscribe.reference.settled_scales import forms
 
 
 @register_rule(
-    Rule(
-        "RS0435", "Range that is empty at the defaults", "A device is not shipped so that nothing can be written to it."
-    )
+    "RS0435", "Range that is empty at the defaults", "A device is not shipped so that nothing can be written to it."
 )
 def empty(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """Compare the ends of each interval with all other registers at their defaults; skip what cannot be known."""
@@ -29,7 +27,7 @@ def empty(register: Register, scope: RuleScope) -> Iterator[Finding]:
 
 
 @register_rule(
-    Rule("RS0436", "Intervals of a range overlap", "Parts of a union are apart; where they touch, one end was misread.")
+    "RS0436", "Intervals of a range overlap", "Parts of a union are apart; where they touch, one end was misread."
 )
 def intervals_overlap(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare each interval of a union with the one above it."""
@@ -46,7 +44,7 @@ def intervals_overlap(register: Register, _: RuleScope) -> Iterator[Finding]:
 
 
 @register_rule(
-    Rule("RS0437", "Special values not told apart", "Two special values of one code, id or label cannot both be meant.")
+    "RS0437", "Special values not told apart", "Two special values of one code, id or label cannot both be meant."
 )
 def specials_twice(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare codes, ids and labels of special values."""
@@ -62,7 +60,7 @@ def specials_twice(register: Register, _: RuleScope) -> Iterator[Finding]:
                 break
 
 
-@register_rule(Rule("RS0438", "Sentinels not told apart", "Two faults of one number or id cannot both be reported."))
+@register_rule("RS0438", "Sentinels not told apart", "Two faults of one number or id cannot both be reported.")
 def sentinels_twice(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare numbers and ids of sentinels."""
     seen: dict[tuple[str, object], Sentinel] = {}
@@ -76,7 +74,7 @@ def sentinels_twice(register: Register, _: RuleScope) -> Iterator[Finding]:
 
 
 @register_rule(
-    Rule("RS0439", "Special value is a fault too", "One number cannot be both a setting and the report of a fault.")
+    "RS0439", "Special value is a fault too", "One number cannot be both a setting and the report of a fault."
 )
 def special_is_sentinel(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare sentinels with the stored number of each special value, under every scale."""
@@ -90,11 +88,9 @@ def special_is_sentinel(register: Register, _: RuleScope) -> Iterator[Finding]:
 
 
 @register_rule(
-    Rule(
-        "RS0603",
-        "Number with two codes",
-        "A number that one special value stands for cannot be the code of another, nor what another stands for.",
-    )
+    "RS0603",
+    "Number with two codes",
+    "A number that one special value stands for cannot be the code of another, nor what another stands for.",
 )
 def meant_by_two(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare what special values stand for with each other, and with the codes of those that stand for nothing."""

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from regscribe.checks.rule import Finding, RuleScope, model_rule, register_rule
-from regscribe.model import Kind, Order, OrderFrom, Ref, Register, Related, Rule, registers_of, show
+from regscribe.model import Kind, Order, OrderFrom, Ref, Register, Related, registers_of, show
 from regscribe.reference.states import domain
 
 WHOLE = {Kind.INTEGER, Kind.RAW, Kind.ENUM, Kind.BOOLEAN}
@@ -51,11 +51,9 @@ def _limits(register: Register) -> Iterator[str]:
 
 
 @register_rule(
-    Rule(
-        "RS0461",
-        "Word order from an unsuitable register",
-        "It is read before the first long value, so it must be one whole word of an order that does not depend on it.",
-    )
+    "RS0461",
+    "Word order from an unsuitable register",
+    "It is read before the first long value, so it must be one whole word of an order that does not depend on it.",
 )
 def order_register(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """The register must be a whole number or an enum with a single integer view."""
@@ -72,7 +70,7 @@ def order_register(register: Register, scope: RuleScope) -> Iterator[Finding]:
             yield Finding.at(register, message, "name a register with an enum or a whole number and one view", related)
 
 
-@model_rule(Rule("RS0462", "Registers need each other", "A value that needs itself to be decoded can never be read."))
+@model_rule("RS0462", "Registers need each other", "A value that needs itself to be decoded can never be read.")
 def circle(scope: RuleScope) -> Iterator[Finding]:
     """Walk what registers need to be read (scale, decimals, word order); each circle is reported once."""
     done: set[str] = set()
@@ -111,7 +109,7 @@ def _others(name: str, scope: RuleScope) -> Iterator[str]:
 
 
 @register_rule(
-    Rule("RS0463", "Needed register cannot be read", "A value that decides must be readable, or it is never known.")
+    "RS0463", "Needed register cannot be read", "A value that decides must be readable, or it is never known."
 )
 def unreadable(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """Look at the access of every register that this one needs."""
@@ -122,9 +120,7 @@ def unreadable(register: Register, scope: RuleScope) -> Iterator[Finding]:
             yield Finding.at(register, f"needs `{path}` ({why} it), which can only be written", "correct one", related)
 
 
-@register_rule(
-    Rule("RS0464", "Decimals from a register that is no whole number", "A number of decimals is 0, 1, 2 ...")
-)
+@register_rule("RS0464", "Decimals from a register that is no whole number", "A number of decimals is 0, 1, 2 ...")
 def decimals_register(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """The register must be of a whole kind, and not below 0."""
     for path in dict.fromkeys((*_decimals(register), *_places(register), *_range_decimals(register))):
@@ -138,9 +134,7 @@ def decimals_register(register: Register, scope: RuleScope) -> Iterator[Finding]
             yield Finding.at(register, message, "name a register of whole numbers from 0", related)
 
 
-@register_rule(
-    Rule("RS0465", "Limit from a register that is no number", "A code or a text has no size to compare with.")
-)
+@register_rule("RS0465", "Limit from a register that is no number", "A code or a text has no size to compare with.")
 def limit_register(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """The registers that limits name must be numbers."""
     for path in dict.fromkeys(_limits(register)):
@@ -151,7 +145,7 @@ def limit_register(register: Register, scope: RuleScope) -> Iterator[Finding]:
 
 
 @register_rule(
-    Rule("RS0466", "Word order not stated for a code", "With that code set, no long value could be read or written.")
+    "RS0466", "Word order not stated for a code", "With that code set, no long value could be read or written."
 )
 def order_codes(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """Compare the codes of a word order with the members or the range of the register it comes from."""

@@ -2,6 +2,8 @@
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
+from functools import partial
+from typing import TypeVar
 
 from regscribe.checks.assumed_values import Beginning, all_defaults
 from regscribe.model import Model, Register, RegisterMap, Related, Rule, Severity, Span
@@ -52,14 +54,17 @@ class Finding:
 RegisterCheck = Callable[[Register, RuleScope], Iterable[Finding]]
 ModelCheck = Callable[[RuleScope], Iterable[Finding]]
 MapCheck = Callable[[tuple[RuleScope, ...]], Iterable[Finding]]
+Check = TypeVar("Check")
+Findings = Iterator[tuple[str, Finding]]
+"""What a rule finds: the findings of each model by its name, those of the map under an empty name."""
 
 
 @dataclass(frozen=True, slots=True)
 class RuleEntry:
-    """A rule and its function: `run` yields the findings of each model by name, of the map under an empty name."""
+    """A rule and what finds all that is against it, in the scopes of all models."""
 
     rule: Rule
-    run: Callable[[tuple[RuleScope, ...]], Iterator[tuple[str, Finding]]]
+    run: Callable[[tuple[RuleScope, ...]], Findings]
 
 
 _ENTRIES: list[RuleEntry] = []
@@ -70,50 +75,46 @@ def entries() -> tuple[RuleEntry, ...]:
     return tuple(sorted(_ENTRIES, key=lambda entry: entry.rule.id))
 
 
-def register_rule(rule: Rule) -> Callable[[RegisterCheck], RegisterCheck]:
-    """Declare a rule whose function looks at one register of one model at a time."""
-
-    def declare(check: RegisterCheck) -> RegisterCheck:
-        def run(scopes: tuple[RuleScope, ...]) -> Iterator[tuple[str, Finding]]:
-            for scope in scopes:
-                for register in scope.model.registers:
-                    for finding in check(register, scope):
-                        yield scope.model.name, finding
-
-        _ENTRIES.append(RuleEntry(rule, run))
-        return check
-
-    return declare
+def register_rule(
+    rule_id: str, title: str, why: str, *, warns: bool = False
+) -> Callable[[RegisterCheck], RegisterCheck]:
+    """Declare a rule whose function looks at one register of one model at a time; one that `warns` stops nothing."""
+    return _declare(warning(rule_id, title, why) if warns else Rule(rule_id, title, why), _of_registers)
 
 
-def model_rule(rule: Rule) -> Callable[[ModelCheck], ModelCheck]:
+def model_rule(rule_id: str, title: str, why: str, *, warns: bool = False) -> Callable[[ModelCheck], ModelCheck]:
     """Declare a rule whose function looks at one model at a time."""
-
-    def declare(check: ModelCheck) -> ModelCheck:
-        def run(scopes: tuple[RuleScope, ...]) -> Iterator[tuple[str, Finding]]:
-            for scope in scopes:
-                for finding in check(scope):
-                    yield scope.model.name, finding
-
-        _ENTRIES.append(RuleEntry(rule, run))
-        return check
-
-    return declare
+    return _declare(warning(rule_id, title, why) if warns else Rule(rule_id, title, why), _of_models)
 
 
-def map_rule(rule: Rule) -> Callable[[MapCheck], MapCheck]:
+def map_rule(rule_id: str, title: str, why: str, *, warns: bool = False) -> Callable[[MapCheck], MapCheck]:
     """Declare a rule whose function looks at the whole map: the scopes of all its models."""
-
-    def declare(check: MapCheck) -> MapCheck:
-        def run(scopes: tuple[RuleScope, ...]) -> Iterator[tuple[str, Finding]]:
-            return (("", finding) for finding in check(scopes))
-
-        _ENTRIES.append(RuleEntry(rule, run))
-        return check
-
-    return declare
+    return _declare(warning(rule_id, title, why) if warns else Rule(rule_id, title, why), _of_map)
 
 
 def warning(rule_id: str, title: str, why: str) -> Rule:
     """A rule whose findings do not stop the pipeline."""
     return Rule(rule_id, title, why, Severity.WARNING)
+
+
+def _declare(rule: Rule, findings: Callable[[Check, tuple[RuleScope, ...]], Findings]) -> Callable[[Check], Check]:
+    def declare(check: Check) -> Check:
+        _ENTRIES.append(RuleEntry(rule, partial(findings, check)))
+        return check
+
+    return declare
+
+
+def _of_registers(check: RegisterCheck, scopes: tuple[RuleScope, ...]) -> Findings:
+    for scope in scopes:
+        for register in scope.model.registers:
+            yield from ((scope.model.name, finding) for finding in check(register, scope))
+
+
+def _of_models(check: ModelCheck, scopes: tuple[RuleScope, ...]) -> Findings:
+    for scope in scopes:
+        yield from ((scope.model.name, finding) for finding in check(scope))
+
+
+def _of_map(check: MapCheck, scopes: tuple[RuleScope, ...]) -> Findings:
+    yield from (("", finding) for finding in check(scopes))

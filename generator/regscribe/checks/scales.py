@@ -7,11 +7,11 @@ from itertools import islice
 from regscribe.checks.held_values import too_fine, wrong_sort
 from regscribe.checks.representable import Fit, best_fit, end_values, listed, numbers
 from regscribe.checks.rule import Finding, RuleScope, register_rule
-from regscribe.model import Kind, Register, Rule
+from regscribe.model import Kind, Register
 from regscribe.reference.settled_scales import Form, forms
 
 
-@register_rule(Rule("RS0430", "Scale of zero", "A factor of 0 makes every value the same and can never be undone."))
+@register_rule("RS0430", "Scale of zero", "A factor of 0 makes every value the same and can never be undone.")
 def scale_of_zero(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Look at the factor of every case and every view."""
     if any(case.then.multiply == 0 for case in register.scale):
@@ -22,11 +22,9 @@ def scale_of_zero(register: Register, _: RuleScope) -> Iterator[Finding]:
 
 
 @register_rule(
-    Rule(
-        "RS0604",
-        "Scale beyond a float",
-        "A program reads numbers as floats of 64 bits; what these cannot tell apart, or hold, was misread.",
-    )
+    "RS0604",
+    "Scale beyond a float",
+    "A program reads numbers as floats of 64 bits; what these cannot tell apart, or hold, was misread.",
 )
 def beyond_a_float(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Look for two stored numbers that are two floats, under every scale."""
@@ -55,11 +53,9 @@ def _as_float(form: Form, stored: int) -> float | None:
 
 
 @register_rule(
-    Rule(
-        "RS0432",
-        "Number finer than the resolution",
-        "A default or limit between two steps can never be read or written: a decimal is missing, or one too many.",
-    )
+    "RS0432",
+    "Number finer than the resolution",
+    "A default or limit between two steps can never be read or written: a decimal is missing, or one too many.",
 )
 def between_steps(register: Register, _scope: RuleScope) -> Iterator[Finding]:
     """Try the default and the numeric limits in every view under every scale."""

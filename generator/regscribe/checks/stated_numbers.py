@@ -15,7 +15,7 @@ from regscribe.checks.representable import (
     tells_apart,
     values_of,
 )
-from regscribe.checks.rule import Finding, RuleScope, register_rule, warning
+from regscribe.checks.rule import Finding, RuleScope, register_rule
 from regscribe.model import (
     IDENTITY,
     Interval,
@@ -25,7 +25,6 @@ from regscribe.model import (
     Order,
     Range,
     Register,
-    Rule,
     Sentinel,
     Space,
     View,
@@ -45,7 +44,7 @@ def _is_numeric(register: Register) -> bool:
 
 
 @register_rule(
-    Rule("RS0420", "Default outside the type", "A default that the words cannot carry was misread, or the type was.")
+    "RS0420", "Default outside the type", "A default that the words cannot carry was misread, or the type was."
 )
 def default_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Try the default in every view under every scale."""
@@ -54,9 +53,7 @@ def default_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
             yield Finding.at(register, f"has {what} {shown(value)}, outside {ends_of(register)}", HELP_TYPE)
 
 
-@register_rule(
-    Rule("RS0421", "Special value outside the type", "A special value that no word can spell can never be met.")
-)
+@register_rule("RS0421", "Special value outside the type", "A special value that no word can spell can never be met.")
 def special_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Try each special value as the ranges count it."""
     for special in register.specials:
@@ -74,7 +71,7 @@ def special_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
 
 
 @register_rule(
-    Rule("RS0422", "Sentinel outside the type", "A view that cannot spell a fault would show a number in its place.")
+    "RS0422", "Sentinel outside the type", "A view that cannot spell a fault would show a number in its place."
 )
 def sentinel_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Try each sentinel, a stored number, in every view; one that saturates shows its end, which is no value either."""
@@ -94,9 +91,7 @@ def _reports(view: View, sentinel: Sentinel) -> bool:
     return clipped or sentinel_number(view, sentinel) is not None
 
 
-@register_rule(
-    Rule("RS0601", "Sentinel that is a value too", "One code cannot be both a setting and the report of a fault.")
-)
+@register_rule("RS0601", "Sentinel that is a value too", "One code cannot be both a setting and the report of a fault.")
 def sentinel_is_code(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare sentinels with the default, the codes of an enum, true and false; a text and a bit have none to spare."""
     if register.sentinels and (register.kind is Kind.STRING or register.base.space.is_bits):
@@ -125,11 +120,9 @@ _OF_SPACE = {WireType.BIT: BITS, WireType.UINT8: STATUS}
 
 
 @register_rule(
-    Rule(
-        "RS0602",
-        "Type that the space cannot hold",
-        "A coil or discrete input is one bit, function 07 gives one byte, all other addresses hold words of 16 bits.",
-    )
+    "RS0602",
+    "Type that the space cannot hold",
+    "A coil or discrete input is one bit, function 07 gives one byte, all other addresses hold words of 16 bits.",
 )
 def type_and_space(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare the type of each view with its space, and its orders where there is nothing to order."""
@@ -147,11 +140,9 @@ def type_and_space(register: Register, _: RuleScope) -> Iterator[Finding]:
 
 
 @register_rule(
-    Rule(
-        "RS0423",
-        "Default outside the range",
-        "Manuals do print such defaults; then the map needs a special value, another range, or a waiver that says why.",
-    )
+    "RS0423",
+    "Default outside the range",
+    "Manuals do print such defaults; then the map needs a special value, another range, or a waiver that says why.",
 )
 def default_outside_range(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """Judge the default with all other registers at theirs; what cannot be known so is not judged."""
@@ -176,9 +167,7 @@ def _end(number: Fraction | None) -> str:
     return "open" if number is None else show(number)
 
 
-@register_rule(
-    Rule("RS0424", "Limit outside the type", "A range that is wider than the words was misread, or the type was.")
-)
+@register_rule("RS0424", "Limit outside the type", "A range that is wider than the words was misread, or the type was.")
 def limit_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Try each numeric limit; ranges that fit nowhere are RS0425's."""
     every = forms(register) if register.range else ()
@@ -191,7 +180,7 @@ def limit_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
 
 
 @register_rule(
-    Rule("RS0425", "Range that cannot be encoded", "No value of the range has words: nothing could ever be written.")
+    "RS0425", "Range that cannot be encoded", "No value of the range has words: nothing could ever be written."
 )
 def range_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare each range as a whole with what type and scale reach."""
@@ -241,9 +230,7 @@ def _reachable(reach: tuple[Fraction, Fraction] | None, one: Range) -> bool:
     return False
 
 
-@register_rule(
-    Rule("RS0426", "Kind does not fit the type", "An enum in a float or a number in a text cannot be decoded.")
-)
+@register_rule("RS0426", "Kind does not fit the type", "An enum in a float or a number in a text cannot be decoded.")
 def kind_and_type(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare the kind with the types of all views, and an enum or fields with the kind."""
     for view in register.views:
@@ -287,11 +274,7 @@ def _has(register: Register) -> str:
 
 
 @register_rule(
-    Rule(
-        "RS0427",
-        "Scale on a value that is no number",
-        "Codes, bits and texts are not multiplied; one of them is wrong.",
-    )
+    "RS0427", "Scale on a value that is no number", "Codes, bits and texts are not multiplied; one of them is wrong."
 )
 def scaled_codes(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Allow nothing but the identity, and factor 1, for codes, bits, texts and versions."""
@@ -302,11 +285,9 @@ def scaled_codes(register: Register, _: RuleScope) -> Iterator[Finding]:
 
 
 @register_rule(
-    Rule(
-        "RS0428",
-        "Default of the wrong sort",
-        "A text for a number, or one that the words or the pattern cannot spell, is never read and cannot be written.",
-    )
+    "RS0428",
+    "Default of the wrong sort",
+    "A text for a number, or one that the words or the pattern cannot spell, is never read and cannot be written.",
 )
 def default_of_wrong_sort(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare the default with the kind; a text with the words it has, a version with its pattern."""
@@ -318,7 +299,7 @@ def default_of_wrong_sort(register: Register, _: RuleScope) -> Iterator[Finding]
 
 
 @register_rule(
-    warning("RS0429", "Version longer than its type", "The type cannot hold the largest version of so many digits.")
+    "RS0429", "Version longer than its type", "The type cannot hold the largest version of so many digits.", warns=True
 )
 def version_too_long(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare the largest number of the digits with the type."""

@@ -5,7 +5,7 @@ from itertools import combinations
 
 from regscribe.checks.addresses import stretches
 from regscribe.checks.rule import Finding, RuleScope, map_rule, model_rule, register_rule
-from regscribe.model import Register, Related, Rule, Space, View
+from regscribe.model import Register, Related, Space, View
 
 Shape = tuple[object, ...]
 Region = tuple[Space, str, int, int]
@@ -37,7 +37,7 @@ def _is_aligned(view: View, at: int) -> bool:
     return view.align <= 1 or not (view.address(at) % view.align or view.words % view.align)
 
 
-@register_rule(Rule("RS0455", "View outside its region", "The manual gives each kind of view its own addresses."))
+@register_rule("RS0455", "View outside its region", "The manual gives each kind of view its own addresses.")
 def outside_region(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare the first and the last address of each view, and of the aliases of the base view, with its region."""
     for stretch in stretches(register):
@@ -48,9 +48,7 @@ def outside_region(register: Register, _: RuleScope) -> Iterator[Finding]:
             yield Finding.at(register, message, "correct `at`, the alias, or the view's offset, stride or region")
 
 
-@model_rule(
-    Rule("RS0660", "Register in the region of a view", "Nothing else stands where a view has addresses of its own.")
-)
+@model_rule("RS0660", "Register in the region of a view", "Nothing else stands where a view has addresses of its own.")
 def in_a_region(scope: RuleScope) -> Iterator[Finding]:
     """Compare what has no region of its own with all regions; RS0455 and RS0457 keep those that have one apart."""
     every = regions(scope)
@@ -63,9 +61,7 @@ def in_a_region(scope: RuleScope) -> Iterator[Finding]:
                     yield Finding.at(register, message, "correct `at`, the alias, or `region` of the view", related)
 
 
-@register_rule(
-    Rule("RS0456", "Misaligned view", "The device refuses an address or a number of words that splits a value.")
-)
+@register_rule("RS0456", "Misaligned view", "The device refuses an address or a number of words that splits a value.")
 def misaligned(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Divide the address and the words of each view by its alignment."""
     for view in register.views:
@@ -75,7 +71,7 @@ def misaligned(register: Register, _: RuleScope) -> Iterator[Finding]:
             yield Finding.at(register, message, "correct `at`, the view's offset and stride, or `align`")
 
 
-@model_rule(Rule("RS0457", "View regions overlap", "An address in two regions would have two meanings."))
+@model_rule("RS0457", "View regions overlap", "An address in two regions would have two meanings.")
 def regions_overlap(scope: RuleScope) -> Iterator[Finding]:
     """Compare all regions of the model in pairs."""
     for (one, register), (other, owner) in combinations(regions(scope).items(), 2):
@@ -87,7 +83,7 @@ def regions_overlap(scope: RuleScope) -> Iterator[Finding]:
 
 
 @register_rule(
-    Rule("RS0458", "Value longer than a request", "A value that does not fit one request can never be read whole.")
+    "RS0458", "Value longer than a request", "A value that does not fit one request can never be read whole."
 )
 def longer_than_request(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """Compare the words of each view with the limits of the protocol."""
@@ -106,7 +102,7 @@ def longer_than_request(register: Register, scope: RuleScope) -> Iterator[Findin
 
 
 @register_rule(
-    Rule("RS0459", "View by a function that the device lacks", "Only a function that the device supports can reach it.")
+    "RS0459", "View by a function that the device lacks", "Only a function that the device supports can reach it."
 )
 def unsupported_function(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """Compare the functions of each view with the protocol's."""
@@ -123,9 +119,7 @@ _OTHERS = {Space.HOLDING: (22, 23)}
 """Functions of a space besides those that drivers use: mask write, and write and read."""
 
 
-@register_rule(
-    Rule("RS0635", "View by a function of another space", "A function code reads or writes in one space only.")
-)
+@register_rule("RS0635", "View by a function of another space", "A function code reads or writes in one space only.")
 def function_of_another_space(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare the functions of each view with those of its space."""
     for view in register.views:
@@ -137,7 +131,7 @@ def function_of_another_space(register: Register, _: RuleScope) -> Iterator[Find
             yield Finding.at(register, message, f"correct `functions` (of this space: {list(known)}) or `space`")
 
 
-@map_rule(Rule("RS0460", "More than one preferred view", "A driver uses one view unless told otherwise."))
+@map_rule("RS0460", "More than one preferred view", "A driver uses one view unless told otherwise.")
 def preferred_twice(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Count the preferred views of each view set, once."""
     for register in view_sets(scopes):

@@ -7,7 +7,7 @@ from fractions import Fraction
 from regscribe.checks.assumed_values import in_example
 from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule
 from regscribe.checks.worked_values import compare, hexadecimal, printed, unsigned
-from regscribe.model import FrameExample, Register, Rule, Space, View
+from regscribe.model import FrameExample, Register, Space, View
 from regscribe.reference import RefusedError, Surroundings, UnknownValueError
 from regscribe_runtime.wire.pdu import (
     EXCEPTION_BIT,
@@ -110,9 +110,7 @@ def _body(example: FrameExample) -> bytes:
 
 
 @map_rule(
-    Rule(
-        "RS0447", "Frame of a worked example is not what the map says of it", "A frame proves addresses and functions."
-    )
+    "RS0447", "Frame of a worked example is not what the map says of it", "A frame proves addresses and functions."
 )
 def frame_fields(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Check the CRC, read the frame, compare its fields with those that the map states."""
@@ -153,7 +151,7 @@ def _wrong_crc(frame: bytes) -> str:
 
 
 @map_rule(
-    Rule("RS0448", "Values of a worked frame are not reproduced", "The printed words prove scales, types and commands.")
+    "RS0448", "Values of a worked frame are not reproduced", "The printed words prove scales, types and commands."
 )
 def frame_values(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Decode the words of a frame as the registers they go to, and compare commands with their steps."""

@@ -11,7 +11,6 @@ from regscribe.model import (
     Outcome,
     Protocol,
     Register,
-    Rule,
     TimingExample,
     ValueExample,
     View,
@@ -62,11 +61,9 @@ def described(reading: Reading) -> str:
 
 
 @map_rule(
-    Rule(
-        "RS0446",
-        "Worked example of a value is not reproduced",
-        "The manual's own figures prove the transcription: where they disagree, the map or the manual is wrong.",
-    )
+    "RS0446",
+    "Worked example of a value is not reproduced",
+    "The manual's own figures prove the transcription: where they disagree, the map or the manual is wrong.",
 )
 def value_examples(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Evaluate every value example by the reference codec."""
@@ -164,7 +161,7 @@ def _number(register: Register, value: Fraction | str) -> Fraction | str:
 
 
 @map_rule(
-    Rule("RS0449", "Worked example of a time is not reproduced", "Gap and latency decide timeouts, so they must agree.")
+    "RS0449", "Worked example of a time is not reproduced", "Gap and latency decide timeouts, so they must agree."
 )
 def timing_examples(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Compute gap, earliest and latest start of the answer from the protocol, and compare to two decimals."""

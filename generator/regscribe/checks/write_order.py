@@ -4,11 +4,11 @@ from collections import defaultdict
 from collections.abc import Iterator
 
 from regscribe.checks.commands import requests, touched
-from regscribe.checks.rule import Finding, RuleScope, map_rule, model_rule, register_rule, warning
-from regscribe.model import Command, Group, Register, Related, Rule
+from regscribe.checks.rule import Finding, RuleScope, map_rule, model_rule, register_rule
+from regscribe.model import Command, Group, Register, Related
 
 
-@model_rule(Rule("RS0475", "Place in the write order used twice", "Two groups cannot both be written second."))
+@model_rule("RS0475", "Place in the write order used twice", "Two groups cannot both be written second.")
 def order_twice(scope: RuleScope) -> Iterator[Finding]:
     """Compare the places of all groups that have one."""
     taken: dict[int, Group] = {}
@@ -23,11 +23,10 @@ def order_twice(scope: RuleScope) -> Iterator[Finding]:
 
 
 @model_rule(
-    warning(
-        "RS0476",
-        "Written before what rescales it",
-        "Writing the unit of measure converts values that were written before: the unit must come first.",
-    )
+    "RS0476",
+    "Written before what rescales it",
+    "Writing the unit of measure converts values that were written before: the unit must come first.",
+    warns=True,
 )
 def rescaled_after(scope: RuleScope) -> Iterator[Finding]:
     """Compare the place of a register that rescales a unit with those of the groups that hold values of that unit."""
@@ -48,7 +47,7 @@ def rescaled_after(scope: RuleScope) -> Iterator[Finding]:
             yield Finding.at(register, message, f"write it before `{other.group}`: give it a lower `order`", related)
 
 
-@map_rule(Rule("RS0477", "Group without members", "A group that no model has a register of is a heading of nothing."))
+@map_rule("RS0477", "Group without members", "A group that no model has a register of is a heading of nothing.")
 def empty_group(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     """Find groups that are empty on every model."""
     groups: defaultdict[str, list[Group]] = defaultdict(list)
@@ -60,9 +59,7 @@ def empty_group(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
             yield Finding(name, on_models[0].span, f"group `{name}` has no members", "give it registers, or remove it")
 
 
-@model_rule(
-    Rule("RS0482", "Unlocking needs itself", "A command that is needed before its own write can never be sent.")
-)
+@model_rule("RS0482", "Unlocking needs itself", "A command that is needed before its own write can never be sent.")
 def unlock_circle(scope: RuleScope) -> Iterator[Finding]:
     """Find commands that write a register which needs that command before or after it."""
     for command in scope.model.commands:
@@ -79,11 +76,9 @@ def _circle(command: Command, register: Register) -> Finding:
 
 
 @register_rule(
-    Rule(
-        "RS0630",
-        "Unlocked in another element",
-        "A command writes the same registers whichever element of an array it is run for.",
-    )
+    "RS0630",
+    "Unlocked in another element",
+    "A command writes the same registers whichever element of an array it is run for.",
 )
 def unlocked_elsewhere(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """Find commands before or after a write in an array that write to another element of it."""
@@ -119,7 +114,7 @@ def _another_element(register: Register, other: Register) -> bool:
 
 
 @register_rule(
-    Rule("RS0483", "Facts about writing a read-only register", "A register that cannot be written needs no permission.")
+    "RS0483", "Facts about writing a read-only register", "A register that cannot be written needs no permission."
 )
 def write_facts_of_read_only(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Look for keys that speak of writing."""
@@ -141,9 +136,7 @@ def write_facts_of_read_only(register: Register, _: RuleScope) -> Iterator[Findi
         yield Finding.at(register, message, "correct `access`, or remove what speaks of writing")
 
 
-@register_rule(
-    Rule("RS0484", "Endurance that is no number of writes", "Endurance counts the writes that a memory survives.")
-)
+@register_rule("RS0484", "Endurance that is no number of writes", "Endurance counts the writes that a memory survives.")
 def endurance(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Endurance must be positive, and does not belong to RAM."""
     if register.endurance is None:
@@ -156,11 +149,9 @@ def endurance(register: Register, _: RuleScope) -> Iterator[Finding]:
 
 
 @register_rule(
-    Rule(
-        "RS0640",
-        "Conversion that never happens",
-        "Values are converted when the unit that they are in changes; if none depends on the register, nothing does.",
-    )
+    "RS0640",
+    "Conversion that never happens",
+    "Values are converted when the unit that they are in changes; if none depends on the register, nothing does.",
 )
 def idle_conversion(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """What `rescales` names must be the unit of some register, and follow the register that names it."""
@@ -175,11 +166,9 @@ def idle_conversion(register: Register, scope: RuleScope) -> Iterator[Finding]:
 
 
 @register_rule(
-    Rule(
-        "RS0641",
-        "Distance in a unit that nothing converts",
-        "Only where the device converts values does it matter that a distance has no zero point.",
-    )
+    "RS0641",
+    "Distance in a unit that nothing converts",
+    "Only where the device converts values does it matter that a distance has no zero point.",
 )
 def idle_difference(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """A register with `difference` counts in a unit that another register rescales."""
