@@ -5,7 +5,6 @@ A rule is a pure function under a decorator of `registry`, in the module of its 
 
 from regscribe.checks import (
     addresses,
-    bits,
     commands,
     conditions,
     enums,
@@ -38,7 +37,6 @@ SUBJECTS = (
     enums,
     worked_values,
     worked_frames,
-    bits,
     views,
     references,
     waivers,

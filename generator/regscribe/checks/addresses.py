@@ -1,6 +1,6 @@
 """Addresses: overlaps, ends of the address space, aliases, reserved addresses, notations, functions of a space."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import combinations
 from operator import attrgetter
@@ -90,11 +90,7 @@ def alias_of_itself(register: Register, _: RuleScope) -> Iterator[Finding]:
 @register_rule("RS0404", "Register at a reserved address", "The manual cannot both reserve an address and describe it.")
 def reserved(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """Compare each stretch with the reserved ones."""
-    for space, first, last in scope.register_map.reserved:
-        for stretch in stretches(register):
-            if stretch.space == space and stretch.first <= last and stretch.last >= first:
-                help_text = "correct `at`, or shorten the entry under `reserved`"
-                yield Finding.at(register, f"takes {stretch}, but {first}..{last} are reserved", help_text)
+    yield from _listed(register, "reserved", scope.register_map.reserved)
 
 
 @register_rule(
@@ -102,11 +98,15 @@ def reserved(register: Register, scope: RuleScope) -> Iterator[Finding]:
 )
 def unused(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """Compare each stretch with those that the model does not use."""
-    for space, first, last in scope.model.unused:
+    yield from _listed(register, "unused", scope.model.unused)
+
+
+def _listed(register: Register, word: str, without_register: Iterable[tuple[Space, int, int]]) -> Iterator[Finding]:
+    for space, first, last in without_register:
         for stretch in stretches(register):
             if stretch.space == space and stretch.first <= last and stretch.last >= first:
-                help_text = "correct `at`, or shorten the entry under `unused`"
-                yield Finding.at(register, f"takes {stretch}, but {first}..{last} are unused", help_text)
+                help_text = f"correct `at`, or shorten the entry under `{word}`"
+                yield Finding.at(register, f"takes {stretch}, but {first}..{last} are {word}", help_text)
 
 
 @model_rule(
@@ -143,14 +143,7 @@ def notation_twice(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
 def no_function(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """Look for functions that read and write the views that drivers take, and any other that may be named to them."""
     has = scope.register_map.protocol.functions
-    wanted: list[tuple[str, View, tuple[int, ...]]] = []
-    if register.access.readable:
-        views = (view for view in register.views if view.readable or view is register.read_view)
-        wanted += [("read", view, (view.space.read_function,)) for view in views]
-    if register.access.writable:
-        views = (view for view in register.views if view.writable or view is register.write_view)
-        wanted += [("written", view, view.space.write_functions[1 if view.words > 1 else 0 :]) for view in views]
-    for verb, view, functions in wanted:
+    for verb, view, functions in _accesses(register):
         if not set(functions) & set(has) & set(view.functions or functions):
             need = " or ".join(f"{code:02d}" for code in functions) or "that does not exist"
             where = f"view {view.name} by functions {list(view.functions)}" if view.functions else f"space {view.space}"
@@ -158,6 +151,16 @@ def no_function(register: Register, scope: RuleScope) -> Iterator[Finding]:
             yield Finding.at(
                 register, message, f"correct `access`, `space`, `functions` or `protocol.functions` ({list(has)})"
             )
+
+
+def _accesses(register: Register) -> Iterator[tuple[str, View, tuple[int, ...]]]:
+    """How drivers reach a register: read or written, in which view, by which functions."""
+    for view in register.views if register.access.readable else ():
+        if view.readable or view is register.read_view:
+            yield "read", view, (view.space.read_function,)
+    for view in register.views if register.access.writable else ():
+        if view.writable or view is register.write_view:
+            yield "written", view, view.space.write_functions[1 if view.words > 1 else 0 :]
 
 
 @map_rule(
@@ -178,11 +181,7 @@ def in_a_notation(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
         inside = [one for one in found.values() if one.address >= notation.offset]
         if notation.offset >= FAR and 2 * len(inside) > len(found):
             first = min(inside, key=lambda one: one.address)
-            address = first.address
-            message = (
-                f"stands at wire address {address}, which notation `{notation.name}` (offset {notation.offset}) would"
-            )
-            message = f"{message} print as {address + notation.offset}"
-            yield Finding.at(
-                first, message, f"is `at: {address - notation.offset}` meant? The offset is added for the docs"
-            )
+            meant = f"is `at: {first.address - notation.offset}` meant? The offset is added for the docs"
+            where = f"which notation `{notation.name}` (offset {notation.offset}) would"
+            print_as = f"print as {first.address + notation.offset}"
+            yield Finding.at(first, f"stands at wire address {first.address}, {where} {print_as}", meant)

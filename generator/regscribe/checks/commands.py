@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from regscribe.checks.addresses import LAST_ADDRESS, Stretch, stretches
 from regscribe.checks.rule import Finding, RuleScope, model_rule
-from regscribe.model import Command, CommandStep, Register, Related, Space, View
+from regscribe.model import Command, CommandStep, Related, Space, View
 
 ONE_VALUE = (5, 6)
 LONGEST = 125
@@ -44,12 +44,8 @@ def _at(command: Command, message: str, help_text: str, *related: Related) -> Fi
 
 def _stretches(space: Space, scope: RuleScope) -> list[Stretch]:
     """The stretches of a space in the order of their addresses; sorted once for a model."""
-    key = ("stretches", space)
-    if key not in scope.memo:
-        every = (stretch for register in scope.model.registers for stretch in stretches(register))
-        scope.memo[key] = sorted((one for one in every if one.space is space), key=attrgetter("first", "last"))
-    found = scope.memo[key]
-    return found if isinstance(found, list) else []
+    every = (one for register in scope.model.registers for one in stretches(register) if one.space is space)
+    return scope.once(("stretches", space), lambda: sorted(every, key=attrgetter("first", "last")))
 
 
 def _last(step: CommandStep) -> int:
@@ -71,14 +67,14 @@ def touched(step: CommandStep, space: Space, scope: RuleScope) -> Iterator[Stret
 
 def _around(step: CommandStep, space: Space, scope: RuleScope) -> Iterator[View]:
     """A view of each rule for the region in which a step begins; the device knows these rules before any register."""
-    if "regions" not in scope.memo:
-        views = (view for register in scope.model.registers for view in register.views if view.region)
-        scope.memo["regions"] = {(view.space, view.region, view.align, view.functions): view for view in views}
-    found = scope.memo["regions"]
-    for view in found.values() if isinstance(found, dict) else ():
-        region = view.region
-        if region and view.space is space and region[0] <= step.address <= region[1]:
+    for view in scope.once("regions", lambda: _regions(scope)):
+        if view.region and view.space is space and view.region[0] <= step.address <= view.region[1]:
             yield view
+
+
+def _regions(scope: RuleScope) -> list[View]:
+    views = (view for register in scope.model.registers for view in register.views if view.region)
+    return list({(view.space, view.region, view.align, view.functions): view for view in views}.values())
 
 
 @model_rule("RS0478", "Command writes a read-only register", "The device refuses it: address or access was misread.")
@@ -87,7 +83,7 @@ def step_on_read_only(scope: RuleScope) -> Iterator[Finding]:
     for command, step, _, space in requests(scope):
         for stretch in touched(step, space, scope):
             if not stretch.register.access.writable:
-                register: Register = stretch.register
+                register = stretch.register
                 related = Related(f"`{register.path}` has access {register.access}", register.span)
                 message = f"writes `{register.path}` ({stretch}), which can only be read"
                 yield _at(command, message, "correct the step's address, or `access`", related)
@@ -125,22 +121,33 @@ def step_into_the_middle(scope: RuleScope) -> Iterator[Finding]:
         first, last = step.address, _last(step)
         if first < 0 or last > LAST_ADDRESS:
             yield _at(command, f"writes {first}..{last}, outside 0..{LAST_ADDRESS}", "correct the step's address")
-        for word, found in (("reserved", scope.register_map.reserved), ("unused", scope.model.unused)):
-            for there, low, high in found:
-                if there is space and first <= high and last >= low:
-                    message = f"writes {first}..{last}, but {low}..{high} are {word}"
-                    yield _at(command, message, "correct the step's address")
-        for view in _around(step, space, scope):
-            if first % view.align or len(step.words) % view.align:
-                message = (
-                    f"writes {first}..{last} in the region of view {view.name}, where all is multiples of {view.align}"
-                )
-                yield _at(command, message, "correct the step's address and words, or `align`")
-        yield from _values_in_part(command, step, path, list(touched(step, space, scope)))
+        for word, low, high in _without_register(space, scope):
+            if first <= high and last >= low:
+                message = f"writes {first}..{last}, but {low}..{high} are {word}"
+                yield _at(command, message, "correct the step's address")
+        yield from _misaligned(command, step, _around(step, space, scope))
+        found = list(touched(step, space, scope))
+        yield from _values_in_part(command, step, path, found)
+        if not path:
+            yield from _values_and_none(command, step, found)
+
+
+def _misaligned(command: Command, step: CommandStep, around: Iterator[View]) -> Iterator[Finding]:
+    for view in around:
+        if step.address % view.align or len(step.words) % view.align:
+            where = f"{step.address}..{_last(step)} in the region of view {view.name}"
+            message = f"writes {where}, where all is multiples of {view.align}"
+            yield _at(command, message, "correct the step's address and words, or `align`")
+
+
+def _without_register(space: Space, scope: RuleScope) -> Iterator[tuple[str, int, int]]:
+    """The reserved and the unused addresses of a space: which they are, the first and the last."""
+    for word, listed in (("reserved", scope.register_map.reserved), ("unused", scope.model.unused)):
+        yield from ((word, low, high) for there, low, high in listed if there is space)
 
 
 def _values_in_part(command: Command, step: CommandStep, path: str, found: list[Stretch]) -> Iterator[Finding]:
-    """Values of which a step writes a part, or more than the one that it names, or some beside what is no value."""
+    """Values of which a step writes a part, or more than the one that it names."""
     first, last = step.address, _last(step)
     for stretch in found:
         related = Related(f"`{stretch.register.path}` takes {stretch}", stretch.register.span)
@@ -150,9 +157,14 @@ def _values_in_part(command: Command, step: CommandStep, path: str, found: list[
         elif stretch.register.path == path and stretch.last < last:
             message = f"writes {first}..{last}, more than `{path}` ({stretch})"
             yield _at(command, message, "give as many words as the register has", related)
+
+
+def _values_and_none(command: Command, step: CommandStep, found: list[Stretch]) -> Iterator[Finding]:
+    """A step that writes registers and addresses of none."""
+    first, last = step.address, _last(step)
     covered = {address for stretch in found for address in range(stretch.first, stretch.last + 1)}
     bare = [address for address in range(first, last + 1) if address not in covered]
-    if covered and bare and not path:
+    if covered and bare:
         message = f"writes {first}..{last}: registers, but at {bare[0]} there is none"
         yield _at(command, message, "correct the address or the words, or split the step")
 

@@ -34,12 +34,7 @@ def _cases_of(register: Register) -> Iterator[tuple[str, Ask]]:
 
 def _asked(scopes: tuple[RuleScope, ...]) -> list[tuple[Ask, AskedSubject]]:
     """All sets of conditions of the map, each once: what can hold on one model can hold. Kept for all rules."""
-    found = scopes[0].memo.setdefault("asked", [])
-    if not isinstance(found, list):  # pragma: no cover (the key names what is kept)
-        raise TypeError
-    if not found:
-        found.extend(_collected(scopes))
-    return found
+    return scopes[0].once("asked", lambda: _collected(scopes))
 
 
 def _collected(scopes: tuple[RuleScope, ...]) -> list[tuple[Ask, AskedSubject]]:
@@ -98,16 +93,23 @@ def _identities(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
 def _unmet(identity: Identity, scope: RuleScope) -> str:
     """Why a model never shows an identity; empty if it may."""
     asked = (*identity.when.registers, *(path for path, _ in identity.texts))
-    for register in (scope.registers[path] for path in asked if path in scope.registers):
-        if not register.access.readable:
-            return f"asks for `{register.path}`, which can only be written"
-        if not _tells_alone(register):
-            return f"asks for `{register.path}`, whose value is not known before the model is"
+    unknown = next(filter(None, (_unknown(scope.registers[path]) for path in asked if path in scope.registers)), "")
+    if unknown:
+        return unknown
     if not verdict((identity.when,), scope).possible:
         return "has a condition that can never hold on them"
     for path, text in identity.texts:
         if path in scope.registers and (why := _never_begins(scope.registers[path], text)):
             return f"asks `{path}` for the text {text!r}, {why}"
+    return ""
+
+
+def _unknown(register: Register) -> str:
+    """Why the value of a register is not known while a device is identified; empty if it is."""
+    if not register.access.readable:
+        return f"asks for `{register.path}`, which can only be written"
+    if not _tells_alone(register):
+        return f"asks for `{register.path}`, whose value is not known before the model is"
     return ""
 
 

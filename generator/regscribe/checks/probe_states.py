@@ -32,13 +32,7 @@ class Verdict:
 
 def verdict(conditions: tuple[Condition, ...], scope: RuleScope) -> Verdict:
     """Judge conditions in order; the answer is kept in the scope, since many registers share their cases."""
-    key = ("verdict", conditions)
-    found = scope.memo.get(key)
-    if found is None:
-        found = scope.memo[key] = _judge(conditions, scope)
-    if not isinstance(found, Verdict):  # pragma: no cover (the key names what is kept)
-        raise TypeError
-    return found
+    return scope.once(("verdict", conditions), lambda: _judge(conditions, scope))
 
 
 def _judge(conditions: tuple[Condition, ...], scope: RuleScope) -> Verdict:

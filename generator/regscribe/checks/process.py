@@ -7,6 +7,9 @@ from regscribe.checks.rule import Finding, RuleScope, model_rule, register_rule
 from regscribe.model import Alarm, BitField, Effect, Kind, Output, Process, Register, Related, WireType
 
 RAM = "ram"
+NO_NUMBERS = frozenset({Kind.STRING, Kind.FLAGS, Kind.FIELDS, Kind.VERSION})
+HELP_BIT = "name a bit: `register.flag`, or a register of type bit"
+HELP_NUMBER = "name a register that holds a number"
 Role = tuple[str, str, bool]
 """What a register is in the process, its path (perhaps of a bit), and whether it must be a bit."""
 
@@ -47,6 +50,14 @@ def cannot_take(register: Register, scope: RuleScope) -> Iterator[Finding]:
         if other is not None and (register.kind is Kind.STRING) != (other.kind is Kind.STRING):
             related = Related(f"`{other.path}` is of kind {other.kind}", other.span)
             yield Finding.at(register, f"takes its value from `{other.path}`, of another kind", "correct one", related)
+    for field in register.fields:
+        if field.follows is not None and field.width > 1:
+            message = f"has the field `{field.id}` of {field.width} bits follow a condition"
+            yield Finding.at(register, message, "let single bits follow conditions, or a register another one")
+    yield from _cannot_shadow(register, scope)
+
+
+def _cannot_shadow(register: Register, scope: RuleScope) -> Iterator[Finding]:
     origin = scope.registers.get(register.shadows)
     if origin is not None and origin.persistence == RAM:
         related = Related(f"`{origin.path}` is kept in RAM", origin.span)
@@ -55,10 +66,6 @@ def cannot_take(register: Register, scope: RuleScope) -> Iterator[Finding]:
     if register.shadows and register.delivered is not None:
         message = f"shadows `{register.shadows}` and has a delivered value, but takes the other's when power comes"
         yield Finding.at(register, message, "give `delivered` to the register of lasting memory")
-    for field in register.fields:
-        if field.follows is not None and field.width > 1:
-            message = f"has the field `{field.id}` of {field.width} bits follow a condition"
-            yield Finding.at(register, message, "let single bits follow conditions, or a register another one")
 
 
 @model_rule(
@@ -71,18 +78,25 @@ def roles(scope: RuleScope) -> Iterator[Finding]:
         found = _found(path, scope)
         if found is None or process is None:
             continue
-        register, field = found
-        is_bit = field.width == 1 if field is not None else register.base.type is WireType.BIT
-        what = f"{field.width} bits" if field is not None else f"of kind {register.kind}"
-        related = Related(f"`{register.path}` stands here", register.span)
-        if bit and not is_bit:
-            message = f"`process` has `{path}` as `{name}`, which is no bit but {what}"
-            yield Finding(
-                "process", process.span, message, "name a bit: `register.flag`, or a register of type bit", (related,)
-            )
-        elif not bit and (field is not None or register.kind in {Kind.STRING, Kind.FLAGS, Kind.FIELDS, Kind.VERSION}):
-            message = f"`process` has `{path}` as `{name}`, which is no number but {what}"
-            yield Finding("process", process.span, message, "name a register that holds a number", (related,))
+        what = _no_bit(*found) if bit else _no_number(*found)
+        if what:
+            message = f"`process` has `{path}` as `{name}`, which is {what}"
+            related = Related(f"`{found[0].path}` stands here", found[0].span)
+            yield Finding("process", process.span, message, HELP_BIT if bit else HELP_NUMBER, (related,))
+
+
+def _no_bit(register: Register, field: BitField | None) -> str:
+    """What a register or a field is that is no bit; empty if it is one."""
+    if field is not None:
+        return "" if field.width == 1 else f"no bit but {field.width} bits"
+    return "" if register.base.type is WireType.BIT else f"no bit but of kind {register.kind}"
+
+
+def _no_number(register: Register, field: BitField | None) -> str:
+    """What a register or a field is that is no number; empty if it is one."""
+    if field is not None:
+        return f"no number but {field.width} bits"
+    return f"no number but of kind {register.kind}" if register.kind in NO_NUMBERS else ""
 
 
 def _found(path: str, scope: RuleScope) -> tuple[Register, BitField | None] | None:

@@ -121,19 +121,27 @@ def states(scope: RuleScope) -> Iterator[Finding]:
 def times(scope: RuleScope) -> Iterator[Finding]:
     """Look for the unit of each time: its own, or one for every member of the register that sets it."""
     for program in scope.model.programs:
-        unit = program.time_unit
-        register = _register(unit.register, program, scope) if unit else None
-        if unit and register and register.enum:
-            lacking = [one.label for one in register.enum.members if one.code not in dict(unit.codes)]
-            if lacking:
-                message = f"has no unit of time for {', '.join(lacking)} of `{register.path}`"
-                yield _at(program, scope, message, "list every member under `time_unit.codes`", _here(register))
-        for path in (program.segments.ramp, program.segments.soak):
-            time = _register(path, program, scope)
-            if time and not unit and not all(case.then in UNITS for case in time.unit):
-                message = f"has times in `{time.path}`, which has no unit of time"
-                advice = f"give the register a `unit` of {', '.join(UNITS)}, or the program a `time_unit`"
-                yield _at(program, scope, message, advice, _here(time))
+        yield from _without_code(program, scope) if program.time_unit else _without_unit(program, scope)
+
+
+def _without_code(program: SetpointProgram, scope: RuleScope) -> Iterator[Finding]:
+    """Members of the register that sets the unit of time, of which the program does not say what they stand for."""
+    unit = program.time_unit
+    register = _register(unit.register, program, scope) if unit else None
+    if unit and register and register.enum:
+        lacking = [one.label for one in register.enum.members if one.code not in dict(unit.codes)]
+        if lacking:
+            message = f"has no unit of time for {', '.join(lacking)} of `{register.path}`"
+            yield _at(program, scope, message, "list every member under `time_unit.codes`", _here(register))
+
+
+def _without_unit(program: SetpointProgram, scope: RuleScope) -> Iterator[Finding]:
+    for path in (program.segments.ramp, program.segments.soak):
+        time = _register(path, program, scope)
+        if time and not all(case.then in UNITS for case in time.unit):
+            message = f"has times in `{time.path}`, which has no unit of time"
+            advice = f"give the register a `unit` of {', '.join(UNITS)}, or the program a `time_unit`"
+            yield _at(program, scope, message, advice, _here(time))
 
 
 @model_rule(

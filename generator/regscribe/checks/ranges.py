@@ -6,7 +6,6 @@ from itertools import pairwise
 from regscribe.checks.representable import values_of
 from regscribe.checks.rule import Finding, RuleScope, register_rule
 from regscribe.model import Number, Register, Sentinel, Special, show
-from regscribe.reference import RefusedError, UnknownValueError, choose, limits
 from regscribe.reference.settled_scales import forms
 
 
@@ -15,12 +14,7 @@ from regscribe.reference.settled_scales import forms
 )
 def empty(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """Compare the ends of each interval with all other registers at their defaults; skip what cannot be known."""
-    try:
-        now = choose(register.range, scope.defaults)
-        ends = limits(now, scope.defaults) if now else ()
-    except (UnknownValueError, RefusedError):
-        return
-    for low, high in ends:
+    for low, high in scope.ends_at_defaults(register):
         if low is not None and high is not None and low > high:
             message = f"has the range {show(low)}..{show(high)} with all other registers at their defaults"
             yield Finding.at(register, message, "swap the ends, or correct the defaults of the registers they name")

@@ -72,6 +72,11 @@ def end_values(limits: Range, number: Number) -> tuple[Fraction, ...]:
     return tuple(number / factor for factor in factors(limits.decimals)) if limits.decimals else (Fraction(number),)
 
 
+def unfit_limits(register: Register, limits: Range, fit: Fit, every: tuple[Form, ...]) -> list[Fraction]:
+    """The numeric limits of a range that do just so on the wire, as printed; `every` are the register's forms."""
+    return [one for one in numbers(limits) if best_fit(register, end_values(limits, one), every) is fit]
+
+
 def values_of(register: Register, special: Special) -> tuple[Fraction, ...]:
     """Every value of use that the code of a special value can be: the range's decimals divide it too."""
     return tuple(special.code / factor for case in register.special_scale for factor in factors(case.then.decimals))

@@ -2,12 +2,15 @@
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
+from fractions import Fraction
 from functools import partial
-from typing import TypeVar
+from typing import TypeVar, cast
 
 from regscribe.checks.assumed_values import Beginning, all_defaults
 from regscribe.model import Model, Register, RegisterMap, Related, Rule, Severity, Span
-from regscribe.reference import Surroundings
+from regscribe.reference import RefusedError, Surroundings, UnknownValueError, choose, limits
+
+Made = TypeVar("Made")
 
 MAP = "map"
 """The subject of findings about the map as a whole."""
@@ -33,6 +36,20 @@ class RuleScope:
         by_path = {register.path: register for register in model.registers}
         beginning = Beginning.of(model)
         return cls(register_map, model, by_path, beginning, all_defaults(model, beginning))
+
+    def once(self, key: object, make: Callable[[], Made]) -> Made:
+        """What `make` gives; worked out once for the model."""
+        if key not in self.memo:
+            self.memo[key] = make()
+        return cast("Made", self.memo[key])
+
+    def ends_at_defaults(self, register: Register) -> tuple[tuple[Fraction | None, Fraction | None], ...]:
+        """The ends of a register's range with all other registers at their defaults; none where they are not known."""
+        try:
+            now = choose(register.range, self.defaults)
+            return limits(now, self.defaults) if now else ()
+        except (UnknownValueError, RefusedError):
+            return ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ from fractions import Fraction
 from itertools import islice
 
 from regscribe.checks.held_values import too_fine, wrong_sort
-from regscribe.checks.representable import Fit, best_fit, end_values, listed, numbers
+from regscribe.checks.representable import Fit, listed, unfit_limits
 from regscribe.checks.rule import Finding, RuleScope, register_rule
 from regscribe.model import Kind, Register
 from regscribe.reference.settled_scales import Form, forms
@@ -59,15 +59,15 @@ def _as_float(form: Form, stored: int) -> float | None:
 )
 def between_steps(register: Register, _scope: RuleScope) -> Iterator[Finding]:
     """Try the default and the numeric limits in every view under every scale."""
-    fine = [
-        value
-        for _, value in register.beginnings
-        if isinstance(value, Fraction) and not wrong_sort(register, value) and too_fine(register, value)
-    ]
     every = forms(register) if register.range else ()
-    for case in register.range:
-        ends = [(number, end_values(case.then, number)) for number in numbers(case.then)]
-        fine += [number for number, values in ends if best_fit(register, values, every) is Fit.TOO_FINE]
+    fine = list(_fine_defaults(register))
+    fine += [limit for case in register.range for limit in unfit_limits(register, case.then, Fit.TOO_FINE, every)]
     if fine:
         message = f"has default or limits that its words cannot spell exactly: {listed(list(dict.fromkeys(fine)))}"
         yield Finding.at(register, message, "correct the number, the scale or the decimals")
+
+
+def _fine_defaults(register: Register) -> Iterator[Fraction]:
+    for _, value in register.beginnings:
+        if isinstance(value, Fraction) and not wrong_sort(register, value) and too_fine(register, value):
+            yield value

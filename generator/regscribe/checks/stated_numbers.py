@@ -1,6 +1,6 @@
 """Types and defaults: every number that a map states must be one that the register can hold."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from math import ceil, floor
 
@@ -13,6 +13,7 @@ from regscribe.checks.representable import (
     listed,
     numbers,
     tells_apart,
+    unfit_limits,
     values_of,
 )
 from regscribe.checks.rule import Finding, RuleScope, register_rule
@@ -31,16 +32,13 @@ from regscribe.model import (
     WireType,
     show,
 )
-from regscribe.reference import RefusedError, UnknownValueError, choose, limits, number_of, sentinel_number
+from regscribe.reference import number_of, sentinel_number
 from regscribe.reference.settled_scales import Form, forms, widest
 
+NUMBERS = {Kind.NUMBER, Kind.INTEGER, Kind.RAW}
 WORDS_OF_BITS = {Kind.FLAGS, Kind.FIELDS}
 UNSCALED = {Kind.ENUM, Kind.FLAGS, Kind.FIELDS, Kind.STRING, Kind.VERSION, Kind.BOOLEAN}
 HELP_TYPE = "correct the number, the type or the scale"
-
-
-def _is_numeric(register: Register) -> bool:
-    return register.kind in {Kind.NUMBER, Kind.INTEGER, Kind.RAW}
 
 
 @register_rule(
@@ -100,10 +98,7 @@ def sentinel_is_code(register: Register, _: RuleScope) -> Iterator[Finding]:
         )
         yield Finding.at(register, message, "remove the sentinels")
         return
-    codes: dict[object, str] = {
-        Fraction(member.code): member.label for member in (register.enum.members if register.enum else ())
-    }
-    codes |= {Fraction(0): "false", Fraction(1): "true"} if register.kind is Kind.BOOLEAN else {}
+    codes = _labels(register)
     for sentinel in register.sentinels:
         if sentinel.stored in codes:
             message = f'has {sentinel.spelled} as "{codes[sentinel.stored]}" and as the fault "{sentinel.label}"'
@@ -112,6 +107,13 @@ def sentinel_is_code(register: Register, _: RuleScope) -> Iterator[Finding]:
         if number_of(register, value) not in codes and is_fault(register, value):
             message = f"has {what} {shown(value)}, by which it reports a fault"
             yield Finding.at(register, message, f"correct the {what} or the sentinels")
+
+
+def _labels(register: Register) -> dict[object, str]:
+    """What the codes of an enum, true and false are called."""
+    members = register.enum.members if register.enum else ()
+    truths: dict[object, str] = {Fraction(0): "false", Fraction(1): "true"} if register.kind is Kind.BOOLEAN else {}
+    return {Fraction(member.code): member.label for member in members} | truths
 
 
 BITS, STATUS = {Space.COIL, Space.DISCRETE}, {Space.STATUS}
@@ -146,21 +148,18 @@ def type_and_space(register: Register, _: RuleScope) -> Iterator[Finding]:
 )
 def default_outside_range(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """Judge the default with all other registers at theirs; what cannot be known so is not judged."""
-    judged = [(what, value) for what, value in register.beginnings if isinstance(value, Fraction)]
+    judged = register.beginnings if register.kind in NUMBERS else ()
     named = {special.value for special in register.specials}
-    if not register.range or not _is_numeric(register):
-        return
-    try:
-        now = choose(register.range, scope.defaults)
-        ends = limits(now, scope.defaults) if now else ()
-    except (UnknownValueError, RefusedError):
-        return
-    for what, value in judged:
-        inside = any((low is None or low <= value) and (high is None or value <= high) for low, high in ends)
-        if ends and not inside and value not in named:
+    ends = scope.ends_at_defaults(register) if judged else ()
+    for what, value in judged if ends else ():
+        if isinstance(value, Fraction) and value not in named and not _inside(value, ends):
             text = " or ".join(f"{_end(low)}..{_end(high)}" for low, high in ends)
             message = f"has {what} {show(value)}, outside {text} with all other registers at their defaults"
             yield Finding.at(register, message, f"correct one of them, or add the {what} under `special`")
+
+
+def _inside(value: Fraction, ends: Iterable[tuple[Fraction | None, Fraction | None]]) -> bool:
+    return any((low is None or low <= value) and (high is None or value <= high) for low, high in ends)
 
 
 def _end(number: Fraction | None) -> str:
@@ -172,8 +171,7 @@ def limit_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Try each numeric limit; ranges that fit nowhere are RS0425's."""
     every = forms(register) if register.range else ()
     for case in register.range:
-        ends = [(number, end_values(case.then, number)) for number in numbers(case.then)]
-        outside = [number for number, values in ends if best_fit(register, values, every) is Fit.TOO_LARGE]
+        outside = unfit_limits(register, case.then, Fit.TOO_LARGE, every)
         if outside and _reachable(widest(register), case.then):
             message = f"has limits {listed(outside)}, outside {ends_of(register)} as scaled"
             yield Finding.at(register, message, HELP_TYPE)
@@ -234,19 +232,30 @@ def _reachable(reach: tuple[Fraction, Fraction] | None, one: Range) -> bool:
 def kind_and_type(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Compare the kind with the types of all views, and an enum or fields with the kind."""
     for view in register.views:
-        wrong = (
-            (register.kind is Kind.STRING) != (view.type is WireType.STRING)
-            or (register.kind in UNSCALED - {Kind.STRING} and view.type.is_float)
-            or (register.kind in {*WORDS_OF_BITS, Kind.VERSION} and view.type is WireType.BIT)
-        )
-        if wrong:
-            message = f"is of kind {register.kind}, but view {view.name} has type {view.type}"
-            yield Finding.at(register, message, "correct `kind` or `type`")
+        problem, help_text = _of_view(register.kind, view)
+        if problem:
+            yield Finding.at(register, f"is of kind {register.kind}{problem}", help_text)
             return
-        if view.saturates and (register.kind in {*UNSCALED, Kind.BOOLEAN} or not view.type.is_integer):
-            message = f"is of kind {register.kind} and type {view.type}, of which view {view.name} can clip nothing"
-            yield Finding.at(register, message, "remove `saturates`, or give the register a view set of its own")
-            return
+    yield from _of_parts(register)
+
+
+def _of_view(kind: Kind, view: View) -> tuple[str, str]:
+    """Why a view cannot carry values of a kind, and what to do; empty if it can."""
+    wrong = (
+        (kind is Kind.STRING) != (view.type is WireType.STRING)
+        or (kind in UNSCALED - {Kind.STRING} and view.type.is_float)
+        or (kind in {*WORDS_OF_BITS, Kind.VERSION} and view.type is WireType.BIT)
+    )
+    if wrong:
+        return f", but view {view.name} has type {view.type}", "correct `kind` or `type`"
+    if view.saturates and (kind in UNSCALED or not view.type.is_integer):
+        problem = f" and type {view.type}, of which view {view.name} can clip nothing"
+        return problem, "remove `saturates`, or give the register a view set of its own"
+    return "", ""
+
+
+def _of_parts(register: Register) -> Iterator[Finding]:
+    """What does not fit the kind among enum, bits, digits and special values."""
     if (register.enum is not None) != (register.kind is Kind.ENUM):
         yield Finding.at(register, f"is of kind {register.kind} {_has(register)}", "correct `kind` or the enum")
     elif bool(register.fields) != (register.kind in WORDS_OF_BITS):

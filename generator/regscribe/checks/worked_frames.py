@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from regscribe.checks.assumed_values import in_example
 from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule
-from regscribe.checks.worked_values import compare, hexadecimal, printed, unsigned
+from regscribe.checks.worked_values import compare, hexadecimal, printed
 from regscribe.model import FrameExample, Register, Space, View
 from regscribe.reference import RefusedError, Surroundings, UnknownValueError
 from regscribe_runtime.wire.pdu import (
@@ -135,7 +135,7 @@ def _problems(example: FrameExample) -> Iterator[str]:
         ("function", example.function & ~EXCEPTION_BIT, frame.function),
         ("address", example.address, frame.address),
         ("count", example.count, frame.count),
-        ("words", None if example.words is None else unsigned(example.words), frame.words),
+        ("words", example.words, frame.words),
     )
     for name, said, found in stated:
         if said is not None and found is not None and said != found:
@@ -236,7 +236,7 @@ def _command(example: FrameExample, frame: FrameFields, scope: RuleScope) -> Ite
     if command is None:
         yield f"model {scope.model.name} has no command `{example.command}`"
         return
-    steps = [(step.function, step.address, unsigned(step.words)) for step in command.steps if step.words]
+    steps = [(step.function, step.address, step.words) for step in command.steps if step.words]
     if (frame.function, frame.address, frame.carried) not in steps:
         told = "; ".join(f"function {code:02d} at {address}: {hexadecimal(words)}" for code, address, words in steps)
         yield f"no step of command `{command.id}` sends it ({told})"

@@ -38,11 +38,6 @@ def hexadecimal(words: tuple[int, ...]) -> str:
     return " ".join(f"{word:04X}" for word in words)
 
 
-def unsigned(words: tuple[int, ...]) -> tuple[int, ...]:
-    """Words as they stand on the wire: a map may write -1 for FFFF."""
-    return tuple(word & 0xFFFF for word in words)
-
-
 def printed(what: str, example: ValueExample | FrameExample | TimingExample) -> str:
     """What an example is and, where the map says so, where the manual prints it."""
     return f"{what} of {example.source}" if example.source else what
@@ -84,9 +79,8 @@ def _judge(example: ValueExample, scope: RuleScope) -> str:
     view = next((view for view in register.views if view.name == example.view), None) if register else None
     if register is None or view is None:
         return f"model {example.model} has no view {example.view} of it"
-    words = unsigned(example.words)
-    if len(words) != view.words:
-        return f"{len(words)} words, but view {view.name} has {view.words}"
+    if len(example.words) != view.words:
+        return f"{len(example.words)} words, but view {view.name} has {view.words}"
     known = in_example(scope.register_map, scope.model, scope.beginning, example.state)
     try:
         return _sent(example, view, known) or _read(example, register, view, known)
@@ -100,14 +94,14 @@ def _sent(example: ValueExample, view: View, known: Surroundings) -> str:
     if example.stored is None:
         return ""
     words = transmit(view, example.stored, known)
-    if words == unsigned(example.words):
+    if words == example.words:
         return ""
-    said = hexadecimal(unsigned(example.words))
+    said = hexadecimal(example.words)
     return f"a device that holds {show(example.stored)} sends {hexadecimal(words)}, the manual says {said}"
 
 
 def _read(example: ValueExample, register: Register, view: View, known: Surroundings) -> str:
-    words = unsigned(example.words)
+    words = example.words
     reading = decode(register, view, words, known)
     if example.outcome in MEANINGS:
         wrong = reading.meaning is not MEANINGS[example.outcome]

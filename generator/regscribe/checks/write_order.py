@@ -94,12 +94,9 @@ def unlocked_elsewhere(register: Register, scope: RuleScope) -> Iterator[Finding
 
 def _written(command: str, scope: RuleScope) -> list[Register]:
     """The registers that the steps of a command write; worked out once for a model."""
-    key = ("written", command)
-    if key not in scope.memo:
-        sent = [one for one in requests(scope) if one.command.id == command]
-        scope.memo[key] = [stretch.register for one in sent for stretch in touched(one.step, one.space, scope)]
-    found = scope.memo[key]
-    return found if isinstance(found, list) else []
+    sent = (one for one in requests(scope) if one.command.id == command)
+    stretches = (stretch for one in sent for stretch in touched(one.step, one.space, scope))
+    return scope.once(("written", command), lambda: [stretch.register for stretch in stretches])
 
 
 def _another_element(register: Register, other: Register) -> bool:

@@ -149,6 +149,29 @@ def _pattern(view: View, number: Fraction) -> Fraction:
 
 
 def _checked(register: Register, value: Fraction, known: Surroundings) -> Fraction:
+    """Return the number to be scaled: the code of a special value, or a value that the register may be given."""
+    code = _special_code(register, value, known)
+    if code is not None:
+        return code
+    _check_kind(register, value)
+    if not in_range(register, value, known):
+        raise RefusedError(RefusalReason.RANGE, f"{show(value)} lies outside the range")
+    return value
+
+
+def _check_kind(register: Register, value: Fraction) -> None:
+    if register.kind is Kind.BOOLEAN and value not in {0, 1}:
+        raise RefusedError(RefusalReason.TYPE, f"{show(value)} is neither 0 nor 1")
+    if register.enum is not None and all(member.code != value for member in register.enum.members):
+        raise RefusedError(RefusalReason.MEMBER, f"{show(value)} is no member of {register.enum.id}")
+    if register.kind is Kind.FLAGS:
+        _check_bits(register, value)
+    if not register.fractional and value.denominator != 1:
+        raise RefusedError(RefusalReason.TYPE, f"{show(value)} is no whole number")
+
+
+def _special_code(register: Register, value: Fraction, known: Surroundings) -> Fraction | None:
+    """Return the code of the special value that `value` is; None if it is no special value."""
     codes: set[Fraction] = set()
     for special in register.specials:
         named = special_value(register, special, known)
@@ -159,17 +182,7 @@ def _checked(register: Register, value: Fraction, known: Surroundings) -> Fracti
         codes.add(named)
     if value in codes:
         raise RefusedError(RefusalReason.RANGE, f"{show(value)} is a code that stands for another number")
-    if register.kind is Kind.BOOLEAN and value not in {0, 1}:
-        raise RefusedError(RefusalReason.TYPE, f"{show(value)} is neither 0 nor 1")
-    if register.enum is not None and all(member.code != value for member in register.enum.members):
-        raise RefusedError(RefusalReason.MEMBER, f"{show(value)} is no member of {register.enum.id}")
-    if register.kind is Kind.FLAGS:
-        _check_bits(register, value)
-    if not register.fractional and value.denominator != 1:
-        raise RefusedError(RefusalReason.TYPE, f"{show(value)} is no whole number")
-    if not in_range(register, value, known):
-        raise RefusedError(RefusalReason.RANGE, f"{show(value)} lies outside the range")
-    return value
+    return None
 
 
 def _check_bits(register: Register, value: Fraction) -> None:

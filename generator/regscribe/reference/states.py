@@ -62,8 +62,7 @@ def _of_number(register: Register) -> tuple[Stretch, ...]:
     if not intervals or any(case.then.decimals for case in register.range):
         return (Stretch(low, high),)
     stretches = [_stretch(interval, low, high) for interval in intervals]
-    meant = [special.code if special.means is None else special.means for special in register.specials]
-    return tuple(stretches + [Stretch(value, value) for value in meant])
+    return (*stretches, *(Stretch(special.value, special.value) for special in register.specials))
 
 
 def _stretch(interval: Interval, low: Fraction, high: Fraction) -> Stretch:
@@ -105,11 +104,16 @@ def listed(stretches: Sequence[Stretch]) -> tuple[Fraction, ...]:
 def representatives(stretches: Sequence[Stretch], codes: Sequence[tuple[Number, Number]]) -> tuple[Fraction, ...]:
     """Return values of a domain that stand for all: the ends of each run of values that lie in the same of `codes`."""
     marks = [Stretch(Fraction(low), Fraction(high)) for low, high in dict.fromkeys(codes)]
+    runs = groupby(_values(stretches, marks), lambda value: [one.holds(value) for one in marks])
+    values = (list(run) for _, run in runs)
+    return tuple(dict.fromkeys(end for run in values for end in (run[0], run[-1])))
+
+
+def _values(stretches: Sequence[Stretch], marks: Sequence[Stretch]) -> list[Fraction]:
+    """Return the values of a domain that may begin or end a run, in order."""
     ends = {end for one in stretches for end in (one.low, one.high)}
     ends |= {near for one in marks for near in (one.low - 1, one.low, one.high, one.high + 1)}
-    values = {*listed(stretches), *(end for end in ends if any(one.holds(end) for one in stretches))}
-    runs = [list(run) for _, run in groupby(sorted(values), lambda value: [one.holds(value) for one in marks])]
-    return tuple(dict.fromkeys(end for run in runs for end in (run[0], run[-1])))
+    return sorted({*listed(stretches), *(end for end in ends if any(one.holds(end) for one in stretches))})
 
 
 def combinations(choices: Mapping[K, Sequence[V]]) -> Iterator[dict[K, V]]:
