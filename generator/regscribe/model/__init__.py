@@ -4,7 +4,7 @@ Nothing here knows YAML, templates or a device; every number that scales is a `F
 """
 
 from regscribe.model.diagnostic import Diagnostic, Related, Rule, Severity, Span
-from regscribe.model.enums import BitField, Enum, Lookup, Member, Special, Units
+from regscribe.model.enums import BitField, Enum, Member, Special, Units
 from regscribe.model.faults import SILENCE, Faults, Later, ProtocolNotes
 from regscribe.model.map import (
     Command,
@@ -101,7 +101,6 @@ __all__ = [
     "Later",
     "Library",
     "Limit",
-    "Lookup",
     "Manual",
     "Member",
     "Model",

@@ -1,14 +1,10 @@
 """What single codes mean: special values, the members of enums and bit fields."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
 from regscribe.model.diagnostic import NOWHERE, Span
 from regscribe_runtime.values.conditions import Cases, Condition
-
-Lookup = Callable[[str], Fraction]
-"""The present value of a register by its path, or of one bit field as `register.field`."""
 
 
 @dataclass(frozen=True, slots=True)

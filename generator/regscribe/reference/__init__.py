@@ -18,17 +18,30 @@ from regscribe.reference.outcome import Meaning, Reading, RefusalReason, Refused
 from regscribe.reference.surroundings import (
     MOST_DECIMALS,
     NOTHING_KNOWN,
+    Known,
     Surroundings,
     choose,
     decimal_factor,
+    divided_limits,
     holds,
     limits,
+    within,
 )
-from regscribe.reference.words import carried, round_by, transmit, wire_number, word_order
+from regscribe.reference.words import (
+    bytes_in_order,
+    carried,
+    round_by,
+    sent_words,
+    transmit,
+    wire_number,
+    word_order,
+    words_in_order,
+)
 
 __all__ = [
     "MOST_DECIMALS",
     "NOTHING_KNOWN",
+    "Known",
     "Meaning",
     "NotFiniteError",
     "Reading",
@@ -36,10 +49,12 @@ __all__ = [
     "RefusedError",
     "Surroundings",
     "UnknownValueError",
+    "bytes_in_order",
     "carried",
     "choose",
     "decimal_factor",
     "decode",
+    "divided_limits",
     "encode",
     "holds",
     "ieee_bits",
@@ -48,6 +63,7 @@ __all__ = [
     "not_a_number",
     "number_of",
     "round_by",
+    "sent_words",
     "sentinel_number",
     "shortest",
     "special_value",
@@ -55,5 +71,7 @@ __all__ = [
     "version_number",
     "version_text",
     "wire_number",
+    "within",
     "word_order",
+    "words_in_order",
 ]

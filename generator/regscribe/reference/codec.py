@@ -7,7 +7,7 @@ from regscribe.model.enums import Special
 from regscribe.model.register import Register
 from regscribe.reference.ieee import ieee_bits
 from regscribe.reference.outcome import NOT_DECODABLE, SATURATED, Meaning, Reading, RefusalReason, RefusedError
-from regscribe.reference.surroundings import NOTHING_KNOWN, Surroundings, choose, decimal_factor, in_range
+from regscribe.reference.surroundings import NOTHING_KNOWN, Known, choose, decimal_factor, in_range
 from regscribe.reference.words import HALF, carried, spelled, text_of, wire_number, word_order, words_of_text
 from regscribe_runtime.values.kinds import Kind
 from regscribe_runtime.values.numbers import show
@@ -19,7 +19,7 @@ PATTERNS = frozenset({Kind.FLAGS, Kind.FIELDS})
 """Kinds whose value is a pattern of bits: no number, so it has neither sign nor scale."""
 
 
-def decode(register: Register, view: View, words: tuple[int, ...], known: Surroundings = NOTHING_KNOWN) -> Reading:
+def decode(register: Register, view: View, words: tuple[int, ...], known: Known = NOTHING_KNOWN) -> Reading:
     """Say what `words`, read from `view`, mean; raises UnknownValueError for a value that decides and is not known."""
     order = word_order(view, known)
     if order is None:
@@ -30,7 +30,7 @@ def decode(register: Register, view: View, words: tuple[int, ...], known: Surrou
     return _of_number(register, view, wire_number(view, words, order), known)
 
 
-def _of_number(register: Register, view: View, number: Fraction | NotANumber | None, known: Surroundings) -> Reading:
+def _of_number(register: Register, view: View, number: Fraction | NotANumber | None, known: Known) -> Reading:
     if view.saturates and view.type.is_integer and number in {view.type.minimum, view.type.maximum}:
         return SATURATED
     for sentinel in register.sentinels:
@@ -48,14 +48,14 @@ def sentinel_number(view: View, sentinel: Sentinel) -> Fraction | NotANumber | N
     return NAN if isinstance(sentinel.stored, NotANumber) else carried(view, Fraction(sentinel.stored * view.factor))
 
 
-def special_value(register: Register, special: Special, known: Surroundings) -> Fraction | None:
+def special_value(register: Register, special: Special, known: Known) -> Fraction | None:
     """Return the value of use that the code of a special value is as things stand; None if nobody can tell."""
     conversion = choose(register.special_scale, known)
     factor = None if conversion is None else decimal_factor(conversion.decimals, known)
     return None if factor is None else special.code / factor
 
 
-def _meaning(register: Register, view: View, number: Fraction, known: Surroundings) -> Reading:
+def _meaning(register: Register, view: View, number: Fraction, known: Known) -> Reading:
     conversion = choose(register.scale, known)
     factor = None if conversion is None else decimal_factor(conversion.decimals, known)
     if conversion is None or factor is None:
@@ -116,7 +116,7 @@ def encode(
     register: Register,
     view: View,
     value: Fraction | str,
-    known: Surroundings = NOTHING_KNOWN,
+    known: Known = NOTHING_KNOWN,
     *,
     rounded: bool = False,
 ) -> tuple[int, ...]:
@@ -148,7 +148,7 @@ def _pattern(view: View, number: Fraction) -> Fraction:
     return number - size if number > view.type.maximum else number
 
 
-def _checked(register: Register, value: Fraction, known: Surroundings) -> Fraction:
+def _checked(register: Register, value: Fraction, known: Known) -> Fraction:
     """Return the number to be scaled: the code of a special value, or a value that the register may be given."""
     code = _special_code(register, value, known)
     if code is not None:
@@ -170,7 +170,7 @@ def _check_kind(register: Register, value: Fraction) -> None:
         raise RefusedError(RefusalReason.TYPE, f"{show(value)} is no whole number")
 
 
-def _special_code(register: Register, value: Fraction, known: Surroundings) -> Fraction | None:
+def _special_code(register: Register, value: Fraction, known: Known) -> Fraction | None:
     """Return the code of the special value that `value` is; None if it is no special value."""
     codes: set[Fraction] = set()
     for special in register.specials:
@@ -191,7 +191,7 @@ def _check_bits(register: Register, value: Fraction) -> None:
         raise RefusedError(RefusalReason.BITS, f"{show(value)} sets bits that mean nothing")
 
 
-def _stored(register: Register, value: Fraction, known: Surroundings, *, rounded: bool) -> Fraction:
+def _stored(register: Register, value: Fraction, known: Known, *, rounded: bool) -> Fraction:
     conversion = choose(register.scale, known)
     factor = None if conversion is None else decimal_factor(conversion.decimals, known)
     if conversion is None or factor is None:
@@ -200,7 +200,7 @@ def _stored(register: Register, value: Fraction, known: Surroundings, *, rounded
     return _on_step(conversion, stored, known, rounded=rounded)
 
 
-def increment(conversion: Conversion, known: Surroundings) -> Fraction | None:
+def increment(conversion: Conversion, known: Known) -> Fraction | None:
     """Return how far two stored numbers lie apart; None where nothing says so.
 
     Raises RefusedError if a register that says it holds no number of decimals.
@@ -211,7 +211,7 @@ def increment(conversion: Conversion, known: Surroundings) -> Fraction | None:
     return None if conversion.step is None else conversion.step / factor
 
 
-def _on_step(conversion: Conversion, stored: Fraction, known: Surroundings, *, rounded: bool) -> Fraction:
+def _on_step(conversion: Conversion, stored: Fraction, known: Known, *, rounded: bool) -> Fraction:
     step = increment(conversion, known)
     if step is None or (stored / step).denominator == 1:
         return stored

@@ -63,6 +63,13 @@ def not_a_number(wire_type: WireType) -> int:
     return ((1 << (form.exponent + 1)) - 1) << (form.fraction - 1)
 
 
+def largest(wire_type: WireType, *, negative: bool) -> int:
+    """Return the bits of the number furthest from zero."""
+    form = FORMATS[wire_type]
+    sign = negative << (form.fraction + form.exponent)
+    return sign + (((1 << form.exponent) - 1) << form.fraction) - 1
+
+
 def ieee_bits(number: Fraction, wire_type: WireType) -> int | None:
     """Return the bits of the nearest IEEE number, ties to the even one; None if that is infinity."""
     form = FORMATS[wire_type]

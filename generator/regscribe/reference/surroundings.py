@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
+from typing import Protocol
 
 from regscribe.model.register import Register
 from regscribe.reference.outcome import RefusalReason, RefusedError, UnknownValueError
@@ -13,9 +14,28 @@ MOST_DECIMALS = 9
 """A decimals register above this is no decimal position of any device, and ten to the power of it may be endless."""
 
 
+class Known(Protocol):
+    """What else must be known: values of use by path (or `register.field`), codes and facts of the givens by id."""
+
+    @property
+    def codes(self) -> Mapping[str, frozenset[Fraction]]:
+        """The codes of a register that a given lists."""
+
+    @property
+    def facts(self) -> Mapping[str, bool]:
+        """The givens that are true or false."""
+
+    def look_up(self, subject: str) -> Fraction:
+        """Return the present value of `subject`; raises UnknownValueError if nobody said it."""
+
+
+Limits = tuple[tuple[Fraction | None, Fraction | None], ...]
+"""Lowest and highest value of each interval; None where nothing limits."""
+
+
 @dataclass(frozen=True, slots=True)
 class Surroundings:
-    """What else must be known: values of use by path (or `register.field`), codes and facts of the givens by id."""
+    """What is known, as far as it was said."""
 
     values: Mapping[str, Fraction] = field(default_factory=dict)
     codes: Mapping[str, frozenset[Fraction]] = field(default_factory=dict)
@@ -31,7 +51,7 @@ class Surroundings:
 NOTHING_KNOWN = Surroundings()
 
 
-def _is_true(test: Is, known: Surroundings) -> bool:
+def _is_true(test: Is, known: Known) -> bool:
     """Tell whether one test is true under what is known."""
     if not test.register:
         if test.given not in known.facts:
@@ -45,12 +65,12 @@ def _is_true(test: Is, known: Surroundings) -> bool:
     return any(low <= value <= high for low, high in test.codes) != test.negated
 
 
-def holds(condition: Condition, known: Surroundings) -> bool:
+def holds(condition: Condition, known: Known) -> bool:
     """Tell whether all tests of a condition are true."""
     return all(_is_true(test, known) for test in condition.tests)
 
 
-def choose(cases: Cases[T], known: Surroundings) -> T | None:
+def choose(cases: Cases[T], known: Known) -> T | None:
     """Return what the first case that holds says; None if none holds."""
     for case in cases:
         if holds(case.when, known):
@@ -58,7 +78,7 @@ def choose(cases: Cases[T], known: Surroundings) -> T | None:
     return None
 
 
-def decimal_factor(decimals: Decimals | None, known: Surroundings) -> Fraction | None:
+def decimal_factor(decimals: Decimals | None, known: Known) -> Fraction | None:
     """Return 10 to the power of the decimals register; None if that is no number of decimals (0 to 9)."""
     if decimals is None:
         return Fraction(1)
@@ -69,25 +89,30 @@ def decimal_factor(decimals: Decimals | None, known: Surroundings) -> Fraction |
     return Fraction(10**most)
 
 
-def limit_number(limit: Limit, factor: Fraction, known: Surroundings) -> Fraction | None:
+def limit_number(limit: Limit, factor: Fraction, known: Known) -> Fraction | None:
     """Return the number of a limit; None for an open one, which nothing is checked against."""
     if isinstance(limit, Open):
         return None
     return known.look_up(limit.register) if isinstance(limit, Ref) else limit / factor
 
 
-def limits(limits_now: Range, known: Surroundings) -> tuple[tuple[Fraction | None, Fraction | None], ...]:
+def limits(limits_now: Range, known: Known) -> Limits:
     """Lowest and highest value of each interval as things stand; None where nothing limits."""
     factor = decimal_factor(limits_now.decimals, known)
     if factor is None:
         raise RefusedError(RefusalReason.CONDITION, f"{limits_now.decimals} holds no number of decimals")
+    return divided_limits(limits_now, factor, known)
+
+
+def divided_limits(limits_now: Range, factor: Fraction, known: Known) -> Limits:
+    """Return the limits where those that are numbers are divided by `factor`."""
     return tuple(
         (limit_number(interval.low, factor, known), limit_number(interval.high, factor, known))
         for interval in limits_now.intervals
     )
 
 
-def in_range(register: Register, value: Fraction, known: Surroundings) -> bool:
+def in_range(register: Register, value: Fraction, known: Known) -> bool:
     """Tell whether `value` lies in one of the intervals that count now; a register without range takes all.
 
     Raises RefusedError if the range has cases and none holds: nothing then says what the device would take.
@@ -97,6 +122,9 @@ def in_range(register: Register, value: Fraction, known: Surroundings) -> bool:
     limits_now = choose(register.range, known)
     if limits_now is None:
         raise RefusedError(RefusalReason.CONDITION, "no range holds as things stand")
-    return any(
-        (low is None or low <= value) and (high is None or value <= high) for low, high in limits(limits_now, known)
-    )
+    return within(limits(limits_now, known), value)
+
+
+def within(limits_now: Limits, value: Fraction) -> bool:
+    """Tell whether `value` lies in one of the intervals."""
+    return any((low is None or low <= value) and (high is None or value <= high) for low, high in limits_now)

@@ -3,9 +3,17 @@
 from fractions import Fraction
 from math import floor, trunc
 
-from regscribe.reference.ieee import NotFiniteError, ieee_bits, ieee_number, is_infinity, not_a_number, shortest
+from regscribe.reference.ieee import (
+    NotFiniteError,
+    ieee_bits,
+    ieee_number,
+    is_infinity,
+    largest,
+    not_a_number,
+    shortest,
+)
 from regscribe.reference.outcome import RefusalReason, RefusedError
-from regscribe.reference.surroundings import NOTHING_KNOWN, Surroundings
+from regscribe.reference.surroundings import NOTHING_KNOWN, Known
 from regscribe_runtime.values.numbers import show
 from regscribe_runtime.values.scales import NAN, NotANumber
 from regscribe_runtime.values.views import View
@@ -28,7 +36,7 @@ def round_by(rounding: Rounding, number: Fraction) -> int:
     return floor(number + HALF)
 
 
-def word_order(view: View, known: Surroundings) -> Order | None:
+def word_order(view: View, known: Known) -> Order | None:
     """Return the order of the words as things stand; None if the register's code sets no order."""
     if isinstance(view.order, Order):
         return view.order
@@ -36,14 +44,14 @@ def word_order(view: View, known: Surroundings) -> Order | None:
     return next((order for listed, order in view.order.codes if listed == code), None)
 
 
-def _bytes_in_order(view: View, words: tuple[int, ...], order: Order) -> list[int]:
+def bytes_in_order(view: View, words: tuple[int, ...], order: Order) -> list[int]:
     """Return the bytes of words on the wire, the most significant (or the first letter) first."""
     in_order = words if order is Order.BIG else tuple(reversed(words))
     pairs = [divmod(word, 256) for word in in_order]
     return [byte for high, low in pairs for byte in ((high, low) if view.byte_order is Order.BIG else (low, high))]
 
 
-def _words_in_order(view: View, raw: list[int], order: Order) -> tuple[int, ...]:
+def words_in_order(view: View, raw: list[int], order: Order) -> tuple[int, ...]:
     """Return the words on the wire of bytes that stand the most significant (or the first letter) first."""
     pairs = [(raw[place], raw[place + 1]) for place in range(0, len(raw), 2)]
     words = tuple(
@@ -54,14 +62,14 @@ def _words_in_order(view: View, raw: list[int], order: Order) -> tuple[int, ...]
 
 def _bits_of(view: View, words: tuple[int, ...], order: Order) -> int:
     bits = 0
-    for byte in _bytes_in_order(view, words, order):
+    for byte in bytes_in_order(view, words, order):
         bits = bits * 256 + byte
     return bits % (1 << view.type.bits)
 
 
 def _words_of(view: View, bits: int, order: Order) -> tuple[int, ...]:
     raw = [(bits >> (8 * place)) % 256 for place in reversed(range(2 * view.type.words))]
-    return _words_in_order(view, raw, order)
+    return words_in_order(view, raw, order)
 
 
 def wire_number(view: View, words: tuple[int, ...], order: Order) -> Fraction | NotANumber | None:
@@ -86,7 +94,7 @@ def carried(view: View, number: Fraction) -> Fraction | None:
 
 def text_of(view: View, words: tuple[int, ...], order: Order) -> str | None:
     """Return the ASCII text in `words` up to the first NUL, without blanks at its end; None if it is no ASCII."""
-    letters = bytes(_bytes_in_order(view, words, order))
+    letters = bytes(bytes_in_order(view, words, order))
     raw = letters[: letters.index(0)] if 0 in letters else letters
     return raw.decode("ascii").rstrip(" ") if raw.isascii() else None
 
@@ -95,7 +103,7 @@ def words_of_text(view: View, text: str, order: Order) -> tuple[int, ...]:
     """Return the words of an ASCII text, filled up with blanks; RefusedError if it does not fit."""
     if not text.isascii() or "\0" in text or len(text) > 2 * view.words:
         raise RefusedError(RefusalReason.TYPE, f"{text!r} does not fit {2 * view.words} ASCII characters")
-    return _words_in_order(view, list(text.encode("ascii").ljust(2 * view.words)), order)
+    return words_in_order(view, list(text.encode("ascii").ljust(2 * view.words)), order)
 
 
 def spelled(view: View, number: Fraction, order: Order, *, rounded: bool) -> tuple[int, ...]:
@@ -117,7 +125,7 @@ def spelled(view: View, number: Fraction, order: Order, *, rounded: bool) -> tup
     return _words_of(view, whole % (1 << view.type.bits), order)
 
 
-def transmit(view: View, stored: Fraction | NotANumber, known: Surroundings = NOTHING_KNOWN) -> tuple[int, ...]:
+def transmit(view: View, stored: Fraction | NotANumber, known: Known = NOTHING_KNOWN) -> tuple[int, ...]:
     """Return the words that a device which holds `stored` sends: rounded by the view, clipped if the view saturates.
 
     Raises RefusedError for a number that the view cannot carry.
@@ -125,16 +133,27 @@ def transmit(view: View, stored: Fraction | NotANumber, known: Surroundings = NO
     order = word_order(view, known)
     if order is None:
         raise RefusedError(RefusalReason.CONDITION, "the order of the words is not known")
+    return sent_words(view, stored, order)
+
+
+def sent_words(view: View, stored: Fraction | NotANumber, order: Order, *, clip: bool = False) -> tuple[int, ...]:
+    """Return what `transmit` does, in this word order; with `clip`, a view clips even if it does not saturate."""
     if isinstance(stored, NotANumber):
         return _words_of(view, not_a_number(view.type), order)
     number = stored * view.factor
-    if view.type.is_integer:
-        whole = round_by(view.rounding, number)
-        clipped = min(max(whole, view.type.minimum), view.type.maximum)
-        if clipped != whole and not view.saturates:
-            raise RefusedError(RefusalReason.TYPE, f"{whole} lies outside {view.type}")
-        return _words_of(view, clipped % (1 << view.type.bits), order)
+    return _words_of(view, (_whole if view.type.is_integer else _ieee)(view, number, clip=clip), order)
+
+
+def _whole(view: View, number: Fraction, *, clip: bool) -> int:
+    whole = round_by(view.rounding, number)
+    clipped = min(max(whole, view.type.minimum), view.type.maximum)
+    if clipped != whole and not (view.saturates or clip):
+        raise RefusedError(RefusalReason.TYPE, f"{whole} lies outside {view.type}")
+    return clipped % (1 << view.type.bits)
+
+
+def _ieee(view: View, number: Fraction, *, clip: bool) -> int:
     bits = ieee_bits(number, view.type)
-    if bits is None:
+    if bits is None and not clip:
         raise RefusedError(RefusalReason.TYPE, f"{show(number)} is beyond {view.type}")
-    return _words_of(view, bits, order)
+    return largest(view.type, negative=number < 0) if bits is None else bits

@@ -1,13 +1,10 @@
-"""Conditions on the present state, with the facts that the map does not hold (givens) supplied from outside."""
+"""The facts that a map does not hold (givens), supplied from outside."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
-from typing import TypeVar
 
-from regscribe.model import Case, Condition, Given, GivenKind, Is, Lookup, Model, RegisterMap
+from regscribe.model import Condition, Given, GivenKind, Model, RegisterMap
 from regscribe.simulate.errors import SimulatorError
-
-T = TypeVar("T")
 
 GivenValue = bool | Iterable[int]
 """A boolean given is True or False; a codes given is the register's codes, such as {8, 9} or range(13, 19)."""
@@ -19,31 +16,15 @@ class Givens:
     Raises SimulatorError with the map's own description of what is missing.
     """
 
-    __slots__ = ("_codes", "_flags")
+    __slots__ = ("codes", "facts")
 
     def __init__(self, register_map: RegisterMap, model: Model, values: Mapping[str, GivenValue]) -> None:
         declared = {given.id: given for given in register_map.givens}
         _refuse_unknown(declared, values)
         _demand_used(declared, values, model)
         kinds = {name: declared[name].kind for name in values}
-        self._flags = {name: bool(value) for name, value in values.items() if kinds[name] is GivenKind.BOOLEAN}
-        self._codes = {name: _codes(name, value) for name, value in values.items() if name not in self._flags}
-
-    def holds(self, condition: Condition, lookup: Lookup) -> bool:
-        """Tell whether all tests of `condition` hold for the values that `lookup` finds."""
-        return all(self._passes(test, lookup) for test in condition.tests)
-
-    def choose(self, cases: Iterable[Case[T]], lookup: Lookup) -> T | None:
-        """Return what the first case that holds says; None if none holds."""
-        return next((case.then for case in cases if self.holds(case.when, lookup)), None)
-
-    def _passes(self, test: Is, lookup: Lookup) -> bool:
-        if not test.register:
-            return self._flags[test.given] != test.negated
-        value = lookup(test.subject)
-        if test.given:
-            return (value in self._codes[test.given]) != test.negated
-        return test.lists(value) != test.negated
+        self.facts = {name: bool(value) for name, value in values.items() if kinds[name] is GivenKind.BOOLEAN}
+        self.codes = {name: _codes(name, value) for name, value in values.items() if name not in self.facts}
 
 
 def _conditions(model: Model) -> Iterator[Condition]:

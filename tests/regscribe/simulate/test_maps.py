@@ -7,6 +7,7 @@ import pytest
 
 from regscribe.model import FrameExample, RegisterMap, ValueExample
 from regscribe.pipeline import compile_map
+from regscribe.reference import holds
 from regscribe.simulate import SimulatedDevice
 from regscribe_runtime.wire.server_framing import RtuFramer
 
@@ -60,7 +61,7 @@ def test_every_default_of_the_manual_is_the_first_value_unless_it_is_delivered_w
 @pytest.mark.parametrize(("name", "model"), MODELS)
 def test_the_model_can_be_identified(name: str, model: str) -> None:
     device = simulated(name, model)
-    found = [one.models for one in FAMILIES[name].identity if device.state.holds(one.identity.when)]
+    found = [one.models for one in FAMILIES[name].identity if holds(one.identity.when, device.state)]
     assert [model in models for models in found] == [True]
 
 

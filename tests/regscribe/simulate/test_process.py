@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 
 from regscribe.model import RegisterMap
+from regscribe.reference import choose
 from regscribe.simulate import LOW_FAULT, SimulatedDevice, SimulatorError, ThermalProcess, find_map, simulate
 
 OVEN = ThermalProcess(ambient=70, gain=400, time_constant=60, dead_time=4)
@@ -284,7 +285,7 @@ def _setpoints(device: SimulatedDevice) -> list[str]:
     path, found = device.model.process.setpoint, []
     while path:
         found.append(path)
-        path = device.state.choose(device.state.register(path).follows) or ""
+        path = choose(device.state.register(path).follows, device.state) or ""
     return [each for each in found if each != device.model.process.setpoint or len(found) == 1] or found
 
 

@@ -3,7 +3,7 @@
 from fractions import Fraction
 
 from regscribe.model import Condition, Kind, Register
-from regscribe.simulate.device.accepted_values import Present
+from regscribe.reference import Known, choose, holds
 from regscribe.simulate.device.value_arguments import with_field
 
 
@@ -14,16 +14,16 @@ def sources_of(register: Register) -> set[str]:
     }
 
 
-def source_of(register: Register, state: Present) -> str:
+def source_of(register: Register, state: Known) -> str:
     """Return the register that this one follows now; empty if it follows none."""
-    return state.choose(register.follows) or "" if register.follows else ""
+    return choose(register.follows, state) or ""
 
 
-def followed_bits(register: Register, word: Fraction, state: Present) -> Fraction:
+def followed_bits(register: Register, word: Fraction, state: Known) -> Fraction:
     """Return `word` with the bits that follow a condition as the conditions have them now."""
     for field in register.fields:
         if field.follows is not None:
-            word = with_field(word, field, Fraction(int(state.holds(field.follows))))
+            word = with_field(word, field, Fraction(int(holds(field.follows, state))))
     return word
 
 

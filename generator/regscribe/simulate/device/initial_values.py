@@ -4,11 +4,12 @@ from fractions import Fraction
 
 from regscribe.model import Is, Kind, Model, Register, RegisterMap
 from regscribe.reference import number_of
-from regscribe.simulate.device.accepted_values import Present, accepts, limit_value
+from regscribe.simulate.device.accepted_values import accepts, limits_now
+from regscribe.simulate.device.present_meaning import PresentMeaning
 from regscribe.simulate.device.value_arguments import with_field
 
 
-def initial_value(register_map: RegisterMap, model: Model, register: Register, state: Present) -> Fraction | str:
+def initial_value(register_map: RegisterMap, model: Model, register: Register, state: PresentMeaning) -> Fraction | str:
     """Return the value of use that `register` begins with.
 
     In this order: what tells the model (so that an identification finds it), what the map says it is delivered with,
@@ -26,12 +27,10 @@ def initial_value(register_map: RegisterMap, model: Model, register: Register, s
     return Fraction(0) if accepts(register, Fraction(0), state) else _first_accepted(register, state)
 
 
-def _first_accepted(register: Register, state: Present) -> Fraction:
+def _first_accepted(register: Register, state: PresentMeaning) -> Fraction:
     if register.enum is not None and register.enum.members:
         return Fraction(register.enum.members[0].code)
-    limits = state.choose(register.range)
-    lows = (limit_value(each.low, limits, state) for each in limits.intervals) if limits else ()
-    return next((low for low in lows if low is not None), Fraction(0))
+    return next((low for low, _ in limits_now(register, state) or () if low is not None), Fraction(0))
 
 
 def _initial_text(register_map: RegisterMap, model: Model, register: Register) -> str:

@@ -5,6 +5,7 @@ from difflib import get_close_matches
 from fractions import Fraction
 
 from regscribe.model import BitField, Enum, Kind, NotANumber, Register
+from regscribe.reference import choose
 from regscribe.simulate.device.state import DeviceState
 from regscribe.simulate.device.value_arguments import field_value, with_field
 from regscribe.simulate.errors import SimulatorError
@@ -50,7 +51,7 @@ def spell(state: DeviceState, register: Register, stored: Fraction | NotANumber)
     text = (
         f"{plain:.10g}" if isinstance(plain, float) else str(plain).lower() if isinstance(plain, bool) else str(plain)
     )
-    unit = state.choose(register.unit) if isinstance(plain, int | float) else ""
+    unit = choose(register.unit, state) if isinstance(plain, int | float) else ""
     return f"{text} {unit}" if unit else text
 
 

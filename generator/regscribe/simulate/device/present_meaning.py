@@ -6,8 +6,6 @@ from fractions import Fraction
 from regscribe.model import (
     IDENTITY,
     BitField,
-    Cases,
-    Condition,
     Conversion,
     Decimals,
     Kind,
@@ -18,22 +16,21 @@ from regscribe.model import (
     Special,
     View,
 )
-from regscribe.reference import MOST_DECIMALS
-from regscribe.simulate.device import codec
+from regscribe.reference import MOST_DECIMALS, choose, round_by
 from regscribe.simulate.device.device_plan import Blueprint, Stored
 from regscribe.simulate.device.value_arguments import field_value
 from regscribe.simulate.errors import SimulatorError
-from regscribe.simulate.givens import Givens, T
 
 
 class PresentMeaning(ABC):
-    """The questions about a state that need the values of other registers; what is in effect is for a subclass."""
+    """What else must be known to read a value of this device; what is in effect is for a subclass."""
 
-    __slots__ = ("_model", "blueprint", "givens")
+    __slots__ = ("_model", "blueprint", "codes", "facts")
 
     def __init__(self, blueprint: Blueprint) -> None:
         self.blueprint = blueprint
-        self.givens: Givens = blueprint.givens
+        self.codes = blueprint.givens.codes
+        self.facts = blueprint.givens.facts
         self._model: Model = blueprint.model
 
     @abstractmethod
@@ -60,7 +57,7 @@ class PresentMeaning(ABC):
             raise SimulatorError(message)
         return register, field
 
-    def lookup(self, subject: str) -> Fraction:
+    def look_up(self, subject: str) -> Fraction:
         """Return the present number of a register, or of `register.field`, as conditions and limits count it.
 
         That is the value in effect, which need not be the one that the register shows.
@@ -81,7 +78,7 @@ class PresentMeaning(ABC):
 
     def special(self, register: Register, special: Special) -> Fraction:
         """Return the value of use of a special value's code: where decimals divide the range, they divide it too."""
-        scale = self.choose(register.special_scale) or IDENTITY
+        scale = choose(register.special_scale, self) or IDENTITY
         return special.code / self.power(scale.decimals)
 
     def to_value(self, register: Register, stored: Fraction) -> Fraction:
@@ -96,29 +93,21 @@ class PresentMeaning(ABC):
 
     def conversion(self, register: Register) -> Conversion:
         """Return the scale that holds now; none holding counts as identity."""
-        return self.choose(register.scale) or IDENTITY
+        return choose(register.scale, self) or IDENTITY
 
-    def power(self, decimals: Decimals | None) -> int:
+    def power(self, decimals: Decimals | None) -> Fraction:
         """10 to the number of decimals that a register holds now; of what is none the nearest that is one."""
         if decimals is None:
-            return 1
-        digits = min(max(0, int(self.lookup(decimals.register))), MOST_DECIMALS)
-        return int(10 ** (digits if decimals.at_most is None else min(digits, decimals.at_most)))
-
-    def holds(self, condition: Condition) -> bool:
-        """Whether `condition` holds now."""
-        return self.givens.holds(condition, self.lookup)
-
-    def choose(self, cases: Cases[T]) -> T | None:
-        """Return what the first case that holds now says; None if none holds."""
-        return self.givens.choose(cases, self.lookup)
+            return Fraction(1)
+        digits = min(max(0, int(self.look_up(decimals.register))), MOST_DECIMALS)
+        return Fraction(10 ** (digits if decimals.at_most is None else min(digits, decimals.at_most)))
 
     def order(self, view: View) -> Order:
         """Return the word order of `view` now; where a register sets it to a code without meaning, the map's first."""
         if isinstance(view.order, Order):
             return view.order
         first = next((order for _, order in view.order.codes), Order.BIG)
-        return view.order.order(self.lookup(view.order.register)) or first
+        return view.order.order(self.look_up(view.order.register)) or first
 
     def quantise(self, register: Register, stored: Fraction) -> Fraction:
         """Round `stored` to what the device can hold: to the scale's step, else to what its views can tell apart."""
@@ -143,4 +132,4 @@ class PresentMeaning(ABC):
 
 def _on_step(register: Register, stored: Fraction, step: Fraction) -> Fraction:
     rounding = next((view.rounding for view in register.views if view.rounding is not Rounding.NONE), Rounding.NONE)
-    return codec.round_to_whole(stored / step, rounding) * step
+    return round_by(rounding, stored / step) * step

@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from fractions import Fraction
 
 from regscribe.model import Command, Effect, Register
+from regscribe.reference import holds
 from regscribe.simulate.device.commands import Commands
 from regscribe.simulate.device.device_plan import Stored
 from regscribe.simulate.device.followed_values import source_of
@@ -51,7 +52,7 @@ class Conduct:
                 if self._state.register(path).apply == name:
                     self._state.take_effect(path)
             for effect in self._effects[name].effects:
-                if self._state.holds(effect.when):
+                if holds(effect.when, self._state):
                     self._bring_about(effect)
 
     def power_cycle(self) -> None:

@@ -168,7 +168,7 @@ class DeviceState(PresentMeaning):
             origin = self._model.register(source)
             found = self.in_effect(source)
             alike = origin.scale == register.scale or not isinstance(found, Fraction)
-            stored = found if alike else self.quantise(register, self.from_value(register, self.lookup(source)))
+            stored = found if alike else self.quantise(register, self.from_value(register, self.look_up(source)))
         if has_followed_bits(register) and isinstance(stored, Fraction):
             stored = followed_bits(register, stored, self)
         return stored

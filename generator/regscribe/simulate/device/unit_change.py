@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from regscribe.model import Register
-from regscribe.simulate.device import codec
+from regscribe.reference import choose, round_by
 from regscribe.simulate.device.device_plan import Stored
 from regscribe.simulate.device.state import DeviceState
 
@@ -46,13 +46,13 @@ def _held(state: DeviceState, unit: str) -> Iterator[Held]:
         if register.unit_id != unit or not isinstance(stored, Fraction) or stored in register.faults:
             continue
         if state.to_value(register, stored) not in {state.special(register, each) for each in register.specials}:
-            yield Held(register, state.choose(register.unit) or "", state.to_value(register, stored))
+            yield Held(register, choose(register.unit, state) or "", state.to_value(register, stored))
 
 
 def rescale(state: DeviceState, snapshot: HeldValues) -> Iterator[tuple[str, float, float]]:
     """Convert what the snapshot holds into the units of now; yields each register with its factor and offset."""
     for held in snapshot.held:
-        symbol = state.choose(held.register.unit) or ""
+        symbol = choose(held.register.unit, state) or ""
         if symbol == held.symbol or not {symbol, held.symbol} <= UNITS.keys():
             continue
         factor, offset = _between(held.symbol, symbol)
@@ -74,4 +74,4 @@ def _rounded(register: Register, stored: Fraction) -> Fraction:
     if not views:
         return stored
     finest = max(views, key=lambda view: view.factor)
-    return Fraction(codec.round_to_whole(stored * finest.factor, finest.rounding)) / finest.factor
+    return Fraction(round_by(finest.rounding, stored * finest.factor)) / finest.factor

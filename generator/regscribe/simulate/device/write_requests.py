@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from regscribe.model import Later, Register, RegisterMap, Space
+from regscribe.reference import holds
 from regscribe.simulate.device import codec
 from regscribe.simulate.device.accepted_values import accepts
 from regscribe.simulate.device.address_index import AddressIndex, AddressSpan
@@ -102,7 +103,7 @@ class Writer:
     def _check_access(self, register: Register) -> None:
         if not register.access.writable:
             raise Refusal(self.register_map.faults.read_only)
-        if register.writable is not None and not self.state.holds(register.writable.when):
+        if register.writable is not None and not holds(register.writable.when, self.state):
             raise Refusal(self.register_map.faults.condition)
         if register.unlock and register.unlock not in self.commands.since_power:
             raise Refusal(self.register_map.faults.condition)

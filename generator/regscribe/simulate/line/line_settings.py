@@ -50,7 +50,7 @@ class Tuning:
             if waits or stored == self._known[path]:
                 continue
             self._known[path] = stored
-            self._set(governs, self._state.lookup(path))
+            self._set(governs, self._state.look_up(path))
             lost |= governs.since == AT_ONCE
         return lost
 

@@ -162,7 +162,7 @@ class Controller:
             if not path:
                 continue
             if path not in self._extremes:
-                self._extremes[path] = float(self._state.lookup(path))
+                self._extremes[path] = float(self._state.look_up(path))
             if better(self._extremes[path], value) != self._extremes[path]:
                 self._put(path, _exact(value))
                 self._extremes[path] = value

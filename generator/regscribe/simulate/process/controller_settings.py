@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from regscribe.model import Condition, Register, registers_of
+from regscribe.reference import holds
 from regscribe.simulate.device.state import DeviceState
 
 
@@ -33,7 +34,7 @@ class ControllerSettings:
         if path not in self._numbers:
             register, _ = self._state.find(path)
             self._paths.update(_needed(register))
-            self._numbers[path] = float(self._state.lookup(path))
+            self._numbers[path] = float(self._state.look_up(path))
         return self._numbers[path]
 
     def holds(self, condition: Condition | None) -> bool:
@@ -44,7 +45,7 @@ class ControllerSettings:
         if key not in self._conditions:
             for path in condition.registers:
                 self._paths.update(_needed(self._state.register(path)))
-            self._conditions[key] = self._state.holds(condition)
+            self._conditions[key] = holds(condition, self._state)
         return self._conditions[key]
 
 
