@@ -10,6 +10,7 @@ import pytest
 from regscribe_runtime.planning.address_ranges import AddressRanges, RegisterSpan
 from regscribe_runtime.planning.cost import Cost
 from regscribe_runtime.planning.plan import RequestLimits, Terms
+from regscribe_runtime.planning.read_places import read_places
 from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.values.wire_types import Space
 
@@ -50,7 +51,7 @@ def test_no_plan_for_a_real_model_is_dearer_than_those_of_others(bench: Any, sub
 def test_every_rival_reads_all_that_is_wanted_and_keeps_to_the_device(bench: Any, subjects: dict[str, Any]) -> None:
     subject = subjects["M5000"]
     terms = subject.terms(Cost.serial(subject.protocol))
-    known = [subject.places(path)[0].span for path in subject.readable]
+    known = [read_places(subject.registers[path])[0].span for path in subject.readable]
     task = bench.Task.of(known[::3], known, terms)
 
     plans = {name: mode(task) for name, mode in bench.MODES.items()} | {"gap": bench.fixed_gap(task, 3)}

@@ -25,6 +25,7 @@ from regscribe_runtime import RegscribeError
 from regscribe_runtime.link.connect import serial
 from regscribe_runtime.planning.address_ranges import RegisterSpan
 from regscribe_runtime.planning.cost import Cost
+from regscribe_runtime.planning.read_places import read_places
 from regscribe_runtime.wire.requests import Request
 
 BAUD = 9600
@@ -76,7 +77,7 @@ def _driver(driver: Any, path: str, unit: int, givens: dict[str, Any]) -> float:
 
 
 def _items(subject: PlannedModel) -> list[RegisterSpan]:
-    return list(dict.fromkeys(subject.places(path)[0].span for path in subject.readable))
+    return list(dict.fromkeys(read_places(subject.registers[path])[0].span for path in subject.readable))
 
 
 def _fixed_gap(subject: PlannedModel, path: str, unit: int) -> float:

@@ -19,6 +19,7 @@ from regscribe.cli.shared.planned_model import PlannedModel
 from regscribe.pipeline import compile_map
 from regscribe_runtime.planning.cost import Cost, milliseconds
 from regscribe_runtime.planning.plan import blocks
+from regscribe_runtime.planning.read_places import read_places
 
 MAPS = Path(__file__).parents[3] / "maps"
 SEED = 20240611
@@ -84,9 +85,9 @@ def _shown(subject: PlannedModel, paths: Sequence[str]) -> float:
 def duels(subject: PlannedModel, cost: Cost, gaps: Sequence[int] = GAPS) -> Iterator[Duel]:
     """Our plan and those of the others for each set of registers; all read the same registers at the same places."""
     terms = subject.terms(cost)
-    known = [subject.places(path)[0].span for path in subject.readable]
+    known = [read_places(subject.registers[path])[0].span for path in subject.readable]
     for what, paths in sets(subject):
-        wanted = [subject.places(path)[0].span for path in paths]
+        wanted = [read_places(subject.registers[path])[0].span for path in paths]
         made = blocks(wanted, terms)
         task = Task.of(wanted, known, terms)
         ours = sum(terms.cost.tariff(block.space).of(block.quantity) for block in made)

@@ -13,10 +13,12 @@ from regscribe.cli.shared.output import print_json, remark, show_table, tell
 from regscribe.cli.shared.planned_model import PlannedModel
 from regscribe.model import RegisterMap
 from regscribe.tools.live.errors import unknown
+from regscribe_runtime.operations.prepared_read import laid_out
 from regscribe_runtime.planning import plan
 from regscribe_runtime.planning.cost import Cost, milliseconds
 from regscribe_runtime.planning.plan import Planned, SplitReason, Terms
 from regscribe_runtime.planning.read_order import ReadOrder
+from regscribe_runtime.planning.read_places import read_places
 from regscribe_runtime.values.serial_line import FORMATS, SerialLine
 
 COLUMNS = ("FC", "ADDRESSES", "WANTED", "CARRIED", "BYTES", "MS", "APART BECAUSE", "REGISTERS")
@@ -66,15 +68,17 @@ def command(  # noqa: PLR0913 - one parameter an option
     (register_map,) = compiled_maps([find_map(map_name)], nothing="nothing is planned")
     subject = _subject(register_map, model)
     wanted = _chosen(subject, ids, groups, everything=everything)
-    asked = wanted if remembered else subject.with_needs(wanted)
     terms = subject.terms(_cost(subject, baud, form, framing, tcp=tcp))
-    layout = subject.layout(wanted, terms, fresh=not remembered)
-    single = [terms.cost.tariff(item.space).of(item.words) for item in (subject.places(path)[0].span for path in asked)]
-    told = _PlanReport(layout, asked, terms, milliseconds(sum(single)))
+    chosen = [subject.registers[path] for path in wanted]
+    layout, asked, _ = laid_out(subject.registers, chosen, terms, fresh=not remembered)
+    alone = [read_places(register)[0].span for register in asked.values()]
+    single = sum(terms.cost.tariff(item.space).of(item.words) for item in alone)
+    also = list(asked)[len(wanted) :]
+    told = _PlanReport(layout, list(asked), terms, milliseconds(single))
     if as_json:
-        print_json(map=register_map.id, model=subject.model.name, also=asked[len(wanted) :], **told.plain())
+        print_json(map=register_map.id, model=subject.model.name, also=also, **told.plain())
     else:
-        told.print(f"{register_map.title} {subject.model.name}", asked[len(wanted) :])
+        told.print(f"{register_map.title} {subject.model.name}", also)
 
 
 def _subject(register_map: RegisterMap, model: str) -> PlannedModel:
