@@ -1,7 +1,9 @@
 """Hypothesis strategies over the language: whole maps of registers that decide, and registers that depend on them."""
 
+import os
 from typing import Any, NamedTuple
 
+from hypothesis import HealthCheck, Phase, settings
 from hypothesis import strategies as st
 
 from .suite import Json
@@ -13,6 +15,16 @@ LIMITS = {f"uint{bits}": (0, 2**bits - 1) for bits in (16, 32, 64)}
 LIMITS |= {f"int{bits}": (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1) for bits in (16, 32, 64)}
 STEP, ELEMENT, OUTER, VIEW, MOST = 4, 60, 200, 1000, 3
 """Addresses from one register, element, outer element and view to the next; the most of the registers that depend."""
+
+FUZZ = int(os.environ.get("FUZZ_MAPS", "10000"))
+"""How many maps `make fuzz` draws; about three of four are sound."""
+STEADY = settings(
+    deadline=None,
+    database=None,
+    print_blob=True,
+    phases=[Phase.generate],  # to shrink a map takes longer than to read it
+    suppress_health_check=list(HealthCheck),
+)
 
 
 class Decider(NamedTuple):

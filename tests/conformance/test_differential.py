@@ -1,28 +1,18 @@
 """Random sound maps: driver, reference and simulated device agree on every reading and on every write."""
 
-import os
 import random
 
 import pytest
-from hypothesis import HealthCheck, Phase, assume, given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from regscribe.emit import python
 
-from .strategies import maps
+from .strategies import FUZZ, STEADY, maps
 from .suite import Built, Json, diagnose, errors_of, module_of, whole_map
 from .trial import Trial
 
-FUZZ = int(os.environ.get("FUZZ_MAPS", "10000"))
-"""How many maps `make fuzz` draws; about three of four are sound."""
 FEW = 200
-STEADY = settings(
-    deadline=None,
-    database=None,
-    print_blob=True,
-    phases=[Phase.generate],  # to shrink a map takes longer than to read it
-    suppress_health_check=list(HealthCheck),
-)
 
 
 def disagreements(parts: Json, seed: int) -> list[str]:

@@ -73,19 +73,19 @@ decimals: {{one: {{register: places}}}}
 """
 
 
-def shown(capsys: pytest.CaptureFixture[str], path: Path, model: str, *line: str) -> Requests:
-    """The requests of the plan that the command shows for all registers."""
+def shown(capsys: pytest.CaptureFixture[str], path: Path, model: str, *words: str) -> Requests:
+    """The requests of the plan that the command shows."""
     capsys.readouterr()
-    assert run(["plan", str(path), "--model", model, "--all", "--json", *line]) == 0
+    assert run(["plan", str(path), "--model", model, "--json", *words]) == 0
     found = json.loads(capsys.readouterr().out)
     return [(one["function"], one["address"], one["quantity"]) for one in found["requests"]]
 
 
-def sent(device: Any) -> Requests:
-    """The requests of a driver that reads everything, once it knows what values depend on."""
-    device.read()
+def sent(device: Any, *what: Any) -> Requests:
+    """The requests of a driver that reads something, or everything, once it knows what values depend on."""
+    device.read(*what)
     device.link.log.clear()
-    device.read()
+    device.read(*what)
     return [(one.function, one.address, one.quantity) for one in device.link.log]
 
 
@@ -112,7 +112,23 @@ def test_the_plan_of_a_shipped_model_is_what_its_driver_sends(
         link.line = line
         device = driver(link, unit=1, **givens_of(register_map))
 
-        assert shown(capsys, path, name, *settings) == sent(device), (name, settings)
+        assert shown(capsys, path, name, "--all", *settings) == sent(device), (name, settings)
+
+
+@pytest.mark.parametrize("path", MAPS, ids=lambda path: path.stem)
+def test_the_plan_of_a_group_and_of_a_register_is_what_a_shipped_driver_sends(
+    path: Path, words: Any, direct: Any, capsys: pytest.CaptureFixture[str]
+) -> None:
+    register_map = compile_map(path).map
+    assert register_map is not None
+    name, driver = next(devices(register_map))
+    device = driver(direct(words({})), unit=1, **givens_of(register_map))
+    groups = {one: members for one, group in device.session.groups.items() if (members := group.registers(driver))}
+    largest = max(groups, key=lambda one: len(groups[one]))
+    one = next(iter(groups.values()))[-1]
+
+    assert shown(capsys, path, name, one.path, *SERIAL) == sent(device, one)
+    assert shown(capsys, path, name, "--group", largest, one.path, *SERIAL) == sent(device, *groups[largest], one)
 
 
 @pytest.mark.parametrize(
@@ -131,7 +147,7 @@ def test_the_plan_of_a_small_map_is_what_its_driver_sends(
     path = tmp_path / "planned.yaml"
     path.write_text(text, encoding="utf-8")
 
-    assert shown(capsys, path, "One", *SERIAL) == sent(talk(text, holds).driver)
+    assert shown(capsys, path, "One", "--all", *SERIAL) == sent(talk(text, holds).driver)
 
 
 def test_what_goes_round_in_a_circle_is_shown_once_more_at_the_end(
@@ -154,4 +170,4 @@ def test_a_view_whose_word_order_stands_in_a_register_is_no_other_way_to_read(
     path = tmp_path / "planned.yaml"
     path.write_text(TWO_PLACES, encoding="utf-8")
 
-    assert shown(capsys, path, "One", *SERIAL) == [(3, 0, 2), (3, 102, 1), (3, 300, 1)]
+    assert shown(capsys, path, "One", "--all", *SERIAL) == [(3, 0, 2), (3, 102, 1), (3, 300, 1)]

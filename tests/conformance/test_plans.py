@@ -1,0 +1,160 @@
+"""`regscribe plan` shows what a driver sends, request by request, to a server that knows no map: cases, random maps."""
+
+import json
+import random
+import struct
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stdout
+from io import StringIO
+from itertools import cycle
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from regscribe.cli.app import run
+from regscribe.emit import python
+
+from .matrix_watch import Wire
+from .strategies import FUZZ, STEADY, maps
+from .suite import FUNCTIONS, Built, Case, Json, build, cases, diagnose, errors_of, module_of, whole_map, words_of
+from .trial import Trial
+from .wire import Memory, Server
+
+FEW, FEW_IDS = 30, 4
+SOUND = [case for case in cases() if not case.refused]
+TCP, SERIAL = ("--tcp",), ("--baud", "9600", "--format", "8N1")
+"""The lines that drivers talk over here, as the command is told."""
+Requests = list[tuple[int, int, int]]
+"""Function, address and quantity of each, in the order of sending."""
+
+PROTOCOLS = st.fixed_dictionaries(
+    {"functions": st.just(FUNCTIONS), "read_holes": st.booleans()},
+    optional={
+        "limits": st.fixed_dictionaries({"read_words": st.sampled_from((4, 10, 40)), "read_bits": st.just(3)}),
+        "latency": st.just({3: {"fixed": "1..5", "per_word": "0..9"}}),
+    },
+)
+"""What a device accepts, and what decides how its registers are joined in requests."""
+WHOLE = st.builds(lambda parts, protocol: parts | {"protocol": protocol}, maps(), PROTOCOLS)
+
+
+class Question(NamedTuple):
+    """What is read, in the words of the command and as a driver is asked; `fresh` with what it depends on."""
+
+    words: tuple[str, ...]
+    what: tuple[Any, ...] = ()
+    fresh: bool = True
+
+
+class Bench(NamedTuple):
+    """A map's file, and its drivers by the line that they believe in: all in front of the words of one server."""
+
+    path: Path
+    memory: Memory
+    drivers: dict[tuple[str, ...], Any]
+
+    def differences(self, *questions: Question) -> Iterator[str]:
+        """Where the command shows other requests than the server saw; each question goes to the next line."""
+        for one, (line, driver) in zip(questions, cycle(self.drivers.items()), strict=False):
+            told, saw = self._told(one, line), self._saw(one, driver)
+            if told != saw:
+                yield f"{one.words} {line} {one.fresh}: told {told}, saw {saw}"
+
+    def _told(self, one: Question, line: tuple[str, ...]) -> Requests:
+        remembered = () if one.fresh else ("--remembered",)
+        with redirect_stdout(StringIO()) as out:
+            assert run(["plan", str(self.path), "--model", "A", "--json", *one.words, *line, *remembered]) == 0
+        found = json.loads(out.getvalue())["requests"]
+        return [(each["function"], each["address"], each["quantity"]) for each in found]
+
+    def _saw(self, one: Question, driver: Any) -> Requests:
+        driver.read(*one.what)  # from now on it knows what values depend on
+        self.memory.log.clear()
+        driver.read(*one.what, fresh=one.fresh)
+        return [_asked(pdu) for pdu in self.memory.log]
+
+
+def _asked(pdu: bytes) -> tuple[int, int, int]:
+    """What a request asks for; function 07 names no address."""
+    function, address, quantity = struct.unpack(">BHH", pdu) if len(pdu) > 1 else (pdu[0], 0, 1)
+    return function, address, quantity
+
+
+def everything(device: Any) -> tuple[Question, Question]:
+    """All registers, and their group."""
+    return Question(("--all",)), Question(("--group", "all"), (device.groups.all,))
+
+
+def of_ids(device: Any, chance: random.Random) -> Question:
+    """One to three registers that can be read, by path; often such that depend on others."""
+    readable = [one for one in device.registers.values() if one.access.readable]
+    depending = [one for one in readable if one.needs(one.read_view())]
+    among = chance.choice((readable, depending or readable))
+    chosen = tuple(chance.sample(among, min(len(among), chance.choice((1, 1, 2, 3)))))
+    return Question(tuple(one.path for one in chosen), chosen, chance.choice((True, True, False)))
+
+
+@contextmanager
+def bench(path: Path, parts: Json, device: Any, server: Server) -> Iterator[Bench]:
+    """Drivers of a map over TCP, and on a serial line of 9600 baud, in front of what a server holds."""
+    path.write_text(whole_map(parts), encoding="utf-8")
+    with device.tcp("127.0.0.1", port=server.port, unit=1) as over_tcp:
+        serial = device(Wire(server.memory.answer), unit=1)
+        yield Bench(path, server.memory, {TCP: over_tcp, SERIAL: serial})
+
+
+@pytest.fixture(scope="module")
+def server() -> Iterator[Server]:
+    with Server() as running:
+        yield running
+
+
+@pytest.fixture(scope="module")
+def path(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("maps") / "case.yaml"
+
+
+@pytest.mark.parametrize("case", SOUND, ids=repr)
+def test_the_plan_of_a_case_is_what_its_driver_sends(case: Case, server: Server, path: Path) -> None:
+    device = build(whole_map(case.map)).module.CaseA
+    chance = random.Random(case.name)  # noqa: S311 (found again by its name)
+    server.memory.clear()
+    for space, cells in case.holds.items():
+        for address, held in cells.items():
+            server.memory.put(space, int(address), words_of(held))
+
+    with bench(path, case.map, device, server) as made:
+        questions = [chance.choice(everything(device)), of_ids(device, chance)]
+        assert list(made.differences(*chance.sample(questions, 2))) == []
+
+
+def differences(parts: Json, seed: int, server: Server, path: Path) -> list[str]:
+    """What is sent otherwise than planned of a map that no rule refuses, whose registers hold words of any kind."""
+    register_map, found = diagnose(whole_map(parts))
+    assume(register_map is not None and not errors_of(found))
+    assert register_map is not None
+    ((_, code),) = python.render(register_map).items()
+    chance = random.Random(seed)  # noqa: S311 (found again by its seed)
+    trial = Trial(Built(register_map, module_of(code)), chance)
+    trial.hold()
+    server.memory.cells, device = trial.memory.cells, type(trial.plain)
+    with bench(path, parts, device, server) as made:
+        return list(made.differences(*everything(device), *(of_ids(device, chance) for _ in range(FEW_IDS))))
+
+
+@settings(STEADY, max_examples=FEW, derandomize=True)
+@given(parts=WHOLE, seed=st.integers(0, 2**32))
+def test_the_plan_of_a_random_map_is_what_its_driver_sends(server: Server, path: Path, parts: Json, seed: int) -> None:
+    assert differences(parts, seed, server, path) == []
+
+
+@pytest.mark.slow
+@settings(STEADY, max_examples=FUZZ)
+@given(parts=WHOLE, seed=st.integers(0, 2**32))
+def test_the_plans_of_many_random_maps_are_what_drivers_send(
+    server: Server, path: Path, parts: Json, seed: int
+) -> None:
+    assert differences(parts, seed, server, path) == []
