@@ -7,20 +7,9 @@ from fractions import Fraction
 from itertools import combinations
 
 from regscribe.checks.held_values import no_member
-from regscribe.checks.identifiers import ENUM_NAMES, normalised
+from regscribe.checks.identifiers import ENUM_NAMES, enums_of, normalised
 from regscribe.checks.rule import Finding, RuleScope, model_rule, register_rule
 from regscribe.model import BitField, Enum, Kind, Member, Register, WireType, show
-
-
-def enums_of(scope: RuleScope) -> Iterator[tuple[Register, str, Enum]]:
-    """Every enum of a model once: the first register that has it, the field if it is one's, the enum."""
-    seen: set[int] = set()
-    for register in scope.model.registers:
-        owned = [("", register.enum), *((bits.id, bits.enum) for bits in register.fields)]
-        for field, enum in owned:
-            if enum and id(enum) not in seen:
-                seen.add(id(enum))
-                yield register, field, enum
 
 
 def _finding(register: Register, field: str, enum: Enum, message: str, help_text: str) -> Finding:

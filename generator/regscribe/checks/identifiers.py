@@ -5,7 +5,7 @@ import re
 from collections.abc import Iterator
 
 from regscribe.checks.rule import Finding, RuleScope, model_rule, register_rule
-from regscribe.model import Array, Enum, Kind, Register, Related, Span
+from regscribe.model import Array, Enum, Kind, Model, Register, Related, Span
 
 RUNTIME_NAMES = frozenset(
     """
@@ -127,11 +127,11 @@ def name_twice(scope: RuleScope) -> Iterator[Finding]:
 def class_twice(scope: RuleScope) -> Iterator[Finding]:
     """Compare the classes of all models (sync and async) and of the enums of this one."""
     taken: dict[str, tuple[str, Span]] = {}
-    for model in scope.register_map.models[: scope.register_map.models.index(scope.model)]:
-        for name in (model.class_name, f"Async{model.class_name}"):
-            taken.setdefault(name, (f"model {model.name}", model.span))
-    mine = [(name, f"model {scope.model.name}", scope.model.name, scope.model.span) for name in _classes(scope)]
-    mine += [(camel(enum.id), f"enum {enum.id}", enum.id, enum.span) for enum in _enums(scope) if enum.id]
+    before = scope.register_map.models[: scope.register_map.models.index(scope.model)]
+    for name, what, _, span in (one for model in before for one in _classes(model)):
+        taken.setdefault(name, (what, span))
+    mine = list(_classes(scope.model))
+    mine += [(camel(enum.id), f"enum {enum.id}", enum.id, enum.span) for _, _, enum in enums_of(scope) if enum.id]
     for name, what, subject, span in mine:
         other, where = taken.setdefault(name, (what, span))
         if other != what:
@@ -140,18 +140,24 @@ def class_twice(scope: RuleScope) -> Iterator[Finding]:
             yield Finding(subject, span, message, "give one another id (a model: `class`)", related)
 
 
-def _enums(scope: RuleScope) -> Iterator[Enum]:
-    """Every enum object once; hashing them by value would cost more than all the rest."""
+def _classes(model: Model) -> Iterator[tuple[str, str, str, Span]]:
+    """The classes of a model, sync and async: name, what becomes it, the id and the place of that."""
+    for name in (model.class_name, f"Async{model.class_name}"):
+        yield name, f"model {model.name}", model.name, model.span
+
+
+def enums_of(scope: RuleScope) -> Iterator[tuple[Register, str, Enum]]:
+    """Every enum of a model once: the first register that has it, the field if it is one's, the enum.
+
+    Hashing enums by value would cost more than all the rest.
+    """
     seen: set[int] = set()
     for register in scope.model.registers:
-        for enum in (register.enum, *(bits.enum for bits in register.fields)):
+        owned = [("", register.enum), *((bits.id, bits.enum) for bits in register.fields)]
+        for field, enum in owned:
             if enum and id(enum) not in seen:
                 seen.add(id(enum))
-                yield enum
-
-
-def _classes(scope: RuleScope) -> tuple[str, str]:
-    return scope.model.class_name, f"Async{scope.model.class_name}"
+                yield register, field, enum
 
 
 @register_rule(

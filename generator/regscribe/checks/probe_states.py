@@ -6,7 +6,7 @@ from math import prod
 
 from regscribe.checks.rule import RuleScope
 from regscribe.model import Condition, Is, show
-from regscribe.reference.states import ANYTHING, Stretch, combinations, domain, representatives
+from regscribe.reference.states import ANYTHING, combinations, domain, representatives
 
 MOST_WORLDS = 10_000
 """Beyond this product nothing is said about the conditions: no manual comes near it."""
@@ -44,7 +44,11 @@ def _judge(conditions: tuple[Condition, ...], scope: RuleScope) -> Verdict:
     reached: set[int] = set()
     uncovered = ""
     for world in combinations(choices):
-        held = [place for place, condition in enumerate(conditions) if _holds(condition, world)]
+        held = [
+            place
+            for place, condition in enumerate(conditions)
+            if all(_passes(test, world[_atom(test)]) for test in condition.tests)
+        ]
         possible.update(held)
         reached.update(held[:1])
         if not held and not uncovered:
@@ -58,24 +62,15 @@ def _atom(test: Is) -> Atom:
 
 def _choices(tests: list[Is], scope: RuleScope) -> dict[Atom, tuple[Fraction, ...]]:
     """Representative values of every atom: 0 and 1 for a given, else those that the codes tell apart."""
-    choices: dict[Atom, tuple[Fraction, ...]] = {}
-    for test in tests:
-        if test.given:
-            choices[_atom(test)] = (Fraction(0), Fraction(1))
+    choices: dict[Atom, tuple[Fraction, ...]] = {
+        _atom(test): (Fraction(0), Fraction(1)) for test in tests if test.given
+    }
     for test in tests:
         if not test.given and _atom(test) not in choices:
             codes = [code for other in tests if _atom(other) == _atom(test) for code in other.codes]
-            choices[_atom(test)] = representatives(_domain(test, scope), codes)
+            register = scope.registers.get(test.register)
+            choices[_atom(test)] = representatives(domain(register, test.field) if register else ANYTHING, codes)
     return choices
-
-
-def _domain(test: Is, scope: RuleScope) -> tuple[Stretch, ...]:
-    register = scope.registers.get(test.register)
-    return domain(register, test.field) if register else ANYTHING
-
-
-def _holds(condition: Condition, world: World) -> bool:
-    return all(_passes(test, world[_atom(test)]) for test in condition.tests)
 
 
 def _passes(test: Is, value: Fraction) -> bool:

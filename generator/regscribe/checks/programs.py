@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Iterator
 
 from regscribe.checks.rule import Finding, RuleScope, model_rule
-from regscribe.model import Kind, Limit, Number, ProgramCounts, Register, Related, SetpointProgram, numbered
+from regscribe.model import Kind, Number, ProgramCounts, Register, Related, SetpointProgram, numbered
 
 NUMBERS = frozenset({Kind.NUMBER, Kind.INTEGER, Kind.RAW})
 WHOLE = frozenset({Kind.INTEGER, Kind.RAW})
@@ -153,12 +153,9 @@ def too_many(scope: RuleScope) -> Iterator[Finding]:
         register = _register(program.number_of_segments, program, scope)
         if register is None:
             continue
-        most = max((_high(one.high) for case in register.range for one in case.then.intervals), default=0)
+        ends = (one.high for case in register.range for one in case.then.intervals)
+        most = max((int(end) for end in ends if isinstance(end, Number)), default=0)
         room = program.segments.many - (program.counts is ProgramCounts.AFTER_FIRST)
         if most > room:
             message = f"may have {most} segments by the range of `{register.path}`, but there are {room}"
             yield _at(program, scope, message, "correct the range, or `repeat` of the array", _here(register))
-
-
-def _high(limit: Limit) -> int:
-    return int(limit) if isinstance(limit, Number) else 0

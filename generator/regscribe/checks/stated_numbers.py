@@ -257,7 +257,8 @@ def _of_view(kind: Kind, view: View) -> tuple[str, str]:
 def _of_parts(register: Register) -> Iterator[Finding]:
     """What does not fit the kind among enum, bits, digits and special values."""
     if (register.enum is not None) != (register.kind is Kind.ENUM):
-        yield Finding.at(register, f"is of kind {register.kind} {_has(register)}", "correct `kind` or the enum")
+        has = "an" if register.enum else "no"
+        yield Finding.at(register, f"is of kind {register.kind} but has {has} enum", "correct `kind` or the enum")
     elif bool(register.fields) != (register.kind in WORDS_OF_BITS):
         yield Finding.at(
             register, f"is of kind {register.kind} but its bits say otherwise", "correct `kind` or the bits"
@@ -276,10 +277,6 @@ def _parts_of_wholes(register: Register) -> Iterator[Finding]:
                     f'is of kind {register.kind}, so whole, but its special value "{special.label}" is {show(number)}'
                 )
                 yield Finding.at(register, message, "correct the special value, or remove `kind`")
-
-
-def _has(register: Register) -> str:
-    return "but has an enum" if register.enum else "but has no enum"
 
 
 @register_rule(

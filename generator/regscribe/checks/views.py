@@ -5,7 +5,7 @@ from itertools import combinations
 
 from regscribe.checks.addresses import stretches
 from regscribe.checks.rule import Finding, RuleScope, map_rule, model_rule, register_rule
-from regscribe.model import Register, Related, Space, View
+from regscribe.model import Register, Related, Space
 
 Shape = tuple[object, ...]
 Region = tuple[Space, str, int, int]
@@ -31,10 +31,6 @@ def regions(scope: RuleScope) -> dict[Region, Register]:
             if view.region:
                 found.setdefault((view.space, view.name, *view.region), register)
     return found
-
-
-def _is_aligned(view: View, at: int) -> bool:
-    return view.align <= 1 or not (view.address(at) % view.align or view.words % view.align)
 
 
 @register_rule("RS0455", "View outside its region", "The manual gives each kind of view its own addresses.")
@@ -65,8 +61,8 @@ def in_a_region(scope: RuleScope) -> Iterator[Finding]:
 def misaligned(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Divide the address and the words of each view by its alignment."""
     for view in register.views:
-        if not _is_aligned(view, register.at):
-            where = view.address(register.at)
+        where = view.address(register.at)
+        if view.align > 1 and (where % view.align or view.words % view.align):
             message = f"has view {view.name} at {where} with {view.words} words, not multiples of {view.align}"
             yield Finding.at(register, message, "correct `at`, the view's offset and stride, or `align`")
 

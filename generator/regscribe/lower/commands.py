@@ -42,7 +42,7 @@ def _command(name: str, node: Value, device: CommandScope) -> Command:
         description=text_of(node, "description"),
         section=text_of(node, "source"),
         danger=text_of(node, "danger"),
-        effects=_effects(node, device),
+        effects=tuple(_effect(one, device) for one in elements_of(node, "effects") if device.scope.has(one)),
         span=node.key_span,
     )
 
@@ -109,11 +109,6 @@ def _words_of_value(node: Value, register: Register, view: View) -> tuple[int, .
         message = f"{node.text()} cannot be sent as {view.type} of `{register.path}`: {refused}"
     node.report(NOT_CONSTANT, message, remedy=_INSTEAD)
     return ()
-
-
-def _effects(command: Value, device: CommandScope) -> tuple[Effect, ...]:
-    """The effects of a command on the model."""
-    return tuple(_effect(node, device) for node in elements_of(command, "effects") if device.scope.has(node))
 
 
 def _effect(node: Value, device: CommandScope) -> Effect:

@@ -60,14 +60,10 @@ def _named(node: Value, scope: Scope) -> Condition:
 
 def _tests(key: str, matcher: Value, scope: Scope) -> list[Is]:
     if key == "given":
-        return [_given_test(element, scope) for element in matcher.elements()]
+        said = ((element.child("not"), element) for element in matcher.elements())
+        return [Is("", given=_given(no or yes, scope, "boolean"), negated=no is not None) for no, yes in said]
     subject = subject_of(matcher, key, scope)
     return [] if subject is None else [_test(matcher, subject, scope, negated=False)]
-
-
-def _given_test(node: Value, scope: Scope) -> Is:
-    contrary = node.child("not")
-    return Is(register="", given=_given(contrary or node, scope, "boolean"), negated=contrary is not None)
 
 
 def _given(node: Value, scope: Scope, kind: str) -> str:

@@ -56,7 +56,7 @@ def map_of(root: Value) -> RegisterMap:
         notations=notations_of(root),
         givens=givens_of(root, scopes[0].homes if scopes else {}),
         reserved=reserved_of(root),
-        identity=_identities(root, scopes),
+        identity=tuple(rule for node in elements_of(root, "identify") for rule in _identity(node, scopes)),
         errata=errata_of(root),
         examples=examples_of(root, [product for _, product in products]),
         waivers=waivers_of(root),
@@ -109,10 +109,6 @@ def _class_name(root: Value, node: Value, model: str) -> str:
     return text_of(node, "class") or f"{prefix}{letters_and_digits(model)}"
 
 
-def _identities(root: Value, scopes: list[Scope]) -> tuple[IdentityRule, ...]:
-    return tuple(identity for node in elements_of(root, "identify") for identity in _identity(node, scopes))
-
-
 def _identity(node: Value, scopes: list[Scope]) -> list[IdentityRule]:
     every = tuple(scope.model for scope in scopes)
     models = named_models(elements_of(node, "models"), every)
@@ -123,12 +119,8 @@ def _identity(node: Value, scopes: list[Scope]) -> list[IdentityRule]:
 
 
 def _identity_texts(node: Value | None, scope: Scope) -> tuple[tuple[str, str], ...]:
-    found = []
-    for key, text in node.items() if node else ():
-        subject = subject_of(text, key, scope)
-        if subject is not None:
-            found.append((subject.entry.path, text.text()))
-    return tuple(found)
+    found = [(subject_of(text, key, scope), text.text()) for key, text in (node.items() if node else ())]
+    return tuple((subject.entry.path, text) for subject, text in found if subject)
 
 
 def _look_at_tables(root: Value, scope: Scope) -> None:

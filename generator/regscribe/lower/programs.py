@@ -57,9 +57,9 @@ def _program(name: str, node: Value, scope: Scope) -> SetpointProgram:
 def _made(node: Value, place: ProgramPlace, program: SetpointProgram) -> SetpointProgram:
     """The program with what it is made of beside its segments."""
     count, cycles, forever = node.child("count"), place.path(node, "cycles"), node.child("forever")
-    limits = node.child("setpoint_limits")
+    final, limits = node.child("final"), node.child("setpoint_limits")
     return program._replace(
-        final=_final(node.child("final"), place),
+        final=ProgramFinal(setpoint=place.path(final, "setpoint"), outputs=place.outputs(final)) if final else None,
         number_of_segments=place.path(count, "register"),
         counts=choice_of(count, "counts", ProgramCounts.ALL) if count else ProgramCounts.ALL,
         cycles=cycles,
@@ -116,10 +116,6 @@ def _segments(node: Value, around: ProgramPlace) -> ProgramSegments:
     )
 
 
-def _final(node: Value | None, place: ProgramPlace) -> ProgramFinal | None:
-    return ProgramFinal(setpoint=place.path(node, "setpoint"), outputs=place.outputs(node)) if node else None
-
-
 def _time_unit(node: Value | None, place: ProgramPlace) -> ProgramTimeUnit | None:
     if node is None:
         return None
@@ -133,11 +129,9 @@ def _status(node: Value | None, place: ProgramPlace) -> ProgramStates | None:
     if node is None:
         return None
     path = place.path(node, "register")
-    states = {key: tuple(place.code(one, path) for one in elements_of(node, key)) for key in _STATES}
-    return ProgramStates(register=path, **states)
-
-
-_STATES = ("running", "held", "ended")
+    states = ("running", "held", "ended")
+    codes = {key: tuple(place.code(one, path) for one in elements_of(node, key)) for key in states}
+    return ProgramStates(register=path, **codes)
 
 
 def _action(node: Value | None, place: ProgramPlace) -> ProgramAction:

@@ -1,6 +1,5 @@
 """How the device behaves on the line, as the map's `protocol` tells it."""
 
-from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 from typing import TypedDict
@@ -46,7 +45,10 @@ def protocol_of(node: Value | None) -> Protocol:
         write_bits=whole_of(limits, "write_bits", plain.write_bits),
         read_holes=truth_of(node, "read_holes"),
         broadcast=wholes_of(node, "broadcast"),
-        exceptions=tuple(_exception(each) for _, each in items_of(node, "exceptions")),
+        exceptions=tuple(
+            ExceptionCode(each.key_whole(), line_of(each, "name"), line_of(each, "meaning"))
+            for _, each in items_of(node, "exceptions")
+        ),
         latencies=tuple(_latency(each) for _, each in items_of(node, "latency")),
         serial=_serial(node.child("serial")),
         absent=faults_of(node).address,
@@ -80,20 +82,13 @@ def device_facts(node: Value | None) -> DeviceFacts:
 
 def _notes(node: Value) -> ProtocolNotes:
     serial = node.child("serial")
+    parts = (node, node.child("limits"), node.child("faults"), serial)
     return ProtocolNotes(
         section=text_of(node, "source"),
         serial=text_of(serial, "description") if serial else "",
         latencies=tuple((each.key_whole(), text_of(each, "note")) for _, each in items_of(node, "latency")),
-        stated=tuple(sorted({key for part in (node, *_parts(node)) for key, _ in part.items()})),
+        stated=tuple(sorted({key for part in parts if part for key, _ in part.items()})),
     )
-
-
-def _parts(node: Value) -> Iterator[Value]:
-    """Yield the mappings inside the protocol whose keys have a meaning of their own."""
-    for key in ("limits", "faults", "serial"):
-        part = node.child(key)
-        if part is not None:
-            yield part
 
 
 def faults_of(protocol: Value) -> Faults:
@@ -101,7 +96,8 @@ def faults_of(protocol: Value) -> Faults:
     faults, node = Faults(), protocol.child("faults")
     if node is None:
         return faults
-    codes = {key: _code(each) for key, each in node.items() if key in _CODES}
+    answers = {key: each for key, each in node.items() if key in _CODES}
+    codes = {key: SILENCE if each.value == "silence" else each.whole() for key, each in answers.items()}
     codes.setdefault("unused_write", codes.get("address", faults.unused_write))
     return replace(
         faults,
@@ -109,14 +105,6 @@ def faults_of(protocol: Value) -> Faults:
         later_read=choice_of(node, "later_read", faults.later_read),
         later_write=choice_of(node, "later_write", faults.later_write),
     )
-
-
-def _code(node: Value) -> int:
-    return SILENCE if node.value == "silence" else node.whole()
-
-
-def _exception(node: Value) -> ExceptionCode:
-    return ExceptionCode(node.key_whole(), line_of(node, "name"), line_of(node, "meaning"))
 
 
 def _latency(node: Value) -> Latency:

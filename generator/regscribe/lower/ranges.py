@@ -18,20 +18,17 @@ def range_of(entry: TreeNode, scaling: tuple[Scaling, ...], scope: Scope) -> Cas
     if node is None:
         return _of_scale(scaling)
     cases = _cases(node, scope)
-    rule = entry.settings.get("range_decimals")
-    return _split(cases, rule, scope) if rule else cases
+    if "range_decimals" not in entry.settings:
+        return cases
+    rules = decimals_rule(entry.settings["range_decimals"], scope)
+    return tuple(part for case in cases for part in _with_decimals(case, rules))
 
 
 def _of_scale(scaling: tuple[Scaling, ...]) -> Cases[Range]:
     if not any(part.ends for part in scaling):
         return ()
-    return tuple(Case(part.when, Range((_between(part),))) for part in scaling)
-
-
-def _between(part: Scaling) -> Interval:
-    if part.ends is None:
-        return Interval(_NOT_GIVEN, _NOT_GIVEN)
-    return Interval(min(part.ends), max(part.ends))
+    ends = ((part.when, sorted(part.ends) if part.ends else (_NOT_GIVEN, _NOT_GIVEN)) for part in scaling)
+    return tuple(Case(when, Range((Interval(low, high),))) for when, (low, high) in ends)
 
 
 def _cases(node: Value, scope: Scope) -> Cases[Range]:
@@ -41,8 +38,7 @@ def _cases(node: Value, scope: Scope) -> Cases[Range]:
 
 
 def _case(node: Value, scope: Scope) -> Case[Range]:
-    told = node.child("is")
-    return Case(condition(node.child("when"), scope), _range(told or node, scope))
+    return Case(condition(node.child("when"), scope), _range(node.child("is") or node, scope))
 
 
 def _range(node: Value, scope: Scope) -> Range:
@@ -74,12 +70,7 @@ def _limit(node: Value | None, scope: Scope) -> Limit:
     return Ref(path_of(scope.register(node), node.text()))
 
 
-def _split(cases: Cases[Range], rule: Value, scope: Scope) -> Cases[Range]:
-    rules = decimals_rule(rule, scope)
-    return tuple(part for case in cases for part in _parts(case, rules))
-
-
-def _parts(case: Case[Range], rules: Cases[Conversion]) -> Cases[Range]:
+def _with_decimals(case: Case[Range], rules: Cases[Conversion]) -> Cases[Range]:
     """The case under each condition of the rule, with its decimals, and then as it is where none of them need hold."""
     numbers = any(isinstance(limit, Number) for each in case.then.intervals for limit in (each.low, each.high))
     dividing = max((number for number, rule in enumerate(rules, start=1) if rule.then.decimals), default=0)

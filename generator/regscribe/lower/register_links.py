@@ -21,11 +21,9 @@ def follows_of(node: Value | None, scope: Scope) -> Cases[str]:
         return ()
     if node.is_text:
         return always(shadowed(node, scope))
-    return tuple(_case(each, scope) for each in node.elements())
-
-
-def _case(node: Value, scope: Scope) -> Case[str]:
-    return Case(condition(node.child("when"), scope), shadowed(node.child("is"), scope))
+    return tuple(
+        Case(condition(each.child("when"), scope), shadowed(each.child("is"), scope)) for each in node.elements()
+    )
 
 
 def followed_fields(fields: tuple[BitField, ...], entry: TreeNode, scope: Scope) -> tuple[BitField, ...]:

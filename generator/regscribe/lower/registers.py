@@ -89,17 +89,11 @@ def register_of(entry: TreeNode, everywhere: Scope) -> Register:
         array=entry.place.array,
         index=entry.place.index,
         printed=indexed(_text(entry, "printed"), entry.place.index),
-        rules=_rules(entry),
+        rules=tuple((use, _text(entry, key)) for key, use in _RULES.items() if _text(entry, key).isidentifier()),
         span=entry.span,
     )
     report_idle(entry, register)
     return register
-
-
-def _rules(entry: TreeNode) -> tuple[tuple[str, str], ...]:
-    """The names of the map's rules that the register is given, by what they make."""
-    named = [(use, _text(entry, key)) for key, use in _RULES.items()]
-    return tuple((use, name) for use, name in named if name.isidentifier())
 
 
 def kind_of(entry: TreeNode, views: tuple[View, ...], scaling: tuple[Scaling, ...]) -> Kind:

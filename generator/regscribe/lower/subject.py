@@ -54,9 +54,11 @@ def code_of_text(node: Value, subject: Subject, scope: Scope) -> Fraction:
         if code is not None:
             return Fraction(code)
         known = [member.id.lower() for member in enum.members]
-    for name, code_node in special_ids(subject.entry):
+    specials = subject.entry.settings.get("special")
+    for code_node in specials.values() if specials else ():
+        name = _id(code_node).lower()
         if name == text.lower() and not subject.field:
-            means = code_node.child("means") if code_node.is_mapping else None
+            means = code_node.child("means")
             if means is not None:
                 return means.number()
             _undivided(node, subject.entry, code_node)
@@ -74,11 +76,6 @@ def _undivided(node: Value, entry: TreeNode, code_node: Value) -> None:
         node.report(DIVIDED, message, remedy="ask for a value, or for the register that holds the decimals as well")
 
 
-def special_ids(entry: TreeNode) -> list[tuple[str, Value]]:
-    """The special values of a register: id in lower case, and the place of the value."""
-    specials = entry.settings.get("special")
-    return [(_id(node).lower(), node) for node in specials.values()] if specials else []
-
-
 def _id(node: Value) -> str:
+    """The id of a special value."""
     return (text_of(node, "id") or snake(text_of(node, "label"))) if node.is_mapping else snake(node.text())
