@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from itertools import combinations
 from operator import attrgetter
 
-from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule, model_rule, register_rule
-from regscribe.model import Register, Related, Space, View
+from regscribe.checks.rule import MAP, Finding, RuleScope, Scopes, map_rule, model_rule, register_rule
+from regscribe.model import Register, RegisterMap, Related, Space, View
 
 LAST_ADDRESS = 0xFFFF
 FAR = 10_000
@@ -123,15 +123,15 @@ def listed_twice(scope: RuleScope) -> Iterator[Finding]:
 
 
 @map_rule("RS0405", "Notation declared twice", "Two offsets under one name leave a printed address with two meanings.")
-def notation_twice(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
+def notation_twice(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
     """Find a notation whose name and space were seen before."""
     seen: set[tuple[str, Space]] = set()
-    for notation in scopes[0].register_map.notations:
+    for notation in register_map.notations:
         if (notation.name, notation.space) in seen:
             message = (
                 f"notation `{notation.name}` of space {notation.space} is declared twice (offset {notation.offset})"
             )
-            yield Finding(MAP, scopes[0].register_map.span, message, "remove one, or give it another name")
+            yield Finding(MAP, register_map.span, message, "remove one, or give it another name")
         seen.add((notation.name, notation.space))
 
 
@@ -169,9 +169,9 @@ def _accesses(register: Register) -> Iterator[tuple[str, View, tuple[int, ...]]]
     "`at` is the address in the request, which counts from 0; a printed 40001 is address 0 on the wire.",
     warns=True,
 )
-def in_a_notation(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
+def in_a_notation(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
     """Look for spaces most of whose registers stand where a notation of the map counts, not at wire addresses."""
-    for notation in scopes[0].register_map.notations:
+    for notation in register_map.notations:
         found = {
             register.path: register
             for scope in scopes

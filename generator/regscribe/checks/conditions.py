@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from regscribe.checks.probe_states import Verdict, verdict
-from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule
-from regscribe.model import Condition, Identity, Kind, OrderFrom, Register, Span
+from regscribe.checks.rule import MAP, Finding, RuleScope, Scopes, map_rule
+from regscribe.model import Condition, Identity, Kind, OrderFrom, Register, RegisterMap, Span
 
 Ask = tuple[Condition, ...]
 
@@ -32,12 +32,12 @@ def _cases_of(register: Register) -> Iterator[tuple[str, Ask]]:
         yield "condition for a write", (register.writable.when,)
 
 
-def _asked(scopes: tuple[RuleScope, ...]) -> list[tuple[Ask, AskedSubject]]:
+def _asked(scopes: Scopes) -> list[tuple[Ask, AskedSubject]]:
     """All sets of conditions of the map, each once: what can hold on one model can hold. Kept for all rules."""
     return scopes[0].once("asked", lambda: _collected(scopes))
 
 
-def _collected(scopes: tuple[RuleScope, ...]) -> list[tuple[Ask, AskedSubject]]:
+def _collected(scopes: Scopes) -> list[tuple[Ask, AskedSubject]]:
     every: dict[tuple[str, Ask], AskedSubject] = {}
     for scope in scopes:
         for register in scope.model.registers:
@@ -67,7 +67,7 @@ def _shown(condition: Condition, place: int) -> str:
     "Condition that can never hold",
     "It asks for a code, or for codes at once, that the tested registers cannot have on any model.",
 )
-def never_holds(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
+def never_holds(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
     """Try every condition in every state that it tells apart; each condition is reported once."""
     seen: set[Condition] = set()
     for ask, asked in _asked(scopes):
@@ -78,11 +78,11 @@ def never_holds(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
                 message = f"`{asked.subject}`: the {asked.what} has {_shown(condition, place)}, which can never hold"
                 help_text = f"compare the codes with what {tested or 'the givens'} can be, and with one another"
                 yield Finding(asked.subject, asked.span, message, help_text)
-    yield from _identities(scopes)
+    yield from _identities(register_map, scopes)
 
 
-def _identities(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
-    for identity in scopes[0].register_map.identity:
+def _identities(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
+    for identity in register_map.identity:
         mine = [scope for scope in scopes if scope.model.name in identity.models]
         unmet = [_unmet(identity.identity, scope) for scope in mine]
         if mine and all(unmet):
@@ -133,7 +133,7 @@ def _never_begins(register: Register, text: str) -> str:
 
 
 @map_rule("RS0471", "Case that is never reached", "The first case that holds counts, and an earlier one always does.")
-def never_reached(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
+def never_reached(_: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
     """Find cases that can hold, but never first."""
     for ask, asked in _asked(scopes):
         for place in sorted(asked.found.possible - asked.found.reached):
@@ -146,7 +146,7 @@ def never_reached(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
 @map_rule(
     "RS0472", "States that no case covers", "In such a state a value can be neither read nor written.", warns=True
 )
-def not_covered(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
+def not_covered(_: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
     """Look for a state in which none of the cases of a scale or a range holds; units may be absent."""
     seen: set[Ask] = set()
     for ask, asked in _asked(scopes):
@@ -159,10 +159,10 @@ def not_covered(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
 
 
 @map_rule("RS0473", "Given that nothing needs", "Users must find out every given; one that decides nothing is in vain.")
-def given_unused(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
+def given_unused(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
     """Collect the givens of all conditions of all models."""
     used = {test.given for ask, _ in _asked(scopes) for condition in ask for test in condition.tests}
-    for given in scopes[0].register_map.givens:
+    for given in register_map.givens:
         if given.id not in used:
             message = f"given `{given.id}` decides nothing"
             yield Finding(given.id, given.span, message, "use it in a condition, or remove it")

@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 from dataclasses import fields
 
-from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule
-from regscribe.model import SILENCE, Protocol, RegisterMap
+from regscribe.checks.rule import MAP, Finding, Scopes, map_rule
+from regscribe.model import SILENCE, RegisterMap
 
 READS = frozenset({1, 2, 3, 4, 7, 11, 12, 17, 20, 24})
 """Functions whose point is the answer, so that they cannot be broadcast."""
@@ -16,19 +16,15 @@ MOST = {"read_words": 125, "write_words": 123, "read_bits": 2000, "write_bits": 
 """What fits a Modbus frame of 256 bytes (application protocol V1.1b3, 6.1 to 6.16)."""
 
 
-def _the_map(scopes: tuple[RuleScope, ...]) -> tuple[RegisterMap, Protocol]:
-    return scopes[0].register_map, scopes[0].register_map.protocol
-
-
 @map_rule(
     "RS0486",
     "Fault without a meaning",
     "An exception reaches the user with the device's own meaning of it.",
     warns=True,
 )
-def fault_without_meaning(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
+def fault_without_meaning(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
     """Compare the codes of the faults with the exceptions, if the map lists any."""
-    register_map, protocol = _the_map(scopes)
+    protocol = register_map.protocol
     known = {exception.code for exception in protocol.exceptions} | {SILENCE}
     for fault in fields(register_map.faults) if protocol.exceptions else ():
         code = getattr(register_map.faults, fault.name)
@@ -38,9 +34,9 @@ def fault_without_meaning(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
 
 
 @map_rule("RS0690", "Accepted limit that is no more than the limit", "What a device accepts beyond its limits is more.")
-def accepts(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
+def accepts(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
     """Compare `protocol.accepts` with `protocol.limits`."""
-    register_map, protocol = _the_map(scopes)
+    protocol = register_map.protocol
     for limit, most in register_map.accepts:
         if most <= getattr(protocol, limit):
             message = f"`protocol.accepts` has {most} {limit}, and the limit is {getattr(protocol, limit)} already"
@@ -48,9 +44,9 @@ def accepts(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
 
 
 @map_rule("RS0488", "Unit ids that cannot be", "A unit id is 1 to 255 (0 broadcasts); the default is one of them.")
-def unit_ids(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
+def unit_ids(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
     """Look at both ends and at the default."""
-    register_map, protocol = _the_map(scopes)
+    protocol = register_map.protocol
     low, high = protocol.unit_ids
     if not 0 < low <= high <= LAST_UNIT:
         message = f"unit ids {low}..{high} are not within 1..{LAST_UNIT}"
@@ -61,9 +57,9 @@ def unit_ids(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
 
 
 @map_rule("RS0489", "Latency that cannot be", "A latency belongs to a function that the device has, and is a time.")
-def latency(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
+def latency(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
     """Look at the function and the ends of every latency."""
-    register_map, protocol = _the_map(scopes)
+    protocol = register_map.protocol
     for one in protocol.latencies:
         pairs = ((one.minimum, one.maximum), (one.minimum_per_word, one.maximum_per_word))
         if one.function not in protocol.functions:
@@ -75,9 +71,9 @@ def latency(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
 
 
 @map_rule("RS0490", "Function that cannot be broadcast", "Nobody answers a broadcast, so it can only be a write.")
-def broadcast(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
+def broadcast(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
     """Compare the broadcast functions with the supported ones and with those that need an answer."""
-    register_map, protocol = _the_map(scopes)
+    protocol = register_map.protocol
     for code in protocol.broadcast:
         if code in READS or code not in protocol.functions:
             why = "it reads" if code in READS else "`protocol.functions` lacks it"
@@ -88,9 +84,9 @@ def broadcast(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
 @map_rule(
     "RS0492", "Functions alike that cannot be", "Each function of the device does one thing, alone or like others."
 )
-def alike(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
+def alike(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
     """Look for functions that the device lacks, and for those that stand in two lists."""
-    register_map, protocol = _the_map(scopes)
+    protocol = register_map.protocol
     every = [code for codes in register_map.alike for code in codes]
     for code in dict.fromkeys(every):
         if code not in protocol.functions or every.count(code) > 1:
@@ -100,9 +96,9 @@ def alike(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
 
 
 @map_rule("RS0491", "Default of the serial line is not offered", "The default is one of the speeds and formats listed.")
-def serial_default(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
+def serial_default(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
     """Compare the default speed and format with the lists."""
-    register_map, protocol = _the_map(scopes)
+    protocol = register_map.protocol
     line = protocol.serial
     pairs = (("baud", line.baud, line.bauds), ("format", line.format, line.formats))
     for what, default, offered in pairs if "default" in register_map.protocol_notes.stated else ():
@@ -116,9 +112,9 @@ def serial_default(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
     "Character format too short for RTU",
     "RTU sends bytes of 8 bits; 7 carry ASCII alone (Modbus over serial line V1.02, 2.5.1).",
 )
-def too_short_for_rtu(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
+def too_short_for_rtu(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
     """Look for formats of 7 data bits where the line has no other mode than RTU."""
-    register_map, protocol = _the_map(scopes)
+    protocol = register_map.protocol
     line = protocol.serial
     short = dict.fromkeys(one for one in (*line.formats, line.format) if one.startswith("7"))
     if short and ASCII not in line.modes:

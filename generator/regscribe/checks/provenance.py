@@ -3,14 +3,13 @@
 from collections import Counter
 from collections.abc import Iterable, Iterator
 
-from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule, register_rule
+from regscribe.checks.rule import MAP, Finding, RuleScope, Scopes, map_rule, register_rule
 from regscribe.model import Identity, IdentityRule, Register, RegisterMap
 
 
 @map_rule("RS0494", "Models not told apart", "`identify` says for every model, once, how it answers.")
-def identification(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
+def identification(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
     """Count models and conditions of the identification, if the map has one."""
-    register_map = scopes[0].register_map
     for message, help_text in (*_twice(register_map.identity), *_left_out(register_map)):
         yield Finding(MAP, register_map.span, message, help_text)
 
@@ -51,18 +50,16 @@ def no_section(register: Register, _: RuleScope) -> Iterator[Finding]:
     "Makers reissue manuals: number or date tells which one was transcribed.",
     warns=True,
 )
-def manual_not_identified(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
+def manual_not_identified(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
     """Look for the number or the date."""
-    register_map = scopes[0].register_map
     if not (register_map.manual.number.strip() or register_map.manual.date.strip()):
         message = f'the manual "{register_map.manual.title}" has neither number nor date'
         yield Finding(MAP, register_map.span, message, "add `manual.number` or `manual.date`")
 
 
 @map_rule("RS0498", "Erratum or given that does not say enough", "A blank reason cannot be judged by a reviewer.")
-def blank_reasons(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
+def blank_reasons(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
     """Look for blank texts."""
-    register_map = scopes[0].register_map
     for erratum in register_map.errata:
         texts = {"where": erratum.where, "printed": erratum.printed, "read": erratum.read, "why": erratum.why}
         blank = [key for key, text in texts.items() if not text.strip()]

@@ -68,9 +68,12 @@ class Finding:
         return cls(register.path, register.span, f"`{register.path}` {message}", help, related)
 
 
+Scopes = tuple[RuleScope, ...]
+"""The scopes of all models of a map."""
+
 RegisterCheck = Callable[[Register, RuleScope], Iterable[Finding]]
 ModelCheck = Callable[[RuleScope], Iterable[Finding]]
-MapCheck = Callable[[tuple[RuleScope, ...]], Iterable[Finding]]
+MapCheck = Callable[[RegisterMap, Scopes], Iterable[Finding]]
 Check = TypeVar("Check")
 Findings = Iterator[tuple[str, Finding]]
 """What a rule finds: the findings of each model by its name, those of the map under an empty name."""
@@ -81,7 +84,7 @@ class RuleEntry:
     """A rule and what finds all that is against it, in the scopes of all models."""
 
     rule: Rule
-    run: Callable[[tuple[RuleScope, ...]], Findings]
+    run: Callable[[Scopes], Findings]
 
 
 _ENTRIES: list[RuleEntry] = []
@@ -105,7 +108,7 @@ def model_rule(rule_id: str, title: str, why: str, *, warns: bool = False) -> Ca
 
 
 def map_rule(rule_id: str, title: str, why: str, *, warns: bool = False) -> Callable[[MapCheck], MapCheck]:
-    """Declare a rule whose function looks at the whole map: the scopes of all its models."""
+    """Declare a rule whose function looks at the whole map, and at the scopes of all its models."""
     return _declare(warning(rule_id, title, why) if warns else Rule(rule_id, title, why), _of_map)
 
 
@@ -114,7 +117,7 @@ def warning(rule_id: str, title: str, why: str) -> Rule:
     return Rule(rule_id, title, why, Severity.WARNING)
 
 
-def _declare(rule: Rule, findings: Callable[[Check, tuple[RuleScope, ...]], Findings]) -> Callable[[Check], Check]:
+def _declare(rule: Rule, findings: Callable[[Check, Scopes], Findings]) -> Callable[[Check], Check]:
     def declare(check: Check) -> Check:
         _ENTRIES.append(RuleEntry(rule, partial(findings, check)))
         return check
@@ -122,16 +125,16 @@ def _declare(rule: Rule, findings: Callable[[Check, tuple[RuleScope, ...]], Find
     return declare
 
 
-def _of_registers(check: RegisterCheck, scopes: tuple[RuleScope, ...]) -> Findings:
+def _of_registers(check: RegisterCheck, scopes: Scopes) -> Findings:
     for scope in scopes:
         for register in scope.model.registers:
             yield from ((scope.model.name, finding) for finding in check(register, scope))
 
 
-def _of_models(check: ModelCheck, scopes: tuple[RuleScope, ...]) -> Findings:
+def _of_models(check: ModelCheck, scopes: Scopes) -> Findings:
     for scope in scopes:
         yield from ((scope.model.name, finding) for finding in check(scope))
 
 
-def _of_map(check: MapCheck, scopes: tuple[RuleScope, ...]) -> Findings:
-    yield from (("", finding) for finding in check(scopes))
+def _of_map(check: MapCheck, scopes: Scopes) -> Findings:
+    yield from (("", finding) for finding in check(scopes[0].register_map, scopes))

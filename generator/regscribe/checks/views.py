@@ -4,15 +4,15 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from regscribe.checks.addresses import stretches
-from regscribe.checks.rule import Finding, RuleScope, map_rule, model_rule, register_rule
-from regscribe.model import Register, Related, Space
+from regscribe.checks.rule import Finding, RuleScope, Scopes, map_rule, model_rule, register_rule
+from regscribe.model import Register, RegisterMap, Related, Space
 
 Shape = tuple[object, ...]
 Region = tuple[Space, str, int, int]
 """Where the views of one name stand: their space, their name, the first and the last address."""
 
 
-def view_sets(scopes: tuple[RuleScope, ...]) -> Iterator[Register]:
+def view_sets(scopes: Scopes) -> Iterator[Register]:
     """One register for each view set of the map: registers whose views differ in their addresses only count once."""
     seen: set[Shape] = set()
     for scope in scopes:
@@ -128,7 +128,7 @@ def function_of_another_space(register: Register, _: RuleScope) -> Iterator[Find
 
 
 @map_rule("RS0460", "More than one preferred view", "A driver uses one view unless told otherwise.")
-def preferred_twice(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
+def preferred_twice(_: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
     """Count the preferred views of each view set, once."""
     for register in view_sets(scopes):
         names = [view.name for view in register.views if view.preferred]

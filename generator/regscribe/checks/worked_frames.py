@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from regscribe.checks.assumed_values import in_example
-from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule
+from regscribe.checks.rule import MAP, Finding, RuleScope, Scopes, map_rule
 from regscribe.checks.worked_values import compare, hexadecimal, printed
-from regscribe.model import FrameExample, Register, Space, View
+from regscribe.model import FrameExample, Register, RegisterMap, Space, View
 from regscribe.reference import RefusedError, Surroundings, UnknownValueError
 from regscribe_runtime.wire.pdu import (
     EXCEPTION_BIT,
@@ -99,8 +99,8 @@ Alike = tuple[tuple[int, ...], ...]
 """Functions that do the same, as the map has them."""
 
 
-def _frames(scopes: tuple[RuleScope, ...]) -> Iterator[FrameExample]:
-    for example in scopes[0].register_map.examples:
+def _frames(register_map: RegisterMap) -> Iterator[FrameExample]:
+    for example in register_map.examples:
         if isinstance(example, FrameExample):
             yield example
 
@@ -112,9 +112,9 @@ def _body(example: FrameExample) -> bytes:
 @map_rule(
     "RS0447", "Frame of a worked example is not what the map says of it", "A frame proves addresses and functions."
 )
-def frame_fields(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
+def frame_fields(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
     """Check the CRC, read the frame, compare its fields with those that the map states."""
-    for example in _frames(scopes):
+    for example in _frames(register_map):
         for problem in _problems(example):
             message = f"{printed('the frame', example)}: {problem}"
             yield Finding(MAP, example.span, message, "correct the bytes or the field; `crc: false` if it has no CRC")
@@ -153,10 +153,10 @@ def _wrong_crc(frame: bytes) -> str:
 @map_rule(
     "RS0448", "Values of a worked frame are not reproduced", "The printed words prove scales, types and commands."
 )
-def frame_values(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
+def frame_values(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
     """Decode the words of a frame as the registers they go to, and compare commands with their steps."""
     by_name = {scope.model.name: scope for scope in scopes}
-    for example in _frames(scopes):
+    for example in _frames(register_map):
         scope = by_name.get(example.model, scopes[0])
         try:
             frame = parse(_body(example), answer=example.answer)

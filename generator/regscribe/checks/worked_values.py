@@ -4,13 +4,14 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from regscribe.checks.assumed_values import in_example
-from regscribe.checks.rule import MAP, Finding, RuleScope, map_rule
+from regscribe.checks.rule import MAP, Finding, RuleScope, Scopes, map_rule
 from regscribe.model import (
     FrameExample,
     Kind,
     Outcome,
     Protocol,
     Register,
+    RegisterMap,
     TimingExample,
     ValueExample,
     View,
@@ -60,10 +61,10 @@ def described(reading: Reading) -> str:
     "Worked example of a value is not reproduced",
     "The manual's own figures prove the transcription: where they disagree, the map or the manual is wrong.",
 )
-def value_examples(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
+def value_examples(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
     """Evaluate every value example by the reference codec."""
     by_name = {scope.model.name: scope for scope in scopes}
-    for example in scopes[0].register_map.examples:
+    for example in register_map.examples:
         if not isinstance(example, ValueExample) or example.model not in by_name:
             continue
         problem = _judge(example, by_name[example.model])
@@ -157,9 +158,8 @@ def _number(register: Register, value: Fraction | str) -> Fraction | str:
 @map_rule(
     "RS0449", "Worked example of a time is not reproduced", "Gap and latency decide timeouts, so they must agree."
 )
-def timing_examples(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
+def timing_examples(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
     """Compute gap, earliest and latest start of the answer from the protocol, and compare to two decimals."""
-    register_map = scopes[0].register_map
     for example in register_map.examples:
         if isinstance(example, TimingExample):
             for problem in _times(example, register_map.protocol):

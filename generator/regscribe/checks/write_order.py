@@ -4,8 +4,8 @@ from collections import defaultdict
 from collections.abc import Iterator
 
 from regscribe.checks.commands import requests, touched
-from regscribe.checks.rule import Finding, RuleScope, map_rule, model_rule, register_rule
-from regscribe.model import Command, Group, Register, Related
+from regscribe.checks.rule import Finding, RuleScope, Scopes, map_rule, model_rule, register_rule
+from regscribe.model import Command, Group, Register, RegisterMap, Related
 
 
 @model_rule("RS0475", "Place in the write order used twice", "Two groups cannot both be written second.")
@@ -48,7 +48,7 @@ def rescaled_after(scope: RuleScope) -> Iterator[Finding]:
 
 
 @map_rule("RS0477", "Group without members", "A group that no model has a register of is a heading of nothing.")
-def empty_group(scopes: tuple[RuleScope, ...]) -> Iterator[Finding]:
+def empty_group(_: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
     """Find groups that are empty on every model."""
     groups: defaultdict[str, list[Group]] = defaultdict(list)
     for scope in scopes:

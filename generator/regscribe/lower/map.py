@@ -6,7 +6,6 @@ from regscribe.lower.commands import CommandScope, commands_of
 from regscribe.lower.conditions import condition
 from regscribe.lower.enums import enum_at
 from regscribe.lower.examples import Product, examples_of
-from regscribe.lower.groups import Bundle, bundles_of, groups_of
 from regscribe.lower.idle_keys import report_untaken
 from regscribe.lower.map_header import (
     errata_of,
@@ -17,7 +16,7 @@ from regscribe.lower.map_header import (
     unused_of,
     waivers_of,
 )
-from regscribe.lower.members import members_of
+from regscribe.lower.members import Bundle, bundles_of, groups_of, members_of
 from regscribe.lower.names import letters_and_digits, module_id
 from regscribe.lower.node import Value, elements_of, items_of, text_of, texts_of
 from regscribe.lower.process import process_of
