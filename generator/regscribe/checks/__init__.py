@@ -3,7 +3,7 @@
 A rule is a pure function under a decorator of `registry`, in the module of its subject. `check` runs them all.
 """
 
-from regscribe.checks import (
+from regscribe.checks import (  # noqa: F401 (each declares its rules)
     addresses,
     commands,
     conditions,
@@ -27,29 +27,6 @@ from regscribe.checks import (
 from regscribe.checks.rule import entries
 from regscribe.checks.run import run
 from regscribe.model import Diagnostic, RegisterMap, Rule
-
-SUBJECTS = (
-    addresses,
-    identifiers,
-    stated_numbers,
-    scales,
-    ranges,
-    enums,
-    worked_values,
-    worked_frames,
-    views,
-    references,
-    waivers,
-    conditions,
-    write_order,
-    line_settings,
-    commands,
-    process,
-    programs,
-    protocol,
-    provenance,
-)
-"""The modules that declare rules, in the order of their numbers."""
 
 RULES: tuple[Rule, ...] = tuple(
     sorted((*(entry.rule for entry in entries()), *waivers.RULES), key=lambda rule: rule.id)

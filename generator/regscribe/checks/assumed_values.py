@@ -1,10 +1,10 @@
 """What is taken as known while a map is judged: the defaults of a model, or what a worked example says."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
-from regscribe.model import GivenKind, Model, RegisterMap
+from regscribe.model import GivenKind, Model, Register, RegisterMap
 from regscribe.reference import Surroundings, number_of
 
 MOST_DECIMALS = 30
@@ -38,24 +38,20 @@ class Beginning:
     @classmethod
     def of(cls, model: Model) -> "Beginning":
         """Look at all registers."""
-        return cls(default_values(model), frozenset(_counts(model)))
+        counts = frozenset(path for register in model.registers for path in count_registers(register))
+        return cls(default_values(model), counts)
 
     def sensible(self, values: dict[str, Fraction]) -> dict[str, Fraction]:
         """The values without absurd numbers of decimals, since 10 to the power of them would be computed."""
         return {path: value for path, value in values.items() if path not in self.counts or value <= MOST_DECIMALS}
 
 
-def _counts(model: Model) -> Iterator[str]:
-    return (
-        told.register
-        for register in model.registers
-        for told in (
-            *(case.then.decimals for case in register.scale),
-            *(case.then.places for case in register.scale),
-            *(case.then.decimals for case in register.range),
-        )
-        if told
-    )
+def count_registers(register: Register) -> list[str]:
+    """The registers that hold numbers of decimals of a register: of its scale, its step and its range."""
+    told = [case.then.decimals for case in register.scale]
+    told += [case.then.places for case in register.scale]
+    told += [case.then.decimals for case in register.range]
+    return [one.register for one in told if one]
 
 
 def all_defaults(model: Model, beginning: Beginning) -> Surroundings:

@@ -39,20 +39,21 @@ def camel(name: str) -> str:
 
 def _named(scope: RuleScope) -> Iterator[tuple[str, str, Span]]:
     """Every id that becomes an attribute: what it is, the id, where it stands; array members once."""
-
-    def walk(members: tuple[Register | Array, ...]) -> Iterator[tuple[str, str, Span]]:
-        for member in members:
-            if isinstance(member, Array):
-                yield "array", member.id, member.span
-                yield from walk(member.members)
-            else:
-                yield "register", member.id, member.span
-                part = "bit field" if member.kind is Kind.FIELDS else "flag"
-                yield from ((part, bits.id, member.span) for bits in member.fields)
-
-    yield from walk(scope.model.members)
+    for _, member in _members(scope.model.members):
+        yield "array" if isinstance(member, Array) else "register", member.id, member.span
+        if isinstance(member, Register):
+            part = "bit field" if member.kind is Kind.FIELDS else "flag"
+            yield from ((part, bits.id, member.span) for bits in member.fields)
     yield from (("group", group.id, group.span) for group in scope.model.groups)
     yield from (("command", command.id, command.span) for command in scope.model.commands)
+
+
+def _members(members: tuple[Register | Array, ...], owner: str = "") -> Iterator[tuple[str, Register | Array]]:
+    """The registers and arrays of a model, those in arrays once, each with the arrays around it."""
+    for member in members:
+        yield owner, member
+        if isinstance(member, Array):
+            yield from _members(member.members, f"{owner}{member.id} ")
 
 
 @model_rule(
@@ -80,21 +81,9 @@ def hides_runtime(scope: RuleScope) -> Iterator[Finding]:
 @model_rule("RS0412", "Id used twice", "Two things of one id cannot both be reached from the driver.")
 def id_twice(scope: RuleScope) -> Iterator[Finding]:
     """Compare ids without `_`, among the registers and arrays of one owner, the groups and the commands."""
-
-    def walk(members: tuple[Register | Array, ...], owner: str) -> Iterator[tuple[str, str, Span]]:
-        for member in members:
-            yield f"{owner}register", member.id, member.span
-            if isinstance(member, Array):
-                yield from walk(member.members, f"{owner}{member.id} ")
-
-    groups = (("group", group.id, group.span) for group in scope.model.groups)
-    commands = (("command", command.id, command.span) for command in scope.model.commands)
-    yield from _repeated(walk(scope.model.members, ""))
-    yield from _repeated(groups)
-    yield from _repeated(commands)
-
-
-def _repeated(named: Iterator[tuple[str, str, Span]]) -> Iterator[Finding]:
+    named = [(f"{owner}register", one.id, one.span) for owner, one in _members(scope.model.members)]
+    named += [("group", group.id, group.span) for group in scope.model.groups]
+    named += [("command", command.id, command.span) for command in scope.model.commands]
     seen: dict[tuple[str, str], tuple[str, Span]] = {}
     for what, name, span in named:
         key = (what, normalised(name))

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from fractions import Fraction
 
+from regscribe.checks.assumed_values import count_registers
 from regscribe.checks.rule import Finding, RuleScope, model_rule, register_rule
 from regscribe.model import Kind, Order, OrderFrom, Ref, Register, Related, registers_of, show
 from regscribe.reference.states import domain
@@ -15,7 +16,7 @@ CODES_LISTED = 64
 def needed(register: Register) -> Iterator[tuple[str, str]]:
     """What a register needs to be read, and why: pairs of another register's path and a reason."""
     yield from ((path, "its scale depends on") for path in registers_of(register.scale))
-    yield from ((path, "its decimals are") for path in _decimals(register))
+    yield from ((case.then.decimals.register, "its decimals are") for case in register.scale if case.then.decimals)
     for view in register.views:
         if isinstance(view.order, OrderFrom):
             yield view.order.register, f"the word order of view {view.name} is"
@@ -25,23 +26,12 @@ def limiting(register: Register) -> Iterator[tuple[str, str]]:
     """What a register needs besides to be written: limits and conditions."""
     yield from ((path, "its range depends on") for path in registers_of(register.range))
     yield from ((path, "a limit is") for path in _limits(register))
-    yield from ((path, "the decimals of its range are") for path in _range_decimals(register))
-    yield from ((path, "its finest step depends on") for path in _places(register))
+    decimals = [(case.then.decimals, "the decimals of its range are") for case in register.range]
+    decimals += [(case.then.places, "its finest step depends on") for case in register.scale]
+    yield from ((one.register, why) for one, why in decimals if one)
     if register.writable:
         yield from ((path, "a write depends on") for path in register.writable.when.registers)
     yield from ((path, "its unit depends on") for path in registers_of(register.unit))
-
-
-def _decimals(register: Register) -> Iterator[str]:
-    yield from (case.then.decimals.register for case in register.scale if case.then.decimals)
-
-
-def _places(register: Register) -> Iterator[str]:
-    yield from (case.then.places.register for case in register.scale if case.then.places)
-
-
-def _range_decimals(register: Register) -> Iterator[str]:
-    yield from (case.then.decimals.register for case in register.range if case.then.decimals)
 
 
 def _limits(register: Register) -> Iterator[str]:
@@ -58,9 +48,7 @@ def _limits(register: Register) -> Iterator[str]:
 def order_register(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """The register must be a whole number or an enum with a single integer view."""
     for view in register.views:
-        if not isinstance(view.order, OrderFrom):
-            continue
-        other = scope.registers.get(view.order.register)
+        other = scope.registers.get(view.order.register) if isinstance(view.order, OrderFrom) else None
         if other is None:
             continue
         fixed = len(other.views) == 1 and other.base.type.is_integer and isinstance(other.base.order, Order)
@@ -123,7 +111,7 @@ def unreadable(register: Register, scope: RuleScope) -> Iterator[Finding]:
 @register_rule("RS0464", "Decimals from a register that is no whole number", "A number of decimals is 0, 1, 2 ...")
 def decimals_register(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """The register must be of a whole kind, and not below 0."""
-    for path in dict.fromkeys((*_decimals(register), *_places(register), *_range_decimals(register))):
+    for path in dict.fromkeys(count_registers(register)):
         other = scope.registers.get(path)
         if other is None:
             continue

@@ -3,12 +3,13 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
 
 from regscribe.checks.assumed_values import in_example
 from regscribe.checks.rule import MAP, Finding, RuleScope, Scopes, map_rule
-from regscribe.checks.worked_values import compare, hexadecimal, printed
+from regscribe.checks.worked_values import compare, hexadecimal, judged, printed
 from regscribe.model import FrameExample, Register, RegisterMap, Space, View
-from regscribe.reference import RefusedError, Surroundings, UnknownValueError
+from regscribe.reference import Surroundings
 from regscribe_runtime.wire.pdu import (
     EXCEPTION_BIT,
     OFF,
@@ -194,7 +195,8 @@ def _value(
         offset = address - start
         if 0 <= offset <= len(words) - view.words:
             there = words[offset : offset + view.words]
-            return _unaddressed(view, frame.function, alike) or _compared(register, view, there, value, known)
+            wrong = partial(compare, register, view, there, value, known)
+            return _unaddressed(view, frame.function, alike) or judged(wrong)
     return f"it is not among the addresses {start}..{start + len(words) - 1} of the frame"
 
 
@@ -205,15 +207,6 @@ def _unaddressed(view: View, function: int, alike: Alike) -> str:
     if not view.allows(function):
         return f"its {view.name} view is by functions {list(view.functions)}, not {function:02d}"
     return ""
-
-
-def _compared(register: Register, view: View, words: tuple[int, ...], value: Fraction, known: Surroundings) -> str:
-    try:
-        return compare(register, view, words, value, known)
-    except UnknownValueError as unknown:
-        return f"it depends on `{unknown}`; say its value under `with`"
-    except RefusedError as refused:
-        return str(refused)
 
 
 def _spaces(function: int, alike: Alike) -> set[Space]:

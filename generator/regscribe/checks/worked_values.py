@@ -1,6 +1,6 @@
 """Worked examples of values and of times: the map must give what the manual prints."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 
 from regscribe.checks.assumed_values import in_example
@@ -83,8 +83,13 @@ def _judge(example: ValueExample, scope: RuleScope) -> str:
     if len(example.words) != view.words:
         return f"{len(example.words)} words, but view {view.name} has {view.words}"
     known = in_example(scope.register_map, scope.model, scope.beginning, example.state)
+    return judged(lambda: _sent(example, view, known) or _read(example, register, view, known))
+
+
+def judged(judge: Callable[[], str]) -> str:
+    """What `judge` finds wrong, or why it cannot tell."""
     try:
-        return _sent(example, view, known) or _read(example, register, view, known)
+        return judge()
     except UnknownValueError as unknown:
         return f"it depends on `{unknown}`; say its value under `with`"
     except RefusedError as refused:

@@ -4,11 +4,11 @@ from fractions import Fraction
 
 from regscribe.lower.interval_text import ends
 from regscribe.lower.names import unknown
-from regscribe.lower.node import Value
+from regscribe.lower.node import Value, line_of
 from regscribe.lower.rules import BAD_MATCHER, UNKNOWN_CONDITION, UNKNOWN_GIVEN, WRONG_SORT
 from regscribe.lower.scope import Scope
 from regscribe.lower.subject import Subject, code_of_text, subject_of
-from regscribe.model import ALWAYS, Condition, Is
+from regscribe.model import ALWAYS, Condition, Is, WriteCondition
 
 _SETS = ("in", "not_in")
 
@@ -28,6 +28,11 @@ def condition(node: Value | None, scope: Scope) -> Condition:
         return ALWAYS
     parts = [Condition() if part.is_list else condition(part, scope) for part in node.elements()]
     return parts[0] if len(parts) == 1 else both(*parts)
+
+
+def write_condition(node: Value | None, scope: Scope) -> WriteCondition | None:
+    """When a write is possible, and why only then; None where nothing is said of it."""
+    return WriteCondition(condition(node.child("when"), scope), line_of(node, "reason")) if node else None
 
 
 def both(*conditions: Condition) -> Condition:

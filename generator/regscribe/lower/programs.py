@@ -1,13 +1,13 @@
 """Setpoint programs: the names of registers become paths in which the numbers of program and segment are left open."""
 
 from regscribe.lower.commands import CommandScope
-from regscribe.lower.conditions import condition
+from regscribe.lower.conditions import write_condition
 from regscribe.lower.node import Value, choice_of, elements_of, items_of, line_of, text_of
 from regscribe.lower.program_registers import ProgramPlace, numbers_of
+from regscribe.lower.registers import inferred_of
 from regscribe.lower.rules import UNKNOWN_COMMAND
 from regscribe.lower.scope import Scope
 from regscribe.model import (
-    Inferred,
     ProgramAction,
     ProgramCounts,
     ProgramFinal,
@@ -18,7 +18,6 @@ from regscribe.model import (
     ProgramTimeUnit,
     SetpointProgram,
     WhileRunning,
-    WriteCondition,
     numbered,
 )
 
@@ -34,7 +33,7 @@ def programs_of(root: Value, device: CommandScope) -> tuple[tuple[SetpointProgra
 def _notes(node: Value) -> ProgramNotes:
     return ProgramNotes(
         description=text_of(node, "description"),
-        inferred=tuple(Inferred(text_of(one, "what"), text_of(one, "why")) for one in elements_of(node, "inferred")),
+        inferred=inferred_of(node.child("inferred")),
         span=node.key_span,
     )
 
@@ -75,11 +74,9 @@ def _made(node: Value, place: ProgramPlace, program: SetpointProgram) -> Setpoin
 
 def _run(node: Value, place: ProgramPlace, program: SetpointProgram) -> SetpointProgram:
     """The program with how it is run and watched."""
-    requires = node.child("requires")
-    when = condition(requires.child("when"), place.scope) if requires else None
     return program._replace(
         enable=place.values(node.child("enable")),
-        requires=WriteCondition(when, line_of(requires, "reason")) if requires and when else None,
+        requires=write_condition(node.child("requires"), place.scope),
         status=_status(node.child("status"), place),
         segment_now=place.path(node, "segment_now"),
         program_now=place.path(node, "program_now"),

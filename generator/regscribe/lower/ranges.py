@@ -49,15 +49,11 @@ def _interval(node: Value, scope: Scope) -> Interval:
     if not node.is_mapping:
         return Interval(*ends(node))
     interval = Interval(_limit(node.child("from"), scope), _limit(node.child("to"), scope))
-    if isinstance(interval.low, Number) and isinstance(interval.high, Number):
-        _in_order(node, interval.low, interval.high)
-    return interval
-
-
-def _in_order(node: Value, low: Number, high: Number) -> None:
-    if low > high:
+    low, high = interval
+    if isinstance(low, Number) and isinstance(high, Number) and low > high:
         message = f"the range is reversed: from {show(low)} is more than to {show(high)}"
         node.report(REVERSED, message, remedy=f"write from: {show(high)}, to: {show(low)}")
+    return interval
 
 
 def _limit(node: Value | None, scope: Scope) -> Limit:

@@ -3,10 +3,10 @@
 from dataclasses import replace
 from fractions import Fraction
 
-from regscribe.lower.conditions import condition
+from regscribe.lower.conditions import write_condition
 from regscribe.lower.enums import enum_of, fields_of
 from regscribe.lower.idle_keys import report_idle
-from regscribe.lower.node import Value, line_of, text_of
+from regscribe.lower.node import Value, text_of
 from regscribe.lower.ranges import range_of
 from regscribe.lower.register_links import followed_fields, follows_of, governs_of, shadowed
 from regscribe.lower.rules import NO_ACCESS, UNKNOWN_COMMAND
@@ -27,7 +27,6 @@ from regscribe.model import (
     Register,
     View,
     WireType,
-    WriteCondition,
 )
 from regscribe.model.identifiers import has_mark, indexed
 
@@ -70,7 +69,7 @@ def register_of(entry: TreeNode, everywhere: Scope) -> Register:
         delivered=beginning_of(entry, "delivered", kind, enum),
         enum=enum,
         fields=followed_fields(fields_of(entry, scope), entry, scope),
-        writable=_writable(settings.get("writable"), scope),
+        writable=write_condition(settings.get("writable"), scope),
         persistence=_text(entry, "persistence"),
         endurance=settings["endurance"].whole() if "endurance" in settings else None,
         rescales=rescaled(settings["rescales"], scope) if "rescales" in settings else "",
@@ -83,7 +82,7 @@ def register_of(entry: TreeNode, everywhere: Scope) -> Register:
         shadows=shadowed(settings.get("shadows"), scope),
         follows=follows_of(settings.get("follows"), scope),
         difference="difference" in settings and settings["difference"].truth(),
-        inferred=_inferred(settings.get("inferred")),
+        inferred=inferred_of(settings.get("inferred")),
         version_digits=digits,
         version_group=group,
         array=entry.place.array,
@@ -173,10 +172,6 @@ def _aliases(entry: TreeNode, base: View) -> tuple[int, ...]:
     return tuple(element.whole() + shift for element in node.elements()) if node else ()
 
 
-def _writable(node: Value | None, scope: Scope) -> WriteCondition | None:
-    return WriteCondition(condition(node.child("when"), scope), line_of(node, "reason")) if node else None
-
-
 def _command(node: Value | None, scope: Scope) -> str:
     if node is None:
         return ""
@@ -184,6 +179,7 @@ def _command(node: Value | None, scope: Scope) -> str:
     return node.text()
 
 
-def _inferred(node: Value | None) -> tuple[Inferred, ...]:
+def inferred_of(node: Value | None) -> tuple[Inferred, ...]:
+    """What the manual does not say, and how it is known."""
     elements = node.elements() if node else []
     return tuple(Inferred(text_of(element, "what"), text_of(element, "why")) for element in elements)

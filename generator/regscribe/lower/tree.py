@@ -87,9 +87,7 @@ def items_in(nodes: list[Value], place: TreePosition) -> tuple[Item, ...]:
         if node.child("set"):
             items += _set(node, place)
             continue
-        has = present(node, place.among, place.every)
-        if not has and place.among:
-            _nowhere(node, place)
+        has = _models(node, place)
         name = identifier(node.child("name") or node, label=text_of(node, "name"), given=node.child("id"))
         if place.model in has and node.child("registers"):
             items.append(_branch(node, name, replace(place, among=has)))
@@ -101,9 +99,7 @@ def items_in(nodes: list[Value], place: TreePosition) -> tuple[Item, ...]:
 def _set(node: Value, place: TreePosition) -> tuple[Item, ...]:
     """The registers of the set that `node` puts here."""
     name, each = text_of(node, "set"), node.child("set_each")
-    has = present(node, place.among, place.every)
-    if not has and place.among:
-        _nowhere(node, place)
+    has = _models(node, place)
     table = table_of(node, place.sets, place.open)
     registers = left_of(table, node, place.model) if table and place.model in has else []
     inside = replace(
@@ -116,10 +112,14 @@ def _set(node: Value, place: TreePosition) -> tuple[Item, ...]:
     return items_in(registers, inside)
 
 
-def _nowhere(node: Value, place: TreePosition) -> None:
-    at = node.child("except") or node.child("models") or node
-    message = f"`{text_of(node, 'name', text_of(node, 'set'))}` is on no model"
-    at.report(ON_NO_MODEL, message, remedy=f"its surroundings are on: {', '.join(place.among)}")
+def _models(node: Value, place: TreePosition) -> Models:
+    """The models that a register, an array or a use of a set is on; RS0321 where they are none."""
+    has = present(node, place.among, place.every)
+    if not has and place.among:
+        at = node.child("except") or node.child("models") or node
+        message = f"`{text_of(node, 'name', text_of(node, 'set'))}` is on no model"
+        at.report(ON_NO_MODEL, message, remedy=f"its surroundings are on: {', '.join(place.among)}")
+    return has
 
 
 def _entry(node: Value, name: str, has: Models, place: TreePosition) -> TreeNode:
