@@ -14,7 +14,7 @@ FAR = 10_000
 
 
 @dataclass(frozen=True, slots=True)
-class Stretch:
+class TakenAddresses:
     """Addresses that a register takes in one space, by which of its views (the base view for an alias)."""
 
     space: Space
@@ -29,16 +29,16 @@ class Stretch:
         return f"{self.space} {where}{f' ({self.by})' if self.by else ''}"
 
 
-def stretches(register: Register) -> Iterator[Stretch]:
+def stretches(register: Register) -> Iterator[TakenAddresses]:
     """All stretches of a register: its views, then its aliases."""
     for view in register.views:
         by = f"view {view.name}" if len(register.views) > 1 else ""
-        yield Stretch(view.space, view.address(register.at), view.last(register.at), register, by, view)
+        yield TakenAddresses(view.space, view.address(register.at), view.last(register.at), register, by, view)
     for alias in dict.fromkeys(register.aliases):
         if alias == register.address:
             continue  # RS0403 speaks of it
         base = register.base
-        yield Stretch(base.space, alias, alias + base.words - 1, register, "alias", base)
+        yield TakenAddresses(base.space, alias, alias + base.words - 1, register, "alias", base)
 
 
 @model_rule(
@@ -49,7 +49,7 @@ def stretches(register: Register) -> Iterator[Stretch]:
 def overlap(scope: RuleScope) -> Iterator[Finding]:
     """Compare each stretch with the one before it that reaches furthest."""
     every = (stretch for register in scope.model.registers for stretch in stretches(register))
-    furthest: Stretch | None = None
+    furthest: TakenAddresses | None = None
     for stretch in sorted(every, key=attrgetter("space", "first", "last")):
         if furthest and furthest.space == stretch.space and stretch.first <= furthest.last:
             yield _overlap(*sorted((furthest, stretch), key=lambda one: one.register.span))
@@ -57,7 +57,7 @@ def overlap(scope: RuleScope) -> Iterator[Finding]:
             furthest = stretch
 
 
-def _overlap(earlier: Stretch, later: Stretch) -> Finding:
+def _overlap(earlier: TakenAddresses, later: TakenAddresses) -> Finding:
     return Finding.at(
         later.register,
         f"takes {later}, which overlaps {earlier} of `{earlier.register.path}`",

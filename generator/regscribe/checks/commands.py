@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from operator import attrgetter
 from typing import NamedTuple
 
-from regscribe.checks.addresses import LAST_ADDRESS, Stretch, stretches
+from regscribe.checks.addresses import LAST_ADDRESS, TakenAddresses, stretches
 from regscribe.checks.rule import Finding, RuleScope, model_rule
 from regscribe.model import Command, CommandStep, Related, Space, View
 
@@ -42,7 +42,7 @@ def _at(command: Command, message: str, help_text: str, *related: Related) -> Fi
     return Finding(command.id, command.span, f"command `{command.id}` {message}", help_text, related)
 
 
-def _stretches(space: Space, scope: RuleScope) -> list[Stretch]:
+def _stretches(space: Space, scope: RuleScope) -> list[TakenAddresses]:
     """The stretches of a space in the order of their addresses; sorted once for a model."""
     every = (one for register in scope.model.registers for one in stretches(register) if one.space is space)
     return scope.once(("stretches", space), lambda: sorted(every, key=attrgetter("first", "last")))
@@ -52,7 +52,7 @@ def _last(step: CommandStep) -> int:
     return step.address + len(step.words) - 1
 
 
-def touched(step: CommandStep, space: Space, scope: RuleScope) -> Iterator[Stretch]:
+def touched(step: CommandStep, space: Space, scope: RuleScope) -> Iterator[TakenAddresses]:
     """The stretches of registers that a step writes to, in whole or in part."""
     last = _last(step)
     every = _stretches(space, scope)
@@ -146,7 +146,7 @@ def _without_register(space: Space, scope: RuleScope) -> Iterator[tuple[str, int
         yield from ((word, low, high) for there, low, high in listed if there is space)
 
 
-def _values_in_part(command: Command, step: CommandStep, path: str, found: list[Stretch]) -> Iterator[Finding]:
+def _values_in_part(command: Command, step: CommandStep, path: str, found: list[TakenAddresses]) -> Iterator[Finding]:
     """Values of which a step writes a part, or more than the one that it names."""
     first, last = step.address, _last(step)
     for stretch in found:
@@ -159,7 +159,7 @@ def _values_in_part(command: Command, step: CommandStep, path: str, found: list[
             yield _at(command, message, "give as many words as the register has", related)
 
 
-def _values_and_none(command: Command, step: CommandStep, found: list[Stretch]) -> Iterator[Finding]:
+def _values_and_none(command: Command, step: CommandStep, found: list[TakenAddresses]) -> Iterator[Finding]:
     """A step that writes registers and addresses of none."""
     first, last = step.address, _last(step)
     covered = {address for stretch in found for address in range(stretch.first, stretch.last + 1)}

@@ -8,6 +8,7 @@ from regscribe.reference import RefusedError, number_of, version_number
 from regscribe.reference.settled_scales import forms
 
 TEXTS = frozenset({Kind.STRING, Kind.VERSION})
+NUMBERS = frozenset({Kind.NUMBER, Kind.INTEGER, Kind.RAW})
 PATTERNS = frozenset({Kind.FLAGS, Kind.FIELDS})
 
 

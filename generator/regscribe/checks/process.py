@@ -10,7 +10,7 @@ RAM = "ram"
 NO_NUMBERS = frozenset({Kind.STRING, Kind.FLAGS, Kind.FIELDS, Kind.VERSION})
 HELP_BIT = "name a bit: `register.flag`, or a register of type bit"
 HELP_NUMBER = "name a register that holds a number"
-Role = tuple[str, str, bool]
+ProcessRole = tuple[str, str, bool]
 """What a register is in the process, its path (perhaps of a bit), and whether it must be a bit."""
 
 
@@ -108,7 +108,7 @@ def _found(path: str, scope: RuleScope) -> tuple[Register, BitField | None] | No
     return (register, field) if register and field else None
 
 
-def _roles(process: Process) -> Iterator[Role]:
+def _roles(process: Process) -> Iterator[ProcessRole]:
     yield from (("value", process.value, False), ("setpoint", process.setpoint, False))
     yield from (("highest", process.highest, False), ("lowest", process.lowest, False), ("fault", process.fault, True))
     if process.ramp:
@@ -119,7 +119,7 @@ def _roles(process: Process) -> Iterator[Role]:
         yield from _alarm(alarm)
 
 
-def _output(output: Output) -> Iterator[Role]:
+def _output(output: Output) -> Iterator[ProcessRole]:
     for name in ("percent", "manual", "failsafe", "low", "high"):
         yield f"outputs.{name}", getattr(output, name), False
     yield "outputs.active", output.active, True
@@ -132,7 +132,7 @@ def _output(output: Output) -> Iterator[Role]:
         yield "on_off.hysteresis", output.on_off.hysteresis, False
 
 
-def _alarm(alarm: Alarm) -> Iterator[Role]:
+def _alarm(alarm: Alarm) -> Iterator[ProcessRole]:
     yield from (("alarms.active", path, True) for path in alarm.active)
     yield from ((f"trips.{trip.kind}", trip.limit, False) for trip in alarm.trips)
     yield from ((f"alarms.{name}", getattr(alarm, name), False) for name in ("hysteresis", "delay", "inhibit"))

@@ -3,21 +3,21 @@
 from collections import Counter
 from collections.abc import Iterator
 
+from regscribe.checks.held_values import NUMBERS
 from regscribe.checks.rule import Finding, RuleScope, model_rule
 from regscribe.model import Kind, Number, ProgramCounts, Register, Related, SetpointProgram, numbered
 
-NUMBERS = frozenset({Kind.NUMBER, Kind.INTEGER, Kind.RAW})
 WHOLE = frozenset({Kind.INTEGER, Kind.RAW})
 CHOICES = frozenset({Kind.ENUM, Kind.BOOLEAN})
 ANY = CHOICES | NUMBERS
 ENUM = frozenset({Kind.ENUM})
 UNITS = ("s", "min", "h", "d")
 
-Role = tuple[str, str, frozenset[Kind]]
+ProgramRole = tuple[str, str, frozenset[Kind]]
 """What a register is in a program, its path, and the kinds that can be it."""
 
 
-def _written(program: SetpointProgram) -> Iterator[Role]:
+def _written(program: SetpointProgram) -> Iterator[ProgramRole]:
     """The registers that hold a program."""
     segments, final = program.segments, program.final
     yield "segments.setpoint", segments.setpoint, NUMBERS
@@ -34,14 +34,14 @@ def _written(program: SetpointProgram) -> Iterator[Role]:
     yield "end", program.end, CHOICES
 
 
-def _acting(program: SetpointProgram) -> Iterator[Role]:
+def _acting(program: SetpointProgram) -> Iterator[ProgramRole]:
     """The registers that are written to make a program run."""
     yield from (("enable", path, ANY) for path, _ in program.enable)
     for name in ("start", "hold", "resume", "reset"):
         yield from ((name, path, ANY) for path, _ in getattr(program, name).writes)
 
 
-def _watched(program: SetpointProgram) -> Iterator[Role]:
+def _watched(program: SetpointProgram) -> Iterator[ProgramRole]:
     """The registers that are only read."""
     yield "status", program.status.register if program.status else "", ENUM
     yield "segment_now", program.segment_now, WHOLE

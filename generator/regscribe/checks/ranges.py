@@ -1,12 +1,15 @@
 """Ranges, special values and sentinels."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from fractions import Fraction
 from itertools import pairwise
+from math import ceil, floor
 
-from regscribe.checks.representable import values_of
+from regscribe.checks.held_values import NUMBERS
+from regscribe.checks.representable import HELP_TYPE, Fit, end_values, ends_of, listed, numbers, unfit_limits, values_of
 from regscribe.checks.rule import Finding, RuleScope, register_rule
-from regscribe.model import Number, Register, Sentinel, Special, show
-from regscribe.reference.settled_scales import forms
+from regscribe.model import Interval, Number, Range, Register, Sentinel, Special, show
+from regscribe.reference.settled_scales import Form, forms, widest
 
 
 @register_rule(
@@ -100,3 +103,90 @@ def meant_by_two(register: Register, _: RuleScope) -> Iterator[Finding]:
             if other.means == special.means:
                 message = f'{shown} and as what "{other.label}" means'
                 yield Finding.at(register, message, "correct one of the numbers: only one code could be written for it")
+
+
+@register_rule(
+    "RS0423",
+    "Default outside the range",
+    "Manuals do print such defaults; then the map needs a special value, another range, or a waiver that says why.",
+)
+def default_outside_range(register: Register, scope: RuleScope) -> Iterator[Finding]:
+    """Judge the default with all other registers at theirs; what cannot be known so is not judged."""
+    judged = register.beginnings if register.kind in NUMBERS else ()
+    named = {special.value for special in register.specials}
+    ends = scope.ends_at_defaults(register) if judged else ()
+    for what, value in judged if ends else ():
+        if isinstance(value, Fraction) and value not in named and not _inside(value, ends):
+            text = " or ".join(f"{_end(low)}..{_end(high)}" for low, high in ends)
+            message = f"has {what} {show(value)}, outside {text} with all other registers at their defaults"
+            yield Finding.at(register, message, f"correct one of them, or add the {what} under `special`")
+
+
+def _inside(value: Fraction, ends: Iterable[tuple[Fraction | None, Fraction | None]]) -> bool:
+    return any((low is None or low <= value) and (high is None or value <= high) for low, high in ends)
+
+
+def _end(number: Fraction | None) -> str:
+    return "open" if number is None else show(number)
+
+
+@register_rule("RS0424", "Limit outside the type", "A range that is wider than the words was misread, or the type was.")
+def limit_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
+    """Try each numeric limit; ranges that fit nowhere are RS0425's."""
+    every = forms(register) if register.range else ()
+    for case in register.range:
+        outside = unfit_limits(register, case.then, Fit.TOO_LARGE, every)
+        if outside and _reachable(widest(register), case.then):
+            message = f"has limits {listed(outside)}, outside {ends_of(register)} as scaled"
+            yield Finding.at(register, message, HELP_TYPE)
+
+
+@register_rule(
+    "RS0425", "Range that cannot be encoded", "No value of the range has words: nothing could ever be written."
+)
+def range_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
+    """Compare each range as a whole with what type and scale reach."""
+    reach = widest(register) if register.range else None
+    for case in register.range:
+        if case.then.intervals and not _reachable(reach, case.then):
+            found = listed(list(numbers(case.then)))
+            message = f"has a range ({found}) that lies wholly outside {ends_of(register)} as scaled"
+            yield Finding.at(register, message, HELP_TYPE)
+        elif _only_faults(register, case.then):
+            message = "has a range of nothing but numbers by which it reports faults"
+            yield Finding.at(register, message, "correct the range or the sentinels")
+
+
+def _only_faults(register: Register, one: Range) -> bool:
+    """Whether whatever the base view spells within a range is a fault, under every scale."""
+    faults = {number * register.base.factor for number in register.faults}
+    if not faults:
+        return False
+    spelled = [_spelled(register, form, one, interval) for form in forms(register) for interval in one.intervals]
+    return all(
+        numbers is not None and 0 < numbers.stop - numbers.start <= len(faults) and faults.issuperset(numbers)
+        for numbers in spelled
+    ) and bool(spelled)
+
+
+def _spelled(register: Register, form: Form, one: Range, interval: Interval) -> range | None:
+    """The whole numbers on the wire within an interval; None where they are not known, or not whole."""
+    if not register.base.type.is_integer:
+        return None
+    if not isinstance(interval.low, Number) or not isinstance(interval.high, Number):
+        return None
+    ends = [end for limit in (interval.low, interval.high) for end in end_values(one, limit)]
+    wire = [form.stored(end) * register.base.factor for end in ends]
+    return range(ceil(min(wire)), floor(max(wire)) + 1)
+
+
+def _reachable(reach: tuple[Fraction, Fraction] | None, one: Range) -> bool:
+    """Whether any value of the range lies where type and scale reach; limits that are no numbers are no limits."""
+    if reach is None:
+        return True
+    for interval in one.intervals:
+        lows = end_values(one, interval.low) if isinstance(interval.low, Number) else (reach[0],)
+        highs = end_values(one, interval.high) if isinstance(interval.high, Number) else (reach[1],)
+        if min(lows) <= reach[1] and max(highs) >= reach[0]:
+            return True
+    return False

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from regscribe.checks.assumed_values import count_registers
+from regscribe.checks.held_values import NUMBERS
 from regscribe.checks.rule import Finding, RuleScope, model_rule, register_rule
 from regscribe.model import Kind, Order, OrderFrom, Ref, Register, Related, registers_of, show
 from regscribe.reference.states import domain
@@ -127,7 +128,7 @@ def limit_register(register: Register, scope: RuleScope) -> Iterator[Finding]:
     """The registers that limits name must be numbers."""
     for path in dict.fromkeys(_limits(register)):
         other = scope.registers.get(path)
-        if other and (path == register.path or other.kind not in {Kind.NUMBER, Kind.INTEGER, Kind.RAW}):
+        if other and (path == register.path or other.kind not in NUMBERS):
             what = "itself" if path == register.path else f"`{path}`, which is of kind {other.kind}"
             yield Finding.at(register, f"has a limit that is {what}", "name a register that holds a number")
 

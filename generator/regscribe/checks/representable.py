@@ -8,6 +8,8 @@ from regscribe.model import Number, Range, Register, Special, View, show
 from regscribe.reference import ieee_bits, ieee_number, shortest
 from regscribe.reference.settled_scales import Form, factors, forms
 
+HELP_TYPE = "correct the number, the type or the scale"
+
 
 class Fit(Enum):
     """How a number does on the wire, best first."""

@@ -4,10 +4,10 @@ from collections.abc import Iterator
 from fractions import Fraction
 from itertools import islice
 
-from regscribe.checks.held_values import too_fine, wrong_sort
+from regscribe.checks.held_values import NUMBERS, too_fine, wrong_sort
 from regscribe.checks.representable import Fit, listed, unfit_limits
 from regscribe.checks.rule import Finding, RuleScope, register_rule
-from regscribe.model import Kind, Register
+from regscribe.model import Register
 from regscribe.reference.settled_scales import Form, forms
 
 
@@ -28,7 +28,7 @@ def scale_of_zero(register: Register, _: RuleScope) -> Iterator[Finding]:
 )
 def beyond_a_float(register: Register, _: RuleScope) -> Iterator[Finding]:
     """Look for two stored numbers that are two floats, under every scale."""
-    for form in forms(register) if register.kind in {Kind.NUMBER, Kind.INTEGER, Kind.RAW} else ():
+    for form in forms(register) if register.kind in NUMBERS else ():
         if not _differ(_as_float(form, stored) for stored in (*_ends(register), 0, 1)):
             message = "has a scale that makes one float of all its numbers, or more than a float can hold"
             yield Finding.at(register, message, "correct `multiply` and `add`, or `from` and `to`")

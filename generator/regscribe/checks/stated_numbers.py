@@ -1,44 +1,16 @@
-"""Types and defaults: every number that a map states must be one that the register can hold."""
+"""Types, kinds and defaults: every number that a map states must be one that the register can hold."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from fractions import Fraction
-from math import ceil, floor
 
 from regscribe.checks.held_values import is_fault, outside_type, shown, wrong_sort
-from regscribe.checks.representable import (
-    Fit,
-    best_fit,
-    end_values,
-    ends_of,
-    listed,
-    numbers,
-    tells_apart,
-    unfit_limits,
-    values_of,
-)
+from regscribe.checks.representable import HELP_TYPE, Fit, best_fit, ends_of, tells_apart, values_of
 from regscribe.checks.rule import Finding, RuleScope, register_rule
-from regscribe.model import (
-    IDENTITY,
-    Interval,
-    Kind,
-    NotANumber,
-    Number,
-    Order,
-    Range,
-    Register,
-    Sentinel,
-    Space,
-    View,
-    WireType,
-    show,
-)
+from regscribe.model import IDENTITY, Kind, NotANumber, Order, Register, Sentinel, Space, View, WireType, show
 from regscribe.reference import number_of, sentinel_number
-from regscribe.reference.settled_scales import Form, forms, widest
 
-NUMBERS = {Kind.NUMBER, Kind.INTEGER, Kind.RAW}
 WORDS_OF_BITS = {Kind.FLAGS, Kind.FIELDS}
 UNSCALED = {Kind.ENUM, Kind.FLAGS, Kind.FIELDS, Kind.STRING, Kind.VERSION, Kind.BOOLEAN}
-HELP_TYPE = "correct the number, the type or the scale"
 
 
 @register_rule(
@@ -139,93 +111,6 @@ def type_and_space(register: Register, _: RuleScope) -> Iterator[Finding]:
         elif spaces in (BITS, STATUS) and (view.order, view.byte_order) != (Order.BIG, Order.BIG):
             message = f"has an order of words or bytes in {view.space}, where a value has no words"
             yield Finding.at(register, message, "remove `word_order` and `byte_order`")
-
-
-@register_rule(
-    "RS0423",
-    "Default outside the range",
-    "Manuals do print such defaults; then the map needs a special value, another range, or a waiver that says why.",
-)
-def default_outside_range(register: Register, scope: RuleScope) -> Iterator[Finding]:
-    """Judge the default with all other registers at theirs; what cannot be known so is not judged."""
-    judged = register.beginnings if register.kind in NUMBERS else ()
-    named = {special.value for special in register.specials}
-    ends = scope.ends_at_defaults(register) if judged else ()
-    for what, value in judged if ends else ():
-        if isinstance(value, Fraction) and value not in named and not _inside(value, ends):
-            text = " or ".join(f"{_end(low)}..{_end(high)}" for low, high in ends)
-            message = f"has {what} {show(value)}, outside {text} with all other registers at their defaults"
-            yield Finding.at(register, message, f"correct one of them, or add the {what} under `special`")
-
-
-def _inside(value: Fraction, ends: Iterable[tuple[Fraction | None, Fraction | None]]) -> bool:
-    return any((low is None or low <= value) and (high is None or value <= high) for low, high in ends)
-
-
-def _end(number: Fraction | None) -> str:
-    return "open" if number is None else show(number)
-
-
-@register_rule("RS0424", "Limit outside the type", "A range that is wider than the words was misread, or the type was.")
-def limit_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
-    """Try each numeric limit; ranges that fit nowhere are RS0425's."""
-    every = forms(register) if register.range else ()
-    for case in register.range:
-        outside = unfit_limits(register, case.then, Fit.TOO_LARGE, every)
-        if outside and _reachable(widest(register), case.then):
-            message = f"has limits {listed(outside)}, outside {ends_of(register)} as scaled"
-            yield Finding.at(register, message, HELP_TYPE)
-
-
-@register_rule(
-    "RS0425", "Range that cannot be encoded", "No value of the range has words: nothing could ever be written."
-)
-def range_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
-    """Compare each range as a whole with what type and scale reach."""
-    reach = widest(register) if register.range else None
-    for case in register.range:
-        if case.then.intervals and not _reachable(reach, case.then):
-            found = listed(list(numbers(case.then)))
-            message = f"has a range ({found}) that lies wholly outside {ends_of(register)} as scaled"
-            yield Finding.at(register, message, HELP_TYPE)
-        elif _only_faults(register, case.then):
-            message = "has a range of nothing but numbers by which it reports faults"
-            yield Finding.at(register, message, "correct the range or the sentinels")
-
-
-def _only_faults(register: Register, one: Range) -> bool:
-    """Whether whatever the base view spells within a range is a fault, under every scale."""
-    faults = {number * register.base.factor for number in register.faults}
-    if not faults:
-        return False
-    spelled = [_spelled(register, form, one, interval) for form in forms(register) for interval in one.intervals]
-    return all(
-        numbers is not None and 0 < numbers.stop - numbers.start <= len(faults) and faults.issuperset(numbers)
-        for numbers in spelled
-    ) and bool(spelled)
-
-
-def _spelled(register: Register, form: Form, one: Range, interval: Interval) -> range | None:
-    """The whole numbers on the wire within an interval; None where they are not known, or not whole."""
-    if not register.base.type.is_integer:
-        return None
-    if not isinstance(interval.low, Number) or not isinstance(interval.high, Number):
-        return None
-    ends = [end for limit in (interval.low, interval.high) for end in end_values(one, limit)]
-    wire = [form.stored(end) * register.base.factor for end in ends]
-    return range(ceil(min(wire)), floor(max(wire)) + 1)
-
-
-def _reachable(reach: tuple[Fraction, Fraction] | None, one: Range) -> bool:
-    """Whether any value of the range lies where type and scale reach; limits that are no numbers are no limits."""
-    if reach is None:
-        return True
-    for interval in one.intervals:
-        lows = end_values(one, interval.low) if isinstance(interval.low, Number) else (reach[0],)
-        highs = end_values(one, interval.high) if isinstance(interval.high, Number) else (reach[1],)
-        if min(lows) <= reach[1] and max(highs) >= reach[0]:
-            return True
-    return False
 
 
 @register_rule("RS0426", "Kind does not fit the type", "An enum in a float or a number in a text cannot be decoded.")

@@ -7,17 +7,16 @@ from regscribe.checks.addresses import stretches
 from regscribe.checks.rule import Finding, RuleScope, Scopes, map_rule, model_rule, register_rule
 from regscribe.model import Register, RegisterMap, Related, Space
 
-Shape = tuple[object, ...]
 Region = tuple[Space, str, int, int]
 """Where the views of one name stand: their space, their name, the first and the last address."""
 
 
 def view_sets(scopes: Scopes) -> Iterator[Register]:
     """One register for each view set of the map: registers whose views differ in their addresses only count once."""
-    seen: set[Shape] = set()
+    seen: set[tuple[object, ...]] = set()
     for scope in scopes:
         for register in scope.model.registers:
-            shape: Shape = tuple((v.name, v.space, v.type, v.region, v.preferred, v.words) for v in register.views)
+            shape = tuple((v.name, v.space, v.type, v.region, v.preferred, v.words) for v in register.views)
             if shape not in seen:
                 seen.add(shape)
                 yield register

@@ -9,9 +9,8 @@ from typing import Any, TypeVar
 
 from regscribe.lower.rules import WRONG_SORT
 from regscribe.model import Diagnostic, Related, Span, exact, parse
-from regscribe.source import Document
+from regscribe.source import Document, Path
 
-Path = tuple[str | int, ...]
 Choice = TypeVar("Choice", bound=StrEnum)
 
 ZERO = Fraction(0)

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 
 from regscribe.lower.names import unknown
-from regscribe.lower.node import Path, Value, elements_of, texts_of
+from regscribe.lower.node import Value, elements_of, texts_of
 from regscribe.lower.rules import IDLE_VARIANT, UNKNOWN_MODEL
 
 Models = tuple[str, ...]
@@ -35,7 +35,7 @@ class Keys(dict[str, Value]):
 
     def __init__(self) -> None:
         super().__init__()
-        self.replaced: set[Path] = set()
+        self.replaced: set[tuple[str | int, ...]] = set()
 
     def lay(self, own: dict[str, Value]) -> None:
         """Lay keys over these.
