@@ -141,7 +141,7 @@ def notation_twice(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
     "A register that can be read or written needs a function code of its space that the device supports.",
 )
 def no_function(register: Register, scope: RuleScope) -> Iterator[Finding]:
-    """Look for functions that read and write the views that drivers take, and any other that may be named to them."""
+    """Look for a function of the device for each way in which drivers reach the register."""
     has = scope.register_map.protocol.functions
     for verb, view, functions in _accesses(register):
         if not set(functions) & set(has) & set(view.functions or functions):

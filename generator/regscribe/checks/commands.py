@@ -66,7 +66,7 @@ def touched(step: CommandStep, space: Space, scope: RuleScope) -> Iterator[Taken
 
 
 def _around(step: CommandStep, space: Space, scope: RuleScope) -> Iterator[View]:
-    """A view of each rule for the region in which a step begins; the device knows these rules before any register."""
+    """Views in whose region a step begins, one for each region with its own alignment and functions."""
     for view in scope.once("regions", lambda: _regions(scope)):
         if view.region and view.space is space and view.region[0] <= step.address <= view.region[1]:
             yield view

@@ -48,7 +48,7 @@ def _no_text(register: Register, text: str) -> str:
 
 
 def outside_type(register: Register, value: Fraction | str) -> bool:
-    """Whether no view can carry a value under any scale; never so of a text."""
+    """Whether a number is outside the type of every view under every scale; False for a text."""
     number = number_of(register, value)
     if number is None or is_meant(register, number):
         return False
@@ -58,7 +58,7 @@ def outside_type(register: Register, value: Fraction | str) -> bool:
 
 
 def too_fine(register: Register, value: Fraction | str) -> bool:
-    """Whether every view under every scale would show another number beside the value; never so of a text."""
+    """Whether a number lies between two that the words can spell, in every view and scale; False for a text."""
     if isinstance(value, str) or is_meant(register, value):
         return False
     if not register.fractional and value.denominator != 1:
@@ -68,7 +68,7 @@ def too_fine(register: Register, value: Fraction | str) -> bool:
 
 
 def is_fault(register: Register, value: Fraction | str) -> bool:
-    """Whether a value is stored, under every scale, as what the device reports a fault by."""
+    """Whether the stored number of a value is a fault, under every scale."""
     number = number_of(register, value)
     if number is None or is_meant(register, number):
         return False
@@ -79,7 +79,7 @@ def is_fault(register: Register, value: Fraction | str) -> bool:
 
 
 def no_member(register: Register, value: Fraction | str) -> str:
-    """Which code of a value no enum lists, of the register or of a field in it, for a message; empty where none is."""
+    """The code in a value that the enum of the register or of a bit field lacks, for a message; empty if none lacks."""
     if isinstance(value, str) or value.denominator != 1:
         return ""
     parts = [("", register.enum, int(value))]
@@ -92,7 +92,7 @@ def no_member(register: Register, value: Fraction | str) -> str:
 
 
 def impossible(register: Register, value: Fraction | str) -> str:
-    """Why a register cannot hold just a value, as `which is ...`; empty where it can."""
+    """Why a register cannot hold a value exactly, as `which is ...`; empty where it can."""
     problem = wrong_sort(register, value)
     if problem:
         return problem
@@ -104,7 +104,7 @@ def impossible(register: Register, value: Fraction | str) -> str:
 
 
 def impossible_part(field: BitField, value: Fraction | str) -> str:
-    """Why the bits of a field cannot hold just a value, as `which is ...`; empty where they can."""
+    """Why the bits of a field cannot hold a value, as `which is ...`; empty where they can."""
     if isinstance(value, str) or value.denominator != 1 or not 0 <= value < 1 << field.width:
         return f"which {field.width} {'bits' if field.width > 1 else 'bit'} cannot spell"
     codes = {member.code for member in field.enum.members} if field.enum else {value}

@@ -20,7 +20,7 @@ MOST_BAUD = 10_000_000
 
 
 def _possible(setting: Setting, serial: SerialDefaults) -> tuple[str, ...]:
-    """What the line can be set to, as far as the map says it; nothing: whatever is given."""
+    """What the line can be set to, as far as the map says it; empty if it can be anything."""
     bauds = tuple(str(baud) for baud in serial.bauds)
     formats = serial.formats or FORMATS
     return {

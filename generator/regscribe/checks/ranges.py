@@ -158,7 +158,7 @@ def range_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
 
 
 def _only_faults(register: Register, one: Range) -> bool:
-    """Whether whatever the base view spells within a range is a fault, under every scale."""
+    """Whether all numbers within a range that the base view can spell are faults, under every scale."""
     faults = {number * register.base.factor for number in register.faults}
     if not faults:
         return False

@@ -12,7 +12,7 @@ HELP_TYPE = "correct the number, the type or the scale"
 
 
 class Fit(Enum):
-    """How a number does on the wire, best first."""
+    """Whether words can spell a number, best first: exactly, with less resolution, not at all."""
 
     EXACT = 0
     TOO_FINE = 1
@@ -20,7 +20,7 @@ class Fit(Enum):
 
 
 def fit(form: Form, view: View, value: Fraction) -> Fit:
-    """How one value of use does in one view under one conversion."""
+    """Whether one view can carry one value of use under one conversion."""
     stored = form.stored(value)
     wire = stored if view.factor == 1 else stored * view.factor
     lowest, highest = view.type.minimum + view.saturates, view.type.maximum - view.saturates
@@ -53,7 +53,7 @@ def tells_apart(register: Register, value: Fraction) -> bool:
 
 
 def best_fit(register: Register, values: tuple[Fraction, ...], every: tuple[Form, ...] | None = None) -> Fit:
-    """The best that any of `values` does in any view under any conversion; EXACT where nothing can be inverted.
+    """The best fit of any of `values` in any view under any conversion; EXACT where nothing can be inverted.
 
     `every` are the register's forms, for a caller with more than one question.
     """
@@ -75,7 +75,7 @@ def end_values(limits: Range, number: Number) -> tuple[Fraction, ...]:
 
 
 def unfit_limits(register: Register, limits: Range, fit: Fit, every: tuple[Form, ...]) -> list[Fraction]:
-    """The numeric limits of a range that do just so on the wire, as printed; `every` are the register's forms."""
+    """The numeric limits of a range, as printed, whose best fit is `fit`; `every` are the register's forms."""
     return [one for one in numbers(limits) if best_fit(register, end_values(limits, one), every) is fit]
 
 

@@ -210,7 +210,7 @@ def _unaddressed(view: View, function: int, alike: Alike) -> str:
 
 
 def _spaces(function: int, alike: Alike) -> set[Space]:
-    """The spaces that a function reads or writes, those included where another one does the same."""
+    """The spaces that a function, or another that does the same, reads or writes."""
     same = {function, *(code for codes in alike if function in codes for code in codes)}
     reads = {space for space in Space if space.read_function in same}
     return reads | {space for space in Space if same & set(space.write_functions)}

@@ -36,7 +36,7 @@ def write_condition(node: Value | None, scope: Scope) -> WriteCondition | None:
 
 
 def both(*conditions: Condition) -> Condition:
-    """The condition that holds where all hold; each test once, a name where only one asks anything."""
+    """The condition that holds where all hold, each test once; where only one has tests, that one with its name."""
     asking = [part for part in conditions if not part.always]
     if len(asking) == 1:
         return asking[0]

@@ -13,7 +13,7 @@ EVERY = ("",)
 
 
 def library_of(document: Document) -> Library:
-    """What a library declares for every map; whatever needs something of a map is left to that map."""
+    """The enums of a library, and those of its sets that need nothing of a map."""
     root = Value(Collector(document), (), document.data)
     about = root.child("library") or root
     scope = Scope(root, "", EVERY, {}, {})

@@ -67,7 +67,7 @@ class DeviceFacts(TypedDict, total=False):
 
 
 def device_facts(node: Value | None) -> DeviceFacts:
-    """What no driver needs of the protocol."""
+    """The keys of `protocol` that no driver needs."""
     if node is None:
         return {}
     return {

@@ -67,7 +67,7 @@ def _limit(node: Value | None, scope: Scope) -> Limit:
 
 
 def _with_decimals(case: Case[Range], rules: Cases[Conversion]) -> Cases[Range]:
-    """The case under each condition of the rule, with its decimals, and then as it is where none of them need hold."""
+    """A case for each condition of a decimals rule, with its decimals; last the case itself, unless one must hold."""
     numbers = any(isinstance(limit, Number) for each in case.then.intervals for limit in (each.low, each.high))
     dividing = max((number for number, rule in enumerate(rules, start=1) if rule.then.decimals), default=0)
     found: list[Case[Range]] = []

@@ -127,7 +127,7 @@ def _makes_fractions(conversion: Conversion) -> bool:
 
 
 def _special_scale(entry: TreeNode, scope: Scope) -> Cases[Conversion]:
-    """What makes a value of use of a special value's code: the decimals that divide the range divide it as well."""
+    """The scale of the codes of special values: the decimals that divide the range divide them as well."""
     rule = entry.settings.get("range_decimals")
     divides = any(special.code for special in specials_of(entry))  # 0 stays 0
     return decimals_rule(rule, scope) if rule and divides else SAME

@@ -50,7 +50,7 @@ class Scope:
         return self.model in present(node, self.models, self.models)
 
     def once(self, key: object, make: Callable[[], Made]) -> Made:
-        """What a thing of the map's tables, named by `key`, means here: the same to all registers of an element."""
+        """What `make` gives for `key`; worked out once for all registers that find the same ones by name."""
         seen_from = (key, self.prefixes, self.lenient, self.folded)
         if seen_from not in self.known:
             self.known[seen_from] = make()
