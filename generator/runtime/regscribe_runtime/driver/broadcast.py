@@ -72,9 +72,8 @@ def _no_dialogue(register: Register[Any]) -> None:
 
 def _function(register: Register[Any], view: View, words: int, protocols: Iterable[Protocol]) -> int:
     single, several = SINGLE.get(view.space, WRITE_ONE), SEVERAL.get(view.space, WRITE_MANY)
-    able = [several, single] if words > 1 else [single, several]
-    for function in able[: 1 if words > 1 else 2]:
-        if all(function in protocol.broadcast for protocol in protocols) and function in (view.functions or able):
+    for function in [several] if words > 1 else [single, several]:
+        if all(function in protocol.broadcast for protocol in protocols) and view.allows(function):
             return function
     allowed = {name for protocol in protocols for name in protocol.broadcast}
     reason = f"the manual allows broadcasts by functions {sorted(allowed)}" if allowed else "the manual allows none"

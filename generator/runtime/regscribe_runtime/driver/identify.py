@@ -2,7 +2,7 @@
 
 import importlib
 import pkgutil
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from importlib.metadata import entry_points
 from importlib.util import find_spec
 from types import ModuleType
@@ -22,6 +22,10 @@ DRIVERS = "regscribe.drivers"
 """The group of entry points by which a package says that it holds generated drivers."""
 SHIPPED = "regscribe_devices"
 """The package of the drivers that come with regscribe, and of those that `regscribe generate` writes."""
+
+
+Answer = tuple[int, ...] | RegscribeError
+"""The words of a register, or why there are none."""
 
 
 class Known(NamedTuple):
@@ -99,25 +103,32 @@ def identity_of(*models: Known) -> Task[Identification]:
 
 
 def _identify(models: tuple[Known, ...], unit: int) -> Operation[Identification]:
-    answers: dict[Request, tuple[int, ...] | RegscribeError] = {}
+    answers: dict[Request, Answer] = {}
     evidence: dict[tuple[Request, str], Evidence] = {}
     fitting = []
     for known in models:
         state: dict[str, Any] = {}
         for path in dict.fromkeys(path for one in known.driver.identity for path in one.registers()):
-            register = known.driver.registers[path]
-            request = _request(register)
+            request = _request(known.driver.registers[path])
             if request not in answers:
                 answers[request] = yield from _ask(request, unit, known)
-            found = _seen(known, register, request, answers[request])
-            before = evidence.get((request, path))
-            maps = dict.fromkeys((*(before.map_ids if before else ()), known.map_id))
-            evidence[request, path] = found._replace(map_ids=tuple(maps))
+            found = _seen(known, path, request, answers[request])
+            _note(evidence, (request, path), found)
             if found.error is None:
                 state[path] = found.value
-        if any(one.fits(state) for one in known.driver.identity if set(one.registers()) <= set(state)):
+        if _fits(known, state):
             fitting.append(known)
     return Identification(tuple(fitting), tuple(evidence.values()))
+
+
+def _note(evidence: dict[tuple[Request, str], Evidence], key: tuple[Request, str], found: Evidence) -> None:
+    """Keep what was seen last, for all maps that were asked about it."""
+    before = evidence[key].map_ids if key in evidence else ()
+    evidence[key] = found._replace(map_ids=tuple(dict.fromkeys((*before, *found.map_ids))))
+
+
+def _fits(known: Known, state: Mapping[str, Any]) -> bool:
+    return any(one.fits(state) for one in known.driver.identity if set(one.registers()) <= set(state))
 
 
 def _view(register: Register[Any]) -> View:
@@ -130,7 +141,7 @@ def _request(register: Register[Any]) -> Request:
     return Request(view.space.read_function, view.address(register.at), view.words)
 
 
-def _ask(request: Request, unit: int, known: Known) -> Operation[tuple[int, ...] | RegscribeError]:
+def _ask(request: Request, unit: int, known: Known) -> Operation[Answer]:
     try:
         reply = yield request
         return verify(request, reply, unit=unit, protocol=known.driver.protocol) if reply else ()
@@ -140,15 +151,12 @@ def _ask(request: Request, unit: int, known: Known) -> Operation[tuple[int, ...]
         return error
 
 
-def _seen(
-    known: Known, register: Register[Any], request: Request, answer: tuple[int, ...] | RegscribeError
-) -> Evidence:
-    words: tuple[int, ...] = ()
-    value, error = None, answer if isinstance(answer, RegscribeError) else None
-    if not isinstance(answer, RegscribeError):
-        words = answer
-        try:
-            value = codec.decode(register, _view(register), words, {}, {})
-        except RegscribeError as undecodable:
-            error = undecodable
-    return Evidence((known.map_id,), register.path, request.address, words, value, error)
+def _seen(known: Known, path: str, request: Request, answer: Answer) -> Evidence:
+    if isinstance(answer, RegscribeError):
+        return Evidence((known.map_id,), path, request.address, (), None, answer)
+    value, error, register = None, None, known.driver.registers[path]
+    try:
+        value = codec.decode(register, _view(register), answer, {}, {})
+    except RegscribeError as undecodable:
+        error = undecodable
+    return Evidence((known.map_id,), path, request.address, answer, value, error)

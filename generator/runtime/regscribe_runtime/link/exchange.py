@@ -58,13 +58,15 @@ class Conversation:
             if unit == BROADCAST and not request.reads:
                 yield from self._all_done(wire, deadline)
                 return Reply(request.function, request.words, request.address, len(request.words))
-            reply = yield from self._answer(wire, asked, deadline)
+            received = bytearray()
+            if manners is not None and manners.echo:
+                received = yield from manners.echoed(wire, asked, deadline)
+            reply = yield from self._answer(wire, asked, deadline, received)
         except BaseException:  # a timeout, a cancelled task, Ctrl-C: the answer may still come
             if manners is not None:
                 manners.owe(asked, deadline)
             raise
-        moved = sent.address - request.address
-        return reply._replace(address=reply.address - moved) if moved and reply.exception is None else reply
+        return _moved(reply, request.address - sent.address)
 
     def _send(self, wire: Stream, asked: PendingRequest) -> None:
         wire.write(asked.frame)
@@ -88,28 +90,32 @@ class Conversation:
             if (yield left):
                 self._heard(BROADCAST, self._take(wire))  # an echo, or a gateway that cannot broadcast
 
-    def _answer(self, wire: Stream, asked: PendingRequest, deadline: float) -> Steps[Reply]:
-        received, manners, wrong = bytearray(), self.manners, None
-        if manners is not None and manners.echo:
-            received = yield from manners.echoed(wire, asked, deadline)
+    def _answer(self, wire: Stream, asked: PendingRequest, deadline: float, received: bytearray) -> Steps[Reply]:
+        wrong = None
         while True:
             while received and (found := self._found(received, asked)):
                 reply = self._reply(found, asked)
-                if reply is not None and (self.framing.decisive or fits(asked.wire, reply)):
+                if reply is not None and self._fits(asked, reply):
                     self._finished(received, asked)
                     return reply
                 wrong = reply or wrong
             left = deadline - time.monotonic()
             if left <= 0 or not (yield left):
-                break
+                return self._unanswered(bytes(received), wrong, asked, deadline)
             received += self._take(wire)
-            if manners is not None and manners.echo is None:
-                manners.notice(received, asked)
-        self._heard(asked.unit, bytes(received))
+            if self.manners is not None:
+                self.manners.notice(received, asked)
+
+    def _fits(self, asked: PendingRequest, reply: Reply) -> bool:
+        return self.framing.decisive or fits(asked.wire, reply)
+
+    def _unanswered(self, received: bytes, wrong: Reply | None, asked: PendingRequest, deadline: float) -> Reply:
+        """The reply that did not fit, if there was one: what it lacks is told later."""
+        self._heard(asked.unit, received)
         if wrong is None:
-            raise self._missing(bytes(received), asked)
-        if manners is not None:
-            manners.owe(asked, deadline)
+            raise self._missing(received, asked)
+        if self.manners is not None:
+            self.manners.owe(asked, deadline)
         return wrong
 
     def _found(self, received: bytearray, asked: PendingRequest) -> Frame | None:
@@ -153,6 +159,10 @@ class Conversation:
             return WrongAnswer(f"{asked}: {len(received)} bytes came that are no answer ({came}). {CHECK}")
         shown = asked.shown
         return NoAnswer(unit=asked.unit, function=shown.function, address=shown.address, seconds=asked.seconds)
+
+
+def _moved(reply: Reply, steps: int) -> Reply:
+    return reply._replace(address=reply.address + steps) if steps and reply.exception is None else reply
 
 
 def _foreign(asked: PendingRequest, unit: int) -> WrongAnswer:

@@ -87,20 +87,32 @@ def know(session: Session, paths: Iterable[str], *, fresh: bool = False, depth: 
     if depth > MAX_DEPTH:
         message = f"the meaning of {wanted[0]} depends on too long a chain of registers"
         raise RuntimeError(message)
-    registers = [session.registers[path] for path in wanted]
+    registers = list(map(session.registers.__getitem__, wanted))
     views = [register.read_view() for register in registers]
-    needs = dict.fromkeys(path for one, view in zip(registers, views, strict=True) for path in one.needs(view))
-    unknown = yield from _unknown(session, needs, depth=depth + 1)
+    unknown = yield from _unknown(session, _needs(registers, views), depth=depth + 1)
     spans = list(map(item_of, registers, views))
     found = yield from fetch(session, spans)
     values = {
         register.path: codec.decode(register, view, found[span], session.memory, session.givens, unknown, named=False)
         for register, view, span in zip(registers, views, spans, strict=True)
     }
+    _remember(session, values, fresh=fresh)
+    return session.memory | values if fresh else session.memory
+
+
+def _remember(session: Session, values: dict[str, Any], *, fresh: bool) -> None:
+    """Keep values; of those that were read `fresh`, only the ones that were known and have changed."""
     for path, value in values.items():
         if not fresh or session.memory.get(path, value) != value:
             session.remember(path, value)
-    return session.memory | values if fresh else session.memory
+
+
+def _needs(registers: Iterable[Register[Any]], views: Iterable[View]) -> dict[str, None]:
+    """What the meaning of registers depends on, each once."""
+    found: dict[str, None] = {}
+    for register, view in zip(registers, views, strict=True):
+        found |= dict.fromkeys(register.needs(view))
+    return found
 
 
 def read(register: Register[T], view_name: str | None) -> Task[T]:

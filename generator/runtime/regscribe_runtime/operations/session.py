@@ -194,12 +194,17 @@ class Session:
             except (NoAnswer, WrongAnswer, LinkLost, ExceptionAnswer) as error:
                 if not left or not _passing(error):
                     raise
-                left = 0 if isinstance(error, LinkLost) else left - 1  # the second time, nobody is there
+                left = _left_after(error, left)
             else:
                 if self.absences and request.reads:
                     self._heard(request)
                 return words
             yield Pause(self._tries.pause)
+
+
+def _left_after(error: RegscribeError, left: int) -> int:
+    """How often a read may be tried again after this try; a link that is lost once more is gone."""
+    return 0 if isinstance(error, LinkLost) else left - 1
 
 
 def _passing(error: RegscribeError) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from regscribe_runtime.errors import ExceptionAnswer, PartialWrite, RegscribeError, WriteUnknown
+from regscribe_runtime.errors import ExceptionAnswer, PartialWrite, RegscribeError
 from regscribe_runtime.operations.read_back import Target, is_lost, look_back, meaning, rest, same, steady, words_of
 from regscribe_runtime.operations.session import Operation, Pause, Session
 from regscribe_runtime.operations.write_order import Batch, RegisterWrite, batches
@@ -104,36 +104,40 @@ class Transaction:
             self.requests.append(Sent(0, 0, (), (), name, fate))
 
     def _send(self, batch: Batch) -> Operation[None]:
-        request, session = batch.request, self.session
-        paths = tuple(piece.path for piece in batch.pieces)
-        sent = Sent(request.function, request.address, request.words, paths)
         try:
-            yield from session.exchange(request)
+            yield from self.session.exchange(batch.request)
         except GeneratorExit:  # cancelled while the request was under way
-            for path in paths:
-                self.mark(path, Fate.UNKNOWN)
-            self.requests.append(sent._replace(fate=Fate.UNKNOWN))
+            self._mark_all(batch, Fate.UNKNOWN)
+            self._note(batch)
             raise
         except RegscribeError as error:
             yield from self._judge(batch, error)
-            fates = {self.changes[path].fate for path in paths}
-            self.requests.append(sent._replace(fate=fates.pop() if len(fates) == 1 else Fate.UNKNOWN))
-            if any(self.changes[path].fate is not Fate.WRITTEN for path in paths):
+            if self._note(batch) is not Fate.WRITTEN:
                 raise
         else:
-            self.requests.append(sent._replace(fate=Fate.WRITTEN))
-            for path in paths:
-                self.mark(path, Fate.WRITTEN)
+            self._mark_all(batch, Fate.WRITTEN)
+            self._note(batch)
         finally:
-            session.forget()
+            self.session.forget()
             for piece in batch.pieces:
                 if piece.register.persistence in EEPROM:
-                    session.wear.add(piece.path, written=1)
+                    self.session.wear.add(piece.path, written=1)
+
+    def _mark_all(self, batch: Batch, fate: Fate) -> None:
+        for piece in batch.pieces:
+            self.mark(piece.path, fate)
+
+    def _note(self, batch: Batch) -> Fate:
+        """Take note of a request and return its fate, which is that of its values if they share one."""
+        request, paths = batch.request, tuple(piece.path for piece in batch.pieces)
+        fates = {self.changes[path].fate for path in paths}
+        fate = fates.pop() if len(fates) == 1 else Fate.UNKNOWN
+        self.requests.append(Sent(request.function, request.address, request.words, paths, fate=fate))
+        return fate
 
     def _judge(self, batch: Batch, error: RegscribeError) -> Operation[None]:
         """What became of the values of a request that was not answered well."""
-        for piece in batch.pieces:
-            self.mark(piece.path, Fate.UNKNOWN)
+        self._mark_all(batch, Fate.UNKNOWN)
         if isinstance(error, PartialWrite):
             self._count(batch, error.written)
         elif len(batch.pieces) == 1 and not is_lost(error):
@@ -248,13 +252,13 @@ class Transaction:
     def _undone(self, touched: Sequence[str]) -> Operation[None]:
         """Read all back; what the device converted on the way (a unit of measure) is given back once more."""
         first = {path: before for path in touched if (before := self.first[path].before) is not None}
-        for last in (False, True):
-            found = yield from words_of(self.session, [self.target(path) for path in first])
-            wrong = [path for path, words in found.items() if not self._is(path, words, first[path])]
-            if last or not wrong:
-                break
-            for path in wrong:
-                yield from self._give_back(path, first[path])
+        targets = [self.target(path) for path in first]
+        found = yield from words_of(self.session, targets)
+        wrong = [path for path, words in found.items() if not self._is(path, words, first[path])]
+        for path in wrong:
+            yield from self._give_back(path, first[path])
+        if wrong:
+            found = yield from words_of(self.session, targets)
         for path, words in found.items():
             self.mark(path, Fate.UNKNOWN, words)
             self._shows(path, words)
@@ -263,8 +267,3 @@ class Transaction:
     def _undone_one(self, path: str) -> None:
         if self.changes[path].fate is Fate.NOT_WRITTEN:
             self.mark(path, Fate.RESTORED)
-
-
-def unknown_command(error: Exception) -> bool:
-    """Whether a command may have been run although it ended in this error."""
-    return isinstance(error, WriteUnknown)

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import heapq
 from collections.abc import Iterable, Iterator, Mapping
-from itertools import pairwise
 from typing import Any, NamedTuple
 
 from regscribe_runtime.operations.session import Session
 from regscribe_runtime.operations.write_request import condition_needs, write_request
+from regscribe_runtime.planning.dependency_order import dependency_order
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.report import Change, Words
 from regscribe_runtime.values.conditions import registers_of
+from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.views import View
 from regscribe_runtime.wire.requests import WRITE_COILS, WRITE_REGISTERS, Request
 
@@ -62,28 +62,7 @@ def order(session: Session, registers: Iterable[Register[Any]]) -> list[Register
     }
     places = _places(session)
     keys = {path: _key(register, places) for path, register in chosen.items()}
-    return [chosen[path] for path in _sorted(waits, keys)]
-
-
-def _sorted(waits: dict[str, set[str]], keys: Mapping[str, Any]) -> Iterator[str]:
-    """Paths whose prerequisites went before, the one of the lowest key first; a circle is broken at its lowest key."""
-    behind: dict[str, list[str]] = {}
-    for path, before in waits.items():
-        for one in before:
-            behind.setdefault(one, []).append(path)
-    ready = [(keys[path], path) for path, before in waits.items() if not before]
-    heapq.heapify(ready)
-    left = set(waits)
-    while left:
-        path = heapq.heappop(ready)[1] if ready else min(left, key=lambda one: keys[one])
-        if path not in left:
-            continue
-        left.discard(path)
-        yield path
-        for one in behind.get(path, ()):
-            waits[one].discard(path)
-            if not waits[one] and one in left:
-                heapq.heappush(ready, (keys[one], one))
+    return [chosen[path] for path in dependency_order(waits, keys.__getitem__)]
 
 
 def _places(session: Session) -> dict[str, int]:
@@ -105,32 +84,38 @@ def batches(session: Session, pieces: Iterable[RegisterWrite]) -> Iterator[Batch
 
     What depends on a value goes in a later request: a device may check all of a request before it takes any of it.
     """
-    found = list(pieces)
-    start = 0
-    for at, (one, other) in enumerate(pairwise(found), start=1):
-        if not _together(session, found[start:at], one, other):
-            yield _batch(session, found[start:at])
-            start = at
-    if found:
-        yield _batch(session, found[start:])
+    so_far: list[RegisterWrite] = []
+    for each in pieces:
+        if so_far and not _together(session.protocol, so_far, each):
+            yield _batch(session, so_far)
+            so_far = []
+        so_far.append(each)
+    if so_far:
+        yield _batch(session, so_far)
 
 
-def _together(session: Session, so_far: list[RegisterWrite], one: RegisterWrite, other: RegisterWrite) -> bool:
-    view, its = one.view, other.view
-    bits = view.space.is_bits
-    function, most = (
-        (WRITE_COILS, session.protocol.write_bits) if bits else (WRITE_REGISTERS, session.protocol.write_words)
-    )
+def _together(protocol: Protocol, so_far: list[RegisterWrite], other: RegisterWrite) -> bool:
+    one = so_far[-1]
     return (
-        (view.space, view.functions) == (its.space, its.functions)
-        and one.address + view.words == other.address
-        and function in session.protocol.functions
-        and view.allows(function)
-        and sum(len(piece.words) for piece in so_far) + len(other.words) <= most
+        one.address + one.view.words == other.address
         and not (one.register.governs or other.register.governs)
-        and not {piece.path for piece in so_far}.intersection(needs(other.register, its))
-        and (one.register.unlock, one.register.apply) == (other.register.unlock, other.register.apply)
+        and _manner(one) == _manner(other)
+        and _takes(protocol, one.view, sum(len(each.words) for each in (*so_far, other)))
+        and not {each.path for each in so_far}.intersection(needs(other.register, other.view))
     )
+
+
+def _manner(one: RegisterWrite) -> tuple[object, ...]:
+    """What values that are written in one request have in common."""
+    return one.view.space, one.view.functions, one.register.unlock, one.register.apply
+
+
+def _takes(protocol: Protocol, view: View, count: int) -> bool:
+    """Whether the device takes so many values of a view in one request."""
+    function, most = WRITE_REGISTERS, protocol.write_words
+    if view.space.is_bits:
+        function, most = WRITE_COILS, protocol.write_bits
+    return count <= most and function in protocol.functions and view.allows(function)
 
 
 def _batch(session: Session, pieces: list[RegisterWrite]) -> Batch:

@@ -55,12 +55,10 @@ class AddressRanges:
         holes: bool = False,
     ) -> None:
         self.holes, self._aligned = holes, aligned or {}
-        self._known = {space: merged(found) for space, found in readable.items()}
+        self._known, self._refused, self._apart = _merged(readable), _merged(refused), _merged(apart)
         self._unreadable = {
-            space: without(merged(found), self._known.get(space, ())) for space, found in (unreadable or {}).items()
+            space: without(found, self._known.get(space, ())) for space, found in _merged(unreadable).items()
         }
-        self._refused = {space: merged(found) for space, found in (refused or {}).items()}
-        self._apart = {space: merged(found) for space, found in (apart or {}).items()}
         self._stretches = {
             space: tuple(self._parted(space, self._cut(space, self._aligned.get(space, []))))
             for space in {*self._known, *self._unreadable, *self._refused}
@@ -126,6 +124,10 @@ class AddressRanges:
         if not self.holes and without([gap], self._known.get(space, ())):
             return "hole"
         return "alignment"
+
+
+def _merged(found: Mapping[Space, list[Range]] | None) -> dict[Space, list[Range]]:
+    return {space: merged(ranges) for space, ranges in (found or {}).items()}
 
 
 def _by_space(items: Iterable[RegisterSpan]) -> dict[Space, list[Range]]:

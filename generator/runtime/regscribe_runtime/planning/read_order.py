@@ -4,10 +4,10 @@ What values depend on is read behind them (or in the same request, which a devic
 witness for all that was read before. Where that goes round in a circle, it is read once more at the end.
 """
 
-import heapq
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import NamedTuple
 
+from regscribe_runtime.planning.dependency_order import dependency_order
 from regscribe_runtime.planning.plan import Block, Terms, blocks
 from regscribe_runtime.planning.read_places import ReadPlace
 from regscribe_runtime.values.views import View
@@ -39,22 +39,35 @@ def lay_out(wanted: Mapping[str, ReadPlace], needs: Mapping[str, Collection[str]
     """The cheapest blocks for `wanted` (places by path), ordered by what the meaning of each depends on."""
     made = blocks((place.span for place in wanted.values()), terms)
     taken = _numbers(wanted, made)
-    relations = [(path, need) for path in wanted for need in needs.get(path, ()) if need in wanted]
-    edges = {(taken[path], taken[need]) for path, need in relations if taken[path] != taken[need]}
-    order = _in_order(len(made), edges)
+    relations = _relations(wanted, needs)
+    waits = _waits(len(made), [(taken[path], taken[need]) for path, need in relations])
+    order = dependency_order(waits, int)
     late = _late(relations, {path: order.index(number) for path, number in taken.items()})
-    tail = blocks((wanted[path].span for path in wanted if path in late), terms)
-    ordered = (*(made[number] for number in order), *tail)
-    places = _positions(wanted, ordered[: len(made)], 0)
-    again = _positions({path: wanted[path] for path in late}, tail, len(made))
+    twice = {path: place for path, place in wanted.items() if path in late}
+    tail = blocks((place.span for place in twice.values()), terms)
+    first = [made[number] for number in order]
+    places, again = _positions(wanted, first, 0), _positions(twice, tail, len(first))
     checks = {need: again.get(need, places[need]) for _, need in relations}
-    return ReadOrder(ordered, places, checks, atomic=not late and not edges, again=len(tail))
+    return ReadOrder((*first, *tail), places, checks, atomic=not (late or any(waits.values())), again=len(tail))
 
 
 def _numbers(wanted: Mapping[str, ReadPlace], made: Sequence[Block]) -> dict[str, int]:
     """The number of the block that carries each register."""
     numbers = {span: number for number, block in enumerate(made) for span in block.items}
     return {path: numbers[place.span] for path, place in wanted.items()}
+
+
+def _relations(wanted: Collection[str], needs: Mapping[str, Collection[str]]) -> list[tuple[str, str]]:
+    """Each register with each of those that it needs and that are read, too."""
+    return [(path, need) for path in wanted for need in needs.get(path, ()) if need in wanted]
+
+
+def _waits(count: int, relations: Iterable[tuple[int, int]]) -> dict[int, set[int]]:
+    """The blocks that go before each block: those of what depends on it."""
+    waits: dict[int, set[int]] = {number: set() for number in range(count)}
+    for first, then in relations:
+        waits[then] |= {first} - {then}
+    return waits
 
 
 def _late(relations: Sequence[tuple[str, str]], rank: Mapping[str, int]) -> set[str]:
@@ -69,25 +82,3 @@ def _positions(wanted: Mapping[str, ReadPlace], made: Sequence[Block], first: in
         path: WordPosition(first + number, wanted[path].view, wanted[path].span.address - made[number].address)
         for path, number in _numbers(wanted, made).items()
     }
-
-
-def _in_order(count: int, edges: Collection[tuple[int, int]]) -> list[int]:
-    """Blocks such that the first of each edge is sent before the second; a circle is cut at its lowest block."""
-    behind: list[list[int]] = [[] for _ in range(count)]
-    waits = [0] * count
-    for first, then in edges:
-        behind[first].append(then)
-        waits[then] += 1
-    ready = [number for number in range(count) if not waits[number]]
-    left, order = dict.fromkeys(range(count)), list[int]()
-    while left:
-        number = heapq.heappop(ready) if ready else next(iter(left))
-        if number not in left:
-            continue  # a circle was cut at it
-        del left[number]
-        order.append(number)
-        for then in behind[number]:
-            waits[then] -= 1
-            if not waits[then]:
-                heapq.heappush(ready, then)
-    return order

@@ -433,11 +433,12 @@ def _within_limits(register: Coded, amount: Fraction, state: State, givens: Give
     divisor = power(register.path, limits.decimals, state)
     ends = [(_limit(low, divisor, state), _limit(high, divisor, state)) for low, high in limits.intervals]
     if not any((low is None or low <= amount) and (high is None or amount <= high) for low, high in ends):
-        allowed = " or ".join(
-            f"{'(open)' if low is None else rough(low)} to {'(open)' if high is None else rough(high)}"
-            for low, high in ends
-        )
+        allowed = " or ".join(f"{_shown_limit(low)} to {_shown_limit(high)}" for low, high in ends)
         raise ValueRefused(register.path, f"{rough(amount)} lies outside {allowed}")
+
+
+def _shown_limit(bound: Fraction | None) -> str:
+    return "(open)" if bound is None else str(rough(bound))
 
 
 def _stored(register: Coded, amount: Fraction, state: State, givens: Givens, *, rounded: bool) -> Fraction:
