@@ -56,7 +56,8 @@ def unused_of(root: Value, scope: Scope) -> tuple[tuple[Space, int, int], ...]:
 
 def _stretch(node: Value) -> tuple[Space, int, int]:
     at = node.child("at")
-    return (choice_of(node, "space", Space.HOLDING), *(whole_ends(at) if at else (0, 0)))
+    first, last = whole_ends(at) if at else (0, 0)
+    return choice_of(node, "space", Space.HOLDING), first, last
 
 
 def errata_of(root: Value) -> tuple[Erratum, ...]:

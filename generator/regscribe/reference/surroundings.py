@@ -20,13 +20,16 @@ class Known(Protocol):
     @property
     def codes(self) -> Mapping[str, frozenset[Fraction]]:
         """The codes of a register that a given lists."""
+        raise NotImplementedError
 
     @property
     def facts(self) -> Mapping[str, bool]:
         """The givens that are true or false."""
+        raise NotImplementedError
 
     def look_up(self, subject: str) -> Fraction:
         """Return the present value of `subject`; raises UnknownValueError if nobody said it."""
+        raise NotImplementedError
 
 
 Limits = tuple[tuple[Fraction | None, Fraction | None], ...]
