@@ -45,7 +45,7 @@ def configuration(family: Family, place: str, name: str, *, every: int) -> str:
         name,
     ]
     done = CliRunner().invoke(command, [*asked, "--every", str(every), *options], standalone_mode=False)
-    assert done.return_value == 0, done.output
+    assert done.exit_code == 0, done.output
     return done.output
 
 
