@@ -4,27 +4,24 @@ from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 
 from regscribe.model import Condition, Given, GivenKind, Model, RegisterMap
+from regscribe.reference import Surroundings
 from regscribe.simulate.errors import SimulatorError
 
 GivenValue = bool | Iterable[int]
 """A boolean given is True or False; a codes given is the register's codes, such as {8, 9} or range(13, 19)."""
 
 
-class Givens:
-    """The givens of one model, checked once: every one that its conditions ask about is there, and no other.
+def known_givens(register_map: RegisterMap, model: Model, values: Mapping[str, GivenValue]) -> Surroundings:
+    """Return the givens of a model: every one that its conditions ask about is there, and no other.
 
     Raises SimulatorError with the map's own description of what is missing.
     """
-
-    __slots__ = ("codes", "facts")
-
-    def __init__(self, register_map: RegisterMap, model: Model, values: Mapping[str, GivenValue]) -> None:
-        declared = {given.id: given for given in register_map.givens}
-        _refuse_unknown(declared, values)
-        _demand_used(declared, values, model)
-        kinds = {name: declared[name].kind for name in values}
-        self.facts = {name: bool(value) for name, value in values.items() if kinds[name] is GivenKind.BOOLEAN}
-        self.codes = {name: _codes(name, value) for name, value in values.items() if name not in self.facts}
+    declared = {given.id: given for given in register_map.givens}
+    _refuse_unknown(declared, values)
+    _demand_used(declared, values, model)
+    facts = {name: bool(value) for name, value in values.items() if declared[name].kind is GivenKind.BOOLEAN}
+    codes = {name: _codes(name, value) for name, value in values.items() if name not in facts}
+    return Surroundings(codes=codes, facts=facts)
 
 
 def _conditions(model: Model) -> Iterator[Condition]:

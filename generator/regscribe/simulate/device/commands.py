@@ -19,13 +19,10 @@ class Commands:
         self.run: list[str] = []
         self.since_power: set[str] = set()
 
-    def is_step(self, space: Space, function: int, address: int, words: Sequence[int]) -> bool:
-        """Whether a request is, by its function too, a step of a command: for addresses that are no registers."""
-        return any(step.function == function and _matches(step, space, address, words) for step in self._steps())
-
-    def sets_registers(self, space: Space, address: int, words: Sequence[int]) -> bool:
-        """Whether these words, written to registers, are a step of a command: the device must take them."""
-        return any(_matches(step, space, address, words) for step in self._steps())
+    def is_step(self, space: Space, address: int, words: Sequence[int], *, function: int | None = None) -> bool:
+        """Whether words are a step of a command, so that the device must take them; with `function`, sent by that."""
+        steps = (step for steps in self._commands.values() for step in steps if function in (None, step.function))
+        return any(_matches(step, space, address, words) for step in steps)
 
     def saw(self, space: Space, address: int, words: Sequence[int]) -> tuple[str, ...]:
         """Note accepted words; returns the ids of the commands that they complete, now also in `run`."""
@@ -38,9 +35,6 @@ class Commands:
         """Power came: what was begun is not, and what was unlocked is locked."""
         self._progress = dict.fromkeys(self._commands, 0)
         self.since_power.clear()
-
-    def _steps(self) -> Iterator[CommandStep]:
-        return (step for steps in self._commands.values() for step in steps)
 
     def _advance(self, space: Space, address: int, words: Sequence[int]) -> Iterator[str]:
         for name, steps in self._commands.items():

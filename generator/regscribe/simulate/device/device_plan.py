@@ -7,9 +7,9 @@ from fractions import Fraction
 from threading import Lock
 
 from regscribe.model import Model, NotANumber, OrderFrom, Register, RegisterMap, Space
+from regscribe.reference import Surroundings
 from regscribe.simulate.device.address_index import AddressIndex, AddressSpan, places_of
 from regscribe.simulate.device.followed_values import sources_of
-from regscribe.simulate.givens import Givens, GivenValue
 
 Stored = Fraction | str | NotANumber
 """What the device holds for a register: a number (an enum's code, a word's bits), a text, or a float that is none."""
@@ -32,7 +32,7 @@ class Blueprint:
 
     register_map: RegisterMap
     model: Model
-    givens: Givens
+    givens: Surroundings
     layout: AddressIndex
     places: Mapping[str, tuple[AddressSpan, ...]]
     ordered_by: Mapping[str, tuple[Register, ...]]
@@ -42,12 +42,12 @@ class Blueprint:
     image: Image = field(default_factory=lambda: {space: {} for space in Space})
 
 
-def draw(register_map: RegisterMap, model: Model, givens: Mapping[str, GivenValue]) -> Blueprint:
-    """Return a new blueprint, its state still empty. SimulatorError as `Givens` does."""
+def draw(register_map: RegisterMap, model: Model, givens: Surroundings) -> Blueprint:
+    """Return a new blueprint, its state still empty."""
     return Blueprint(
         register_map,
         model,
-        Givens(register_map, model, givens),
+        givens,
         AddressIndex(model, register_map.reserved),
         {register.path: places_of(register) for register in model.registers},
         _by_source(model.registers, _orderers),
@@ -85,7 +85,7 @@ def _orderers(register: Register) -> set[str]:
     return {order.register for order in orders if isinstance(order, OrderFrom)}
 
 
-_Key = tuple[int, str, frozenset[tuple[str, bool | frozenset[int]]]]
+_Key = tuple[int, str, frozenset[tuple[str, bool | frozenset[Fraction]]]]
 
 
 class PlanCache:
@@ -95,25 +95,17 @@ class PlanCache:
         self._kept: OrderedDict[_Key, Blueprint] = OrderedDict()
         self._lock = Lock()
 
-    def find(self, register_map: RegisterMap, model: Model, givens: Mapping[str, GivenValue]) -> Blueprint | None:
-        """Return the blueprint of an earlier device; None if there is none or the givens are of no known sort."""
-        key = _key(register_map, model, givens)
-        return None if key is None else self._kept.get(key)
+    def find(self, register_map: RegisterMap, model: Model, givens: Surroundings) -> Blueprint | None:
+        """Return the blueprint of an earlier device; None if there is none."""
+        return self._kept.get(_key(register_map, model, givens))
 
-    def put(self, blueprint: Blueprint, givens: Mapping[str, GivenValue]) -> None:
+    def put(self, blueprint: Blueprint) -> None:
         """Keep a blueprint; it keeps its map alive, so that no other map can take the place of that object."""
-        key = _key(blueprint.register_map, blueprint.model, givens)
-        if key is None:
-            return
         with self._lock:
-            self._kept[key] = blueprint
+            self._kept[_key(blueprint.register_map, blueprint.model, blueprint.givens)] = blueprint
             while len(self._kept) > _KEPT:
                 self._kept.popitem(last=False)
 
 
-def _key(register_map: RegisterMap, model: Model, givens: Mapping[str, GivenValue]) -> _Key | None:
-    try:
-        plain = ((name, value if isinstance(value, bool) else frozenset(value)) for name, value in givens.items())
-        return id(register_map), model.name, frozenset(plain)
-    except TypeError:
-        return None
+def _key(register_map: RegisterMap, model: Model, givens: Surroundings) -> _Key:
+    return id(register_map), model.name, frozenset((*givens.codes.items(), *givens.facts.items()))

@@ -2,16 +2,16 @@
 
 from fractions import Fraction
 
-from regscribe.model import Condition, Kind, Register
+from regscribe.model import Kind, Register
 from regscribe.reference import Known, choose, holds
 from regscribe.simulate.device.value_arguments import with_field
 
 
 def sources_of(register: Register) -> set[str]:
     """Return the registers whose change may change this one."""
-    return {case.then for case in register.follows} | {
-        path for when in _conditions(register) for path in when.registers
-    }
+    conditions = [case.when for case in register.follows]
+    conditions += [field.follows for field in register.fields if field.follows is not None]
+    return {case.then for case in register.follows} | {path for when in conditions for path in when.registers}
 
 
 def source_of(register: Register, state: Known) -> str:
@@ -30,10 +30,3 @@ def followed_bits(register: Register, word: Fraction, state: Known) -> Fraction:
 def has_followed_bits(register: Register) -> bool:
     """Whether a bit of the register follows anything."""
     return register.kind is not Kind.STRING and any(field.follows is not None for field in register.fields)
-
-
-def _conditions(register: Register) -> list[Condition]:
-    return [
-        *(case.when for case in register.follows),
-        *(field.follows for field in register.fields if field.follows is not None),
-    ]

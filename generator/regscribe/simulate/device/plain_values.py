@@ -4,10 +4,12 @@ from decimal import Decimal, InvalidOperation, localcontext
 from difflib import get_close_matches
 from fractions import Fraction
 
-from regscribe.model import BitField, Enum, Kind, NotANumber, Register
+from regscribe.model import BitField, Enum, Kind, Register
 from regscribe.reference import choose
+from regscribe.reference.codec import PATTERNS
+from regscribe.simulate.device.device_plan import Stored
 from regscribe.simulate.device.state import DeviceState
-from regscribe.simulate.device.value_arguments import field_value, with_field
+from regscribe.simulate.device.value_arguments import codes_of, field_value, with_field
 from regscribe.simulate.errors import SimulatorError
 
 Plain = str | int | float | bool | list[str]
@@ -22,28 +24,20 @@ DIGITS = 17
 
 def show(state: DeviceState, register: Register) -> Plain:
     """Return what a register shows now."""
-    stored = state.stored(register.path)
-    if isinstance(stored, str):
-        return stored.partition("\0")[0].rstrip(" ")
-    return shown(state, register, stored)
+    return shown(state, register, state.stored(register.path))
 
 
-def shown(state: DeviceState, register: Register, stored: Fraction | NotANumber) -> Plain:
-    """Return what a stored number of a register means now."""
-    fault = state.fault(register, stored)
-    if fault or not isinstance(stored, Fraction):
-        return fault or "nan"
-    if register.kind in {Kind.FLAGS, Kind.FIELDS}:
+def shown(state: DeviceState, register: Register, stored: Stored) -> Plain:
+    """Return what a register means now that holds `stored`."""
+    if register.kind in PATTERNS and isinstance(stored, Fraction) and not state.fault(register, stored):
         return _names(register, stored)
     value = state.meant(register, stored)
     if isinstance(value, str):
         return value
-    if register.kind is Kind.BOOLEAN:
-        return bool(value)
-    return _named(state, register, value)
+    return bool(value) if register.kind is Kind.BOOLEAN else _named(state, register, value)
 
 
-def spell(state: DeviceState, register: Register, stored: Fraction | NotANumber) -> str:
+def spell(state: DeviceState, register: Register, stored: Stored) -> str:
     """Return the same for people: `150.5 °F`, `RUN`, `alarm_1, alarm_2`."""
     plain = shown(state, register, stored)
     if isinstance(plain, list):
@@ -57,7 +51,7 @@ def spell(state: DeviceState, register: Register, stored: Fraction | NotANumber)
 
 def set_to(state: DeviceState, register: Register, plain: object) -> None:
     """Set a register to what `plain` means; SimulatorError if it means no value of it."""
-    if isinstance(plain, list) and register.kind in {Kind.FLAGS, Kind.FIELDS}:
+    if isinstance(plain, list) and register.kind in PATTERNS:
         state.poke(register.path, _word(register, plain))
     elif isinstance(plain, bool) and register.kind is Kind.BOOLEAN:
         state.poke(register.path, int(plain))
@@ -93,8 +87,9 @@ def number(value: Fraction) -> int | float:
 
 
 def _named(state: DeviceState, register: Register, value: Fraction) -> str | int | float:
-    members = {Fraction(each.code): each.id for each in register.enum.members} if register.enum else {}
-    names = members | {state.special(register, each): each.id for each in register.specials if each.means is None}
+    names = _ids(register.enum) | {
+        state.special(register, each): each.id for each in register.specials if each.means is None
+    }
     return names.get(value) or number(value)
 
 
@@ -113,8 +108,11 @@ def _names(register: Register, stored: Fraction) -> list[str]:
 
 
 def _member(enum: Enum | None, value: Fraction) -> str:
-    members = {Fraction(each.code): each.id for each in enum.members} if enum else {}
-    return members.get(value) or str(int(value))
+    return _ids(enum).get(value) or str(int(value))
+
+
+def _ids(enum: Enum | None) -> dict[Fraction, str]:
+    return {Fraction(each.code): each.id for each in enum.members} if enum else {}
 
 
 def _word(register: Register, parts: list[object]) -> Fraction:
@@ -134,7 +132,7 @@ def _word(register: Register, parts: list[object]) -> Fraction:
 
 
 def _part(register: Register, field: BitField, value: str) -> Fraction:
-    members = {each.id.lower(): Fraction(each.code) for each in field.enum.members} if field.enum else {}
+    members = codes_of(field.enum)
     if value.strip().lower() in members:
         return members[value.strip().lower()]
     try:

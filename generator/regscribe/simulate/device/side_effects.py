@@ -10,7 +10,7 @@ from regscribe.simulate.device.commands import Commands
 from regscribe.simulate.device.device_plan import Stored
 from regscribe.simulate.device.followed_values import source_of
 from regscribe.simulate.device.state import DeviceState
-from regscribe.simulate.device.unit_change import HeldValues, rescale
+from regscribe.simulate.device.unit_change import held_before, rescale
 from regscribe.simulate.process.controller import Controller
 
 LASTING = {"eeprom", "both"}
@@ -106,7 +106,7 @@ class Conduct:
         return self._state.to_value(register, stored) if isinstance(stored, Fraction) else stored
 
     def _rescale(self, register: Register, before: Stored, after: Stored) -> None:
-        snapshot = HeldValues.under(self._state, register, before, after)
-        for path, factor, offset in rescale(self._state, snapshot):
+        former = held_before(self._state, register, before, after)
+        for path, factor, offset in rescale(self._state, former):
             if self.controller is not None:
                 self.controller.convert(path, factor, offset)

@@ -3,16 +3,24 @@
 from collections.abc import Mapping
 from fractions import Fraction
 
-from regscribe.model import NAN, Kind, Model, NotANumber, Register, RegisterMap, Space, parse
+from regscribe.model import NAN, BitField, Kind, Model, NotANumber, Register, RegisterMap, Space, parse
 from regscribe.reference import version_text
 from regscribe.simulate.device import codec
 from regscribe.simulate.device.device_plan import Blueprint, Image, PlanCache, Stored, draw
 from regscribe.simulate.device.followed_values import followed_bits, has_followed_bits, source_of
 from regscribe.simulate.device.initial_values import initial_value
 from regscribe.simulate.device.present_meaning import PresentMeaning
-from regscribe.simulate.device.value_arguments import Fault, Plain, field_value, number_of, sentinel_of, with_field
+from regscribe.simulate.device.value_arguments import (
+    Fault,
+    Plain,
+    fault_named,
+    field_value,
+    number_of,
+    sentinel_of,
+    with_field,
+)
 from regscribe.simulate.errors import SimulatorError
-from regscribe.simulate.givens import GivenValue
+from regscribe.simulate.givens import GivenValue, known_givens
 
 Value = Fraction | str
 """A value of use: what a person would say the register is."""
@@ -43,12 +51,12 @@ class DeviceState(PresentMeaning):
     @classmethod
     def of(cls, register_map: RegisterMap, model: Model, givens: Mapping[str, GivenValue]) -> "DeviceState":
         """The state of a new device. SimulatorError where the model needs givens that are not there."""
-        givens = {name: value if isinstance(value, bool | str) else tuple(value) for name, value in givens.items()}
-        blueprint = _SHELF.find(register_map, model, givens)
+        known = known_givens(register_map, model, givens)
+        blueprint = _SHELF.find(register_map, model, known)
         if blueprint is None:
-            blueprint = draw(register_map, model, givens)
+            blueprint = draw(register_map, model, known)
             cls(blueprint)._begin()  # noqa: SLF001 - its own
-            _SHELF.put(blueprint, givens)
+            _SHELF.put(blueprint)
         return cls(blueprint)
 
     def _begin(self) -> None:
@@ -131,13 +139,9 @@ class DeviceState(PresentMeaning):
     def put(self, subject: str, value: Plain) -> None:
         """Set a register or `register.field` to a value of use, as `poke` does, if it is not there already."""
         register, field = self.find(subject)
-        stored = self.stored(register.path)
-        if field is None or not isinstance(stored, Fraction):
-            new = self._to_stored(register, value)
-            new = self.kept(register, new) if isinstance(new, Fraction) else new
-        else:
-            new = with_field(stored, field, number_of(register, field, value))
-        if new != stored:
+        new = self._changed(register, field, value)
+        new = self.kept(register, new) if isinstance(new, Fraction) else new
+        if new != self.stored(register.path):
             self.store(register.path, new)
 
     def _touch(self, path: str) -> None:
@@ -187,8 +191,6 @@ class DeviceState(PresentMeaning):
         """
         register, field = self.find(path)
         stored = self.stored(register.path)
-        if isinstance(stored, str):
-            return stored.partition("\0")[0].rstrip(" ")
         if field is None or not isinstance(stored, Fraction):
             return self.meant(register, stored)
         return field_value(stored, field)
@@ -197,8 +199,10 @@ class DeviceState(PresentMeaning):
         """Return the id of the sentinel that a stored number is; empty where it is none."""
         return next((each.id for each in register.sentinels if each.stored == stored), "")
 
-    def meant(self, register: Register, stored: Fraction | NotANumber) -> Value:
-        """Return the value of use of a stored number, or the id of the sentinel that it is (`nan` without one)."""
+    def meant(self, register: Register, stored: Stored) -> Value:
+        """Return the value of use of what is stored, or the id of the sentinel that it is (`nan` without one)."""
+        if isinstance(stored, str):
+            return stored.partition("\0")[0].rstrip(" ")
         fault = self.fault(register, stored)
         if fault or not isinstance(stored, Fraction):
             return fault or NAN.value
@@ -215,11 +219,7 @@ class DeviceState(PresentMeaning):
         """
         register, field = self.find(path)
         self._pending.pop(register.path, None)
-        stored = self.stored(register.path)
-        if field is None or not isinstance(stored, Fraction):
-            self.store(register.path, self._to_stored(register, value))
-        else:
-            self.store(register.path, with_field(stored, field, number_of(register, field, value)))
+        self.store(register.path, self._changed(register, field, value))
 
     def peek_words(self, path: str, view: str = "") -> tuple[int, ...]:
         """Return the words that a view (default: the base view) transmits now; of a write-only register too."""
@@ -249,6 +249,13 @@ class DeviceState(PresentMeaning):
         stored = self.stored(origin.path)
         return self.to_value(origin, stored) if isinstance(stored, Fraction) else stored
 
+    def _changed(self, register: Register, field: BitField | None, value: Plain) -> Stored:
+        """What a register holds once it, or its bit field, is set to a value of use."""
+        stored = self.stored(register.path)
+        if field is None or not isinstance(stored, Fraction):
+            return self._to_stored(register, value)
+        return with_field(stored, field, number_of(register, field, value))
+
     def _to_stored(self, register: Register, value: Plain) -> Stored:
         if register.kind is Kind.STRING:
             return str(value)
@@ -256,12 +263,11 @@ class DeviceState(PresentMeaning):
             return self._no_number(register, value)
         if isinstance(value, Fault):
             return sentinel_of(register, value)
-        if isinstance(value, str):
-            fault = next((each.stored for each in register.sentinels if each.id.lower() == value.lower()), None)
-            if fault is not None:
-                return fault if isinstance(fault, NotANumber) else Fraction(fault)
-            if register.kind is Kind.VERSION:
-                return parse(value.replace(".", ""))
+        named = fault_named(register, value) if isinstance(value, str) else None
+        if named is not None:
+            return named
+        if isinstance(value, str) and register.kind is Kind.VERSION:
+            return parse(value.replace(".", ""))
         specials = {each.id: self.special(register, each) for each in register.specials}
         return self.from_value(register, number_of(register, None, value, specials))
 

@@ -1,6 +1,6 @@
 """A new unit of measure: a device converts the values that it holds."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -25,19 +25,12 @@ class Held:
     value: Fraction
 
 
-@dataclass(frozen=True, slots=True)
-class HeldValues:
-    """What all registers of the unit held before it changed."""
-
-    held: tuple[Held, ...]
-
-    @classmethod
-    def under(cls, state: DeviceState, changed: Register, before: Stored, after: Stored) -> "HeldValues":
-        """Look at the state as it was before `changed` took its new value."""
-        state.store(changed.path, before)
-        found = tuple(_held(state, changed.rescales))
-        state.store(changed.path, after)
-        return cls(found)
+def held_before(state: DeviceState, changed: Register, before: Stored, after: Stored) -> tuple[Held, ...]:
+    """Return what all registers of a unit held before `changed`, which sets the unit, took its new value."""
+    state.store(changed.path, before)
+    found = tuple(_held(state, changed.rescales))
+    state.store(changed.path, after)
+    return found
 
 
 def _held(state: DeviceState, unit: str) -> Iterator[Held]:
@@ -49,9 +42,9 @@ def _held(state: DeviceState, unit: str) -> Iterator[Held]:
             yield Held(register, choose(register.unit, state) or "", state.to_value(register, stored))
 
 
-def rescale(state: DeviceState, snapshot: HeldValues) -> Iterator[tuple[str, float, float]]:
-    """Convert what the snapshot holds into the units of now; yields each register with its factor and offset."""
-    for held in snapshot.held:
+def rescale(state: DeviceState, former: Iterable[Held]) -> Iterator[tuple[str, float, float]]:
+    """Convert what registers held into the units of now; yields each register with its factor and offset."""
+    for held in former:
         symbol = choose(held.register.unit, state) or ""
         if symbol == held.symbol or not {symbol, held.symbol} <= UNITS.keys():
             continue

@@ -6,7 +6,7 @@ from enum import StrEnum
 from fractions import Fraction
 from types import MappingProxyType
 
-from regscribe.model import NAN, BitField, NotANumber, Register, exact, parse
+from regscribe.model import NAN, BitField, Enum, NotANumber, Register, exact, parse
 from regscribe.simulate.errors import SimulatorError
 
 Plain = str | float | Fraction | Decimal | NotANumber
@@ -33,6 +33,12 @@ def sentinel_of(register: Register, fault: Fault) -> Fraction | NotANumber:
     return min(register.faults) if fault is Fault.LOW else max(register.faults)
 
 
+def fault_named(register: Register, name: str) -> Fraction | NotANumber | None:
+    """Return the stored number of the fault of this id; None if it is none's."""
+    found = next((each.stored for each in register.sentinels if each.id.lower() == name.lower()), None)
+    return found if found is None or isinstance(found, NotANumber) else Fraction(found)
+
+
 def field_value(word: Fraction, field: BitField) -> Fraction:
     """Return the number that the bits of `field` spell in `word`."""
     return Fraction(int(word) >> field.low & (1 << field.width) - 1)
@@ -44,6 +50,11 @@ def with_field(word: Fraction, field: BitField, value: Fraction) -> Fraction:
     return Fraction(int(word) & ~(mask << field.low) | (int(value) & mask) << field.low)
 
 
+def codes_of(enum: Enum | None) -> dict[str, Fraction]:
+    """Return the codes of the members of an enum by their ids in small letters."""
+    return {each.id.lower(): Fraction(each.code) for each in enum.members} if enum else {}
+
+
 def number_of(
     register: Register, field: BitField | None, value: Plain, specials: Mapping[str, Fraction] = MappingProxyType({})
 ) -> Fraction:
@@ -53,8 +64,7 @@ def number_of(
     value. Raises SimulatorError if `value` is neither.
     """
     if isinstance(value, str):
-        enum = field.enum if field else register.enum
-        names = {each.id.lower(): Fraction(each.code) for each in enum.members} if enum else {}
+        names = codes_of(field.enum if field else register.enum)
         names |= {name.lower(): number for name, number in specials.items()}
         if value.lower() in names:
             return names[value.lower()]

@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 
 from regscribe.model import Later, Register, RegisterMap, Space
 from regscribe.reference import holds
@@ -46,14 +45,14 @@ class Writer:
         check_request(self.register_map.faults, self.layout, space, function, address, len(words), most=most)
         place = self.layout.place(space, address)
         holds = place is not None and place.register.access.writable  # a read-only register may still take a command
-        if not holds and self.commands.is_step(space, function, address, words):
+        if not holds and self.commands.is_step(space, address, words, function=function):
             self.conduct.commanded(self.commands.saw(space, address, words))
             return len(words)
         return self._write_values(space, function, address, words)
 
     def _write_values(self, space: Space, function: int, address: int, words: Sequence[int]) -> int:
         written: list[_Written] = []
-        commanded = self.commands.sets_registers(space, address, words)
+        commanded = self.commands.is_step(space, address, words)
         done = 0
         try:
             while done < len(words):
@@ -116,10 +115,7 @@ class Writer:
         if stored is None:
             raise Refusal(self.register_map.faults.value)
         held = self.state.kept(register, stored)
-        limited = limited and not self.commands.sets_registers(view.space, place.start, words)
-        if limited and not self._fits(register, held):
+        limited = limited and not self.commands.is_step(view.space, place.start, words)
+        if limited and not accepts(register, self.state.to_value(register, held), self.state):
             raise Refusal(self.register_map.faults.value)
         return held
-
-    def _fits(self, register: Register, stored: Fraction) -> bool:
-        return accepts(register, self.state.to_value(register, stored), self.state)

@@ -5,7 +5,7 @@ from fractions import Fraction
 from regscribe.model import Governs, Register, Setting
 from regscribe.simulate.device.state import DeviceState
 from regscribe.simulate.errors import SimulatorError
-from regscribe_runtime.values.serial_line import ADDRESSINGS
+from regscribe_runtime.values.serial_line import ADDRESSINGS, first_address
 
 AT_ONCE, RESTART = "at_once", "restart"
 
@@ -20,7 +20,11 @@ class Tuning:
     __slots__ = ("_governing", "_known", "_state", "first", "unit")
 
     def __init__(self, state: DeviceState, *, unit: int, addressing: str) -> None:
-        self._state, self.unit, self.first = state, unit, first_address(addressing)
+        self._state, self.unit = state, unit
+        try:
+            self.first = first_address(addressing)
+        except ValueError as problem:
+            raise SimulatorError(str(problem)) from None
         registers = state.blueprint.model.registers
         self._governing = tuple((each, each.governs) for each in registers if each.governs is not None)
         self._known: dict[str, object] = {}
@@ -60,11 +64,3 @@ class Tuning:
         elif governs.setting is Setting.ADDRESSING:
             name = next((name for code, name in governs.codes if code == value), "")
             self.first = ADDRESSINGS.get(name, self.first)
-
-
-def first_address(addressing: str) -> int:
-    """Return the number of the first address; SimulatorError for an unknown way to count."""
-    if addressing not in ADDRESSINGS:
-        message = f"addressing {addressing!r} is none of {', '.join(ADDRESSINGS)}"
-        raise SimulatorError(message)
-    return ADDRESSINGS[addressing]

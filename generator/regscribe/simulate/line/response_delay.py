@@ -63,17 +63,11 @@ class Thought:
 
 
 class Pace:
-    """How long each request takes until its answer begins: silence that ends the frame, then the device's latency.
+    """How long each request takes until its answer begins: the device's latency."""
 
-    `gap` is in seconds.
-    """
+    __slots__ = ("_devices",)
 
-    __slots__ = ("_devices", "_gap")
-
-    def __init__(
-        self, devices: Sequence[SimulatedDevice], line: SerialLine, *, factor: float, gap: float = 0.0
-    ) -> None:
-        self._gap = gap
+    def __init__(self, devices: Sequence[SimulatedDevice], line: SerialLine, *, factor: float) -> None:
         self._devices = [
             (device, Thought(device.register_map.protocol, line, factor, f"{device.seed} {device.unit}"))
             for device in devices
@@ -82,4 +76,4 @@ class Pace:
     def seconds(self, request: Frame) -> float:
         """Return the seconds from the end of the request to the start of the answer."""
         thought = next((thought for device, thought in self._devices if device.unit == request.unit), None)
-        return self._gap + (thought.seconds(request.pdu) if thought is not None else 0.0)
+        return thought.seconds(request.pdu) if thought is not None else 0.0

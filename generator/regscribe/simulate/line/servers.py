@@ -10,7 +10,7 @@ from regscribe.simulate.line.paced_line import Events, LineTransport
 from regscribe.simulate.line.serial_ports import OpenLine
 from regscribe.simulate.line.server_context import ServerContext
 from regscribe_runtime.wire.framing import RTU
-from regscribe_runtime.wire.server_framing import Framer, RtuFramer, framer_for
+from regscribe_runtime.wire.server_framing import Framer, framer_for
 
 FAREWELL = 0.5
 """Seconds that a client has to take the last answers when its connection is closed."""
@@ -197,23 +197,18 @@ Wiring = Callable[[int, Events], LineTransport]
 class LineServer(_Accompanied):
     """Serves the one line that it is given."""
 
-    def __init__(self, line: OpenLine, station: ServerContext, manners: ConnectionPolicy) -> None:
+    def __init__(
+        self, line: OpenLine, station: ServerContext, manners: ConnectionPolicy, wiring: Wiring, framer: Framer
+    ) -> None:
         super().__init__()
         self.host = ""
         self.port = 0
         self.path = line.path
         self._line = line
-        self._station = station
-        self._manners = manners
         self._ended = asyncio.Event()
         self._loss = ""
-        self._transport: LineTransport | None = None
-        self._connection: Connection | None = None
-
-    def begin(self, wiring: Wiring = LineTransport, framer: Callable[[], Framer] = RtuFramer) -> None:
-        """Begin to answer."""
-        self._transport = wiring(self._line.fd, Events(self._received, self._lost, self._paused, self._resumed))
-        self._connection = Connection(framer(), self._station, self._manners, self._transport)
+        self._transport = wiring(line.fd, Events(self._received, self._lost, self._paused, self._resumed))
+        self._connection = Connection(framer, station, manners, self._transport)
 
     async def wait(self) -> None:
         """Return when the server was stopped; SimulatorError if the line broke, as when an adapter is unplugged."""
@@ -224,25 +219,21 @@ class LineServer(_Accompanied):
     async def stop(self) -> None:
         """Stop answering and close the line."""
         await self._part()
-        if self._connection is not None and self._transport is not None:
-            self._connection.end()
-            self._transport.abort()
+        self._connection.end()
+        self._transport.abort()
         self._line.close()
         self._ended.set()
 
     def _received(self, data: bytes) -> None:
         self._line.heard()
-        if self._connection is not None:
-            self._connection.received(data)
+        self._connection.received(data)
 
     def _lost(self, problem: OSError | None) -> None:
         self._loss = f"serial device {self.path} is gone: {problem or 'end of data'}"
         self._ended.set()
 
     def _paused(self) -> None:
-        if self._connection is not None:
-            self._connection.paused()
+        self._connection.paused()
 
     def _resumed(self) -> None:
-        if self._connection is not None:
-            self._connection.resumed()
+        self._connection.resumed()

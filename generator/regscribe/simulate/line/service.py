@@ -9,15 +9,15 @@ from regscribe.model import SerialDefaults
 from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.simulate.errors import SimulatorError
 from regscribe.simulate.line.connection import Arrival, ConnectionPolicy, Delivery, Patience, Recorder, Watcher
-from regscribe.simulate.line.paced_line import PacedTransport
+from regscribe.simulate.line.paced_line import LineTransport, PacedTransport
 from regscribe.simulate.line.response_delay import Pace, factor_of
 from regscribe.simulate.line.serial_ports import OpenLine, open_pseudo_terminal, open_serial
 from regscribe.simulate.line.server_context import Foreign, ServerContext
-from regscribe.simulate.line.servers import LineServer, Server, TcpServer
+from regscribe.simulate.line.servers import LineServer, Server, TcpServer, Wiring
 from regscribe.simulate.process.clock import speed_of, tick
 from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.wire.framing import ASCII, RTU, TCP
-from regscribe_runtime.wire.server_framing import RtuFramer, SilenceFramer
+from regscribe_runtime.wire.server_framing import Framer, RtuFramer, SilenceFramer
 
 LOOPBACK = "127.0.0.1"
 MOST_CONNECTIONS = 64
@@ -95,8 +95,7 @@ async def start(devices: Sequence[SimulatedDevice], service: Service) -> Server:
         _let_time_pass(tcp, devices, service)
         return tcp
     manners = _manners(devices, service, Patience(idle=None, gap=SERIAL_GAP))
-    server = LineServer(_open(transport, devices, service), station, manners)
-    _begin(server, devices, service)
+    server = LineServer(_open(transport, devices, service), station, manners, *_wiring(devices, service))
     _let_time_pass(server, devices, service)
     return server
 
@@ -107,13 +106,12 @@ def _let_time_pass(server: TcpServer | LineServer, devices: Sequence[SimulatedDe
         server.accompany(tick(moving, service.speed))
 
 
-def _begin(server: LineServer, devices: Sequence[SimulatedDevice], service: Service) -> None:
+def _wiring(devices: Sequence[SimulatedDevice], service: Service) -> tuple[Wiring, Framer]:
     if not service.paced:
-        server.begin(framer=RtuFramer)
-        return
+        return LineTransport, RtuFramer()
     line = service.line or line_of(devices)
     gap = _gap(devices, line)
-    server.begin(partial(PacedTransport, line=line, gap=gap, strict=service.strict_gaps), framer=SilenceFramer)
+    return partial(PacedTransport, line=line, gap=gap, strict=service.strict_gaps), SilenceFramer()
 
 
 def line_of(devices: Sequence[SimulatedDevice]) -> SerialLine:

@@ -30,12 +30,8 @@ class Watch:
         self._pending: float | None = None
 
     def reset(self) -> None:
-        """Power came."""
+        """Let go of what is latched, as when power comes; what still trips begins anew."""
         self.on, self._pending = False, None
-
-    def release(self) -> None:
-        """Let go of what is latched; what still trips begins anew."""
-        self.reset()
 
     def look(self, value: float, setpoint: float, now: float) -> None:
         """Judge the process value, `now` seconds after power came."""

@@ -25,12 +25,8 @@ class Loop:
         return self._settings.holds(self.output.cools)
 
     def reset(self) -> None:
-        """Forget what was, as when power comes."""
+        """Give nothing and forget what was, as when power comes."""
         self.share, self._integral, self._last = 0.0, 0.0, None
-
-    def off(self) -> None:
-        """Give nothing."""
-        self.reset()
 
     def by_hand(self) -> None:
         """Give what the manual register says; PID begins there when it takes over."""

@@ -54,7 +54,7 @@ class Controller:
     def release(self) -> None:
         """Let go of latched alarms."""
         for watch in self._watches:
-            watch.release()
+            watch.reset()
         self._show_bits()
 
     def convert(self, path: str, factor: float, offset: float) -> None:
@@ -150,7 +150,7 @@ class Controller:
             if not output.manual:
                 return
         elif self._settings.holds(process.off):
-            loop.off()
+            loop.reset()
         elif value is None:
             loop.fail()
         else:
