@@ -12,12 +12,8 @@ from regscribe.simulate.line.server_context import BROADCAST
 from regscribe_runtime.wire.pdu import EXCEPTION_BIT, MalformedError, decode_reply, decode_request
 from regscribe_runtime.wire.requests import SPACES
 
-NAMES = {1: "read", 2: "read", 3: "read", 4: "read", 5: "write", 6: "write", 7: "read status", 8: "loopback"} | {
-    15: "write",
-    16: "write",
-    22: "mask",
-    23: "write and read",
-}
+NAMES = dict.fromkeys(READS, "read") | dict.fromkeys((5, 6, 15, 16), "write")
+NAMES |= {7: "read status", 8: "loopback", 22: "mask", 23: "write and read"}
 MOST_SHOWN = 6
 """Registers that are told by name; of more, their number."""
 

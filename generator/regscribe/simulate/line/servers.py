@@ -40,9 +40,10 @@ class Server(Protocol):
 
 
 class _Accompanied:
-    """A server with tasks that last as long as it does."""
+    """A server, where it is, and tasks that last as long as it does."""
 
-    def __init__(self) -> None:
+    def __init__(self, path: str = "") -> None:
+        self.host, self.port, self.path = "", 0, path
         self._companions: list[asyncio.Task[None]] = []
 
     def accompany(self, work: Coroutine[Any, Any, None]) -> None:
@@ -63,9 +64,6 @@ class TcpServer(_Accompanied):
 
     def __init__(self, station: ServerContext, framing: str, manners: ConnectionPolicy, *, most: int) -> None:
         super().__init__()
-        self.host = ""
-        self.port = 0
-        self.path = ""
         self.manners = manners
         self.buffer = memoryview(bytearray(RTU_CHUNK if framing == RTU else CHUNK))
         self._station = station
@@ -200,10 +198,7 @@ class LineServer(_Accompanied):
     def __init__(
         self, line: OpenLine, station: ServerContext, manners: ConnectionPolicy, wiring: Wiring, framer: Framer
     ) -> None:
-        super().__init__()
-        self.host = ""
-        self.port = 0
-        self.path = line.path
+        super().__init__(line.path)
         self._line = line
         self._ended = asyncio.Event()
         self._loss = ""

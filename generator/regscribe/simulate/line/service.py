@@ -88,22 +88,18 @@ async def start(devices: Sequence[SimulatedDevice], service: Service) -> Server:
     if service.paced and transport is not Transport.PTY:
         message = f"only a pty can be paced, not {transport}: a serial device has its own speed, TCP has none"
         raise SimulatorError(message)
+    server: TcpServer | LineServer
     if transport in _FRAMINGS:
         manners = _manners(devices, service, Patience())
-        tcp = TcpServer(station, _FRAMINGS[transport], manners, most=service.connections)
-        await tcp.listen(service.host, service.port)
-        _let_time_pass(tcp, devices, service)
-        return tcp
-    manners = _manners(devices, service, Patience(idle=None, gap=SERIAL_GAP))
-    server = LineServer(_open(transport, devices, service), station, manners, *_wiring(devices, service))
-    _let_time_pass(server, devices, service)
-    return server
-
-
-def _let_time_pass(server: TcpServer | LineServer, devices: Sequence[SimulatedDevice], service: Service) -> None:
+        server = TcpServer(station, _FRAMINGS[transport], manners, most=service.connections)
+        await server.listen(service.host, service.port)
+    else:
+        manners = _manners(devices, service, Patience(idle=None, gap=SERIAL_GAP))
+        server = LineServer(_open(transport, devices, service), station, manners, *_wiring(devices, service))
     moving = [device for device in devices if device.moves]
     if moving and service.speed:
         server.accompany(tick(moving, service.speed))
+    return server
 
 
 def _wiring(devices: Sequence[SimulatedDevice], service: Service) -> tuple[Wiring, Framer]:

@@ -13,8 +13,6 @@ from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.values.views import View
 from regscribe_runtime.wire.requests import Request
 
-SINGLE, SEVERAL = {"coil": 5}, {"coil": 15}
-WRITE_ONE, WRITE_MANY = 6, 16
 NOBODY = "no device of this bus is known: add one, or pass driver=..."
 
 Driver = type["BareDevice"] | type["AsyncBareDevice"]
@@ -71,7 +69,7 @@ def _no_dialogue(register: Register[Any]) -> None:
 
 
 def _function(register: Register[Any], view: View, words: int, protocols: Iterable[Protocol]) -> int:
-    single, several = SINGLE.get(view.space, WRITE_ONE), SEVERAL.get(view.space, WRITE_MANY)
+    single, several = view.space.write_functions
     for function in [several] if words > 1 else [single, several]:
         if all(function in protocol.broadcast for protocol in protocols) and view.allows(function):
             return function

@@ -12,6 +12,7 @@ from regscribe_runtime.driver.device import AsyncBareDevice, BareDevice
 from regscribe_runtime.driver.executor import carry_out, carry_out_async
 from regscribe_runtime.errors import LinkLost, RegscribeError
 from regscribe_runtime.link.links import AsyncLink, Link
+from regscribe_runtime.operations.read import read_request
 from regscribe_runtime.operations.session import Operation, Task
 from regscribe_runtime.registers import codec
 from regscribe_runtime.registers.register import Register
@@ -109,7 +110,8 @@ def _identify(models: tuple[Known, ...], unit: int) -> Operation[Identification]
     for known in models:
         state: dict[str, Any] = {}
         for path in dict.fromkeys(path for one in known.driver.identity for path in one.registers()):
-            request = _request(known.driver.registers[path])
+            register = known.driver.registers[path]
+            request = read_request(register, _view(register))
             if request not in answers:
                 answers[request] = yield from _ask(request, unit, known)
             found = _seen(known, path, request, answers[request])
@@ -134,11 +136,6 @@ def _fits(known: Known, state: Mapping[str, Any]) -> bool:
 def _view(register: Register[Any]) -> View:
     """The first view that may be read and needs no other register to be understood."""
     return next((view for view in register.views if view.readable and not view.needs()), register.read_view())
-
-
-def _request(register: Register[Any]) -> Request:
-    view = _view(register)
-    return Request(view.space.read_function, view.address(register.at), view.words)
 
 
 def _ask(request: Request, unit: int, known: Known) -> Operation[Answer]:

@@ -112,9 +112,11 @@ def _guesses(session: Session, governs: Governs) -> Iterator[LineChange]:
 def _free(session: Session, target: Target, governs: Governs, words: Words, old: LineChange) -> Operation[None]:
     """Refuse a unit id at which another device answers: two at one id garble each other."""
     register, _ = target
-    if governs.setting is not Setting.ADDRESS or _meant_unit(target, words, session) == session.unit:
+    if governs.setting is not Setting.ADDRESS:
         return
-    unit = _meant_unit(target, words, session)
+    unit = int(meaning(*target, words, {}, session))
+    if unit == session.unit:
+        return
     request = read_request(register, register.seen_in(target[1]))
     yield LineChange(unit=unit)
     try:
@@ -125,10 +127,6 @@ def _free(session: Session, target: Target, governs: Governs, words: Words, old:
     yield old
     if found and same(*target, found, words, {}, session):
         raise ValueRefused(register.path, f"unit {unit} answers already: two units of one id would garble each other")
-
-
-def _meant_unit(target: Target, words: Words, session: Session) -> int:
-    return int(meaning(target[0], target[1], words, {}, session))
 
 
 def _marks(session: Session) -> Operation[dict[str, Words]]:

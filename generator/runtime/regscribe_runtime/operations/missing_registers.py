@@ -55,9 +55,7 @@ class MissingRegisters:
             for item in self._refusals
             if item.space == space and address <= item.address and item.end <= address + quantity
         ]
-        for item in good:
-            del self._refusals[item]
-        return bool(good)
+        return self._forget(good)
 
     def clear(self) -> bool:
         """Forget all; whether there was anything."""
@@ -69,9 +67,12 @@ class MissingRegisters:
         """Forget what was refused too long ago, or in passing; whether there was such a thing."""
         now = self.clock()
         old = [one.item for one in self._refusals.values() if one.passing or not 0 <= now - one.when < self.seconds]
-        for item in old:
+        return self._forget(old)
+
+    def _forget(self, items: list[RegisterSpan]) -> bool:
+        for item in items:
             del self._refusals[item]
-        return bool(old)
+        return bool(items)
 
     def items(self, *, alone: bool) -> tuple[RegisterSpan, ...]:
         """The addresses that no plan may touch, or (not refused alone) that none may read along."""

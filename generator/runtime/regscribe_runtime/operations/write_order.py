@@ -9,7 +9,7 @@ from regscribe_runtime.operations.session import Session
 from regscribe_runtime.operations.write_request import condition_needs, write_request
 from regscribe_runtime.planning.dependency_order import dependency_order
 from regscribe_runtime.registers.register import Register
-from regscribe_runtime.report import Change, Words
+from regscribe_runtime.report import Words
 from regscribe_runtime.values.conditions import registers_of
 from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.views import View
@@ -122,8 +122,3 @@ def _batch(session: Session, pieces: list[RegisterWrite]) -> Batch:
     first = pieces[0]
     words = tuple(word for piece in pieces for word in piece.words)
     return Batch(write_request(session, first.view, first.address, words), tuple(pieces))
-
-
-def piece(register: Register[Any], change: Change) -> RegisterWrite:
-    """What a change of a register writes."""
-    return RegisterWrite(register, register.view(change.view), change.sent)  # pyright: ignore[reportArgumentType] # a register is a descriptor, but no attribute of this tuple

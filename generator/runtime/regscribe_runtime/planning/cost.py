@@ -46,11 +46,6 @@ class Tariff(NamedTuple):
             return self.per_byte * (addresses // BITS_IN_BYTE) + self.per_word * (addresses // BITS_IN_WORD)
         return self.per_word * addresses
 
-    @property
-    def slack(self) -> int:
-        """What two requests of any lengths may differ by when both grow alike: bits cost by whole bytes."""
-        return self.per_byte + self.per_word if self.bits else 0
-
 
 class Cost(NamedTuple):
     """The price list of one device behind one line: `line` is None where no serial line is known to be in between.
