@@ -2,7 +2,7 @@
 
 import math
 from collections import deque
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from random import Random
 
 from regscribe.simulate.errors import SimulatorError
@@ -12,18 +12,6 @@ STEP = 0.5
 
 MOST_STEPS = 100_000
 """Steps of dead time that are remembered at most."""
-
-POSITIVE = {
-    "gain": "with no gain, no output changes the process value",
-    "time_constant": "a process needs time, in seconds",
-    "resolution": "it is the sensor's smallest step",
-}
-NOT_NEGATIVE = {
-    "cooling": "it is how much of the gain an output that cools has",
-    "dead_time": "an effect cannot come before its cause",
-    "noise": "it is a standard deviation",
-}
-"""Numbers of a process that must be so, and why."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -47,15 +35,19 @@ class ThermalProcess:
     start: float | None = None
 
     def __post_init__(self) -> None:
-        for name, value in asdict(self).items():
-            given = value is not None or name != "start"
-            if given and (not isinstance(value, (int, float)) or not math.isfinite(value)):
+        for name in ("ambient", "gain", "cooling", "time_constant", "dead_time", "noise", "resolution", "start"):
+            value = getattr(self, name)
+            if value is None and name == "start":
+                continue
+            if not isinstance(value, (int, float)) or not math.isfinite(value):
                 message = f"process: {name} {value!r} is no number"
                 raise SimulatorError(message)
-        for name, why in POSITIVE.items():
-            _demand(name, getattr(self, name), "be more than 0", why, met=getattr(self, name) > 0)
-        for name, why in NOT_NEGATIVE.items():
-            _demand(name, getattr(self, name), "not be negative", why, met=getattr(self, name) >= 0)
+        _positive("gain", self.gain, "with no gain, no output changes the process value")
+        _positive("time_constant", self.time_constant, "a process needs time, in seconds")
+        _positive("resolution", self.resolution, "it is the sensor's smallest step")
+        _not_negative("cooling", self.cooling, "it is how much of the gain an output that cools has")
+        _not_negative("dead_time", self.dead_time, "an effect cannot come before its cause")
+        _not_negative("noise", self.noise, "it is a standard deviation")
         if self.dead_time > STEP * MOST_STEPS:
             message = (
                 f"process: dead_time {self.dead_time:g} is more than {STEP * MOST_STEPS:g} s, all that is remembered"
@@ -63,9 +55,15 @@ class ThermalProcess:
             raise SimulatorError(message)
 
 
-def _demand(name: str, value: float, rule: str, why: str, *, met: bool) -> None:
-    if not met:
-        message = f"process: {name} {value:g} must {rule}: {why}"
+def _positive(name: str, value: float, why: str) -> None:
+    if not value > 0:
+        message = f"process: {name} {value:g} must be more than 0: {why}"
+        raise SimulatorError(message)
+
+
+def _not_negative(name: str, value: float, why: str) -> None:
+    if value < 0:
+        message = f"process: {name} {value:g} must not be negative: {why}"
         raise SimulatorError(message)
 
 
