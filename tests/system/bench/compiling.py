@@ -93,7 +93,7 @@ def _size(folder: Path) -> int:
 
 def _imports(registers: int, folder: Path) -> Iterator[Row]:
     compileall.compile_dir(folder, quiet=1)
-    runtime = "import regscribe_runtime"
+    runtime = "from regscribe_runtime import Device"  # loads all of it
     module = folder / "regscribe_devices" / "bench" / "synthetic.py"
     load = (
         f"{runtime}; import sys, time; sys.path.insert(0, {str(module.parent)!r}); t = time.perf_counter(); "
