@@ -82,4 +82,5 @@ $(INSTALLED): requirements.lock pyproject.toml generator/runtime/pyproject.toml 
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --requirement requirements.lock
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation \
 		--editable generator/runtime --editable generated --editable .
+	@$(BIN)/python -m compileall -q generator generated/regscribe_devices # where Python writes no bytecode, each start would compile
 	@touch $@

@@ -4,6 +4,7 @@ Exit codes: 0 clean, 1 findings (or a device, port or directory that does not pl
 4 a write broke off and what the device holds is unknown (see `failure`), 130 Ctrl-C, 141 nobody reads the output.
 """
 
+import gc
 import os
 import sys
 import traceback
@@ -127,7 +128,9 @@ def regscribe(*, debug: bool) -> None:
 
 def main() -> NoReturn:
     """Run the command line and exit with its code."""
-    sys.exit(run(sys.argv[1:]))
+    code = run(sys.argv[1:])
+    gc.freeze()  # the interpreter would search all that is left for cycles once more; the process ends anyway
+    sys.exit(code)
 
 
 def run(arguments: Sequence[str]) -> int:
