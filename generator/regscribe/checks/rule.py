@@ -128,12 +128,14 @@ def _declare(rule: Rule, findings: Callable[[Check, Scopes], Findings]) -> Calla
 def _of_registers(check: RegisterCheck, scopes: Scopes) -> Findings:
     for scope in scopes:
         for register in scope.model.registers:
-            yield from ((scope.model.name, finding) for finding in check(register, scope))
+            for finding in check(register, scope):
+                yield scope.model.name, finding
 
 
 def _of_models(check: ModelCheck, scopes: Scopes) -> Findings:
     for scope in scopes:
-        yield from ((scope.model.name, finding) for finding in check(scope))
+        for finding in check(scope):
+            yield scope.model.name, finding
 
 
 def _of_map(check: MapCheck, scopes: Scopes) -> Findings:

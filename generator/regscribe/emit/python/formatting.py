@@ -1,5 +1,6 @@
 """Expressions of generated code, laid out as `ruff format` would: emitted formatted, never formatted afterwards."""
 
+import re
 import unicodedata
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -7,6 +8,7 @@ from functools import cache
 
 WIDTH = 120
 INDENT = "    "
+_NOT_ASCII = re.compile(r"[^\x00-\x7f]")
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,9 +25,7 @@ Expression = str | Call
 
 def width(text: str) -> int:
     """The columns of a text as `ruff format` counts them: two for a wide character, none for a combining one."""
-    if text.isascii():
-        return len(text)
-    return len(text) + sum(_columns(character) - 1 for character in text if not character.isascii())
+    return len(text) if text.isascii() else len(text) + sum(_columns(one) - 1 for one in _NOT_ASCII.findall(text))
 
 
 @cache
