@@ -41,14 +41,17 @@ _COUNTS = {
 
 @dataclass(frozen=True, slots=True)
 class Complaint:
-    """One mistake: `path` leads to the value, or (`at_key`) to its key; `same` marks complaints that say the same."""
+    """One mistake: `path` leads to the value, or (`at_key`) to its key.
+
+    Of complaints of one rule at one place with the same `subject` (None: its message), the first is shown.
+    """
 
     rule: str
     path: tuple[str | int, ...]
     message: str
     advice: str
     at_key: bool = False
-    same: str = ""
+    subject: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +84,8 @@ def complaints(error: Violation) -> Iterator[Complaint]:
     elif kind == "type":
         yield _wrong_type(error)
     elif kind == "pattern":
-        said = f"{describe(error.instance)} is not in the form of {title(error.schema)}: {_form(error.schema)}"
+        form = str(error.schema.get("x-form", error.schema.get("description", ""))).rstrip(".")
+        said = f"{describe(error.instance)} is not in the form of {title(error.schema)}: {form}"
         yield Complaint(rules.WRONG_FORM, error.path, said, example(error.schema))
     elif kind in _COUNTS or kind == "uniqueItems":
         yield _wrong_count(error)
@@ -92,8 +96,10 @@ def complaints(error: Violation) -> Iterator[Complaint]:
 def _unknown_keys(error: Violation) -> Iterator[Complaint]:
     schema = error.schema
     known = list(schema.get("properties", ()))
-    patterns = list(schema.get("patternProperties", ()))
-    for key in _unmatched(error.instance, known, patterns):
+    patterns = schema.get("patternProperties", ())
+    for key in error.instance:
+        if key in known or any(re.search(pattern, key) for pattern in patterns):
+            continue
         shown, path = describe(key), (*error.path, key)
         if "x-key" in schema and not get_close_matches(key[:100].lower(), known, n=1):
             form = schema["x-key"]
@@ -102,12 +108,6 @@ def _unknown_keys(error: Violation) -> Iterator[Complaint]:
         else:
             said = f"unknown key {shown} in {title(schema)}"
             yield Complaint(rules.UNKNOWN_KEY, path, said, _meant(key, schema["properties"]), at_key=True)
-
-
-def _unmatched(instance: Mapping[str, Any], known: Sequence[str], patterns: Sequence[str]) -> Iterator[str]:
-    for key in instance:
-        if key not in known and not any(re.search(pattern, key) for pattern in patterns):
-            yield key
 
 
 def _meant(key: str, known: Mapping[str, Mapping[str, Any]]) -> str:
@@ -130,7 +130,7 @@ def _missing_key(error: Violation, key: str) -> Complaint:
     details = error.schema.get("properties", {}).get(key, {})
     meaning = str(details.get("description", "")).split(". ")[0].rstrip(".")
     advice = ", ".join(filter(None, (f"add {said}{f' ({meaning})' if meaning else ''}", example(details))))
-    return Complaint(rules.MISSING_KEY, error.path, f"{said} is missing{where}", advice, at_key=True, same=key)
+    return Complaint(rules.MISSING_KEY, error.path, f"{said} is missing{where}", advice, at_key=True, subject=key)
 
 
 def _wrong_type(error: Violation) -> Complaint:
@@ -138,7 +138,8 @@ def _wrong_type(error: Violation) -> Complaint:
     allowed = [_TYPES[name] for name in types]
     wanted = " or ".join([", ".join(allowed[:-1]), allowed[-1]] if allowed[1:] else allowed)
     said = f"{title(error.schema)} must be {wanted}; this is {describe(error.instance)}"
-    return Complaint(rules.WRONG_TYPE, error.path, said, _retype(error.instance, types) or example(error.schema))
+    advice = _retype(error.instance, types) or example(error.schema)
+    return Complaint(rules.WRONG_TYPE, error.path, said, advice, subject="")
 
 
 def _retype(instance: object, types: Sequence[str]) -> str:
@@ -175,7 +176,3 @@ def _not_allowed(error: Violation) -> Complaint:
     said = f"{describe(error.instance)} is not allowed for {title(error.schema)}; allowed: {allowed}"
     advice = f"did you mean `{near[0]}`?" if near else "write one of the allowed words"
     return Complaint(rules.VALUE_NOT_ALLOWED, error.path, said, advice if kind == "enum" else f"write {allowed}")
-
-
-def _form(schema: Mapping[str, Any]) -> str:
-    return str(schema.get("x-form", schema.get("description", ""))).rstrip(".")

@@ -3,9 +3,9 @@
 from itertools import islice
 
 from regscribe.model import Diagnostic, Span
-from regscribe.schema.compiled import certainly_valid
-from regscribe.schema.messages import Complaint, complaints, violation
-from regscribe.schema.rules import MISSING_KEY, TOO_MANY_ERRORS, WRONG_TYPE
+from regscribe.schema.messages import complaints, violation
+from regscribe.schema.quick_check import certainly_valid
+from regscribe.schema.rules import TOO_MANY_ERRORS
 from regscribe.schema.schemas import MAP, validator
 from regscribe.source import Document
 
@@ -27,20 +27,11 @@ def validate(document: Document, *, language: str = MAP) -> list[Diagnostic]:
             find = document.key_span if complaint.at_key else document.span
             span = find(complaint.path)
             diagnostic = Diagnostic(complaint.rule, complaint.message, span, complaint.advice)
-            found.setdefault((complaint.rule, span, _subject(complaint)), diagnostic)
+            subject = complaint.message if complaint.subject is None else complaint.subject
+            found.setdefault((complaint.rule, span, subject), diagnostic)
     ordered = sorted(found.values(), key=lambda diagnostic: (diagnostic.span, diagnostic.rule, diagnostic.message))
-    return _cut(ordered) if len(errors) == MAX_ERRORS or len(ordered) > MAX_ERRORS else ordered
-
-
-def _subject(complaint: Complaint) -> str:
-    """What tells complaints of one rule at one place apart."""
-    if complaint.rule == MISSING_KEY:
-        return complaint.same
-    return "" if complaint.rule == WRONG_TYPE else complaint.message
-
-
-def _cut(ordered: list[Diagnostic]) -> list[Diagnostic]:
-    """Keep the first errors, and say that there are more."""
+    if len(errors) < MAX_ERRORS and len(ordered) <= MAX_ERRORS:
+        return ordered
     kept = ordered[:MAX_ERRORS]
     message = f"{len(kept)} errors up to here; there may be more"
     return [*kept, Diagnostic(TOO_MANY_ERRORS, message, kept[-1].span, "mend these first, then check again")]
