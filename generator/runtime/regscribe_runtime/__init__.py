@@ -1,19 +1,18 @@
-"""What generated drivers import: declarations, errors, and the two kinds of driver.
+"""The runtime of generated drivers: declarations, errors, and the two kinds of driver.
 
-All of it is loaded as its first name is asked for, so that a compiler, which wants the vocabulary in `values` alone,
-loads no driver.
+`public` is imported with the first access to a name, so that the compiler, which needs `values` alone, loads no driver.
 """
 
 from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from regscribe_runtime.public import *  # noqa: F403 (just what `__all__` there lists)
+    from regscribe_runtime.public import *  # noqa: F403 (its re-exports)
 
 
 def __getattr__(name: str) -> object:
     public = import_module("regscribe_runtime.public")
-    names = {each: getattr(public, each) for each in public.__all__}
+    names = {each: value for each, value in vars(public).items() if not each.startswith("_")}
     if name not in names:
         message = f"module {__name__!r} has no attribute {name!r}"
         raise AttributeError(message)

@@ -1,226 +1,131 @@
-"""The public names of the runtime, which `regscribe_runtime` hands out.
+"""The public names of the runtime, which `regscribe_runtime` exports; `X as X` marks a re-export for type checkers.
 
 Nothing here imports the compiler; pymodbus is loaded when a link is made.
 """
 
-from regscribe_runtime.driver.bus import AsyncBus, Bus
-from regscribe_runtime.driver.declarations import ReadOnly, ReadWrite, WriteOnly
-from regscribe_runtime.driver.device import (
-    AsyncBareDevice,
-    AsyncDevice,
-    BareDevice,
-    Device,
-    SerialSettings,
-    TcpSettings,
-    async_client_link,
-    async_serial_link,
-    client_link,
-    serial_link,
-)
-from regscribe_runtime.driver.identify import Identification, identify, identify_async, known_models
-from regscribe_runtime.driver.parts import Array, AsyncPart, Command, Group, Part, SubPart
-from regscribe_runtime.errors import (
-    Absent,
-    ConditionNotMet,
-    ExceptionAnswer,
-    LeftAt,
-    LinkLost,
-    NoAnswer,
-    NotApplied,
-    NotConfigured,
-    NotDecodable,
-    NotWritten,
-    PartialWrite,
-    ReadBackDiffers,
-    RegscribeError,
-    Saturated,
-    SensorFault,
-    Unsteady,
-    ValueNotDecodable,
-    ValueRefused,
-    ValuesRefused,
-    WriteFailed,
-    WriteUnknown,
-    WrongAnswer,
-)
-from regscribe_runtime.link.connect import async_tcp, tcp
-from regscribe_runtime.link.links import AsyncClient, AsyncLink, ClientSettings, Link, LinkSettings, SyncClient
-from regscribe_runtime.link.retry import Retry
-from regscribe_runtime.link.trace import Trace, Tracer
-from regscribe_runtime.operations.snapshot import Snapshot
-from regscribe_runtime.registers.enums import Bit, Choice, Field, Flags, SpecialNumber, Word
-from regscribe_runtime.registers.register import Register
-from regscribe_runtime.registers.value_types import (
-    boolean,
-    choice,
-    flags,
-    integer,
-    integer_or,
-    integer_with,
-    number,
-    number_or,
-    number_with,
-    raw,
-    raw_float,
-    text,
-    version,
-    word_of,
-)
-from regscribe_runtime.report import Change, Count, Fate, Progress, Sent, Wear, WriteReport
-from regscribe_runtime.values.conditions import Case, Condition, Is, always
-from regscribe_runtime.values.facts import CommandStep, Governs, Identity, Setting, WriteCondition
-from regscribe_runtime.values.programs import (
-    ProgramAction,
-    ProgramCounts,
-    ProgramFinal,
-    ProgramPart,
-    ProgramSegments,
-    ProgramStates,
-    ProgramTimeUnit,
-    SetpointProgram,
-    WhileRunning,
-)
-from regscribe_runtime.values.protocol import ExceptionCode, Latency, Protocol, SerialDefaults
-from regscribe_runtime.values.scales import (
-    Conversion,
-    Decimals,
-    Interval,
-    NotANumber,
-    Open,
-    Range,
-    Ref,
-    Sentinel,
-    within,
-)
-from regscribe_runtime.values.serial_line import SerialLine
-from regscribe_runtime.values.views import OrderFrom, View, word
-from regscribe_runtime.values.wire_types import Order, Rounding, Space, WireType
-
-__all__ = [
-    "Absent",
-    "Array",
-    "AsyncBareDevice",
-    "AsyncBus",
-    "AsyncClient",
-    "AsyncDevice",
-    "AsyncLink",
-    "AsyncPart",
-    "BareDevice",
-    "Bit",
-    "Bus",
-    "Case",
-    "Change",
-    "Choice",
-    "ClientSettings",
-    "Command",
-    "CommandStep",
-    "Condition",
-    "ConditionNotMet",
-    "Conversion",
-    "Count",
-    "Decimals",
-    "Device",
-    "ExceptionAnswer",
-    "ExceptionCode",
-    "Fate",
-    "Field",
-    "Flags",
-    "Governs",
-    "Group",
-    "Identification",
-    "Identity",
-    "Interval",
-    "Is",
-    "Latency",
-    "LeftAt",
-    "Link",
-    "LinkLost",
-    "LinkSettings",
-    "NoAnswer",
-    "NotANumber",
-    "NotApplied",
-    "NotConfigured",
-    "NotDecodable",
-    "NotWritten",
-    "Open",
-    "Order",
-    "OrderFrom",
-    "Part",
-    "PartialWrite",
-    "ProgramAction",
-    "ProgramCounts",
-    "ProgramFinal",
-    "ProgramPart",
-    "ProgramSegments",
-    "ProgramStates",
-    "ProgramTimeUnit",
-    "Progress",
-    "Protocol",
-    "Range",
-    "ReadBackDiffers",
-    "ReadOnly",
-    "ReadWrite",
-    "Ref",
-    "Register",
-    "RegscribeError",
-    "Retry",
-    "Rounding",
-    "Saturated",
-    "SensorFault",
-    "Sent",
-    "Sentinel",
-    "SerialDefaults",
-    "SerialLine",
-    "SerialSettings",
-    "SetpointProgram",
-    "Setting",
-    "Snapshot",
-    "Space",
-    "SpecialNumber",
-    "SubPart",
-    "SyncClient",
-    "TcpSettings",
-    "Trace",
-    "Tracer",
-    "Unsteady",
-    "ValueNotDecodable",
-    "ValueRefused",
-    "ValuesRefused",
-    "View",
-    "Wear",
-    "WhileRunning",
-    "WireType",
-    "Word",
-    "WriteCondition",
-    "WriteFailed",
-    "WriteOnly",
-    "WriteReport",
-    "WriteUnknown",
-    "WrongAnswer",
-    "always",
-    "async_client_link",
-    "async_serial_link",
-    "async_tcp",
-    "boolean",
-    "choice",
-    "client_link",
-    "flags",
-    "identify",
-    "identify_async",
-    "integer",
-    "integer_or",
-    "integer_with",
-    "known_models",
-    "number",
-    "number_or",
-    "number_with",
-    "raw",
-    "raw_float",
-    "serial_link",
-    "tcp",
-    "text",
-    "version",
-    "within",
-    "word",
-    "word_of",
-]
+from regscribe_runtime.driver.bus import AsyncBus as AsyncBus
+from regscribe_runtime.driver.bus import Bus as Bus
+from regscribe_runtime.driver.declarations import ReadOnly as ReadOnly
+from regscribe_runtime.driver.declarations import ReadWrite as ReadWrite
+from regscribe_runtime.driver.declarations import WriteOnly as WriteOnly
+from regscribe_runtime.driver.device import AsyncBareDevice as AsyncBareDevice
+from regscribe_runtime.driver.device import AsyncDevice as AsyncDevice
+from regscribe_runtime.driver.device import BareDevice as BareDevice
+from regscribe_runtime.driver.device import Device as Device
+from regscribe_runtime.driver.device import SerialSettings as SerialSettings
+from regscribe_runtime.driver.device import TcpSettings as TcpSettings
+from regscribe_runtime.driver.device import async_client_link as async_client_link
+from regscribe_runtime.driver.device import async_serial_link as async_serial_link
+from regscribe_runtime.driver.device import client_link as client_link
+from regscribe_runtime.driver.device import serial_link as serial_link
+from regscribe_runtime.driver.identify import Identification as Identification
+from regscribe_runtime.driver.identify import identify as identify
+from regscribe_runtime.driver.identify import identify_async as identify_async
+from regscribe_runtime.driver.identify import known_models as known_models
+from regscribe_runtime.driver.parts import Array as Array
+from regscribe_runtime.driver.parts import AsyncPart as AsyncPart
+from regscribe_runtime.driver.parts import Command as Command
+from regscribe_runtime.driver.parts import Group as Group
+from regscribe_runtime.driver.parts import Part as Part
+from regscribe_runtime.driver.parts import SubPart as SubPart
+from regscribe_runtime.errors import Absent as Absent
+from regscribe_runtime.errors import ConditionNotMet as ConditionNotMet
+from regscribe_runtime.errors import ExceptionAnswer as ExceptionAnswer
+from regscribe_runtime.errors import LeftAt as LeftAt
+from regscribe_runtime.errors import LinkLost as LinkLost
+from regscribe_runtime.errors import NoAnswer as NoAnswer
+from regscribe_runtime.errors import NotApplied as NotApplied
+from regscribe_runtime.errors import NotConfigured as NotConfigured
+from regscribe_runtime.errors import NotDecodable as NotDecodable
+from regscribe_runtime.errors import NotWritten as NotWritten
+from regscribe_runtime.errors import PartialWrite as PartialWrite
+from regscribe_runtime.errors import ReadBackDiffers as ReadBackDiffers
+from regscribe_runtime.errors import RegscribeError as RegscribeError
+from regscribe_runtime.errors import Saturated as Saturated
+from regscribe_runtime.errors import SensorFault as SensorFault
+from regscribe_runtime.errors import Unsteady as Unsteady
+from regscribe_runtime.errors import ValueNotDecodable as ValueNotDecodable
+from regscribe_runtime.errors import ValueRefused as ValueRefused
+from regscribe_runtime.errors import ValuesRefused as ValuesRefused
+from regscribe_runtime.errors import WriteFailed as WriteFailed
+from regscribe_runtime.errors import WriteUnknown as WriteUnknown
+from regscribe_runtime.errors import WrongAnswer as WrongAnswer
+from regscribe_runtime.link.connect import async_tcp as async_tcp
+from regscribe_runtime.link.connect import tcp as tcp
+from regscribe_runtime.link.links import AsyncClient as AsyncClient
+from regscribe_runtime.link.links import AsyncLink as AsyncLink
+from regscribe_runtime.link.links import ClientSettings as ClientSettings
+from regscribe_runtime.link.links import Link as Link
+from regscribe_runtime.link.links import LinkSettings as LinkSettings
+from regscribe_runtime.link.links import SyncClient as SyncClient
+from regscribe_runtime.link.retry import Retry as Retry
+from regscribe_runtime.link.trace import Trace as Trace
+from regscribe_runtime.link.trace import Tracer as Tracer
+from regscribe_runtime.operations.snapshot import Snapshot as Snapshot
+from regscribe_runtime.registers.enums import Bit as Bit
+from regscribe_runtime.registers.enums import Choice as Choice
+from regscribe_runtime.registers.enums import Field as Field
+from regscribe_runtime.registers.enums import Flags as Flags
+from regscribe_runtime.registers.enums import SpecialNumber as SpecialNumber
+from regscribe_runtime.registers.enums import Word as Word
+from regscribe_runtime.registers.register import Register as Register
+from regscribe_runtime.registers.value_types import boolean as boolean
+from regscribe_runtime.registers.value_types import choice as choice
+from regscribe_runtime.registers.value_types import flags as flags
+from regscribe_runtime.registers.value_types import integer as integer
+from regscribe_runtime.registers.value_types import integer_or as integer_or
+from regscribe_runtime.registers.value_types import integer_with as integer_with
+from regscribe_runtime.registers.value_types import number as number
+from regscribe_runtime.registers.value_types import number_or as number_or
+from regscribe_runtime.registers.value_types import number_with as number_with
+from regscribe_runtime.registers.value_types import raw as raw
+from regscribe_runtime.registers.value_types import raw_float as raw_float
+from regscribe_runtime.registers.value_types import text as text
+from regscribe_runtime.registers.value_types import version as version
+from regscribe_runtime.registers.value_types import word_of as word_of
+from regscribe_runtime.report import Change as Change
+from regscribe_runtime.report import Count as Count
+from regscribe_runtime.report import Fate as Fate
+from regscribe_runtime.report import Progress as Progress
+from regscribe_runtime.report import Sent as Sent
+from regscribe_runtime.report import Wear as Wear
+from regscribe_runtime.report import WriteReport as WriteReport
+from regscribe_runtime.values.conditions import Case as Case
+from regscribe_runtime.values.conditions import Condition as Condition
+from regscribe_runtime.values.conditions import Is as Is
+from regscribe_runtime.values.conditions import always as always
+from regscribe_runtime.values.facts import CommandStep as CommandStep
+from regscribe_runtime.values.facts import Governs as Governs
+from regscribe_runtime.values.facts import Identity as Identity
+from regscribe_runtime.values.facts import Setting as Setting
+from regscribe_runtime.values.facts import WriteCondition as WriteCondition
+from regscribe_runtime.values.programs import ProgramAction as ProgramAction
+from regscribe_runtime.values.programs import ProgramCounts as ProgramCounts
+from regscribe_runtime.values.programs import ProgramFinal as ProgramFinal
+from regscribe_runtime.values.programs import ProgramPart as ProgramPart
+from regscribe_runtime.values.programs import ProgramSegments as ProgramSegments
+from regscribe_runtime.values.programs import ProgramStates as ProgramStates
+from regscribe_runtime.values.programs import ProgramTimeUnit as ProgramTimeUnit
+from regscribe_runtime.values.programs import SetpointProgram as SetpointProgram
+from regscribe_runtime.values.programs import WhileRunning as WhileRunning
+from regscribe_runtime.values.protocol import ExceptionCode as ExceptionCode
+from regscribe_runtime.values.protocol import Latency as Latency
+from regscribe_runtime.values.protocol import Protocol as Protocol
+from regscribe_runtime.values.protocol import SerialDefaults as SerialDefaults
+from regscribe_runtime.values.scales import Conversion as Conversion
+from regscribe_runtime.values.scales import Decimals as Decimals
+from regscribe_runtime.values.scales import Interval as Interval
+from regscribe_runtime.values.scales import NotANumber as NotANumber
+from regscribe_runtime.values.scales import Open as Open
+from regscribe_runtime.values.scales import Range as Range
+from regscribe_runtime.values.scales import Ref as Ref
+from regscribe_runtime.values.scales import Sentinel as Sentinel
+from regscribe_runtime.values.scales import within as within
+from regscribe_runtime.values.serial_line import SerialLine as SerialLine
+from regscribe_runtime.values.views import OrderFrom as OrderFrom
+from regscribe_runtime.values.views import View as View
+from regscribe_runtime.values.views import word as word
+from regscribe_runtime.values.wire_types import Order as Order
+from regscribe_runtime.values.wire_types import Rounding as Rounding
+from regscribe_runtime.values.wire_types import Space as Space
+from regscribe_runtime.values.wire_types import WireType as WireType
