@@ -1,5 +1,5 @@
-"""What can go wrong when a device is set up or served: always one clear message, never a traceback to a user."""
+"""The error of the simulator's users: one clear message, never a traceback."""
 
 
 class SimulatorError(Exception):
-    """The simulator cannot do what was asked; the message says where, what and what to do."""
+    """A device cannot be set up, changed or served; the message says where, what and what to do."""

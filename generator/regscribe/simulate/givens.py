@@ -1,4 +1,4 @@
-"""The facts that a map does not hold (givens), supplied from outside."""
+"""Givens: facts that a map does not hold, supplied by the user."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
@@ -12,13 +12,19 @@ GivenValue = bool | Iterable[int]
 
 
 def known_givens(register_map: RegisterMap, model: Model, values: Mapping[str, GivenValue]) -> Surroundings:
-    """Return the givens of a model: every one that its conditions ask about is there, and no other.
+    """Check the givens of a model: exactly those that the map declares and the model's conditions use.
 
-    Raises SimulatorError with the map's own description of what is missing.
+    Raises SimulatorError for one that is not declared, and with the map's own description for one that is missing.
     """
     declared = {given.id: given for given in register_map.givens}
-    _refuse_unknown(declared, values)
-    _demand_used(declared, values, model)
+    for name in values:
+        if name not in declared:
+            known = ", ".join(declared) or "none"
+            message = f"given {name!r} is not declared by the map (it declares: {known}): remove it or correct the name"
+            raise SimulatorError(message)
+    used = {test.given for condition in _conditions(model) for test in condition.tests}
+    for name in used & declared.keys() - values.keys():
+        raise _missing(declared[name], model)
     facts = {name: bool(value) for name, value in values.items() if declared[name].kind is GivenKind.BOOLEAN}
     codes = {name: _codes(name, value) for name, value in values.items() if name not in facts}
     return Surroundings(codes=codes, facts=facts)
@@ -39,20 +45,6 @@ def _codes(name: str, value: GivenValue) -> frozenset[Fraction]:
         )
         raise SimulatorError(message)
     return frozenset(Fraction(code) for code in value)
-
-
-def _refuse_unknown(declared: Mapping[str, Given], values: Mapping[str, GivenValue]) -> None:
-    for name in values:
-        if name not in declared:
-            known = ", ".join(declared) or "none"
-            message = f"given {name!r} is not declared by the map (it declares: {known}): remove it or correct the name"
-            raise SimulatorError(message)
-
-
-def _demand_used(declared: Mapping[str, Given], values: Mapping[str, GivenValue], model: Model) -> None:
-    used = {test.given for condition in _conditions(model) for test in condition.tests}
-    for name in used & declared.keys() - values.keys():
-        raise _missing(declared[name], model)
 
 
 def _missing(given: Given, model: Model) -> SimulatorError:

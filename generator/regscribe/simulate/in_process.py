@@ -1,4 +1,4 @@
-"""A simulated device in this process, for tests: served from a thread of its own while a `with` block runs."""
+"""Simulated devices in this process, for tests: served from a thread of their own while a `with` block runs."""
 
 import asyncio
 import threading
@@ -20,11 +20,10 @@ from regscribe.simulate.line.service import Service, Transport, start
 from regscribe.simulate.map_cache import find_map
 from regscribe.simulate.process.thermal_process import ThermalProcess
 from regscribe_runtime.values.serial_line import SerialLine
-from regscribe_runtime.wire.framing import Frame
 
 
 class SimulatorOptions(TypedDict, total=False):
-    """What `Service` says of each; `speed` is 0 here, so that time passes by `advance` only."""
+    """The options of `Service`; `speed` is 0 by default, so that time passes by `advance` only."""
 
     host: str
     port: int
@@ -45,8 +44,8 @@ class SimulatorOptions(TypedDict, total=False):
 class Running:
     """A simulated device being served in this process: `path` is a pty's, `host` and `port` are of TCP.
 
-    What a test does to the device (`peek`, `poke`, `advance`, `power_cycle`) can be said to this, too. `requests` holds
-    every request to the device (function code and data), broadcasts too, in the order they came; clear it as you like.
+    `peek`, `poke`, `advance` and `power_cycle` are those of the device. `requests` holds every request to the device
+    (function code and data), broadcasts too, in the order they came; clear it as you like.
     """
 
     device: SimulatedDevice
@@ -90,26 +89,18 @@ def simulate(  # noqa: PLR0913 (all but two are keywords for tests)
 
     `register_map` may be the id of a map (`athena/series-c`) or a map file. `transport` is tcp, rtu-tcp, ascii-tcp or
     pty. `process` lets the process value move as time passes: by `advance`, or with a `speed` by itself. `state` is a
-    file to begin with. Raises SimulatorError as `SimulatedDevice` and `start` do.
+    state file to load. Raises SimulatorError as `SimulatedDevice` and `start` do.
     """
+    simulated = find_map(register_map)
     device = SimulatedDevice(
-        find_map(register_map),
-        model,
-        unit=unit,
-        givens=givens,
-        seed=seed,
-        addressing=addressing,
-        process=process,
+        simulated, model, unit=unit, givens=givens, seed=seed, addressing=addressing, process=process
     )
     if state is not None:
         device.load(state)
     requests: list[bytes] = []
-
-    def record(request: Frame) -> None:
-        requests.append(request.pdu)
-
     given: SimulatorOptions = {"speed": 0.0, **options}
-    with in_thread((device,), Service(transport=Transport(transport), recorder=record, **given)) as server:
+    service = Service(transport=Transport(transport), recorder=lambda request: requests.append(request.pdu), **given)
+    with in_thread((device,), service) as server:
         yield Running(device=device, host=server.host, port=server.port, path=server.path, requests=requests)
 
 

@@ -9,7 +9,7 @@ from regscribe.model import RegisterMap
 from regscribe.simulate.errors import SimulatorError
 
 SHOWN = 3
-"""Mistakes of a map that a message tells."""
+"""Mistakes of a map that a message lists."""
 
 Stamp = tuple[tuple[str, int, int], ...]
 """The files of a map with their times and sizes: a map that is edited is compiled anew."""
@@ -19,7 +19,7 @@ _LOCK = Lock()
 
 
 def find_map(name: str | Path | RegisterMap) -> RegisterMap:
-    """Return the map of an id (`athena/series-c`) or a path; a map as it is.
+    """Return the map of an id (`athena/series-c`) or a path; a compiled map is returned unchanged.
 
     Raises SimulatorError if there is none, or if it has mistakes.
     """
@@ -27,16 +27,16 @@ def find_map(name: str | Path | RegisterMap) -> RegisterMap:
         return name
     path = _path(str(name)).resolve()
     with _LOCK:
-        known = _COMPILED.get(path)
-        if known is not None and _stamp([Path(file) for file, _, _ in known[0]]) == known[0]:
-            return known[1]
-        stamp, register_map = _compile(path)
-        _COMPILED[path] = stamp, register_map
-        return register_map
+        if path in _COMPILED:
+            stamp, register_map = _COMPILED[path]
+            if stamp == _stamp([Path(file) for file, _, _ in stamp]):
+                return register_map
+        _COMPILED[path] = _compile(path)
+        return _COMPILED[path][1]
 
 
 def _compile(path: Path) -> tuple[Stamp, RegisterMap]:
-    from regscribe.pipeline import compile_map  # noqa: PLC0415 - only who names a map waits for the compiler
+    from regscribe.pipeline import compile_map  # noqa: PLC0415 - loads slowly, and is needed for a named map only
 
     compiled = compile_map(path)
     if compiled.map is None:
@@ -47,15 +47,14 @@ def _compile(path: Path) -> tuple[Stamp, RegisterMap]:
 
 
 def _stamp(files: list[Path]) -> Stamp:
-    found = []
+    stamp = []
     for file in dict.fromkeys(files):
         try:
             status = file.stat()
+            stamp.append((str(file), status.st_mtime_ns, status.st_size))
         except OSError:
-            found.append((str(file), 0, 0))
-        else:
-            found.append((str(file), status.st_mtime_ns, status.st_size))
-    return tuple(found)
+            stamp.append((str(file), 0, 0))
+    return tuple(stamp)
 
 
 def _path(name: str) -> Path:

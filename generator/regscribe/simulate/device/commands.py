@@ -1,6 +1,6 @@
 """Commands as a device sees them: words that arrive at addresses, step by step."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 from regscribe.model import Command, CommandStep, Space
 
@@ -8,43 +8,41 @@ from regscribe.model import Command, CommandStep, Space
 class Commands:
     """Follows the commands of a model and remembers which were run; a wait between steps is not enforced.
 
-    `run` are all that were ever run, `since_power` those since power came.
+    `run` are the ids of all that were ever run, `since_power` of those since the last power cycle.
     """
 
-    __slots__ = ("_commands", "_progress", "run", "since_power")
+    __slots__ = ("_progress", "_steps", "run", "since_power")
 
     def __init__(self, commands: Sequence[Command]) -> None:
-        self._commands = {command.id: tuple(step for step in command.steps if step.words) for command in commands}
-        self._progress = dict.fromkeys(self._commands, 0)
+        self._steps = {command.id: [step for step in command.steps if step.words] for command in commands}
+        self._progress = dict.fromkeys(self._steps, 0)
         self.run: list[str] = []
         self.since_power: set[str] = set()
 
     def is_step(self, space: Space, address: int, words: Sequence[int], *, function: int | None = None) -> bool:
         """Whether words are a step of a command, so that the device must take them; with `function`, sent by that."""
-        steps = (step for steps in self._commands.values() for step in steps if function in (None, step.function))
+        steps = (step for steps in self._steps.values() for step in steps if function in (None, step.function))
         return any(_matches(step, space, address, words) for step in steps)
 
-    def saw(self, space: Space, address: int, words: Sequence[int]) -> tuple[str, ...]:
+    def saw(self, space: Space, address: int, words: Sequence[int]) -> list[str]:
         """Note accepted words; returns the ids of the commands that they complete, now also in `run`."""
-        completed = tuple(self._advance(space, address, words))
+        completed = []
+        for name, steps in self._steps.items():
+            at = self._progress[name]
+            if steps and _matches(steps[at], space, address, words):
+                self._progress[name] = (at + 1) % len(steps)
+                if at + 1 == len(steps):
+                    completed.append(name)
+            elif steps and _matches(steps[0], space, address, words):
+                self._progress[name] = 1
         self.run.extend(completed)
         self.since_power.update(completed)
         return completed
 
     def forget(self) -> None:
-        """Power came: what was begun is not, and what was unlocked is locked."""
-        self._progress = dict.fromkeys(self._commands, 0)
+        """Forget, as at a power cycle, which commands were begun or run since power came."""
+        self._progress = dict.fromkeys(self._steps, 0)
         self.since_power.clear()
-
-    def _advance(self, space: Space, address: int, words: Sequence[int]) -> Iterator[str]:
-        for name, steps in self._commands.items():
-            at = self._progress[name]
-            if steps and _matches(steps[at], space, address, words):
-                self._progress[name] = (at + 1) % len(steps)
-                if at + 1 == len(steps):
-                    yield name
-            elif steps and _matches(steps[0], space, address, words):
-                self._progress[name] = 1
 
 
 def _matches(step: CommandStep, space: Space, address: int, words: Sequence[int]) -> bool:

@@ -1,16 +1,16 @@
-"""What a request and its answer say, in the names of the device's map."""
+"""Descriptions of requests and answers in the names of the device's map."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from regscribe.model import Kind, Space
+from regscribe.model import Kind
 from regscribe.simulate.device import codec, plain_values
-from regscribe.simulate.device.address_index import AddressSpan
 from regscribe.simulate.device.device import READS, SimulatedDevice
+from regscribe.simulate.device.device_plan import AddressSpan
 from regscribe.simulate.line.connection import Exchange
 from regscribe.simulate.line.server_context import BROADCAST
 from regscribe_runtime.wire.pdu import EXCEPTION_BIT, MalformedError, decode_reply, decode_request
-from regscribe_runtime.wire.requests import SPACES
+from regscribe_runtime.wire.requests import SPACES, Request
 
 NAMES = dict.fromkeys(READS, "read") | dict.fromkeys((5, 6, 15, 16), "write")
 NAMES |= {7: "read status", 8: "loopback", 22: "mask", 23: "write and read"}
@@ -20,7 +20,7 @@ MOST_SHOWN = 6
 
 @dataclass(frozen=True, slots=True)
 class Told:
-    """A request in words: what was asked of which registers, and what came of it."""
+    """A request in words: unit, verb, registers with their values, and outcome."""
 
     unit: int
     verb: str
@@ -30,13 +30,13 @@ class Told:
 
 
 def tell(devices: Sequence[SimulatedDevice], exchange: Exchange) -> Told:
-    """Return a request and its answer in the names of the device that it concerns."""
+    """Describe a request and its answer in the names of the device that it concerns."""
     request = exchange.request
     device = next((each for each in devices if each.unit == request.unit), None)
     if request.unit == BROADCAST:
         device = devices[0] if devices else None
     verb = NAMES.get(request.pdu[0], f"function {request.pdu[0]}") if request.pdu else "nothing"
-    what = _asked(device, exchange) if device is not None else "a unit that is not here"
+    what = _registers(device, exchange) if device is not None else "a unit that is not here"
     good, outcome = _outcome(device, exchange)
     return Told(request.unit, verb, what, outcome, good)
 
@@ -51,7 +51,7 @@ def _outcome(device: SimulatedDevice | None, exchange: Exchange) -> tuple[bool, 
     return True, "ok"
 
 
-def _asked(device: SimulatedDevice, exchange: Exchange) -> str:
+def _registers(device: SimulatedDevice, exchange: Exchange) -> str:
     """The registers of a request with their values: those that were written, or those that the answer shows."""
     pdu = exchange.request.pdu
     try:
@@ -63,32 +63,28 @@ def _asked(device: SimulatedDevice, exchange: Exchange) -> str:
     words = request.words
     if request.reads and exchange.answer is not None:
         words = decode_reply(request, exchange.answer).words
-    return _named(device, Space(SPACES[request.function]), request.address, request.quantity, words)
-
-
-def _named(device: SimulatedDevice, space: Space, address: int, number: int, words: tuple[int, ...]) -> str:
-    """The registers at the addresses of a request, with their values where there are words."""
-    shown = list(_values(device, space, address, number, words))
+    shown = list(_values(device, request, words))
     if not shown:
-        last = address + number - 1
-        return f"{space} {address}..{last}" if number > 1 else f"{space} {address}"
+        first, last = request.address, request.address + request.quantity - 1
+        return f"{SPACES[request.function]} {first}" + (f"..{last}" if last > first else "")
     more = len(shown) - MOST_SHOWN
     return ", ".join(shown[:MOST_SHOWN]) + (f" and {more} more" if more > 0 else "")
 
 
-def _values(device: SimulatedDevice, space: Space, address: int, number: int, words: tuple[int, ...]) -> Iterator[str]:
+def _values(device: SimulatedDevice, request: Request, words: tuple[int, ...]) -> Iterator[str]:
     layout = device.state.blueprint.layout
-    spaces = [space, *(READS[code] for codes in device.register_map.alike for code in codes if code in READS)]
-    at = address
-    while at < address + number:
+    alike = (READS[code] for codes in device.register_map.alike for code in codes if code in READS)
+    spaces = [SPACES[request.function], *alike]
+    at = request.address
+    while at < request.address + request.quantity:
         place = next((found for each in spaces if (found := layout.place(each, at))), None)
         if place is None:
             at += 1
             continue
-        part = words[at - address : place.start + place.words - address]
-        whole = at == place.start and len(part) == place.words
+        part = words[at - request.address : place.end - request.address]
+        whole = at == place.start and len(part) == place.view.words
         yield _spelled(device, place, part if whole else ())
-        at = place.start + place.words
+        at = place.end
 
 
 def _spelled(device: SimulatedDevice, place: AddressSpan, words: tuple[int, ...]) -> str:

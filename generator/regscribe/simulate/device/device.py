@@ -1,4 +1,4 @@
-"""A device that answers as its map says: requests in, answers (or silence) out, without any line in between."""
+"""A simulated device: requests in, answers (or silence) out, without any line in between."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -6,11 +6,10 @@ from pathlib import Path
 from threading import RLock
 from typing import Any
 
-from regscribe.model import Model, RegisterMap, Space
+from regscribe.model import SILENCE, Model, RegisterMap, Space
 from regscribe.simulate.device import state_files
 from regscribe.simulate.device.commands import Commands
-from regscribe.simulate.device.read_requests import Reader
-from regscribe.simulate.device.refusal import Refusal
+from regscribe.simulate.device.read_requests import Reader, Refusal
 from regscribe.simulate.device.side_effects import Conduct
 from regscribe.simulate.device.state import DeviceState, Value
 from regscribe.simulate.device.value_arguments import Plain
@@ -57,10 +56,9 @@ class SimulatedDevice:
         self._tuning = Tuning(self.state, unit=_unit(register_map, unit), addressing=addressing)
         self._protocol = register_map.protocol
         self._commands = Commands(self.model.commands)
-        self._layout = layout = self.state.blueprint.layout
-        self._reader = Reader(register_map, layout, self.state, seed, self.unit)
+        self._reader = Reader(self.state, seed, self.unit)
         self._conduct = Conduct(self.state, self._commands, controller_of(self.state, process=process, seed=seed))
-        self._writer = Writer(register_map, layout, self.state, self._commands, self._conduct)
+        self._writer = Writer(self.state, self._commands, self._conduct)
         self.moves = bool(process)
         self._lock = RLock()
         self._functions: dict[int, Callable[[bytes], bytes]] = {
@@ -100,12 +98,12 @@ class SimulatedDevice:
 
     @property
     def wear(self) -> Mapping[str, int]:
-        """How many writes the lasting memory of each register took (those of which the map says that it is lasting)."""
+        """Writes to the lasting memory of each register, by path (only of registers that the map calls lasting)."""
         return dict(self._conduct.wear)
 
     @property
     def pending(self) -> tuple[str, ...]:
-        """The registers that show a value which is not in effect until an `apply` command comes."""
+        """The registers that show a value which takes effect only with an `apply` command."""
         return tuple(self.state.pending)
 
     def snapshot(self) -> dict[str, Any]:
@@ -113,13 +111,13 @@ class SimulatedDevice:
         with self._lock:
             return state_files.snapshot(self.state, self.unit, self._conduct.wear)
 
-    def restore(self, document: Mapping[str, Any]) -> None:
+    def restore(self, document: Mapping[str, Any], *, name: str = "the state") -> None:
         """Set the device to a snapshot, or to a backup of a real one; it answers as the same unit as before.
 
-        Raises SimulatorError if it is of another model.
+        Raises SimulatorError, which calls the document `name`, if it is of another model.
         """
         with self._lock:
-            self._conduct.wear.update(state_files.restore(self.state, document))
+            self._conduct.wear.update(state_files.restore(self.state, document, name))
             self._tuning.keep()
 
     def save(self, path: str | Path) -> None:
@@ -128,21 +126,18 @@ class SimulatedDevice:
 
     def load(self, path: str | Path) -> None:
         """Set the device to a file of `save`, or to a backup. SimulatorError if it is none, or of another model."""
-        document = state_files.load(Path(path))
-        with self._lock:
-            self._conduct.wear.update(state_files.restore(self.state, document, name=str(path)))
-            self._tuning.keep()
+        self.restore(state_files.load(Path(path)), name=str(path))
 
     def power_cycle(self) -> None:
-        """Take power away and give it back: RAM is restored from lasting memory, where the map says what from."""
+        """Cut power and restore it: RAM takes the values of lasting memory, where the map says from which register."""
         with self._lock:
             self._conduct.power_cycle()
             self._tuning.follow(restarted=True)
 
     def advance(self, seconds: float) -> None:
-        """Let simulated time pass: the process goes on, outputs and alarms follow. SimulatorError if it would go back.
+        """Let simulated time pass: the process goes on, outputs and alarms follow. SimulatorError for less than 0.
 
-        Time passes in steps of half a second; what is left of a step is kept for the next call.
+        Time passes in steps of half a second; the rest of a step is kept for the next call.
         """
         if not 0 <= seconds < math.inf:
             message = f"time cannot advance by {seconds!r} seconds: give a number of 0 or more"
@@ -152,7 +147,7 @@ class SimulatedDevice:
                 self._conduct.controller.advance(seconds)
 
     def handle(self, pdu: bytes, *, broadcast: bool = False) -> bytes | None:
-        """Act on a request (function code and data) and return the answer; None where the device keeps silent.
+        """Carry out a request (function code and data) and return the answer; None where the device keeps silent.
 
         A broadcast is acted on if the protocol says that its function may be broadcast, and never answered.
         """
@@ -162,7 +157,7 @@ class SimulatedDevice:
             try:
                 answer: bytes | None = self._act(pdu)
             except Refusal as refusal:
-                answer = refusal.answer(pdu[0])
+                answer = None if refusal.code == SILENCE else encode_reply(Reply(pdu[0], exception=refusal.code))
             lost = pdu[0] not in READS and self._tuning.follow()
         return None if broadcast or lost else answer
 
@@ -173,7 +168,7 @@ class SimulatedDevice:
         return act(pdu)
 
     def _request(self, pdu: bytes) -> Request:
-        """The request, its address counted from 0; one that is too short or too long has the wrong quantity."""
+        """The decoded request, its address counted from 0; one of a wrong length is refused for its quantity."""
         faults = self.register_map.faults
         try:
             request = decode_request(pdu).shifted(-self._tuning.first)
@@ -192,13 +187,14 @@ class SimulatedDevice:
         return encode_reply(Reply(request.function, words))
 
     def _reading(self, function: int, address: int) -> int:
-        """The function that reads what stands at `address`: this one, or one that does the same in another space."""
+        """The function to read `address` with: this one, or an equivalent one whose space documents the address."""
+        documents = self.state.blueprint.layout.documents
         others = (code for codes in self.register_map.alike if function in codes for code in codes if code in READS)
-        return next((code for code in (function, *others) if self._layout.documents(READS[code], address)), function)
+        return next((code for code in (function, *others) if documents(READS[code], address)), function)
 
     def _write(self, request: Request) -> int:
         """Write what a request carries; returns how many values were written."""
-        space = Space(functions.SPACES[request.function])
+        space = functions.SPACES[request.function]
         return self._writer.write(space, request.function, request.address, request.words)
 
     def _write_one(self, pdu: bytes) -> bytes:
@@ -219,7 +215,7 @@ class SimulatedDevice:
         return pdu
 
     def _write_and_read(self, pdu: bytes) -> bytes:
-        """Two requests in one: what to read, then what to write before it."""
+        """Function 23: a read behind a write, whose parameters stand behind those of the read."""
         function = pdu[0]
         read = self._request(bytes([functions.READ_HOLDING]) + pdu[1:5])
         write = self._request(bytes([functions.WRITE_REGISTERS]) + pdu[5:])

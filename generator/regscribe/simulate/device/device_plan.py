@@ -1,15 +1,11 @@
-"""What all devices of one model share: where values stand, what they begin with, and what depends on what."""
+"""The part of a device that all devices of its model share: its address index, dependencies and initial state."""
 
-from collections import OrderedDict
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from threading import Lock
 
-from regscribe.model import Model, NotANumber, OrderFrom, Register, RegisterMap, Space
+from regscribe.model import Model, NotANumber, Register, RegisterMap, Space, View
 from regscribe.reference import Surroundings
-from regscribe.simulate.device.address_index import AddressIndex, AddressSpan, places_of
-from regscribe.simulate.device.followed_values import sources_of
 
 Stored = Fraction | str | NotANumber
 """What the device holds for a register: a number (an enum's code, a word's bits), a text, or a float that is none."""
@@ -17,17 +13,96 @@ Stored = Fraction | str | NotANumber
 Image = dict[Space, dict[int, int]]
 """What a read shows at each address."""
 
-_KEPT = 64
+
+@dataclass(frozen=True, slots=True)
+class AddressSpan:
+    """One value at one address: `start` is the wire address of its first word (an alias has a start of its own)."""
+
+    register: Register
+    view: View
+    start: int
+
+    @property
+    def end(self) -> int:
+        """The first address behind the value."""
+        return self.start + self.view.words
+
+
+@dataclass(frozen=True, slots=True)
+class Region:
+    """The rules for requests that start between `first` and `last`: alignment and function codes (empty: any)."""
+
+    first: int
+    last: int
+    align: int
+    functions: tuple[int, ...]
+
+
+class AddressIndex:
+    """The address index of one model, which reads and writes consult; immutable once built."""
+
+    __slots__ = ("_bounds", "_places", "_regions", "command_addresses", "reserved", "unused")
+
+    def __init__(self, model: Model, reserved: Iterable[tuple[Space, int, int]]) -> None:
+        self._places: dict[Space, dict[int, AddressSpan]] = {space: {} for space in Space}
+        for register in model.registers:
+            for place in places_of(register):
+                self._places[place.view.space].update(dict.fromkeys(range(place.start, place.end), place))
+        self.reserved = _addresses(reserved)
+        self.unused = _addresses(model.unused)
+        steps = (step for command in model.commands for step in command.steps if step.words)
+        self.command_addresses = _addresses(
+            (step.space, step.address, step.address + len(step.words) - 1) for step in steps
+        )
+        self._regions = {space: _regions(model, space) for space in Space}
+        self._bounds = {space: self._bounds_of(space) for space in Space}
+
+    def place(self, space: Space, address: int) -> AddressSpan | None:
+        """Return the value that has a word at `address`; None if there is none."""
+        return self._places[space].get(address)
+
+    def region(self, space: Space, address: int) -> Region | None:
+        """Return the rules for a request that starts at `address`; None if no view set speaks of it."""
+        return next((region for region in self._regions[space] if region.first <= address <= region.last), None)
+
+    def documents(self, space: Space, address: int) -> bool:
+        """Whether `address` lies between the lowest and the highest that the map documents in that space."""
+        return address in self._bounds[space]
+
+    def _bounds_of(self, space: Space) -> range:
+        silent = (address for kind, address in self.reserved | self.unused if kind is space)
+        documented = (*self._places[space], *silent)
+        return range(min(documented), max(documented) + 1) if documented else range(0)
+
+
+def _addresses(stretches: Iterable[tuple[Space, int, int]]) -> frozenset[tuple[Space, int]]:
+    return frozenset((space, address) for space, first, last in stretches for address in range(first, last + 1))
+
+
+def places_of(register: Register) -> tuple[AddressSpan, ...]:
+    """Every place where a register is transmitted: its views, then the aliases of the base view."""
+    views = (AddressSpan(register, view, view.address(register.at)) for view in register.views)
+    return (*views, *(AddressSpan(register, register.base, address) for address in register.aliases))
+
+
+def _regions(model: Model, space: Space) -> tuple[Region, ...]:
+    views = ((register.at, view) for register in model.registers for view in register.views if view.space is space)
+    found = (
+        Region(*(view.region or (view.address(at), view.last(at))), align=view.align, functions=view.functions)
+        for at, view in views
+        if view.align > 1 or view.functions
+    )
+    return tuple(dict.fromkeys(found))
 
 
 @dataclass(frozen=True, slots=True)
 class Blueprint:
-    """The immutable part of a device: of 1,000 devices of one model there is one.
+    """The immutable part of a device: 1,000 devices of one model share one.
 
-    `stored` and `image` are the state of a new device, of which each device keeps only what is different; they are
-    filled once, by `State`. `places` are where a register is transmitted, `ordered_by` the registers whose word order
-    a register sets, `followers` those that (or whose bits) change with it, `shadows` all that take
-    their value from another one when power comes, each behind the one that it shadows.
+    `stored` and `image` are the state of a new device, of which each device keeps only what is different; `DeviceState`
+    fills them once. `places` are where a register is transmitted, `ordered_by` the registers whose word order a
+    register sets, `followers` those that (or whose bits) change with it, `shadows` the registers that take their value
+    from another one when power comes, each behind the one that it shadows.
     """
 
     register_map: RegisterMap
@@ -44,16 +119,24 @@ class Blueprint:
 
 def draw(register_map: RegisterMap, model: Model, givens: Surroundings) -> Blueprint:
     """Return a new blueprint, its state still empty."""
+    origins = {register.path: register.shadows for register in model.registers if register.shadows}
     return Blueprint(
         register_map,
         model,
         givens,
         AddressIndex(model, register_map.reserved),
         {register.path: places_of(register) for register in model.registers},
-        _by_source(model.registers, _orderers),
+        _by_source(model.registers, lambda register: {path for view in register.views for path in view.needs()}),
         _by_source(model.registers, sources_of),
-        _shadows(model),
+        tuple(model.register(path) for path in sorted(origins, key=lambda path: _depth(path, origins))),
     )
+
+
+def sources_of(register: Register) -> set[str]:
+    """Return the registers that this one, or one of its bits, follows in some state."""
+    conditions = [case.when for case in register.follows]
+    conditions += [field.follows for field in register.fields if field.follows is not None]
+    return {case.then for case in register.follows} | {path for when in conditions for path in when.registers}
 
 
 def _by_source(
@@ -66,46 +149,9 @@ def _by_source(
     return {path: tuple(dependents) for path, dependents in found.items()}
 
 
-def _shadows(model: Model) -> tuple[Register, ...]:
-    """All shadows of a model, those of a register that is no shadow itself first."""
-    origins = {register.path: register.shadows for register in model.registers if register.shadows}
-    return tuple(sorted((model.register(path) for path in origins), key=lambda one: _depth(one.path, origins)))
-
-
 def _depth(path: str, origins: Mapping[str, str]) -> int:
     passed: list[str] = []
     while path in origins and path not in passed:  # the latter: a circle, which has to end somewhere
         passed.append(path)
         path = origins[path]
     return len(passed)
-
-
-def _orderers(register: Register) -> set[str]:
-    orders = (view.order for view in register.views)
-    return {order.register for order in orders if isinstance(order, OrderFrom)}
-
-
-_Key = tuple[int, str, frozenset[tuple[str, bool | frozenset[Fraction]]]]
-
-
-class PlanCache:
-    """The last blueprints by map (the object, not its contents), model and givens."""
-
-    def __init__(self) -> None:
-        self._kept: OrderedDict[_Key, Blueprint] = OrderedDict()
-        self._lock = Lock()
-
-    def find(self, register_map: RegisterMap, model: Model, givens: Surroundings) -> Blueprint | None:
-        """Return the blueprint of an earlier device; None if there is none."""
-        return self._kept.get(_key(register_map, model, givens))
-
-    def put(self, blueprint: Blueprint) -> None:
-        """Keep a blueprint; it keeps its map alive, so that no other map can take the place of that object."""
-        with self._lock:
-            self._kept[_key(blueprint.register_map, blueprint.model, blueprint.givens)] = blueprint
-            while len(self._kept) > _KEPT:
-                self._kept.popitem(last=False)
-
-
-def _key(register_map: RegisterMap, model: Model, givens: Surroundings) -> _Key:
-    return id(register_map), model.name, frozenset((*givens.codes.items(), *givens.facts.items()))

@@ -1,51 +1,48 @@
-"""What a register holds when the device is new."""
+"""The value that a register holds when the device is new."""
 
 from fractions import Fraction
 
-from regscribe.model import Is, Kind, Model, Register, RegisterMap
+from regscribe.model import Identity, Is, Kind, Register
 from regscribe.reference import number_of
-from regscribe.simulate.device.accepted_values import accepts, limits_now
 from regscribe.simulate.device.present_meaning import PresentMeaning
 from regscribe.simulate.device.value_arguments import with_field
 
 
-def initial_value(register_map: RegisterMap, model: Model, register: Register, state: PresentMeaning) -> Fraction | str:
+def initial_value(register: Register, state: PresentMeaning) -> Fraction | str:
     """Return the value of use that `register` begins with.
 
-    In this order: what tells the model (so that an identification finds it), what the map says it is delivered with,
-    the map's default, 0 if the register accepts it, its first enum member, its first low limit that is known, 0.
+    In this order: what identifies the model (so that an identification finds it), what the map says it is delivered
+    with, the map's default, 0 if the register accepts it, its first enum member, its first low limit that is known, 0.
     """
+    rules = state.blueprint.register_map.identity
+    identities = [each.identity for each in rules if state.blueprint.model.name in each.models]
     if register.kind is Kind.STRING:
-        return _initial_text(register_map, model, register)
-    tests = _identifying_tests(register_map, model, register)
+        return _initial_text(register, identities)
+    tests = [test for identity in identities[:1] for test in identity.when.tests if _decides(test, register)]
     if tests:
         return _identifying(register, tests)
     stated = register.default if register.delivered is None else register.delivered
     if stated is not None:
         special = next((each for each in register.specials if each.means is None and each.code == stated), None)
         return state.special(register, special) if special else stated
-    return Fraction(0) if accepts(register, Fraction(0), state) else _first_accepted(register, state)
-
-
-def _first_accepted(register: Register, state: PresentMeaning) -> Fraction:
+    if state.accepts(register, Fraction(0)):
+        return Fraction(0)
     if register.enum is not None and register.enum.members:
         return Fraction(register.enum.members[0].code)
-    return next((low for low, _ in limits_now(register, state) or () if low is not None), Fraction(0))
+    return next((low for low, _ in state.limits(register) or () if low is not None), Fraction(0))
 
 
-def _initial_text(register_map: RegisterMap, model: Model, register: Register) -> str:
-    mine = [each for each in register_map.identity if model.name in each.models]
-    shown = [text for each in mine for path, text in each.identity.texts if path == register.path]
+def _initial_text(register: Register, identities: list[Identity]) -> str:
+    shown = [text for identity in identities for path, text in identity.texts if path == register.path]
     return next((text for text in (*shown, register.delivered, register.default) if isinstance(text, str)), "")
 
 
-def _identifying_tests(register_map: RegisterMap, model: Model, register: Register) -> tuple[Is, ...]:
-    identity = next((each for each in register_map.identity if model.name in each.models), None)
-    tests = identity.identity.when.tests if identity else ()
-    return tuple(test for test in tests if test.register == register.path and test.codes and not test.negated)
+def _decides(test: Is, register: Register) -> bool:
+    return test.register == register.path and bool(test.codes) and not test.negated
 
 
-def _identifying(register: Register, tests: tuple[Is, ...]) -> Fraction:
+def _identifying(register: Register, tests: list[Is]) -> Fraction:
+    """The default, with every test on the register or on one of its fields made true."""
     value = number_of(register, register.default) or Fraction(0)
     for test in tests:
         code = Fraction(test.codes[0][0])

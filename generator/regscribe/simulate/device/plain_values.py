@@ -1,5 +1,6 @@
-"""What a register holds as plain text and numbers, as backups have them, and back."""
+"""Values of registers as plain text and numbers, as backups have them, and back."""
 
+from collections.abc import Iterable
 from decimal import Decimal, InvalidOperation, localcontext
 from difflib import get_close_matches
 from fractions import Fraction
@@ -22,15 +23,10 @@ DIGITS = 17
 """Significant digits of a number: more than any view carries."""
 
 
-def show(state: DeviceState, register: Register) -> Plain:
-    """Return what a register shows now."""
-    return shown(state, register, state.stored(register.path))
-
-
 def shown(state: DeviceState, register: Register, stored: Stored) -> Plain:
-    """Return what a register means now that holds `stored`."""
+    """Return the plain value of what is stored for a register, by the present scale and names."""
     if register.kind in PATTERNS and isinstance(stored, Fraction) and not state.fault(register, stored):
-        return _names(register, stored)
+        return _parts(register, stored)
     value = state.meant(register, stored)
     if isinstance(value, str):
         return value
@@ -38,19 +34,18 @@ def shown(state: DeviceState, register: Register, stored: Stored) -> Plain:
 
 
 def spell(state: DeviceState, register: Register, stored: Stored) -> str:
-    """Return the same for people: `150.5 °F`, `RUN`, `alarm_1, alarm_2`."""
+    """Return the plain value as text for people: `150.5 °F`, `RUN`, `alarm_1, alarm_2`."""
     plain = shown(state, register, stored)
     if isinstance(plain, list):
         return ", ".join(plain) or "none"
-    text = (
-        f"{plain:.10g}" if isinstance(plain, float) else str(plain).lower() if isinstance(plain, bool) else str(plain)
-    )
+    text = f"{plain:.10g}" if isinstance(plain, float) else str(plain)
+    text = text.lower() if isinstance(plain, bool) else text
     unit = choose(register.unit, state) if isinstance(plain, int | float) else ""
     return f"{text} {unit}" if unit else text
 
 
 def set_to(state: DeviceState, register: Register, plain: object) -> None:
-    """Set a register to what `plain` means; SimulatorError if it means no value of it."""
+    """Set a register to a plain value; SimulatorError if it is none of the register's."""
     if isinstance(plain, list) and register.kind in PATTERNS:
         state.poke(register.path, _word(register, plain))
     elif isinstance(plain, bool) and register.kind is Kind.BOOLEAN:
@@ -77,8 +72,13 @@ def _bounded(register: Register, plain: str | float | Decimal) -> str | int | fl
     return plain
 
 
-def number(value: Fraction) -> int | float:
-    """Return a number as YAML has it: whole, or with as many digits as tell it from its neighbours."""
+def _named(state: DeviceState, register: Register, value: Fraction) -> str | int | float:
+    """The name of a value, else the number as YAML has it: whole, or with enough digits to be unique."""
+    names = _ids(register.enum) | {
+        state.special(register, each): each.id for each in register.specials if each.means is None
+    }
+    if value in names:
+        return names[value]
     if value.denominator == 1:
         return value.numerator
     with localcontext() as context:
@@ -86,14 +86,7 @@ def number(value: Fraction) -> int | float:
         return float(Decimal(value.numerator) / Decimal(value.denominator))
 
 
-def _named(state: DeviceState, register: Register, value: Fraction) -> str | int | float:
-    names = _ids(register.enum) | {
-        state.special(register, each): each.id for each in register.specials if each.means is None
-    }
-    return names.get(value) or number(value)
-
-
-def _names(register: Register, stored: Fraction) -> list[str]:
+def _parts(register: Register, stored: Fraction) -> list[str]:
     """The names of set flags and `part=value` of wider fields; a word that has more in it as a number."""
     shown: list[str] = []
     rest = stored
@@ -101,14 +94,10 @@ def _names(register: Register, stored: Fraction) -> list[str]:
         value = field_value(stored, field)
         rest = with_field(rest, field, Fraction(0))
         if not field.is_flag:
-            shown.append(f"{field.id}={_member(field.enum, value)}")
+            shown.append(f"{field.id}={_ids(field.enum).get(value, int(value))}")
         elif value:
             shown.append(field.id)
     return [*shown, str(int(rest))] if rest else shown
-
-
-def _member(enum: Enum | None, value: Fraction) -> str:
-    return _ids(enum).get(value) or str(int(value))
 
 
 def _ids(enum: Enum | None) -> dict[Fraction, str]:
@@ -142,8 +131,7 @@ def _part(register: Register, field: BitField, value: str) -> Fraction:
         raise SimulatorError(message) from None
 
 
-def meant(name: str, known: object) -> str:
+def meant(name: str, known: Iterable[str]) -> str:
     """Return a hint at the name that was probably meant; empty if none is near."""
-    names = [str(each) for each in known] if isinstance(known, dict | list | tuple) else []
-    near = get_close_matches(name.lower(), names, n=1)
+    near = get_close_matches(name.lower(), known, n=1)
     return f"; did you mean `{near[0]}`?" if near else ""

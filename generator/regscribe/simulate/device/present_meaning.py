@@ -1,6 +1,7 @@
-"""What stored numbers mean in the present state: scales, decimals, word orders, conditions."""
+"""Interpretation of stored numbers in the present state: scales, decimals, word orders, conditions, limits."""
 
 from abc import ABC, abstractmethod
+from contextlib import suppress
 from fractions import Fraction
 
 from regscribe.model import (
@@ -8,6 +9,7 @@ from regscribe.model import (
     BitField,
     Conversion,
     Decimals,
+    Enum,
     Kind,
     Model,
     Order,
@@ -16,14 +18,15 @@ from regscribe.model import (
     Special,
     View,
 )
-from regscribe.reference import MOST_DECIMALS, choose, round_by
+from regscribe.reference import MOST_DECIMALS, choose, divided_limits, round_by, within
+from regscribe.reference.surroundings import Limits
 from regscribe.simulate.device.device_plan import Blueprint, Stored
 from regscribe.simulate.device.value_arguments import field_value
 from regscribe.simulate.errors import SimulatorError
 
 
 class PresentMeaning(ABC):
-    """What else must be known to read a value of this device; what is in effect is for a subclass."""
+    """Interprets stored numbers under the present values of a device; a subclass says which value is in effect."""
 
     __slots__ = ("_model", "blueprint", "codes", "facts")
 
@@ -47,15 +50,11 @@ class PresentMeaning(ABC):
             return self._model.register(path), None
         except KeyError:
             owner, _, name = path.rpartition(".")
-        try:
+        with suppress(KeyError, StopIteration):
             register = self._model.register(owner)
-        except KeyError:
-            register = None
-        field = next((each for each in register.fields if each.id == name), None) if register else None
-        if register is None or field is None:
-            message = f"model {self._model.name} has no register or field {path!r}"
-            raise SimulatorError(message)
-        return register, field
+            return register, next(field for field in register.fields if field.id == name)
+        message = f"model {self._model.name} has no register or field {path!r}"
+        raise SimulatorError(message)
 
     def look_up(self, subject: str) -> Fraction:
         """Return the present number of a register, or of `register.field`, as conditions and limits count it.
@@ -69,7 +68,7 @@ class PresentMeaning(ABC):
         return self.number(register, stored) if field is None else field_value(stored, field)
 
     def number(self, register: Register, stored: Fraction) -> Fraction:
-        """Return the value of use of a stored number: 1 for what is true, for a special value what it stands for."""
+        """Return the value of use of a stored number: 0 or 1 of a boolean, of a special value what it stands for."""
         value = self.to_value(register, stored)
         if register.kind is Kind.BOOLEAN:
             return Fraction(value != 0)
@@ -81,10 +80,18 @@ class PresentMeaning(ABC):
         scale = choose(register.special_scale, self) or IDENTITY
         return special.code / self.power(scale.decimals)
 
+    def source(self, register: Register) -> str:
+        """Return the path of the register that this one follows now; empty if it follows none."""
+        return choose(register.follows, self) or ""
+
     def to_value(self, register: Register, stored: Fraction) -> Fraction:
         """Turn a stored number into the value of use."""
         scale = self.conversion(register)
         return (scale.multiply * stored + scale.add) / self.power(scale.decimals)
+
+    def usable(self, register: Register, stored: Stored) -> Stored:
+        """Turn what is stored into what `DeviceState.put` takes: a number into the value of use, else as it is."""
+        return self.to_value(register, stored) if isinstance(stored, Fraction) else stored
 
     def from_value(self, register: Register, value: Fraction) -> Fraction:
         """Turn a value of use into a stored number (exact: as finely as asked, whatever the device can hold)."""
@@ -92,11 +99,11 @@ class PresentMeaning(ABC):
         return (value * self.power(scale.decimals) - scale.add) / scale.multiply
 
     def conversion(self, register: Register) -> Conversion:
-        """Return the scale that holds now; none holding counts as identity."""
+        """Return the scale that holds now; identity if none holds."""
         return choose(register.scale, self) or IDENTITY
 
     def power(self, decimals: Decimals | None) -> Fraction:
-        """10 to the number of decimals that a register holds now; of what is none the nearest that is one."""
+        """Return 10 to the number of decimals that a register holds now, clipped to 0 to 9 and to `at_most`."""
         if decimals is None:
             return Fraction(1)
         digits = min(max(0, int(self.look_up(decimals.register))), MOST_DECIMALS)
@@ -128,6 +135,31 @@ class PresentMeaning(ABC):
         if conversion.places is None or conversion.step is None:
             return self.quantise(register, stored)
         return _on_step(register, stored, Fraction(conversion.step) / self.power(conversion.places))
+
+    def accepts(self, register: Register, value: Fraction) -> bool:
+        """Tell whether the device takes `value` (a value of use) for `register` now.
+
+        Limits that the map leaves open are not checked, nor is anything where no case of the range holds.
+        """
+        if register.kind is Kind.BOOLEAN and value not in (0, 1):
+            return False
+        if not _is_member(register.enum, value):
+            return False
+        if not all(_is_member(field.enum, field_value(value, field)) for field in register.fields if field.enum):
+            return False
+        if any(self.special(register, special) == value for special in register.specials):
+            return True
+        limits = self.limits(register)
+        return limits is None or within(limits, value)
+
+    def limits(self, register: Register) -> Limits | None:
+        """Return the limits that hold now; None if no case of the range holds."""
+        found = choose(register.range, self)
+        return None if found is None else divided_limits(found, self.power(found.decimals), self)
+
+
+def _is_member(enum: Enum | None, value: Fraction) -> bool:
+    return enum is None or any(member.code == value for member in enum.members)
 
 
 def _on_step(register: Register, stored: Fraction, step: Fraction) -> Fraction:

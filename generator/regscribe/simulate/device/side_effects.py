@@ -1,24 +1,29 @@
-"""What follows from a write, from a command and from a power cut, besides the words that change."""
+"""Effects of writes, commands and power cuts on other registers, besides the words that were written."""
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
+from typing import NamedTuple
 
 from regscribe.model import Command, Effect, Register
-from regscribe.reference import holds
+from regscribe.reference import choose, holds, round_by
 from regscribe.simulate.device.commands import Commands
 from regscribe.simulate.device.device_plan import Stored
-from regscribe.simulate.device.followed_values import source_of
 from regscribe.simulate.device.state import DeviceState
-from regscribe.simulate.device.unit_change import held_before, rescale
 from regscribe.simulate.process.controller import Controller
 
 LASTING = {"eeprom", "both"}
 BOTH, RAM = "both", "ram"
 
+KELVIN = Fraction(1), Fraction(0)
+CELSIUS = Fraction(1), Fraction("273.15")
+FAHRENHEIT = Fraction(5, 9), Fraction("459.67") * Fraction(5, 9)
+UNITS = {"K": KELVIN, "°C": CELSIUS, "°F": FAHRENHEIT}
+"""Units that convert into each other: kelvin = factor x value + offset."""
+
 
 class Conduct:
-    """One device's conduct: `wear` counts the writes that its lasting memory took, by register."""
+    """Applies the side effects of one device; `wear` counts the writes to its lasting memory by register."""
 
     __slots__ = ("_commands", "_effects", "_own", "_state", "controller", "wear")
 
@@ -31,7 +36,7 @@ class Conduct:
         self._own: set[str] = set()
 
     def written(self, register: Register, before: Stored) -> None:
-        """A write was taken: it wears memory, may wait for a command, and may change other registers."""
+        """Handle an accepted write: it wears memory, may wait for a command, and may change other registers."""
         path, state = register.path, self._state
         after = state.stored(path)
         spared = after == before and state.blueprint.register_map.spares_memory
@@ -46,7 +51,7 @@ class Conduct:
         self._shade(register)
 
     def commanded(self, completed: Iterable[str]) -> None:
-        """Commands were completed: what waited for them comes into effect, and they have effects of their own."""
+        """Handle completed commands: what waited for them comes into effect, and they have effects of their own."""
         for name in completed:
             for path in self._state.pending:
                 if self._state.register(path).apply == name:
@@ -56,14 +61,14 @@ class Conduct:
                     self._bring_about(effect)
 
     def power_cycle(self) -> None:
-        """Power goes and comes: what only RAM holds is lost, what waited is in effect, what was unlocked is locked."""
+        """Cut power and restore it: what only RAM holds is lost, what waited is in effect, unlocks are forgotten."""
         state = self._state
         self._commands.forget()
         self._own.clear()
         for path in state.pending:
             state.take_effect(path)
         for register in state.blueprint.model.registers:
-            if register.persistence == RAM and not register.shadows and not source_of(register, state):
+            if register.persistence == RAM and not register.shadows and not state.source(register):
                 state.store(register.path, state.blueprint.stored[register.path])
         state.wake()
         if self.controller is not None:
@@ -82,31 +87,64 @@ class Conduct:
             self.controller.release()
 
     def _shade(self, register: Register) -> None:
-        """What is written to a register counts in its shadows, and in theirs, as long as these were not written."""
+        """Copy a written value to the register's shadows, and to theirs, as long as these were not written."""
         changed = {register.path: register}
         for shadow in self._state.blueprint.shadows:
             origin = changed.get(shadow.shadows)
             if origin is not None and (origin.persistence == BOTH or shadow.path not in self._own):
-                self._state.put(shadow.path, self._value(origin))
+                self._state.put(shadow.path, self._state.usable(origin, self._state.stored(origin.path)))
                 changed[shadow.path] = shadow
 
     def _pass_on(self, register: Register, after: Stored) -> None:
-        """What is written to a follower goes on to the register that it follows now, if that can be written."""
-        source = source_of(register, self._state)
+        """Write the new value of a follower to the register that it follows now, if that can be written."""
+        source = self._state.source(register)
         if not source or not self._state.register(source).access.writable:
             return
-        origin = self._state.register(source)
         before = self._state.stored(source)
-        self._state.put(source, self._state.to_value(register, after) if isinstance(after, Fraction) else after)
+        self._state.put(source, self._state.usable(register, after))
         if self._state.stored(source) != before:
-            self.written(origin, before)
+            self.written(self._state.register(source), before)
 
-    def _value(self, register: Register) -> Stored:
-        stored = self._state.stored(register.path)
-        return self._state.to_value(register, stored) if isinstance(stored, Fraction) else stored
-
-    def _rescale(self, register: Register, before: Stored, after: Stored) -> None:
-        former = held_before(self._state, register, before, after)
-        for path, factor, offset in rescale(self._state, former):
+    def _rescale(self, changed: Register, before: Stored, after: Stored) -> None:
+        """Convert the values of all registers of the unit of measure that `changed` sets."""
+        state = self._state
+        state.store(changed.path, before)
+        former = tuple(_values_in(state, changed.rescales))
+        state.store(changed.path, after)
+        for register, old, value in former:
+            new = choose(register.unit, state) or ""
+            if new == old or not {new, old} <= UNITS.keys():
+                continue
+            (factor, offset), (per, zero) = UNITS[old], UNITS[new]
+            factor, offset = factor / per, (offset - zero) / per
+            if register.difference:
+                offset = Fraction(0)
+            state.store(register.path, _rounded(register, state.from_value(register, value * factor + offset)))
             if self.controller is not None:
-                self.controller.convert(path, factor, offset)
+                self.controller.convert(register.path, float(factor), float(offset))
+
+
+class _Measured(NamedTuple):
+    register: Register
+    symbol: str
+    value: Fraction
+
+
+def _values_in(state: DeviceState, unit: str) -> Iterator[_Measured]:
+    """The values of use in a unit; faults and special values are in none."""
+    for register in state.blueprint.model.registers:
+        stored = state.stored(register.path)
+        if register.unit_id != unit or not isinstance(stored, Fraction) or stored in register.faults:
+            continue
+        value = state.to_value(register, stored)
+        if value not in {state.special(register, each) for each in register.specials}:
+            yield _Measured(register, choose(register.unit, state) or "", value)
+
+
+def _rounded(register: Register, stored: Fraction) -> Fraction:
+    """Round to the resolution of the whole numbers of its views: 37.777... is kept as 37.8."""
+    views = [view for view in register.views if not view.type.is_float]
+    if not views:
+        return stored
+    finest = max(views, key=lambda view: view.factor)
+    return Fraction(round_by(finest.rounding, stored * finest.factor)) / finest.factor

@@ -2,12 +2,12 @@
 
 from collections.abc import Mapping
 from fractions import Fraction
+from threading import Lock
 
 from regscribe.model import NAN, BitField, Kind, Model, NotANumber, Register, RegisterMap, Space, parse
-from regscribe.reference import version_text
+from regscribe.reference import holds, version_text
 from regscribe.simulate.device import codec
-from regscribe.simulate.device.device_plan import Blueprint, Image, PlanCache, Stored, draw
-from regscribe.simulate.device.followed_values import followed_bits, has_followed_bits, source_of
+from regscribe.simulate.device.device_plan import Blueprint, Image, Stored, draw
 from regscribe.simulate.device.initial_values import initial_value
 from regscribe.simulate.device.present_meaning import PresentMeaning
 from regscribe.simulate.device.value_arguments import (
@@ -25,7 +25,10 @@ from regscribe.simulate.givens import GivenValue, known_givens
 Value = Fraction | str
 """A value of use: what a person would say the register is."""
 
-_SHELF = PlanCache()
+_BLUEPRINTS: dict[tuple[int, str, frozenset[object]], Blueprint] = {}
+"""The latest blueprints by map (the id of the object, which the blueprint keeps alive), model and givens."""
+_MOST_BLUEPRINTS = 64
+_LOCK = Lock()
 
 
 class DeviceState(PresentMeaning):
@@ -52,11 +55,15 @@ class DeviceState(PresentMeaning):
     def of(cls, register_map: RegisterMap, model: Model, givens: Mapping[str, GivenValue]) -> "DeviceState":
         """The state of a new device. SimulatorError where the model needs givens that are not there."""
         known = known_givens(register_map, model, givens)
-        blueprint = _SHELF.find(register_map, model, known)
+        key = id(register_map), model.name, frozenset((*known.codes.items(), *known.facts.items()))
+        blueprint = _BLUEPRINTS.get(key)
         if blueprint is None:
             blueprint = draw(register_map, model, known)
             cls(blueprint)._begin()  # noqa: SLF001 - its own
-            _SHELF.put(blueprint)
+            with _LOCK:
+                _BLUEPRINTS[key] = blueprint
+                while len(_BLUEPRINTS) > _MOST_BLUEPRINTS:
+                    del _BLUEPRINTS[next(iter(_BLUEPRINTS))]
         return cls(blueprint)
 
     def _begin(self) -> None:
@@ -69,8 +76,6 @@ class DeviceState(PresentMeaning):
         self.blueprint.stored.update(self._stored)
         for register in self._model.registers:
             self._show(register, self.blueprint.image)
-
-    # -- the wire side ------------------------------------------------------------------------------------------
 
     def words(self, space: Space, address: int, count: int) -> list[int | None]:
         """Return what a read shows at each address; None where no readable register stands."""
@@ -97,7 +102,7 @@ class DeviceState(PresentMeaning):
             self._touch(path)
 
     def hold_back(self, path: str, former: Stored) -> None:
-        """Let `former` stay in effect for a register although it shows another value, until `take_effect`."""
+        """Keep `former` in effect for a register, although it shows another value, until `take_effect`."""
         self._pending.setdefault(path, former)
         self._touch(path)
 
@@ -107,13 +112,13 @@ class DeviceState(PresentMeaning):
             self._touch(path)
 
     def wake(self) -> None:
-        """Power comes: each shadow takes the value of its origin, which may be a shadow itself."""
+        """Let each shadow take the value of its origin (which may be a shadow itself), as when power comes."""
         for register in self.blueprint.shadows:
-            self.put(register.path, self._shadowed(register))
+            self.put(register.path, self._origin_value(register))
 
     @property
     def pending(self) -> Mapping[str, Stored]:
-        """The registers whose value is not in effect yet, with what is in effect instead."""
+        """The stored values in effect of the registers whose shown value is not in effect yet, by path."""
         return dict(self._pending)
 
     def copy(self) -> "DeviceState":
@@ -124,16 +129,16 @@ class DeviceState(PresentMeaning):
 
     def adopt(self, other: "DeviceState") -> None:
         """Hold and show what another state of the model holds and shows."""
-        stored, image, pending, driven = other._held()  # noqa: SLF001 - of its own kind
+        stored, image, pending, self._driven = other._held()  # noqa: SLF001 - of its own kind
         self.touched.update(self._stored, stored)
-        self._stored, self._pending, self._driven = dict(stored), dict(pending), driven
+        self._stored, self._pending = dict(stored), dict(pending)
         self._image = {space: dict(words) for space, words in image.items()}
 
     def _held(self) -> tuple[dict[str, Stored], Image, dict[str, Stored], frozenset[str]]:
         return self._stored, self._image, self._pending, self._driven
 
     def drive(self, path: str, *, alone: bool) -> None:
-        """Let a register follow nothing while something else moves it `alone`."""
+        """Stop a register from following others (`alone`), or let it follow them again."""
         self._driven = self._driven | {path} if alone else self._driven - {path}
 
     def put(self, subject: str, value: Plain) -> None:
@@ -145,7 +150,7 @@ class DeviceState(PresentMeaning):
             self.store(register.path, new)
 
     def _touch(self, path: str) -> None:
-        """Let all that depends on the value in effect of a register be as it has to be now."""
+        """Update all that depends on the value in effect of a register: words in its order, and its followers."""
         self.touched.add(path)
         for dependent in self.blueprint.ordered_by.get(path, ()):
             self._show(dependent, self._image)
@@ -167,21 +172,19 @@ class DeviceState(PresentMeaning):
 
     def _followed(self, register: Register) -> Stored:
         stored = self.stored(register.path)
-        source = source_of(register, self)
+        source = self.source(register)
         if source:
-            origin = self._model.register(source)
-            found = self.in_effect(source)
-            alike = origin.scale == register.scale or not isinstance(found, Fraction)
-            stored = found if alike else self.quantise(register, self.from_value(register, self.look_up(source)))
-        if has_followed_bits(register) and isinstance(stored, Fraction):
-            stored = followed_bits(register, stored, self)
+            stored = self.in_effect(source)
+            if isinstance(stored, Fraction) and self._model.register(source).scale != register.scale:
+                stored = self.quantise(register, self.from_value(register, self.look_up(source)))
+        for field in register.fields:
+            if field.follows is not None and isinstance(stored, Fraction):
+                stored = with_field(stored, field, Fraction(int(holds(field.follows, self))))
         return stored
 
     def in_effect(self, path: str) -> Stored:
-        """Return what counts of a register now: what it shows, or what it showed before."""
+        """Return the stored value that counts now: that which a register shows, or the one before it if held back."""
         return self._pending[path] if path in self._pending else self.stored(path)
-
-    # -- values of use ------------------------------------------------------------------------------------------
 
     def peek(self, path: str) -> Value:
         """Return the present value of a register, or of `register.field`: exact number, text, or the id of a sentinel.
@@ -231,26 +234,19 @@ class DeviceState(PresentMeaning):
             raise SimulatorError(message)
         return codec.encode(shown, self.stored(register.path), self.order(shown))
 
-    # -- inside -------------------------------------------------------------------------------------------------
-
     def _first(self, register: Register) -> Stored:
         if register.path in self._initial:  # a circle of dependencies: one of them must begin
             return Fraction(0)
         self._initial.add(register.path)
-        if register.shadows:
-            value = self._shadowed(register)
-        else:
-            value = initial_value(self.blueprint.register_map, self._model, register, self)
+        value = self._origin_value(register) if register.shadows else initial_value(register, self)
         stored = self._to_stored(register, value)
         return self.quantise(register, stored) if isinstance(stored, Fraction) else stored
 
-    def _shadowed(self, register: Register) -> Plain:
-        origin = self._model.register(register.shadows)
-        stored = self.stored(origin.path)
-        return self.to_value(origin, stored) if isinstance(stored, Fraction) else stored
+    def _origin_value(self, shadow: Register) -> Stored:
+        return self.usable(self._model.register(shadow.shadows), self.stored(shadow.shadows))
 
     def _changed(self, register: Register, field: BitField | None, value: Plain) -> Stored:
-        """What a register holds once it, or its bit field, is set to a value of use."""
+        """Return what a register holds once it, or its bit field, is set to a value of use."""
         stored = self.stored(register.path)
         if field is None or not isinstance(stored, Fraction):
             return self._to_stored(register, value)
@@ -260,7 +256,13 @@ class DeviceState(PresentMeaning):
         if register.kind is Kind.STRING:
             return str(value)
         if isinstance(value, NotANumber):
-            return self._no_number(register, value)
+            whole = [view.name for view in register.views if not view.type.is_float]
+            if whole:
+                message = (
+                    f"register {register.path!r} cannot hold {value.value}: view {whole[0]} has whole numbers only"
+                )
+                raise SimulatorError(message)
+            return value
         if isinstance(value, Fault):
             return sentinel_of(register, value)
         named = fault_named(register, value) if isinstance(value, str) else None
@@ -271,17 +273,10 @@ class DeviceState(PresentMeaning):
         specials = {each.id: self.special(register, each) for each in register.specials}
         return self.from_value(register, number_of(register, None, value, specials))
 
-    def _no_number(self, register: Register, value: NotANumber) -> NotANumber:
-        whole = [view.name for view in register.views if not view.type.is_float]
-        if whole:
-            message = f"register {register.path!r} cannot hold {value.value}: view {whole[0]} has whole numbers only"
-            raise SimulatorError(message)
-        return value
-
     def _show(self, register: Register, image: Image) -> None:
         if not register.access.readable:
             return
         stored = self.stored(register.path)
         for place in self.blueprint.places[register.path]:
             words = codec.encode(place.view, stored, self.order(place.view))
-            image.setdefault(place.view.space, {}).update(zip(place.covers(), words, strict=True))
+            image.setdefault(place.view.space, {}).update(zip(range(place.start, place.end), words, strict=True))

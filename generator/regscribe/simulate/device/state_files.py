@@ -1,4 +1,4 @@
-"""The state of a device as a file: written as plain YAML, read from that or from a backup of a real device.
+"""State files: the state of a device as plain YAML; a backup of a real device can be loaded as well.
 
 format: 1
 state: {map: athena/series-c, model: 16C, unit: 1}
@@ -10,9 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from regscribe import files
-from regscribe.simulate.device.device_plan import Stored
-from regscribe.simulate.device.followed_values import sources_of
-from regscribe.simulate.device.plain_values import Plain, meant, set_to, show
+from regscribe.simulate.device.device_plan import Stored, sources_of
+from regscribe.simulate.device.plain_values import Plain, meant, set_to, shown
 from regscribe.simulate.device.state import DeviceState
 from regscribe.simulate.errors import SimulatorError
 
@@ -28,22 +27,22 @@ def snapshot(state: DeviceState, unit: int, wear: Mapping[str, int]) -> dict[str
     """Return all that a device holds, ready for YAML or JSON."""
     blueprint = state.blueprint
     head = {"map": blueprint.register_map.id, "model": blueprint.model.name, "unit": unit}
-    values: dict[str, Plain] = {register.path: show(state, register) for register in blueprint.model.registers}
+    values = {each.path: shown(state, each, state.stored(each.path)) for each in blueprint.model.registers}
     pending = {path: _in_effect(state, path, stored) for path, stored in state.pending.items()}
     document: dict[str, Any] = {"format": FORMAT, "state": head, "values": values}
     return document | ({"in_effect": pending} if pending else {}) | ({"wear": dict(wear)} if wear else {})
 
 
 def _in_effect(state: DeviceState, path: str, former: Stored) -> Plain:
-    """What counts of a register that shows another value."""
+    """The plain value in effect of a register that shows another one."""
     copy = state.copy()
     copy.take_effect(path)
     copy.store(path, former)
-    return show(copy, state.register(path))
+    return shown(copy, state.register(path), copy.stored(path))
 
 
 def save(path: Path, document: Mapping[str, Any]) -> None:
-    """Write a state; where that fails, SimulatorError, and a file that was there before is as it was."""
+    """Write a state; if that fails, SimulatorError, and an existing file stays as it was."""
     remark = "State of a simulated device; `regscribe simulate --state` loads it."
     try:
         files.save(path, files.dump(document, remarks=(remark,)))
@@ -75,13 +74,17 @@ def load(path: Path) -> Mapping[str, Any]:
     return document.data
 
 
-def restore(state: DeviceState, document: Mapping[str, Any], *, name: str = "the state") -> dict[str, int]:
+def restore(state: DeviceState, document: Mapping[str, Any], name: str) -> dict[str, int]:
     """Set a device to a state or a backup; return the wear that it records.
 
     Raises SimulatorError if it is of another model, or a value is none; the device is then as it was.
     """
     head, values = _parts(document, name)
-    _demand_same_model(state, head, name)
+    here = (state.blueprint.register_map.id, state.blueprint.model.name)
+    there = (str(head.get("map")), str(head.get("model")))
+    if there != here:
+        message = f"{name} is of {there[0]}, model {there[1]}, but this is {here[0]}, model {here[1]}"
+        raise SimulatorError(message)
     trial = state.copy()
     for _ in range(PASSES):
         _set(trial, values, name)
@@ -91,14 +94,6 @@ def restore(state: DeviceState, document: Mapping[str, Any], *, name: str = "the
     state.adopt(trial)
     counts = _mapping(document.get("wear")).items()
     return {str(path): count for path, count in counts if isinstance(count, int) and count > 0}
-
-
-def _demand_same_model(state: DeviceState, head: Mapping[str, Any], name: str) -> None:
-    here = (state.blueprint.register_map.id, state.blueprint.model.name)
-    there = (str(head.get("map")), str(head.get("model")))
-    if there != here:
-        message = f"{name} is of {there[0]}, model {there[1]}, but this is {here[0]}, model {here[1]}"
-        raise SimulatorError(message)
 
 
 def _parts(document: Mapping[str, Any], name: str) -> tuple[Mapping[str, Any], Mapping[str, object]]:
@@ -124,7 +119,7 @@ def _settings(groups: Mapping[str, Any]) -> dict[str, object]:
 
 
 def _mapping(plain: object) -> Mapping[str, Any]:
-    """A mapping as it is, nothing in place of anything else."""
+    """The value itself if it is a mapping, else an empty one."""
     return plain if isinstance(plain, dict) else {}
 
 
@@ -142,7 +137,7 @@ def _set(state: DeviceState, values: Mapping[str, object], name: str) -> None:
 
 
 def _hold_back(state: DeviceState, path: str, plain: object, name: str) -> None:
-    """Let another value be in effect than the one that a register shows."""
+    """Put a plain value in effect for a register that shows another one."""
     shown = state.stored(path) if any(each.path == path for each in state.blueprint.model.registers) else None
     _set(state, {path: plain}, name)
     former = state.stored(path)
