@@ -4,11 +4,8 @@
 `scalars` and `node_builder`.
 """
 
-from pathlib import Path as FilePath
-
-from regscribe.model import Diagnostic
 from regscribe.source.document import Document, Path, Plain, SourceNode, SourcePlace
-from regscribe.source.load import display_name, parse, read
+from regscribe.source.load import display_name, load, parse
 from regscribe.source.rules import RULES
 from regscribe.source.scalars import NumberFormError, resolve, shorten
 
@@ -26,13 +23,3 @@ __all__ = [
     "resolve",
     "shorten",
 ]
-
-
-def load(path: FilePath, *, name: str | None = None, escapes: bool = False) -> tuple[Document | None, list[Diagnostic]]:
-    """Read a map; `name` is what diagnostics call it (default: the path as given, relative where possible).
-
-    The document is None if and only if there are diagnostics. `escapes`: see `parse`.
-    """
-    shown = name or display_name(path)
-    data, diagnostics = read(path, name=shown)
-    return (None, diagnostics) if data is None else parse(data, name=shown, escapes=escapes)

@@ -1,4 +1,4 @@
-"""Collects the diagnostics of one file, at most some hundreds."""
+"""The diagnostics of one file, at most some hundreds."""
 
 from dataclasses import dataclass, field
 
@@ -9,7 +9,7 @@ from regscribe.source.rules import TOO_MANY_FINDINGS
 MAX_FINDINGS = 300
 
 Others = tuple[tuple[str, SourcePlace], ...]
-"""What else a finding is about: a text and a place for each."""
+"""Texts and places of what else a finding is about."""
 
 
 class StopReadingError(Exception):

@@ -31,11 +31,12 @@ def display_name(path: FilePath) -> str:
     return "".join(character if character.isprintable() else "?" for character in text)
 
 
-def read(path: FilePath, *, name: str) -> tuple[bytes | None, list[Diagnostic]]:
-    """Return the bytes of a file of at most `MAX_BYTES`, which is not opened if it is larger or no regular file."""
+def load(path: FilePath, *, escapes: bool = False) -> tuple[Document | None, list[Diagnostic]]:
+    """Read and parse a file; the rest as in `parse`."""
+    name = display_name(path)
     findings = Findings(name)
     try:
-        return _read(path, findings), []
+        data = _read(path, findings)
     except StopReadingError:
         pass
     except OSError as error:
@@ -44,6 +45,8 @@ def read(path: FilePath, *, name: str) -> tuple[bytes | None, list[Diagnostic]]:
         findings.add(UNREADABLE, f"the map cannot be read: {reason}", START, advice=advice)
     except ValueError:
         findings.add(UNREADABLE, "no file can have this name", START, advice="check the path")
+    else:
+        return parse(data, name=name, escapes=escapes)
     return None, findings.diagnostics
 
 

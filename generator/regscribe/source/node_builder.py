@@ -1,7 +1,6 @@
 """YAML events to nodes, without recursion: depth, size and aliases are bounded while the file is being read."""
 
 import re
-from collections.abc import Iterator
 from decimal import Decimal
 
 import yaml
@@ -38,28 +37,25 @@ class NodeBuilder:
         self._escapes = escapes
         self._text = text
         self._findings = findings
-        self._stack: list[OpenCollection] = []
+        self._roots: list[SourceNode] = []
+        self._stack = [OpenCollection(START, None, flow=False, is_key=False, children=self._roots)]
         self._anchors: dict[str, SourceNode | None] = {}
         self._values = 0
-        self._root: SourceNode | None = None
 
     def build(self) -> SourceNode:
         """Return the top of the tree; raises StopReadingError if the file cannot be read to its end."""
-        for event in self._events():
-            self._take(event)
-            if isinstance(event, events.DocumentEndEvent):
-                self._end_of_document(event)
-                break
-        if self._root is None or self._root.value is None:
-            advice = "start one with `regscribe new MAKER/FAMILY`"
-            raise self._findings.stop(rules.EMPTY, "the file holds no map", START, advice=advice)
-        return self._root
-
-    def _events(self) -> Iterator[events.Event]:
         try:
-            yield from yaml.parse(self._text, Loader=_LOADER)
+            for event in yaml.parse(self._text, Loader=_LOADER):
+                self._take(event)
+                if isinstance(event, events.DocumentEndEvent):
+                    self._check_rest(event)
+                    break
         except yaml.YAMLError as error:
             raise explain(error, self._text, self._findings) from None
+        if not self._roots or self._roots[0].value is None:
+            advice = "start one with `regscribe new MAKER/FAMILY`"
+            raise self._findings.stop(rules.EMPTY, "the file holds no map", START, advice=advice)
+        return self._roots[0]
 
     def _take(self, event: events.Event) -> None:
         if isinstance(event, events.ScalarEvent):
@@ -74,10 +70,10 @@ class NodeBuilder:
     def _scalar(self, event: events.ScalarEvent) -> None:
         place = place_of(event)
         size = 1 + len(event.value) // CHARACTERS_PER_VALUE
-        self._count(size, place)
+        self._check_limits(size, 0, place)
         self._check_text(event, place)
-        frame = self._stack[-1] if self._stack else None
-        if frame and frame.awaits_key:
+        frame = self._stack[-1]
+        if frame.awaits_key:
             self._key(frame, event, place)
             if event.anchor:
                 self._anchors[event.anchor] = SourceNode(frame.key, place)
@@ -85,7 +81,7 @@ class NodeBuilder:
         node = SourceNode(self._value(event, place), place, size=size)
         if event.anchor:
             self._anchors[event.anchor] = node
-        self._attach(node)
+        frame.attach(node)
 
     def _check_text(self, event: events.ScalarEvent, place: SourcePlace) -> None:
         if len(event.value) > MAX_TEXT:
@@ -97,10 +93,9 @@ class NodeBuilder:
             self._findings.add(rules.CONTROL_CHARACTER, f"{hidden} written as an escape", place, advice=advice)
 
     def _value(self, event: events.ScalarEvent, place: SourcePlace) -> Plain:
-        plain = not event.style
         tag = (event.tag or "").removeprefix(_CORE)
         if tag in {"", "!", "str"}:
-            return self._resolve(event.value, place) if plain and not tag else event.value
+            return event.value if event.style or tag else self._resolve(event.value, place)
         value = self._resolve(event.value, place)
         if not isinstance(value, _TYPES.get(tag, ())) or (tag in {"int", "float"} and isinstance(value, bool)):
             self._refuse_tag(event.tag, place)
@@ -145,21 +140,17 @@ class NodeBuilder:
 
     def _open(self, event: events.CollectionStartEvent) -> None:
         place = place_of(event)
-        self._count(1, place)
-        if len(self._stack) >= MAX_DEPTH:
-            self._too_deep(place)
+        self._check_limits(1, 1, place)
         mapping = isinstance(event, events.MappingStartEvent)
         if event.tag not in {None, "!", f"{_CORE}{'map' if mapping else 'seq'}"}:
             self._refuse_tag(event.tag, place)
-        is_key = bool(self._stack) and self._stack[-1].awaits_key
+        is_key = self._stack[-1].awaits_key
         if is_key:
             self._refuse_key(place)
         if event.anchor:
             self._anchors[event.anchor] = None
-        frame = OpenCollection(
-            place, event.anchor, bool(event.flow_style), is_key, {} if mapping else [], {} if mapping else []
-        )
-        self._stack.append(frame)
+        children: dict[str, SourceNode] | list[SourceNode] = {} if mapping else []
+        self._stack.append(OpenCollection(place, event.anchor, bool(event.flow_style), is_key, children))
 
     def _close(self, event: events.Event) -> None:
         frame = self._stack.pop()
@@ -167,11 +158,11 @@ class NodeBuilder:
         if frame.anchor:
             self._anchors[frame.anchor] = node
         if not frame.is_key:
-            self._attach(node)
+            self._stack[-1].attach(node)
 
     def _alias(self, event: events.AliasEvent) -> None:
         place = place_of(event)
-        if self._stack and self._stack[-1].awaits_key:
+        if self._stack[-1].awaits_key:
             self._refuse_key(place)
             return
         anchor = event.anchor or ""
@@ -182,35 +173,27 @@ class NodeBuilder:
             advice = f"write `&{shorten(anchor)}` before a value above it, or quote a text that starts with `*`"
             self._findings.add(rules.BAD_ALIAS, message, place, advice=advice)
             node = SourceNode(None, place)
-        self._count(node.size, place)
-        if len(self._stack) + node.height > MAX_DEPTH:
-            self._too_deep(place)
-        self._attach(node._replace(place=place))
+        self._check_limits(node.size, node.height, place)
+        self._stack[-1].attach(node._replace(place=place))
 
-    def _attach(self, node: SourceNode) -> None:
-        if self._stack:
-            self._stack[-1].attach(node)
-        else:
-            self._root = node
-
-    def _count(self, values: int, place: SourcePlace) -> None:
-        self._values += values
+    def _check_limits(self, size: int, height: int, place: SourcePlace) -> None:
+        """Count the values of a node and the levels that it adds to those that are open."""
+        self._values += size
         if self._values > MAX_VALUES:
             message = f"more than {MAX_VALUES:,} values with all aliases expanded"
             advice = "write fewer aliases of aliases, or split the family into several maps"
             raise self._findings.stop(rules.TOO_MANY_VALUES, message, place, advice=advice)
-
-    def _too_deep(self, place: SourcePlace) -> None:
-        message = f"more than {MAX_DEPTH} levels of nesting"
-        raise self._findings.stop(
-            rules.TOO_DEEP, message, place, advice="is a bracket not closed? a map needs about ten"
-        )
+        if len(self._stack) - 1 + height > MAX_DEPTH:
+            message, advice = (
+                f"more than {MAX_DEPTH} levels of nesting",
+                "is a bracket not closed? a map needs about ten",
+            )
+            raise self._findings.stop(rules.TOO_DEEP, message, place, advice=advice)
 
     def _refuse_tag(self, tag: str | None, place: SourcePlace) -> None:
         message = f"the tag `{shorten((tag or '').replace(_CORE, '!!'))}` does not fit"
-        self._findings.add(
-            rules.TAG, message, place, advice="leave the tag out; put a text in quotes to keep it a text"
-        )
+        advice = "leave the tag out; put a text in quotes to keep it a text"
+        self._findings.add(rules.TAG, message, place, advice=advice)
 
     def _refuse_key(self, place: SourcePlace) -> None:
         frame = self._stack[-1]
@@ -218,13 +201,12 @@ class NodeBuilder:
         advice = "write the key as a text; quote a text that starts with `[`, `{`, `?` or `*`"
         self._findings.add(rules.KEY_NOT_TEXT, "a key that is a list, a mapping or an alias", place, advice=advice)
 
-    def _end_of_document(self, event: events.DocumentEndEvent) -> None:
+    def _check_rest(self, event: events.DocumentEndEvent) -> None:
         rest = _BLANK_OR_COMMENT.match(self._text, event.end_mark.index if event.end_mark else 0)
         if rest and rest.end() < len(self._text):
             place = place_at(self._text, rest.end())
             if event.explicit or self._text.startswith("---", rest.end()):
-                raise self._findings.stop(
-                    rules.SEVERAL_DOCUMENTS, "a second document", place, advice="keep one map in a file"
-                )
+                advice = "keep one map in a file"
+                raise self._findings.stop(rules.SEVERAL_DOCUMENTS, "a second document", place, advice=advice)
             advice = "indent all keys of the map alike, and quote a text that starts with `&`, `*`, `!` or `%`"
             raise self._findings.stop(rules.SYNTAX, "the map has ended before this", place, advice=advice)

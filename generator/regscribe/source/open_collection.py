@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 from yaml.events import Event
 
-from regscribe.source.document import START, Plain, SourceNode, SourcePlace
+from regscribe.source.document import START, SourceNode, SourcePlace
 
 
 @dataclass(slots=True)
@@ -15,7 +15,6 @@ class OpenCollection:
     anchor: str | None
     flow: bool
     is_key: bool
-    data: dict[str, Plain] | list[Plain]
     children: dict[str, SourceNode] | list[SourceNode]
     keys: dict[str, SourcePlace] = field(default_factory=dict)
     awaits_value: bool = False
@@ -26,31 +25,31 @@ class OpenCollection:
     @property
     def awaits_key(self) -> bool:
         """Whether the next event starts a key."""
-        return isinstance(self.data, dict) and not self.awaits_value
+        return isinstance(self.children, dict) and not self.awaits_value
 
     def attach(self, node: SourceNode) -> None:
         """Add a value; the value of a key that was refused is dropped."""
         self.size += node.size
         self.height = max(self.height, node.height + 1)
-        if isinstance(self.data, list) and isinstance(self.children, list):
-            self.data.append(node.value)
+        if isinstance(self.children, list):
             self.children.append(node)
-        elif isinstance(self.data, dict) and isinstance(self.children, dict):
-            self.awaits_value = False
-            if self.key is not None:
-                self.data[self.key] = node.value
-                self.children[self.key] = node
+            return
+        self.awaits_value = False
+        if self.key is not None:
+            self.children[self.key] = node
 
     def close(self, end: Event) -> SourceNode:
         """Return the finished collection; in block style it ends where its last child ends."""
         members = self.children if isinstance(self.children, dict) else None
         elements = self.children if isinstance(self.children, list) else None
-        ends = list(members.values())[-1:] if members else (elements or [])[-1:]
-        place = place_of(end)
+        nodes = list(elements or (members or {}).values())
+        last = place_of(end)
         if not self.flow:
-            place = ends[0].place if ends else self.place
-        whole = SourcePlace(self.place.line, self.place.column, place.end_line, place.end_column)
-        return SourceNode(self.data, whole, self.keys, members, elements, self.size, self.height)
+            last = nodes[-1].place if nodes else self.place
+        whole = SourcePlace(self.place.line, self.place.column, last.end_line, last.end_column)
+        values = [node.value for node in nodes]
+        data = values if members is None else dict(zip(members, values, strict=True))
+        return SourceNode(data, whole, self.keys, members, elements, self.size, self.height)
 
 
 def place_of(event: Event) -> SourcePlace:

@@ -8,9 +8,10 @@ MAX_EXPONENT = 400
 
 _WORDS: dict[str, bool | None] = {"": None, "~": None, "null": None, "true": True, "false": False}
 _NUMERIC_START = frozenset("0123456789+-.")
-_INTEGER = re.compile(r"[-+]?(0|[1-9][0-9]*)\Z")
-_BASED = re.compile(r"0o[0-7]+\Z|0x[0-9a-fA-F]+\Z")
-_DECIMAL = re.compile(r"[-+]?(\.[0-9]+|(0|[1-9][0-9]*)(\.[0-9]*)?)([eE]([-+]?[0-9]+))?\Z")
+_NUMBER = re.compile(
+    r"(?P<integer>[-+]?(?:0|[1-9][0-9]*)|0o[0-7]+|0x[0-9a-fA-F]+)\Z"
+    r"|[-+]?(?:\.[0-9]+|(?:0|[1-9][0-9]*)(?:\.[0-9]*)?)(?:[eE](?P<exponent>[-+]?[0-9]+))?\Z"
+)
 _REFUSED = (
     (re.compile(r"[-+]?0[0-9]+(\.[0-9]*)?([eE][-+]?[0-9]+)?\Z"), "starts with 0 (octal to some readers)"),
     (re.compile(r"[-+]?[0-9][0-9_]*_[0-9_]*(\.[0-9_]*)?\Z"), "has a `_` between its digits"),
@@ -21,48 +22,29 @@ NUMBER_HELP = "write a plain decimal number, 0x.. or 0o..; if a text is meant, p
 
 
 class NumberFormError(ValueError):
-    """A plain scalar that looks like a number and is none in every reader's eyes; the message says why."""
+    """A plain scalar that some readers take for a number and others do not; the message says why."""
 
 
 def resolve(text: str) -> bool | int | Decimal | str | None:
-    """Return the value of a plain scalar; NumberFormError for a number that readers take differently."""
+    """Return the value of a plain scalar; raises NumberFormError for a number that readers take differently."""
     if text in _WORDS:
         return _WORDS[text]
     if text[0] not in _NUMERIC_START:
         return text
-    number = _number(text)
-    return text if number is None else number
-
-
-def _number(text: str) -> int | Decimal | None:
-    if _INTEGER.match(text):
-        _check_length(text)
-        return int(text)
-    if _BASED.match(text):
-        _check_length(text)
-        return int(text, 0)
-    match = _DECIMAL.match(text)
-    if match:
-        _check_length(text)
-        _check_exponent(match[5])
-        return Decimal(text)
-    for pattern, reason in _REFUSED:
-        if pattern.match(text):
-            message = f"the number `{shorten(text)}` {reason}"
-            raise NumberFormError(message)
-    return None
-
-
-def _check_length(text: str) -> None:
+    number = _NUMBER.match(text)
+    if number is None:
+        for pattern, reason in _REFUSED:
+            if pattern.match(text):
+                message = f"the number `{shorten(text)}` {reason}"
+                raise NumberFormError(message)
+        return text
     if len(text) > MAX_NUMBER_LENGTH:
         message = f"a number of {len(text)} characters, at most {MAX_NUMBER_LENGTH} are read"
         raise NumberFormError(message)
-
-
-def _check_exponent(text: str | None) -> None:
-    if text is not None and abs(int(text)) > MAX_EXPONENT:
-        message = f"the exponent {int(text)} is beyond ±{MAX_EXPONENT}"
+    if abs(int(number["exponent"] or 0)) > MAX_EXPONENT:
+        message = f"the exponent {int(number['exponent'])} is beyond ±{MAX_EXPONENT}"
         raise NumberFormError(message)
+    return int(text, 0) if number["integer"] else Decimal(text)
 
 
 def shorten(text: str, limit: int = 40) -> str:

@@ -45,11 +45,14 @@ def normalise(text: str) -> str:
 
 
 def check_characters(text: str, findings: Findings) -> None:
-    """Find what a reader of the text would not see; raises StopReadingError if the structure depends on it."""
+    """Refuse invisible characters, tabs and directives; raises StopReadingError where the structure depends on them."""
     for match in _INVISIBLE.finditer(text):
         message = f"{describe(match[0])} in the text"
         findings.add(CONTROL_CHARACTER, message, place_at(text, match.start()), advice="delete it; it cannot be seen")
-    _check_tabs(text, findings)
+    tabs = [match.start(1) for match in _TAB_INDENT.finditer(text)]
+    if tabs:
+        message = f"a tab in the indentation ({len(tabs)} line{'s' if len(tabs) > 1 else ''} of the file)"
+        raise findings.stop(TAB, message, place_at(text, tabs[0]), advice="indent with blanks, two for each level")
     directive = _DIRECTIVE.match(text)
     if directive:
         advice = "delete the line; a map is always read as YAML 1.2"
@@ -66,13 +69,6 @@ def describe(character: str) -> str:
     """Name an invisible character."""
     direction = "\u202a" <= character <= "\u202e" or "\u2066" <= character <= "\u2069"
     return f"{'direction mark' if direction else 'control character'} U+{ord(character):04X}"
-
-
-def _check_tabs(text: str, findings: Findings) -> None:
-    places = [match.start(1) for match in _TAB_INDENT.finditer(text)]
-    if places:
-        message = f"a tab in the indentation ({len(places)} line{'s' if len(places) > 1 else ''} of the file)"
-        raise findings.stop(TAB, message, place_at(text, places[0]), advice="indent with blanks, two for each level")
 
 
 def place_at(text: str, index: int) -> SourcePlace:

@@ -7,7 +7,7 @@ from regscribe.source.findings import Findings, StopReadingError
 from regscribe.source.rules import SYNTAX
 from regscribe.source.utf8 import place_at
 
-# (a part of the parser's words, what it means here, what to do)
+# (a part of the parser's message, our message, our advice)
 _KNOWN = (
     (
         "mapping values are not allowed",
@@ -52,9 +52,11 @@ def explain(error: yaml.YAMLError, text: str, findings: Findings) -> StopReading
     if not isinstance(error, yaml.MarkedYAMLError):
         return findings.stop(SYNTAX, "the file is not YAML", START, advice=_ELSEWHERE)
     problem = error.problem or "not well-formed"
-    message, advice = _worded(problem)
+    known = ((message, advice) for part, message, advice in _KNOWN if part in problem)
+    message, advice = next(known, (problem, _ELSEWHERE))
     place, start = _place(error.problem_mark), _place(error.context_mark)
-    last = _last(text)
+    rest = text.rstrip()
+    last = place_at(rest, max(0, len(rest) - 1))  # libyaml counts a line more than a text has that ends without one
     beyond = place.line > last.line
     if beyond:
         place, start = last, min(start, last)
@@ -64,17 +66,6 @@ def explain(error: yaml.YAMLError, text: str, findings: Findings) -> StopReading
         return findings.stop(SYNTAX, message, start, advice=advice)
     related = ((error.context or "in what starts here", start),)
     return findings.stop(SYNTAX, message, place, advice=advice, related=related)
-
-
-def _worded(problem: str) -> tuple[str, str]:
-    """Say what a problem means and what to do; the parser's own words where it is not known."""
-    return next(((said, do) for part, said, do in _KNOWN if part in problem), (problem, _ELSEWHERE))
-
-
-def _last(text: str) -> SourcePlace:
-    """Place the last character that is no blank: libyaml counts a line more than a text has that ends without one."""
-    rest = text.rstrip()
-    return place_at(rest, max(0, len(rest) - 1))
 
 
 def _place(mark: "yaml.Mark | None") -> SourcePlace:
