@@ -1,14 +1,17 @@
 """Address spaces cut into sections (a view's region each) and rows of cells; stretches without registers are folded."""
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
-from itertools import chain, groupby, pairwise
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import groupby, pairwise
 
 from regscribe.model import Space
 from regscribe.pictures.address_use import AddressUse, Stretch
 
 Hole = tuple[str, int, int]
 """Addresses without a register: `unused`, `reserved` or nothing, the first and the last."""
+
+Content = tuple[int, tuple[AddressUse, ...], str]
+"""What neighbours share if they are drawn as one cell: -1 (their number if many addresses lie in each), uses, kind."""
 
 MOST_SECTIONS = 24
 """With more regions than this a space is drawn as one section."""
@@ -44,10 +47,14 @@ class AddressSection:
     """A stretch of one space under a heading: places of one view, and stretches that are `unused` or `reserved`."""
 
     space: Space
-    view: str
     region: tuple[int, int] | None
     places: tuple[AddressUse, ...]
     holes: tuple[Hole, ...] = ()
+
+    @property
+    def view(self) -> str:
+        """Return the names of the views."""
+        return ", ".join(dict.fromkeys(place.view for place in self.places))
 
     @property
     def first(self) -> int:
@@ -89,14 +96,6 @@ class Fold:
     stretches: tuple[Hole, ...]
 
 
-@dataclass(slots=True)
-class _Index:
-    """What lies in which cell of the whole space, cells counted from address 0."""
-
-    places: dict[int, list[AddressUse]] = field(default_factory=dict)
-    kinds: dict[int, str] = field(default_factory=dict)
-
-
 def sections(
     found: Sequence[AddressUse], unused: Iterable[Stretch], reserved: Iterable[Stretch]
 ) -> tuple[AddressSection, ...]:
@@ -111,41 +110,30 @@ def sections(
 
 
 def _of_space(space: Space, found: list[AddressUse], holes: list[Hole]) -> Iterator[AddressSection]:
-    regions = _regions(found)
+    regions = list(dict.fromkeys(place.region for place in found if place.region is not None))
+    if len(regions) > MOST_SECTIONS:
+        regions = []
     for region in regions:
         inside = tuple(place for place in found if place.region == region)
-        yield AddressSection(space, _views(inside), region, inside, _clipped(holes, *region))
+        yield AddressSection(space, region, inside, _clipped(holes, *region))
     rest = tuple(place for place in found if place.region not in regions)
-    outside = tuple(chain.from_iterable(_outside(hole, regions) for hole in holes))
+    outside = tuple((kind, *gap) for kind, low, high in holes for gap in gaps(regions, low, high))
     if rest or outside:
-        yield from _apart(AddressSection(space, _views(rest), None, rest, outside))
+        yield from _by_view(AddressSection(space, None, rest, outside))
 
 
-def _regions(found: Iterable[AddressUse]) -> list[tuple[int, int]]:
-    regions = list(dict.fromkeys(place.region for place in found if place.region is not None))
-    return regions if len(regions) <= MOST_SECTIONS else []
-
-
-def _apart(section: AddressSection) -> tuple[AddressSection, ...]:
+def _by_view(section: AddressSection) -> tuple[AddressSection, ...]:
     """Return a section for each view without a region, if their addresses do not mix; holes go with the first."""
-    views = dict.fromkeys(place.view for place in section.places)
+    views: dict[str, list[AddressUse]] = {}
+    for place in section.places:
+        views.setdefault(place.view, []).append(place)
     parts = [
-        AddressSection(
-            section.space,
-            view,
-            None,
-            tuple(place for place in section.places if place.view == view),
-            () if number else section.holes,
-        )
-        for number, view in enumerate(views)
+        replace(section, places=tuple(places), holes=() if number else section.holes)
+        for number, places in enumerate(views.values())
     ]
     ordered = sorted(parts, key=lambda part: part.first)
     apart = all(one.last < two.first for one, two in pairwise(ordered))
     return tuple(parts) if parts and apart and len(parts) <= MOST_SECTIONS else (section,)
-
-
-def _views(found: Iterable[AddressUse]) -> str:
-    return ", ".join(dict.fromkeys(place.view for place in found))
 
 
 def _clipped(holes: Iterable[Hole], low: int, high: int) -> tuple[Hole, ...]:
@@ -155,27 +143,26 @@ def _clipped(holes: Iterable[Hole], low: int, high: int) -> tuple[Hole, ...]:
     )
 
 
-def _outside(hole: Hole, regions: Sequence[tuple[int, int]]) -> Iterator[Hole]:
-    """Yield what of a hole lies in no region."""
-    kind, first, last = hole
-    for low, high in sorted(regions):
-        if first <= high and low <= last:
-            if first < low:
-                yield kind, first, low - 1
-            first = high + 1
-    if first <= last:
-        yield kind, first, last
+def gaps(spans: Iterable[tuple[int, int]], low: int, high: int) -> Iterator[tuple[int, int]]:
+    """Yield the stretches from `low` to `high` that no span holds."""
+    for first, last in sorted(spans):
+        if first > high:
+            break
+        if low < first:
+            yield low, first - 1
+        low = max(low, last + 1)
+    if low <= high:
+        yield low, high
 
 
 def choose(made: Sequence[AddressSection]) -> Grid:
     """Return the finest grid whose rows and cells are not too many."""
-    return next((grid for grid in GRIDS if _fits(made, grid)), GRIDS[-1])
-
-
-def _fits(made: Sequence[AddressSection], grid: Grid) -> bool:
-    rows = sum(len(_numbers(section, grid.step)) for section in made)
-    cells = sum(len(_numbers(section, grid.scale)) for section in made)
-    return rows <= grid.rows and cells <= grid.cells
+    for grid in GRIDS:
+        rows = sum(len(_numbers(section, grid.step)) for section in made)
+        cells = sum(len(_numbers(section, grid.scale)) for section in made)
+        if rows <= grid.rows and cells <= grid.cells:
+            return grid
+    return GRIDS[-1]
 
 
 def _numbers(section: AddressSection, step: int) -> set[int]:
@@ -185,23 +172,26 @@ def _numbers(section: AddressSection, step: int) -> set[int]:
 
 def layout(section: AddressSection, grid: Grid) -> tuple[AddressRow | Fold, ...]:
     """Return the rows of a section; rows without registers that follow each other are one fold."""
-    index = _index(section, grid)
+    kinds: dict[int, str] = {}
+    places: dict[int, list[AddressUse]] = {}
+    for kind, low, high in section.holes:
+        kinds.update(dict.fromkeys(range(low // grid.scale, high // grid.scale + 1), kind))
+    for place in section.places:
+        for cell in range(place.first // grid.scale, place.last // grid.scale + 1):
+            places.setdefault(cell, []).append(place)
+
+    def content(cell: int) -> Content:
+        found = tuple(places.get(cell, ()))
+        return cell if found and grid.scale > 1 else -1, found, kinds.get(cell, "")
+
     full = _numbers(section, grid.step)
     rows: list[AddressRow | Fold] = []
     for has, run in groupby(range(section.first // grid.step, section.last // grid.step + 1), key=full.__contains__):
         numbers = list(run)
-        rows += (_row(section, grid, index, number) for number in numbers) if has else (_fold(section, grid, numbers),)
+        rows += (
+            (_row(section, grid, content, number) for number in numbers) if has else (_fold(section, grid, numbers),)
+        )
     return tuple(rows)
-
-
-def _index(section: AddressSection, grid: Grid) -> _Index:
-    index = _Index()
-    for kind, low, high in section.holes:
-        index.kinds.update(dict.fromkeys(range(low // grid.scale, high // grid.scale + 1), kind))
-    for place in section.places:
-        for cell in range(place.first // grid.scale, place.last // grid.scale + 1):
-            index.places.setdefault(cell, []).append(place)
-    return index
 
 
 def _fold(section: AddressSection, grid: Grid, numbers: Sequence[int]) -> Fold:
@@ -217,20 +207,15 @@ def _fold(section: AddressSection, grid: Grid, numbers: Sequence[int]) -> Fold:
     return Fold((*stretches, ("", first, last)) if first <= last else tuple(stretches))
 
 
-def _row(section: AddressSection, grid: Grid, index: _Index, number: int) -> AddressRow:
+def _row(section: AddressSection, grid: Grid, content: Callable[[int], Content], number: int) -> AddressRow:
     start = number * grid.columns
-    inside = range(
-        max(start, section.first // grid.scale), min(start + grid.columns - 1, section.last // grid.scale) + 1
-    )
+    first = max(start, section.first // grid.scale)
+    last = min(start + grid.columns - 1, section.last // grid.scale)
     cells: list[Cell] = []
-    for (_, held, kind), run in groupby(inside, key=lambda cell: _content(index, grid, cell)):
+    for (_, places, kind), run in groupby(range(first, last + 1), key=content):
         numbers = list(run)
-        first, last = numbers[0] * grid.scale, (numbers[-1] + 1) * grid.scale - 1
-        cells.append(Cell(numbers[0] - start, len(numbers), first, last, held, "" if held else kind))
+        end = (numbers[-1] + 1) * grid.scale - 1
+        cells.append(
+            Cell(numbers[0] - start, len(numbers), numbers[0] * grid.scale, end, places, "" if places else kind)
+        )
     return AddressRow(start * grid.scale, tuple(cells))
-
-
-def _content(index: _Index, grid: Grid, cell: int) -> tuple[int, tuple[AddressUse, ...], str]:
-    """Return what neighbours must share to be one cell: a register of several words is one, many of them are not."""
-    held = tuple(index.places.get(cell, ()))
-    return (cell if held and grid.scale > 1 else -1, held, index.kinds.get(cell, ""))

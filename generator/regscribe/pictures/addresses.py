@@ -1,21 +1,20 @@
 """The address spaces of a family as a map: rows of addresses, cells by group, a strip for the region of each view."""
 
 from collections import Counter
-from collections.abc import Iterable
 
 from regscribe.emit.markdown import alt_text
 from regscribe.emit.markdown.context import SPACES
 from regscribe.emit.words import listed, span_words
 from regscribe.model import RegisterMap
-from regscribe.pictures.address_rows import AddressRow, AddressSection, Cell, Fold, Grid, choose, layout, sections
+from regscribe.pictures.address_rows import AddressRow, AddressSection, Fold, Grid, choose, layout, sections
 from regscribe.pictures.address_use import places, unused
-from regscribe.pictures.cell_style import Looks, draw, looks, tip
-from regscribe.pictures.drawing import MARGIN, PLAIN, SMALL, WIDTH, Box, Canvas, Drawing, DrawnLine, Text, TextStyle
+from regscribe.pictures.cell_style import Looks, draw, looks
+from regscribe.pictures.drawing import MARGIN, PLAIN, SMALL, WIDTH, Box, Canvas, Drawing, DrawnLine, Text
 from regscribe.pictures.legend import legend
 from regscribe.pictures.text_width import shorten, width
 
-LABEL = 52
-"""Room for the address before a row."""
+LEFT = MARGIN + 52
+"""Where a row begins, behind its first address."""
 
 HEIGHT = 26
 FOLDED = 20
@@ -31,49 +30,40 @@ Rows = tuple[AddressRow | Fold, ...]
 
 def addresses(register_map: RegisterMap) -> Drawing:
     """Draw the address spaces of a map."""
-    found = looks(register_map)
-    made = sections(places(register_map), unused(register_map), register_map.reserved)
+    uses = places(register_map)
+    styles = looks(register_map, uses)
+    made = sections(uses, unused(register_map), register_map.reserved)
     grid = choose(made)
-    rows = {section: layout(section, grid) for section in made}
+    layouts = [layout(section, grid) for section in made]
     canvas = Canvas()
     title = f"Address space of {register_map.title}"
-    canvas.head(title, _remarks(grid))
-    _legend(canvas, found, rows.values())
+    unit = "a cell is one address" if grid.scale == 1 else f"a cell stands for {grid.scale} addresses"
+    address = "the address before a row plus the number above a column is the zero-based wire address"
+    remark = f"Each row has {grid.step} addresses, {unit}; {address}. The letter in a cell names its group."
+    canvas.head(title, (remark,))
+    cells = [cell for rows in layouts for row in rows if isinstance(row, AddressRow) for cell in row.cells]
+    used = [styles.look(cell.places) for cell in cells if cell.places]
+    legend(canvas, styles, used, [cell.kind for cell in cells if not cell.places])
     several = Counter(section.space for section in made)
-    for section in made:
-        _section(canvas, section, rows[section], grid, found, several=several[section.space] > 1)
+    for section, rows in zip(made, layouts, strict=True):
+        _section(canvas, _heading(section, several=several[section.space] > 1), rows, grid, styles)
     return canvas.finish(title, alt_text.addresses(register_map))
 
 
-def _legend(canvas: Canvas, found: Looks, sections: Iterable[Rows]) -> None:
-    cells = [cell for rows in sections for row in rows if isinstance(row, AddressRow) for cell in row.cells]
-    used = [found.look(cell.places) for cell in cells if cell.places]
-    legend(canvas, found, used, [cell.kind for cell in cells if not cell.places])
-
-
-def _remarks(grid: Grid) -> tuple[str, ...]:
-    unit = "a cell is one address" if grid.scale == 1 else f"a cell stands for {grid.scale} addresses"
-    address = "the address before a row plus the number above a column is the zero-based wire address"
-    return (f"Each row has {grid.step} addresses, {unit}; {address}. The letter in a cell names its group.",)
-
-
-def _section(
-    canvas: Canvas,
-    section: AddressSection,
-    rows: Rows,
-    grid: Grid,
-    found: Looks,
-    *,
-    several: bool,
-) -> None:
+def _section(canvas: Canvas, heading: str, rows: Rows, grid: Grid, styles: Looks) -> None:
     canvas.y += 24
-    room = WIDTH - 2 * MARGIN
-    canvas.text(_heading(section, several=several), MARGIN, canvas.y, room, TextStyle(bold=True))
+    canvas.text(Text(MARGIN, canvas.y, heading, bold=True), WIDTH - 2 * MARGIN)
     canvas.y += 8
-    _numbers(canvas, grid, max((_end(row) for row in rows if isinstance(row, AddressRow)), default=0))
+    last_cells = [row.cells[-1] for row in rows if isinstance(row, AddressRow)]
+    if last_cells:
+        canvas.y += 10
+        for column in range(0, max(cell.column + cell.span for cell in last_cells), 1 if grid.columns <= FEW else 5):
+            middle = LEFT + _cell_width(grid) * (column + 0.5)
+            canvas.add(Text(middle, canvas.y, f"+{column * grid.scale}", SMALL, "middle", "dim"))
+        canvas.y += 4
     for row in rows:
         if isinstance(row, AddressRow):
-            _row(canvas, row, grid, found)
+            _row(canvas, row, grid, styles)
         else:
             _fold(canvas, row, grid)
 
@@ -90,59 +80,36 @@ def _heading(section: AddressSection, *, several: bool) -> str:
 
 
 def _cell_width(grid: Grid) -> float:
-    return (WIDTH - 2 * MARGIN - LABEL) // grid.columns
+    return (WIDTH - MARGIN - LEFT) // grid.columns
 
 
-def _end(row: AddressRow) -> int:
-    return row.cells[-1].column + row.cells[-1].span
-
-
-def _numbers(canvas: Canvas, grid: Grid, columns: int) -> None:
-    """Draw the numbers above the columns that the section has."""
-    if not columns:
-        return
+def _row(canvas: Canvas, row: AddressRow, grid: Grid, styles: Looks) -> None:
     wide = _cell_width(grid)
-    canvas.y += 10
-    for column in range(0, columns, 1 if grid.columns <= FEW else 5):
-        middle = MARGIN + LABEL + wide * (column + 0.5)
-        canvas.add(Text(middle, canvas.y, f"+{column * grid.scale}", SMALL, "middle", "dim"))
-    canvas.y += 4
-
-
-def _row(canvas: Canvas, row: AddressRow, grid: Grid, found: Looks) -> None:
-    wide = _cell_width(grid)
-    label = Text(MARGIN + LABEL - 8, canvas.y + HEIGHT - 8, str(row.first), PLAIN, "end", "dim")
-    canvas.add(label)
+    canvas.add(Text(LEFT - 8, canvas.y + HEIGHT - 8, str(row.first), PLAIN, "end", "dim"))
     for cell in row.cells:
-        box = Box(MARGIN + LABEL + wide * cell.column, canvas.y, wide * cell.span, HEIGHT, "")
-        _cell(canvas, cell, box, grid, found)
+        left = LEFT + wide * cell.column
+        if cell.places:
+            box = Box(left, canvas.y, wide * cell.span, HEIGHT, "")
+            words = styles.tip(cell.places, cell.first, cell.last)
+            draw(canvas, box, styles.look(cell.places), 12 if grid.columns <= FEW else 9, words)
+        else:
+            words = f"{cell.first} to {cell.last}: {cell.kind or 'no register'}"
+            style = cell.kind or "empty"
+            canvas.add(Box(left + 1, canvas.y + 1, wide * cell.span - 2, HEIGHT - 2, style, words, radius=1))
     canvas.y += HEIGHT
-
-
-def _cell(canvas: Canvas, cell: Cell, box: Box, grid: Grid, found: Looks) -> None:
-    if cell.places:
-        words = tip(cell.places, cell.first, cell.last, found.groups, found.models)
-        draw(canvas, box, found.look(cell.places), 12 if grid.columns <= FEW else 9, words)
-    else:
-        style = cell.kind or "empty"
-        words = f"{cell.first} to {cell.last}: {cell.kind or 'no register'}"
-        canvas.add(Box(box.x + 1, box.y + 1, box.width - 2, box.height - 2, style, words, radius=1))
 
 
 def _fold(canvas: Canvas, fold: Fold, grid: Grid) -> None:
     """Draw a break: a jagged line on both sides of what is left out."""
-    left, middle = MARGIN + LABEL, canvas.y + FOLDED / 2
-    right = left + _cell_width(grid) * grid.columns
-    words = shorten(_fold_words(fold), right - left - 120, SMALL + 1)
-    half = width(words, SMALL + 1) / 2 + 10
-    centre = (left + right) / 2
-    canvas.add(_jagged(left, centre - half, middle), _jagged(centre + half, right, middle))
-    canvas.add(Text(centre, middle + 3.5, words, SMALL + 1, "middle", "dim"))
+    middle = canvas.y + FOLDED / 2
+    right = LEFT + _cell_width(grid) * grid.columns
+    words = "; ".join(f"{span_words(low, high)}: {kind or 'no register'}" for kind, low, high in fold.stretches)
+    shown = shorten(words, right - LEFT - 120, SMALL + 1)
+    half = width(shown, SMALL + 1) / 2 + 10
+    centre = (LEFT + right) / 2
+    canvas.add(_jagged(LEFT, centre - half, middle), _jagged(centre + half, right, middle))
+    canvas.add(Text(centre, middle + 3.5, shown, SMALL + 1, "middle", "dim"))
     canvas.y += FOLDED
-
-
-def _fold_words(fold: Fold) -> str:
-    return "; ".join(f"{span_words(low, high)}: {kind or 'no register'}" for kind, low, high in fold.stretches)
 
 
 def _jagged(left: float, right: float, y: float) -> DrawnLine:

@@ -7,7 +7,7 @@ from regscribe.emit.outline import Branch, Leaf, formula, leaves
 from regscribe.emit.words import one_line, span_words
 from regscribe.model import RegisterMap
 from regscribe.pictures.cell_style import set_words
-from regscribe.pictures.drawing import MARGIN, PLAIN, WIDTH, Box, Canvas, Drawing, DrawnLine, Text, TextStyle
+from regscribe.pictures.drawing import MARGIN, PLAIN, WIDTH, Box, Canvas, Drawing, DrawnLine, Text
 from regscribe.pictures.structure import SHOWN, Level, lettered_name, levels
 from regscribe.pictures.style import tint
 from regscribe.pictures.text_width import clean, wrap
@@ -35,10 +35,6 @@ MOST_DEPTH = 4
 MOST_VIEWS = 6
 """What is drawn at most."""
 
-BOLD = TextStyle(bold=True)
-DIM = TextStyle(NOTE, style="dim")
-INDEX = TextStyle(PLAIN, "middle", bold=True)
-
 
 def array(register_map: RegisterMap, branch: Branch) -> Drawing:
     """Draw an array and the arrays in it."""
@@ -50,7 +46,8 @@ def array(register_map: RegisterMap, branch: Branch) -> Drawing:
     for level in found[:MOST_LEVELS]:
         _level(canvas, level, knees)
     if len(found) > MOST_LEVELS:
-        canvas.text(f"and {len(found) - MOST_LEVELS} more arrays", MARGIN, canvas.y + LINE, NAMES, DIM)
+        rest = f"and {len(found) - MOST_LEVELS} more arrays"
+        canvas.text(Text(MARGIN, canvas.y + LINE, rest, NOTE, style="dim"), NAMES)
         canvas.y += LINE
     return canvas.finish(f"{title}, {one_line(register_map.title)}", alt_text.array(branch))
 
@@ -74,8 +71,8 @@ def _level(canvas: Canvas, level: Level, knees: dict[tuple[str, ...], tuple[floa
     if level.key in knees:
         x, y = knees[level.key]
         canvas.add(DrawnLine(((x + 6, y), (x, y), (x, canvas.y - 4), (left - 4, canvas.y - 4))))
-    head = f"{level.path}, {level.letter} = {level.array.first} to {level.last}"
-    canvas.text(head, left, canvas.y, WIDTH - MARGIN - left, BOLD)
+    head = f"{level.path}, {level.letter} = {level.array.first} to {level.array.first + level.array.count - 1}"
+    canvas.text(Text(left, canvas.y, head, bold=True), WIDTH - MARGIN - left)
     _heads(canvas, level)
     top = canvas.y
     children = level.branch.children[:MOST_ROWS]
@@ -91,7 +88,8 @@ def _level(canvas: Canvas, level: Level, knees: dict[tuple[str, ...], tuple[floa
     canvas.items[frames:frames] = boxes  # behind the members
     if len(level.branch.children) > MOST_ROWS:
         canvas.y += LINE
-        canvas.text(f"and {len(level.branch.children) - MOST_ROWS} more members", left, canvas.y, NAMES - left, DIM)
+        rest = f"and {len(level.branch.children) - MOST_ROWS} more members"
+        canvas.text(Text(left, canvas.y, rest, NOTE, style="dim"), NAMES - left)
     canvas.y += 14
 
 
@@ -103,25 +101,21 @@ def _x(level: Level, column: int) -> float:
 def _heads(canvas: Canvas, level: Level) -> None:
     """Draw the index of each element, the arrow to the next one, and what the columns beside them are."""
     canvas.y += 16
-    step = level.step
-    if step is not None:
-        _arrow(canvas, f"{step:+d}", canvas.y)
+    if level.step is not None:
+        y, start, end = canvas.y, CELLS + CELL / 2, CELLS + CELL * 1.5
+        canvas.text(Text((start + end) / 2, y + 2, f"{level.step:+d}", NOTE, "middle", "dim"), CELL)
+        canvas.add(DrawnLine(((start, y + 10), (start, y + 6), (end, y + 6), (end, y + 10))))
+        canvas.add(DrawnLine(((end - 3, y + 6.5), (end, y + 10), (end + 3, y + 6.5))))
     canvas.y += 25
     for column, element in enumerate(level.elements):
-        canvas.text(f"[{level.array.first + element}]", _x(level, column) + CELL / 2, canvas.y, CELL - 4, INDEX)
+        index = f"[{level.array.first + element}]"
+        canvas.text(Text(_x(level, column) + CELL / 2, canvas.y, index, PLAIN, "middle", bold=True), CELL - 4)
     if level.gap:
         canvas.add(Text(_x(level, SHOWN) - GAP / 2, canvas.y, "…", PLAIN, "middle"))
     if level.start is not None:
         canvas.add(Text(OFFSETS, canvas.y, "offset", NOTE, "end", "dim"))
     canvas.add(Text(FORMULAS, canvas.y, "address", NOTE, "start", "dim"))
     canvas.y += 8
-
-
-def _arrow(canvas: Canvas, text: str, y: float) -> None:
-    start, end = CELLS + CELL / 2, CELLS + CELL * 1.5
-    canvas.text(text, (start + end) / 2, y + 2, CELL, TextStyle(NOTE, "middle", "dim"))
-    canvas.add(DrawnLine(((start, y + 10), (start, y + 6), (end, y + 6), (end, y + 10))))
-    canvas.add(DrawnLine(((end - 3, y + 6.5), (end, y + 10), (end + 3, y + 6.5))))
 
 
 def _member(canvas: Canvas, level: Level, child: Leaf | Branch, number: int, left: float) -> None:
@@ -132,20 +126,19 @@ def _member(canvas: Canvas, level: Level, child: Leaf | Branch, number: int, lef
     names = wrap(clean(name), room, PLAIN, lines=3)
     height = max(len(names) + 1, len(rules)) * LINE + 6
     for line, part in enumerate(names):
-        canvas.text(part, left + 12, canvas.y + 13 + LINE * line, room)
-    canvas.text(note, left + 12, canvas.y + 13 + LINE * len(names), room, DIM)
+        canvas.text(Text(left + 12, canvas.y + 13 + LINE * line, part), room)
+    canvas.text(Text(left + 12, canvas.y + 13 + LINE * len(names), note, NOTE, style="dim"), room)
     if level.start is not None:
-        offset = TextStyle(PLAIN, "end")
-        canvas.text(f"+{level.span(child, 0)[0] - level.start}", OFFSETS, canvas.y + 13, 44, offset)
+        offset = f"+{level.span(child, 0)[0] - level.start}"
+        canvas.text(Text(OFFSETS, canvas.y + 13, offset, PLAIN, "end"), 44)
     for column, element in enumerate(level.elements):
         canvas.add(Box(_x(level, column) + 1, canvas.y + 1, CELL - 4, height - 4, tint(number), radius=2))
         words = span_words(*level.span(child, element), "..")
-        size = PLAIN if ".." not in words else NOTE
-        like = TextStyle(size, "middle")
-        canvas.text(words, _x(level, column) + CELL / 2 - 1, canvas.y + height / 2 + 3, CELL - 6, like)
+        middle, size = _x(level, column) + CELL / 2 - 1, PLAIN if ".." not in words else NOTE
+        canvas.text(Text(middle, canvas.y + height / 2 + 3, words, size, "middle"), CELL - 6)
     for line, rule in enumerate(rules):
-        like = TextStyle(PLAIN - 1) if line == 0 else DIM
-        canvas.text(rule, FORMULAS, canvas.y + 13 + LINE * line, WIDTH - MARGIN - FORMULAS, like)
+        size, style = (NOTE, "dim") if line else (PLAIN - 1, "ink")
+        canvas.text(Text(FORMULAS, canvas.y + 13 + LINE * line, rule, size, style=style), WIDTH - MARGIN - FORMULAS)
     canvas.y += height
 
 
@@ -154,12 +147,11 @@ def _names(child: Leaf | Branch, level: Level) -> tuple[str, str]:
     shared = child.register if isinstance(child, Leaf) else child.array
     every = level.branch.array.models
     only = set_words(shared.models, every) if len(shared.models) < len(every) else ""
+    note = f".{shared.first.id}, {only}" if only else f".{shared.first.id}"
     if isinstance(child, Leaf):
-        return lettered_name(child.register.first.name), ", ".join(filter(None, (f".{child.register.first.id}", only)))
+        return lettered_name(child.register.first.name), note
     inner = child.array.first
-    return f"{inner.name} {inner.first} to {inner.first + inner.count - 1}", ", ".join(
-        filter(None, (f".{inner.id}", only))
-    )
+    return f"{inner.name} {inner.first} to {inner.first + inner.count - 1}", note
 
 
 def _rules(child: Leaf | Branch) -> Iterator[str]:

@@ -9,8 +9,9 @@ from regscribe.emit.markdown import alt_text
 from regscribe.emit.outline import Leaf, formula, lettered
 from regscribe.emit.words import bits_words, listed, one_line
 from regscribe.model import BitField, Register, RegisterMap, Space
+from regscribe.pictures.address_rows import gaps
 from regscribe.pictures.cell_style import set_words
-from regscribe.pictures.drawing import MARGIN, PLAIN, SMALL, WIDTH, Box, Canvas, Drawing, DrawnLine, Text, TextStyle
+from regscribe.pictures.drawing import MARGIN, PLAIN, SMALL, WIDTH, Box, Canvas, Drawing, DrawnLine, Text
 from regscribe.pictures.structure import lettered_name
 from regscribe.pictures.style import tint
 from regscribe.pictures.text_width import clean, width, wrap
@@ -62,13 +63,18 @@ def bits(register_map: RegisterMap, leaf: Leaf) -> Drawing:
     """Draw the fields of a register of bits."""
     register = leaf.register.first
     canvas = Canvas()
-    path = lettered(register.path)
     canvas.head(
-        f"{lettered_name(register.name)} ({path})",
+        f"{lettered_name(register.name)} ({lettered(register.path)})",
         (f"{_where(leaf)}. Bit 0 is the least significant; hatched bits have no name in the manual.",),
     )
     for strip in strips(leaf.register):
-        _strip(canvas, strip)
+        if strip.title:
+            canvas.y += 12
+            canvas.text(Text(MARGIN, canvas.y, strip.title, bold=True), WIDTH - 2 * MARGIN)
+            canvas.y += 10
+        highest = max([strip.width - 1, *(slot.field.high for slot in strip.slots)])
+        for low in range(highest // WORD * WORD, -1, -WORD):
+            _word(canvas, strip, low, min(low + WORD - 1, highest))
     return canvas.finish(f"Bits of {one_line(register.name)}, {one_line(register_map.title)}", alt_text.bits(leaf))
 
 
@@ -85,7 +91,12 @@ def strips(shared: Merged[Register]) -> tuple[Strip, ...]:
     cuts = shared.states(lambda _, register: (register.bits, register.fields))
     widths = {width for width, _ in (cut.value for cut in cuts)}
     if len(widths) == 1 and _alike(part for cut in cuts for part in cut.value[1]):
-        return (Strip("", widths.pop(), _slots(shared)),)
+        models = models_by((model.name, part) for model, register in shared.versions for part in register.fields)
+        every = shared.models
+        slots = (
+            Slot(part, set_words(names, every) if len(names) < len(every) else "") for part, names in models.items()
+        )
+        return (Strip("", widths.pop(), tuple(slots)),)
     return tuple(
         Strip(f"On {listed(cut.models, last='and')}", cut.value[0], tuple(Slot(part) for part in cut.value[1]))
         for cut in cuts
@@ -98,24 +109,6 @@ def _alike(fields: Iterable[BitField]) -> bool:
     return all(one[1] < other[0] for one, other in pairwise(spans))
 
 
-def _slots(shared: Merged[Register]) -> tuple[Slot, ...]:
-    models = models_by((model.name, part) for model, register in shared.versions for part in register.fields)
-    every = len(shared.versions)
-    return tuple(
-        Slot(part, set_words(names, shared.models) if len(names) < every else "") for part, names in models.items()
-    )
-
-
-def _strip(canvas: Canvas, strip: Strip) -> None:
-    if strip.title:
-        canvas.y += 12
-        canvas.text(strip.title, MARGIN, canvas.y, WIDTH - 2 * MARGIN, TextStyle(bold=True))
-        canvas.y += 10
-    highest = max([strip.width - 1, *(slot.field.high for slot in strip.slots)])
-    for low in range(highest // WORD * WORD, -1, -WORD):
-        _word(canvas, strip, low, min(low + WORD - 1, highest))
-
-
 def _word(canvas: Canvas, strip: Strip, low: int, high: int) -> None:
     """Draw bits `low` to `high`, numbers above, boxes, then the meanings, the lowest bit's first."""
     canvas.y += 12
@@ -124,7 +117,11 @@ def _word(canvas: Canvas, strip: Strip, low: int, high: int) -> None:
     canvas.y += 5
     inside = [slot for slot in strip.slots if slot.field.low <= high and low <= slot.field.high]
     spans = sorted({(max(slot.field.low, low), min(slot.field.high, high)) for slot in inside})
-    _boxes(canvas, spans, low, high)
+    for number, (first, last) in enumerate(spans):
+        canvas.add(Box(_x(last, low) + 1, canvas.y, BIT * (last - first + 1) - 2, HEIGHT, tint(number), radius=2))
+    for first, last in gaps(spans, low, high):
+        wide = BIT * (last - first + 1)
+        canvas.add(Box(_x(last, low) + 1, canvas.y, wide - 2, HEIGHT, "unused", "no name in the manual", radius=2))
     bottom = canvas.y + HEIGHT
     canvas.y = bottom + 6
     for span in spans:
@@ -135,25 +132,6 @@ def _word(canvas: Canvas, strip: Strip, low: int, high: int) -> None:
 
 def _x(bit: int, low: int) -> float:
     return RIGHT - BIT * (bit - low + 1)
-
-
-def _boxes(canvas: Canvas, spans: Sequence[tuple[int, int]], low: int, high: int) -> None:
-    for number, (first, last) in enumerate(spans):
-        box = Box(_x(last, low) + 1, canvas.y, BIT * (last - first + 1) - 2, HEIGHT, tint(number), radius=2)
-        canvas.add(box)
-    for first, last in _gaps(spans, low, high):
-        wide = BIT * (last - first + 1)
-        canvas.add(Box(_x(last, low) + 1, canvas.y, wide - 2, HEIGHT, "unused", "no name in the manual", radius=2))
-
-
-def _gaps(spans: Sequence[tuple[int, int]], low: int, high: int) -> Iterator[tuple[int, int]]:
-    """Yield the runs of bits that no span holds."""
-    for first, last in spans:
-        if low < first:
-            yield low, first - 1
-        low = max(low, last + 1)
-    if low <= high:
-        yield low, high
 
 
 def _meanings(canvas: Canvas, slots: Sequence[Slot], middle: float, bottom: float) -> None:
@@ -167,10 +145,10 @@ def _meanings(canvas: Canvas, slots: Sequence[Slot], middle: float, bottom: floa
         indent = width(number, PLAIN, bold=True) + 4
         for index, line in enumerate(wrap(clean(slot.field.label), ROOM - indent, PLAIN, lines=3)):
             canvas.y += LINE if index else 0
-            canvas.text(line, LABELS + indent, canvas.y, ROOM - indent)
+            canvas.text(Text(LABELS + indent, canvas.y, line), ROOM - indent)
         for line in _remarks(slot):
             canvas.y += LINE - 2
-            canvas.text(line, LABELS + indent, canvas.y, ROOM - indent, TextStyle(SMALL + 2, style="dim"))
+            canvas.text(Text(LABELS + indent, canvas.y, line, SMALL + 2, style="dim"), ROOM - indent)
 
 
 def _remarks(slot: Slot) -> Iterator[str]:

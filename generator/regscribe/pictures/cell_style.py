@@ -1,13 +1,13 @@
 """How a cell of the address map looks: what it shows is told by letter, outline and mark, never by colour alone."""
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from regscribe.emit.words import ACCESS, listed, span_words
 from regscribe.model import Access, RegisterMap
-from regscribe.pictures.address_use import AddressUse, groups, places
-from regscribe.pictures.drawing import Box, Canvas, DrawnLine, Item, Text
+from regscribe.pictures.address_use import AddressUse, groups
+from regscribe.pictures.drawing import Box, Canvas, DrawnLine, Text
 from regscribe.pictures.style import outline, tint
 from regscribe.pictures.text_width import clean, shorten
 
@@ -24,7 +24,8 @@ NARROW = 0.84
 """Two letters are this much smaller, so that they stay clear of the mark."""
 
 TIP = 400
-"""Width of a name in a tooltip, at font size 10."""
+MOST_WORDS = 3
+"""Width of a name in a tooltip, at font size 10, and how many registers it names."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,10 +62,22 @@ class Looks:
             return OTHERWISE
         return self.sets.get(found[0].models, "")
 
+    def tip(self, found: Sequence[AddressUse], first: int, last: int) -> str:
+        """Return the words of a cell's tooltip: its addresses and what they hold."""
+        shown = [self._words(place) for place in found[:MOST_WORDS]]
+        more = [f"and {len(found) - MOST_WORDS} more"] if len(found) > MOST_WORDS else []
+        return f"{span_words(first, last)}: {'; '.join([*shown, *more])}"
 
-def looks(register_map: RegisterMap) -> Looks:
-    """Number the groups and the sets of models."""
-    found = places(register_map)
+    def _words(self, place: AddressUse) -> str:
+        parts = [place.name, f"alias of {place.path}" if place.alias else place.path, ACCESS[place.access]]
+        parts.append(self.groups[place.group])
+        if len(place.models) < len(self.models):
+            parts.append(set_words(place.models, self.models))
+        return ", ".join(shorten(clean(part), TIP, 10) for part in parts)
+
+
+def looks(register_map: RegisterMap, found: Sequence[AddressUse]) -> Looks:
+    """Number the groups and the sets of models of all uses of a map."""
     models = tuple(model.name for model in register_map.models)
     partial = dict.fromkeys(place.models for place in found if len(place.models) < len(models))
     sets = {names: str(number) if number <= MOST_SETS else MANY for number, names in enumerate(partial, start=1)}
@@ -86,49 +99,17 @@ def draw(canvas: Canvas, box: Box, look: Look, size: float, tip: str = "") -> No
     """Draw a cell that fills `box`: filled if it can be written, an outline if not, dashed if it is an alias."""
     inset = 1.0 if look.access.writable else 2.0
     style = tint(look.group) if look.access.writable else outline(look.group)
-    classes = f"{style} alias" if look.alias else style
-    canvas.add(
-        Box(
-            box.x + inset,
-            box.y + inset,
-            box.width - 2 * inset,
-            box.height - 2 * inset,
-            classes,
-            tip,
-            radius=7 if look.alias else 1,
-        )
-    )
-    canvas.add(*_inside(box, look, size))
-
-
-def _inside(box: Box, look: Look, size: float) -> Iterable[Item]:
-    middle = box.x + box.width / 2
+    style, radius = (f"{style} alias", 7) if look.alias else (style, 1)
+    wide, high = box.width - 2 * inset, box.height - 2 * inset
+    canvas.add(Box(box.x + inset, box.y + inset, wide, high, style, tip, radius))
+    right, bottom = box.x + box.width, box.y + box.height
     text = letters(look.group)
-    yield Text(middle, box.y + box.height - 8, text, size if len(text) == 1 else size * NARROW, "middle", "ink mark")
+    font = size if len(text) == 1 else size * NARROW
+    canvas.add(Text(box.x + box.width / 2, bottom - 8, text, font, "middle", "ink mark"))
     if look.mark:
-        yield Text(box.x + box.width - 3.5, box.y + 8, look.mark, min(8, size - 2), "end", "ink mark")
+        canvas.add(Text(right - 3.5, box.y + 8, look.mark, min(8, size - 2), "end", "ink mark"))
     if not look.access.readable:
-        low = box.y + box.height - 3.5
-        yield DrawnLine(((box.x + 4, low), (box.x + box.width - 4, low)))
-
-
-def tip(found: Sequence[AddressUse], first: int, last: int, names: Mapping[str, str], models: Sequence[str]) -> str:
-    """Return the words of a cell's tooltip: its addresses and what they hold."""
-    shown = [_words(place, names, models) for place in found[:3]]
-    more = [f"and {len(found) - 3} more"] if len(found) > 3 else []  # noqa: PLR2004 - as many as are shown
-    return f"{span_words(first, last)}: {'; '.join([*shown, *more])}"
-
-
-def _words(place: AddressUse, names: Mapping[str, str], models: Sequence[str]) -> str:
-    parts = [place.name, f"alias of {place.path}" if place.alias else place.path, ACCESS[place.access]]
-    parts += [names[place.group]]
-    if len(place.models) < len(models):
-        parts.append(set_words(place.models, models))
-    return ", ".join(_short(part) for part in parts)
-
-
-def _short(text: str) -> str:
-    return shorten(clean(text), TIP, 10)
+        canvas.add(DrawnLine(((box.x + 4, bottom - 3.5), (right - 4, bottom - 3.5))))
 
 
 def set_words(names: Sequence[str], models: Sequence[str]) -> str:

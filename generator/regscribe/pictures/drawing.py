@@ -1,7 +1,7 @@
 """What a picture consists of, before it becomes SVG: boxes, lines and texts at known places, in pixels."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from regscribe.pictures.text_width import ASCENT, DESCENT, clean, shorten, width, wrap
 
@@ -37,19 +37,8 @@ class DrawnLine:
 
 
 @dataclass(frozen=True, slots=True)
-class TextStyle:
-    """How a text is drawn: font size, whether x is its start, middle or end, classes of `style`, and its tooltip."""
-
-    size: float = PLAIN
-    anchor: str = "start"
-    style: str = "ink"
-    bold: bool = False
-    tip: str = ""
-
-
-@dataclass(frozen=True, slots=True)
 class Text:
-    """One line of text: `x` is where it starts, or its middle or end by `anchor`; `y` is its base line."""
+    """One line of text: `x` is its start, middle or end by `anchor`, `y` its base line, `style` names classes."""
 
     x: float
     y: float
@@ -67,9 +56,6 @@ class Text:
         left = {"start": self.x, "middle": self.x - wide / 2, "end": self.x - wide}[self.anchor]
         return Box(left, self.y - ASCENT * self.size, wide, (ASCENT + DESCENT) * self.size, "")
 
-
-USUAL = TextStyle()
-"""Ink, plain size, from x on."""
 
 Item = Box | DrawnLine | Text
 
@@ -96,22 +82,21 @@ class Canvas:
         """Draw."""
         self.items += items
 
-    def text(self, text: str, x: float, y: float, room: float, like: TextStyle = USUAL) -> None:
-        """Draw text that is untrusted, in the style of `like`; if it is cut to `room`, the tooltip has all of it."""
-        whole = clean(text)
-        shown = shorten(whole, room, like.size, bold=like.bold)
-        tip = like.tip or (whole if shown != whole else "")
+    def text(self, item: Text, room: float) -> None:
+        """Draw text that is untrusted; if it is cut to `room`, the tooltip has all of it."""
+        whole = clean(item.text)
+        shown = shorten(whole, room, item.size, bold=item.bold)
         if shown:
-            self.add(Text(x, y, shown, like.size, like.anchor, like.style, like.bold, tip))
+            self.add(replace(item, text=shown, tip=item.tip or (whole if shown != whole else "")))
 
     def head(self, title: str, remarks: Sequence[str]) -> None:
         """Draw the title and lines of explanation at the top."""
         room = WIDTH - 2 * MARGIN
         self.y += LARGE
-        self.text(title, MARGIN, self.y, room, TextStyle(LARGE, bold=True))
+        self.text(Text(MARGIN, self.y, title, LARGE, bold=True), room)
         for line in (line for remark in remarks for line in wrap(clean(remark), room, PLAIN, lines=3)):
             self.y += 18
-            self.text(line, MARGIN, self.y, room, TextStyle(style="dim"))
+            self.text(Text(MARGIN, self.y, line, style="dim"), room)
         self.y += MARGIN
 
     def finish(self, title: str, description: str) -> Drawing:

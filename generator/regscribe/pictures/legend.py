@@ -2,10 +2,11 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from math import ceil
 
 from regscribe.model import Access
 from regscribe.pictures.cell_style import MANY, OTHERWISE, SEVERAL, Look, Looks, draw, set_words
-from regscribe.pictures.drawing import MARGIN, PLAIN, WIDTH, Box, Canvas, Text, TextStyle
+from regscribe.pictures.drawing import MARGIN, PLAIN, WIDTH, Box, Canvas, Text
 from regscribe.pictures.text_width import clean, width, wrap
 
 COLUMNS = 3
@@ -46,7 +47,8 @@ class LegendEntry:
 def legend(canvas: Canvas, looks: Looks, used: Sequence[Look], kinds: Sequence[str]) -> None:
     """Draw the entries of everything that the map uses, groups first."""
     _block(canvas, list(_groups(looks)))
-    _block(canvas, [*_shapes(looks, used), *_hatches(kinds)])
+    hatches = [LegendEntry(text, hatch=kind or "empty") for kind, text in HATCHES.items() if kind in kinds]
+    _block(canvas, [*_shapes(looks, used), *hatches])
     _block(canvas, list(_marks(looks, used)))
 
 
@@ -66,10 +68,6 @@ def _shapes(looks: Looks, used: Sequence[Look]) -> Iterator[LegendEntry]:
         yield LegendEntry("dashed, round: alias", Look(sample, aliases[0].access, alias=True))
 
 
-def _hatches(kinds: Sequence[str]) -> Iterator[LegendEntry]:
-    yield from (LegendEntry(text, hatch=kind or "empty") for kind, text in HATCHES.items() if kind in kinds)
-
-
 def _marks(looks: Looks, used: Sequence[Look]) -> Iterator[LegendEntry]:
     words = {mark: set_words(names, looks.models) for names, mark in looks.sets.items() if mark != MANY}
     marks = {look.mark for look in used}
@@ -80,7 +78,7 @@ def _block(canvas: Canvas, entries: Sequence[LegendEntry]) -> None:
     """Draw entries in columns, read down the first column, then the next."""
     if not entries:
         return
-    rows = -(-len(entries) // COLUMNS)
+    rows = ceil(len(entries) / COLUMNS)
     column = (WIDTH - 2 * MARGIN) / COLUMNS
     for number, entry in enumerate(entries):
         x = MARGIN + column * (number // rows)
@@ -100,5 +98,5 @@ def _entry(canvas: Canvas, entry: LegendEntry, x: float, y: float, room: float) 
     size = PLAIN if width(text, PLAIN) <= room else SMALLER
     lines = wrap(text, room, size, lines=2)
     for number, line in enumerate(lines):
-        like = TextStyle(size, tip=text if lines != (text,) else "")
-        canvas.text(line, x + SAMPLE + 8, y + (15 if len(lines) == 1 else 9 + 12 * number), room, like)
+        base = y + (15 if len(lines) == 1 else 9 + 12 * number)
+        canvas.text(Text(x + SAMPLE + 8, base, line, size, tip=text if lines != (text,) else ""), room)

@@ -1,4 +1,4 @@
-"""What the picture of an array tells: levels of nesting, the elements that are shown, addresses, offsets and steps."""
+"""Nested arrays as the picture of an array shows them: levels, elements that are drawn, addresses, offsets, steps."""
 
 import re
 from collections.abc import Iterator
@@ -25,14 +25,9 @@ class Level:
         return self.branch.array.first
 
     @property
-    def arrays(self) -> tuple[Array, ...]:
-        """Return this array and those it stands in, outermost first."""
-        return (*self.branch.arrays, self.array)
-
-    @property
     def key(self) -> tuple[str, ...]:
-        """Return what tells this level from the others of the tree."""
-        return tuple(array.id for array in self.arrays)
+        """Return the ids of this array and those it stands in, outermost first."""
+        return tuple(array.id for array in (*self.branch.arrays, self.array))
 
     @property
     def letter(self) -> str:
@@ -46,20 +41,15 @@ class Level:
         return f"{outer}{self.array.id}[{self.letter}]"
 
     @property
-    def last(self) -> int:
-        """Return the index of the last element."""
-        return self.array.first + self.array.count - 1
+    def gap(self) -> bool:
+        """Whether elements are left out before the last one."""
+        return self.array.count > SHOWN + 1
 
     @property
     def elements(self) -> tuple[int, ...]:
         """Return the elements that are drawn, counted from 0."""
         count = self.array.count
-        return tuple(range(count)) if count <= SHOWN + 1 else (*range(SHOWN), count - 1)
-
-    @property
-    def gap(self) -> bool:
-        """Whether elements are left out before the last one."""
-        return self.array.count > SHOWN + 1
+        return (*range(SHOWN), count - 1) if self.gap else tuple(range(count))
 
     def span(self, child: Leaf | Branch, element: int) -> tuple[int, int]:
         """Return the first and last address (in the base views) of a member in an element counted from 0."""

@@ -1,10 +1,8 @@
 """A drawing as SVG text: valid XML whatever the map says, the same bytes every time."""
 
 import html
-from collections.abc import Iterator
-from functools import singledispatch
 
-from regscribe.pictures.drawing import Box, Drawing, DrawnLine, Text
+from regscribe.pictures.drawing import Drawing, DrawnLine, Item, Text
 from regscribe.pictures.style import PATTERNS, css
 from regscribe.pictures.text_width import clean
 
@@ -30,43 +28,24 @@ def svg(drawing: Drawing, header: str) -> str:
     )
 
 
-@singledispatch
-def _item(item: object) -> str:
-    message = f"{item!r} is nothing that can be drawn"
-    raise TypeError(message)
-
-
-@_item.register
-def _box(item: Box) -> str:
-    numbers = {"x": item.x, "y": item.y, "width": item.width, "height": item.height}
-    places = "".join(f' {name}="{_number(value)}"' for name, value in numbers.items())
+def _item(item: Item) -> str:
+    if isinstance(item, DrawnLine):
+        points = "L".join(f"{_number(x)} {_number(y)}" for x, y in item.points)
+        return _element("path", f'd="M{points}" class="{item.style}"', "")
+    place = f'x="{_number(item.x)}" y="{_number(item.y)}"'
+    tip = f"<title>{_escape(item.tip)}</title>" if item.tip else ""
+    if isinstance(item, Text):
+        anchor = f' text-anchor="{item.anchor}"' if item.anchor != "start" else ""
+        weight = ' font-weight="bold"' if item.bold else ""
+        attributes = f'{place} font-size="{_number(item.size)}"{anchor}{weight} class="{item.style}"'
+        return _element("text", attributes, tip + _escape(item.text))
+    size = f'width="{_number(item.width)}" height="{_number(item.height)}"'
     radius = f' rx="{_number(item.radius)}"' if item.radius else ""
-    return _element("rect", f'{places}{radius} class="{item.style}"', item.tip, "")
+    return _element("rect", f'{place} {size}{radius} class="{item.style}"', tip)
 
 
-@_item.register
-def _line(item: DrawnLine) -> str:
-    points = "L".join(f"{_number(x)} {_number(y)}" for x, y in item.points)
-    return _element("path", f' d="M{points}" class="{item.style}"', "", "")
-
-
-@_item.register
-def _text(item: Text) -> str:
-    return _element("text", "".join(_text_attributes(item)), item.tip, _escape(item.text))
-
-
-def _text_attributes(item: Text) -> Iterator[str]:
-    yield f' x="{_number(item.x)}" y="{_number(item.y)}" font-size="{_number(item.size)}"'
-    if item.anchor != "start":
-        yield f' text-anchor="{item.anchor}"'
-    if item.bold:
-        yield ' font-weight="bold"'
-    yield f' class="{item.style}"'
-
-
-def _element(name: str, attributes: str, tip: str, content: str) -> str:
-    inside = (f"<title>{_escape(tip)}</title>" if tip else "") + content
-    return f"<{name}{attributes}>{inside}</{name}>" if inside else f"<{name}{attributes}/>"
+def _element(name: str, attributes: str, inside: str) -> str:
+    return f"<{name} {attributes}>{inside}</{name}>" if inside else f"<{name} {attributes}/>"
 
 
 def _escape(text: str) -> str:

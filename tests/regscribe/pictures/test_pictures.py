@@ -31,7 +31,8 @@ from regscribe.model import (
     WireType,
 )
 from regscribe.pictures import drawings, render, style
-from regscribe.pictures.address_rows import layout, sections
+from regscribe.pictures.address_rows import GRIDS, AddressRow, layout, sections
+from regscribe.pictures.address_use import places, unused
 from regscribe.pictures.cell_style import looks
 from regscribe.pictures.drawing import WIDTH, Box, Drawing, Text
 from regscribe.pictures.text_width import clean, shorten, width, wrap
@@ -290,8 +291,6 @@ def test_the_region_of_each_view_is_a_strip_of_its_own(oven: RegisterMap) -> Non
 def test_a_hole_is_cut_at_the_regions_of_views() -> None:
     view = View("x10", WireType.UINT16, offset=1000, region=(1000, 1999))
     place = replace(register("a", 5), views=(register("a", 5).base, view))
-    from regscribe.pictures.address_use import places  # noqa: PLC0415 - only here
-
     found = sections(places(family(model("A", [place]))), [(Space.HOLDING, 900, 1100)], ())
     assert [(section.region, section.holes) for section in found] == [
         (None, (("unused", 900, 999),)),
@@ -392,9 +391,6 @@ def test_shortened_and_wrapped_text_fits_its_room(text: str) -> None:
 
 
 def test_rows_of_a_section_follow_each_other_without_a_gap(any_map: RegisterMap) -> None:
-    from regscribe.pictures.address_rows import GRIDS, AddressRow  # noqa: PLC0415 - only here
-    from regscribe.pictures.address_use import places, unused  # noqa: PLC0415 - only here
-
     for section in sections(places(any_map), unused(any_map), any_map.reserved):
         rows = layout(section, GRIDS[0])
         spans = [
@@ -414,6 +410,6 @@ def test_no_two_paints_of_neighbouring_groups_are_alike() -> None:
 
 def test_groups_of_the_largest_map_that_comes_along_have_colours_of_their_own() -> None:
     maps = [compiled for path in MAPS if (compiled := compile_map(path).map)]
-    largest = max(len(looks(one).groups) for one in maps)
+    largest = max(len(looks(one, places(one)).groups) for one in maps)
     assert len({style.tint(number) for number in range(largest)}) == largest > 12
     assert len({style.outline(number) for number in range(largest)}) == largest

@@ -5,7 +5,7 @@ from fractions import Fraction
 from itertools import groupby
 from typing import NamedTuple
 
-from regscribe.pictures.drawing import MARGIN, PLAIN, SMALL, WIDTH, Box, Canvas, Drawing, DrawnLine, Text, TextStyle
+from regscribe.pictures.drawing import MARGIN, PLAIN, SMALL, WIDTH, Box, Canvas, Drawing, DrawnLine, Text
 from regscribe.pictures.style import tint
 from regscribe.pictures.svg import svg
 from regscribe.pictures.text_width import width
@@ -25,8 +25,6 @@ THIN = 2
 MOST_LEVELS, MOST_TIMES = 8, 12
 FIRST_COLOUR = 1
 """Colour 0 is that of the curve."""
-
-SMALL_DIM = TextStyle(SMALL + 1, style="dim")
 
 
 class PlotArea(NamedTuple):
@@ -137,7 +135,7 @@ def _axes(canvas: Canvas, found: Profile) -> PlotArea:
     canvas.add(Text(LEFT - 8, top - 12, found.level, PLAIN, "end", "ink"))
     counted = f" (in {found.counts_in}, decimals not stated)" if found.counts_in else ""
     words = f"time in {times.unit}" if times.unit else f"time as the controller counts it{counted}"
-    canvas.text(words, RIGHT, frame.bottom + 34, RIGHT - LEFT, TextStyle(SMALL + 1, "end", "dim"))
+    canvas.text(Text(RIGHT, frame.bottom + 34, words, SMALL + 1, "end", "dim"), RIGHT - LEFT)
     return frame
 
 
@@ -148,9 +146,9 @@ def _numbers(canvas: Canvas, frame: PlotArea, found: Profile) -> None:
         left, right = frame.x(own[0].start), frame.x(own[-1].end)
         tip = f"segment {number}: " + ", ".join(_leg(found, leg) for leg in own)
         canvas.add(Box(left, frame.top - 10 - BAND, max(right - left, THIN), BAND, "empty", tip, radius=2))
-        middle = TextStyle(PLAIN, "middle", style="ink mark", bold=True)
         if right - left > width(str(number), PLAIN, bold=True):
-            canvas.text(str(number), (left + right) / 2, frame.top - 10 - BAND / 2 + 4, right - left, middle)
+            middle, base = (left + right) / 2, frame.top - 10 - BAND / 2 + 4
+            canvas.text(Text(middle, base, str(number), PLAIN, "middle", "ink mark", bold=True), right - left)
 
 
 def _leg(found: Profile, leg: Leg) -> str:
@@ -178,7 +176,7 @@ def _lanes(canvas: Canvas, frame: PlotArea, program: Program, found: Profile) ->
     colours = _colours(program)
     spans = [(legs[0].start, legs[-1].end) for legs in _by_segment(found)]
     for name in names:
-        canvas.text(name, LEFT - 8, canvas.y + LANE / 2 + 4, LEFT - 8 - MARGIN, TextStyle(SMALL + 1, "end"))
+        canvas.text(Text(LEFT - 8, canvas.y + LANE / 2 + 4, name, SMALL + 1, "end"), LEFT - 8 - MARGIN)
         states = [one.outputs.get(name, "") for one in program.segments]
         for state, run in groupby(zip(spans, states, strict=True), key=lambda pair: pair[1]):
             ends = [span for span, _ in run]
@@ -205,8 +203,8 @@ def _by_segment(found: Profile) -> Iterator[list[Leg]]:
 def _state(canvas: Canvas, left: float, right: float, state: str, colours: Mapping[str, str]) -> None:
     if state:
         canvas.add(Box(left, canvas.y, max(right - left, THIN), LANE, colours[state], state, radius=2))
-        like = TextStyle(SMALL + 1, "middle", style="ink mark")
-        canvas.text(state, (left + right) / 2, canvas.y + LANE / 2 + 4, right - left - 6, like)
+        middle, base = (left + right) / 2, canvas.y + LANE / 2 + 4
+        canvas.text(Text(middle, base, state, SMALL + 1, "middle", "ink mark"), right - left - 6)
 
 
 def _legend(canvas: Canvas, colours: Mapping[str, str]) -> None:
@@ -218,6 +216,6 @@ def _legend(canvas: Canvas, colours: Mapping[str, str]) -> None:
         if x + room + 24 > RIGHT:
             x, canvas.y = float(LEFT), canvas.y + 18
         canvas.add(Box(x, canvas.y, 12, 12, style, radius=2))
-        canvas.text(state, x + 18, canvas.y + 10, room + 2, SMALL_DIM)
+        canvas.text(Text(x + 18, canvas.y + 10, state, SMALL + 1, style="dim"), room + 2)
         x += room + 36
     canvas.y += 16
