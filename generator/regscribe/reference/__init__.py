@@ -36,6 +36,7 @@ from regscribe.reference.words import (
     wire_number,
     word_order,
     words_in_order,
+    words_of_bits,
 )
 
 __all__ = [
@@ -74,4 +75,5 @@ __all__ = [
     "within",
     "word_order",
     "words_in_order",
+    "words_of_bits",
 ]

@@ -67,7 +67,8 @@ def _bits_of(view: View, words: tuple[int, ...], order: Order) -> int:
     return bits % (1 << view.type.bits)
 
 
-def _words_of(view: View, bits: int, order: Order) -> tuple[int, ...]:
+def words_of_bits(view: View, bits: int, order: Order) -> tuple[int, ...]:
+    """Return the words on the wire of a number in two's complement, or of the bits of an IEEE number."""
     raw = [(bits >> (8 * place)) % 256 for place in reversed(range(2 * view.type.words))]
     return words_in_order(view, raw, order)
 
@@ -115,14 +116,14 @@ def spelled(view: View, number: Fraction, order: Order, *, rounded: bool) -> tup
         carried = ieee_number(bits, view.type)
         if not rounded and number not in (carried, shortest(carried, view.type)):
             raise RefusedError(RefusalReason.RESOLUTION, f"{show(number)} is finer than {view.type}")
-        return _words_of(view, bits, order)
+        return words_of_bits(view, bits, order)
     if number.denominator != 1 and not rounded:
         raise RefusedError(RefusalReason.RESOLUTION, f"{show(number)} is no whole number on the wire")
     whole = round_by(view.rounding, number)
     lowest, highest = view.type.minimum + view.saturates, view.type.maximum - view.saturates
     if not lowest <= whole <= highest:
         raise RefusedError(RefusalReason.TYPE, f"{whole} lies outside {lowest} to {highest} of {view.type}")
-    return _words_of(view, whole % (1 << view.type.bits), order)
+    return words_of_bits(view, whole % (1 << view.type.bits), order)
 
 
 def transmit(view: View, stored: Fraction | NotANumber, known: Known = NOTHING_KNOWN) -> tuple[int, ...]:
@@ -139,9 +140,9 @@ def transmit(view: View, stored: Fraction | NotANumber, known: Known = NOTHING_K
 def sent_words(view: View, stored: Fraction | NotANumber, order: Order, *, clip: bool = False) -> tuple[int, ...]:
     """Return what `transmit` does, in this word order; with `clip`, a view clips even if it does not saturate."""
     if isinstance(stored, NotANumber):
-        return _words_of(view, not_a_number(view.type), order)
+        return words_of_bits(view, not_a_number(view.type), order)
     number = stored * view.factor
-    return _words_of(view, (_whole if view.type.is_integer else _ieee)(view, number, clip=clip), order)
+    return words_of_bits(view, (_whole if view.type.is_integer else _ieee)(view, number, clip=clip), order)
 
 
 def _whole(view: View, number: Fraction, *, clip: bool) -> int:

@@ -1,19 +1,20 @@
 """Test vectors of a map as JSON for any language, and the pytest module that runs them against the Python driver."""
 
+import json
 from typing import Any
 
 from regscribe.emit.header import FORMAT, header
-from regscribe.emit.vectors.device import command_facts, protocol_facts
-from regscribe.emit.vectors.json_layout import dumps
 from regscribe.emit.vectors.sent_values import transmissions
-from regscribe.emit.vectors.test_module import test_module
-from regscribe.emit.vectors.vector_sets import vector_sets
+from regscribe.emit.vectors.test_module import module_text
+from regscribe.emit.vectors.vector_sets import once_for_models, vector_sets
 from regscribe.emit.vectors.worked import worked_examples
-from regscribe.model import Given, RegisterMap
+from regscribe.model import Command, CommandStep, Given, Protocol, RegisterMap
 
+Json = dict[str, Any]
 SCHEMA = "vectors.schema.json"
+WIDTH = 150
 
-__all__ = ["document", "render"]
+__all__ = ["document", "dumps", "render"]
 
 
 def render(register_map: RegisterMap) -> dict[str, str]:
@@ -22,12 +23,25 @@ def render(register_map: RegisterMap) -> dict[str, str]:
     module = family.replace("-", "_")
     return {
         f"vectors/{maker}/{family}.json": dumps(document(register_map)) + "\n",
-        f"tests/{maker.replace('-', '_')}/test_{module}.py": test_module(register_map),
+        f"tests/{maker.replace('-', '_')}/test_{module}.py": module_text(register_map),
     }
 
 
-def document(register_map: RegisterMap) -> dict[str, Any]:
+def dumps(value: Any, indent: int = 0) -> str:  # noqa: ANN401 (any JSON value)
+    """Return `value` as JSON text, folded to lines of about `WIDTH` characters; keys stay in their order."""
+    compact = json.dumps(value, ensure_ascii=False)
+    if len(compact) + indent <= WIDTH or not isinstance(value, (dict, list)):
+        return compact
+    pad = " " * (indent + 1)
+    if isinstance(value, dict):
+        lines = [f"{pad}{json.dumps(key, ensure_ascii=False)}: {dumps(one, indent + 1)}" for key, one in value.items()]
+        return "{\n" + ",\n".join(lines) + "\n" + " " * indent + "}"
+    return "[\n" + ",\n".join(pad + dumps(one, indent + 1) for one in value) + "\n" + " " * indent + "]"
+
+
+def document(register_map: RegisterMap) -> Json:
     """Return the vectors of a map as JSON values; `schema/vectors.schema.json` documents each key."""
+    commands = ((model.name, _command(command)) for model in register_map.models for command in model.commands)
     return {
         "$schema": f"../../../schema/{SCHEMA}",
         "generated": header(register_map),
@@ -36,13 +50,36 @@ def document(register_map: RegisterMap) -> dict[str, Any]:
         "title": register_map.title,
         "sha256": register_map.content_hash,
         "models": [model.name for model in register_map.models],
-        "protocol": protocol_facts(register_map),
-        "commands": command_facts(register_map),
+        "protocol": _protocol(register_map.protocol),
+        "commands": once_for_models(commands, "id"),
         "givens": [_given(given) for given in register_map.givens],
         "sets": vector_sets(register_map),
         "transmissions": transmissions(register_map),
         "examples": worked_examples(register_map),
     }
+
+
+def _protocol(protocol: Protocol) -> Json:
+    """Return what a request may ask for: functions, most words or bits, and whether holes may be read along."""
+    return {
+        "functions": list(protocol.functions),
+        "read_words": protocol.read_words,
+        "write_words": protocol.write_words,
+        "read_bits": protocol.read_bits,
+        "write_bits": protocol.write_bits,
+        "read_holes": protocol.read_holes,
+        "unit_ids": list(protocol.unit_ids),
+    }
+
+
+def _command(command: Command) -> Json:
+    return {"id": command.id, "danger": bool(command.danger), "steps": [_step(step) for step in command.steps]}
+
+
+def _step(step: CommandStep) -> Json:
+    if not step.words:
+        return {"wait": step.wait}
+    return {"function": step.function, "address": step.address, "words": [word & 0xFFFF for word in step.words]}
 
 
 def _given(given: Given) -> dict[str, str]:

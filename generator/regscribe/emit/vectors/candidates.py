@@ -1,6 +1,6 @@
-"""Which words and which values of a register are worth a vector: ends, edges, orders, members, bits, faults.
+"""Words of a register that are worth decoding: ends of the type, byte orders, limits, members, bits, faults.
 
-Everything here only proposes; what a proposal means is asked of the reference.
+The words are only proposed here; the reference decides what they mean.
 """
 
 from collections.abc import Iterator
@@ -8,10 +8,8 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from regscribe.emit.vectors.scale import Scale
-from regscribe.model import Enum, Kind, NotANumber, Register, View, WireType
+from regscribe.model import BitField, Enum, Kind, NotANumber, Register, View, WireType
 from regscribe.reference import Surroundings, ieee_bits, special_value
-
-Words = tuple[int, ...]
 
 
 class Proposal(NamedTuple):
@@ -96,14 +94,10 @@ def _patterns(view: View, *, full: bool) -> Iterator[tuple[int, str]]:
         return
     yield ORDERED >> max(0, 56 - bits) & ((1 << bits) - 1), "every byte differs"
     if full:
-        yield from _ends(view)
-
-
-def _ends(view: View) -> Iterator[tuple[int, str]]:
-    lowest, highest = view.type.minimum, view.type.maximum
-    yield from ((lowest, "lowest of the type"), (highest, "highest of the type"))
-    yield from ((lowest + 1, "next to the lowest"), (highest - 1, "next to the highest"))
-    yield from ((0, "zero"), (1, "one"), (1 << (view.type.bits - 1), "only the sign bit"), (-1, "all bits"))
+        lowest, highest = view.type.minimum, view.type.maximum
+        yield from ((lowest, "lowest of the type"), (highest, "highest of the type"))
+        yield from ((lowest + 1, "next to the lowest"), (highest - 1, "next to the highest"))
+        yield from ((0, "zero"), (1, "one"), (1 << (bits - 1), "only the sign bit"), (-1, "all bits"))
 
 
 def _stored_numbers(register: Register, *, full: bool) -> Iterator[Proposal]:
@@ -120,18 +114,24 @@ def _scaled_numbers(register: Register, scale: Scale, known: Surroundings) -> It
     for special in register.specials:
         value = special_value(register, special, known)
         if value is not None:
-            stored, step = scale.stored(value), scale.wire_step or 1
-            yield Proposal(stored, f"special: {special.id}")
-            yield from (Proposal(stored + side * step, f"beside special: {special.id}") for side in (-1, 1))
+            yield from with_neighbours(scale.stored(value), scale.wire_step or Fraction(1), f"special: {special.id}")
+
+
+def with_neighbours(value: Fraction, step: Fraction, note: str) -> Iterator[Proposal]:
+    """Yield a value and both its neighbours, which the note is not true of."""
+    yield Proposal(value, note)
+    yield from (Proposal(value + side * step, f"beside {note}") for side in (-1, 1))
 
 
 def codes(register: Register) -> Iterator[Proposal]:
-    """Yield what a register of codes or bits can hold: members and other codes of its enum, or bits and fields."""
+    """Yield codes of a register of codes or bits: members and other codes of its enum, or bits and fields."""
     if register.enum is not None:
         yield from _enum_codes(register.enum)
     if register.kind in PATTERNS_OF_BITS:
         yield from (Proposal(Fraction(1 << bit), f"bit {bit} alone") for bit in range(min(register.bits, 64)))
-        yield from _field_codes(register)
+        for bits in register.fields:
+            if not bits.is_flag:
+                yield from _field_codes(bits)
 
 
 def _enum_codes(enum: Enum) -> Iterator[Proposal]:
@@ -144,14 +144,10 @@ def _enum_codes(enum: Enum) -> Iterator[Proposal]:
         yield Proposal(Fraction(code), "not in the manual's list")
 
 
-def _field_codes(register: Register) -> Iterator[Proposal]:
-    """Yield each member of each field, an unknown code of it, and the field filled with ones."""
-    for bits in register.fields:
-        full = (1 << bits.width) - 1
-        if bits.is_flag:
-            continue
-        listed = [member.code for member in bits.enum.members] if bits.enum else []
-        yield from (Proposal(Fraction(code << bits.low), f"{bits.id} = {code}") for code in listed)
-        unknown = next((code for code in range(full + 1) if code not in listed), full)
-        yield Proposal(Fraction(unknown << bits.low), f"{bits.id} = {unknown}")
-        yield Proposal(Fraction(full << bits.low), f"{bits.id} = {full}")
+def _field_codes(bits: BitField) -> Iterator[Proposal]:
+    """Yield each member of a field, an unknown code of it, and the field filled with ones."""
+    full = (1 << bits.width) - 1
+    listed = [member.code for member in bits.enum.members] if bits.enum else []
+    unknown = next((code for code in range(full + 1) if code not in listed), full)
+    for code in (*listed, unknown, full):
+        yield Proposal(Fraction(code << bits.low), f"{bits.id} = {code}")

@@ -1,15 +1,15 @@
-"""The vectors of one register in all its views and situations, without its name and addresses."""
+"""The vectors of one view of a register in one situation, without its name and addresses."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from typing import Any
 
 from regscribe.emit.vectors import offered_values
 from regscribe.emit.vectors.candidates import Proposal, wire_bits
-from regscribe.emit.vectors.domain import CODED, domain
+from regscribe.emit.vectors.domain import TEXTS, domain
 from regscribe.emit.vectors.scale import Scale, scale_now
 from regscribe.emit.vectors.situations import Situation
-from regscribe.model import BitField, Kind, Order, Register, Special, View, WireType, show
+from regscribe.model import Kind, Order, Register, View, WireType, show
 from regscribe.reference import (
     Meaning,
     Reading,
@@ -19,6 +19,7 @@ from regscribe.reference import (
     encode,
     special_value,
     word_order,
+    words_of_bits,
 )
 from regscribe_runtime.values.numbers import MOST_DIGITS
 
@@ -30,10 +31,14 @@ def case_of(register: Register, view: View, situation: Situation) -> Json:
     """Return the vectors of one view in one situation, as `schema/vectors.schema.json` describes them."""
     known = situation.known
     scale = scale_now(register, view, known)
-    found: Json = {"view": view.name, **surroundings(situation)}
-    found["decode"] = list(_decodes(register, view, known, _words(register, view, scale, situation)))
+    decodes = [
+        {"words": list(words), **_outcome(register, decode(register, view, words, known), known), "note": note}
+        for words, note in _words(register, view, scale, situation).items()
+    ]
+    found: Json = {"view": view.name, **surroundings(situation), "decode": decodes}
     if not register.access.writable:
-        found["refuse"] = [{"value": _sample(found["decode"]), "reason": "read_only", "note": "cannot be written"}]
+        sample = next((str(one["value"]) for one in decodes if "value" in one), "0")
+        found["refuse"] = [{"value": sample, "reason": "read_only", "note": "cannot be written"}]
     else:
         found |= _writes(register, view, scale, situation)
     return {key: value for key, value in found.items() if value or key == "view"}
@@ -51,10 +56,6 @@ def surroundings(situation: Situation) -> Json:
     return found
 
 
-def _sample(decodes: list[Json]) -> str:
-    return next((str(case["value"]) for case in decodes if "value" in case), "0")
-
-
 def _words(register: Register, view: View, scale: Scale | None, situation: Situation) -> dict[tuple[int, ...], str]:
     if view.type is WireType.STRING:
         return {
@@ -67,20 +68,7 @@ def _words(register: Register, view: View, scale: Scale | None, situation: Situa
         }
     order = word_order(view, situation.known) or Order.BIG
     bits = wire_bits(register, view, scale, situation.known, full=situation.full)
-    return {_in_order(view, pattern, order): note for pattern, note in bits.items()}
-
-
-def _in_order(view: View, bits: int, order: Order) -> tuple[int, ...]:
-    words = tuple(bits >> 16 * place & 0xFFFF for place in reversed(range(view.type.words)))
-    if view.byte_order is Order.LITTLE:
-        words = tuple((word & 0xFF) << 8 | word >> 8 for word in words)
-    return words if order is Order.BIG else words[::-1]
-
-
-def _decodes(register: Register, view: View, known: Surroundings, words: dict[tuple[int, ...], str]) -> Iterator[Json]:
-    for sent, note in words.items():
-        reading = decode(register, view, sent, known)
-        yield {"words": list(sent), **_outcome(register, reading, known), "note": note}
+    return {words_of_bits(view, pattern, order): note for pattern, note in bits.items()}
 
 
 def _outcome(register: Register, reading: Reading, known: Surroundings) -> Json:
@@ -99,36 +87,29 @@ def _outcome(register: Register, reading: Reading, known: Surroundings) -> Json:
 def _named(register: Register, value: Fraction, known: Surroundings) -> Json:
     if register.enum is not None:
         return {"member": next(member.id for member in register.enum.members if member.code == value)}
-    special = next((one.id for one, code in _specials(register, known) if code == value), None)
-    return {"special": special} if special is not None else _bits_set(register, int(value))
-
-
-def _specials(register: Register, known: Surroundings) -> Iterator[tuple[Special, Fraction | None]]:
-    """Yield the special values that stand for no number, with their codes as values of use."""
-    return ((one, special_value(register, one, known)) for one in register.specials if one.means is None)
-
-
-def _bits_set(register: Register, word: int) -> Json:
+    for special in register.specials:
+        if special.means is None and special_value(register, special, known) == value:
+            return {"special": special.id}
+    parts = {bits.id: (int(value) >> bits.low) % (1 << bits.width) for bits in register.fields}
     if register.kind is Kind.FLAGS:
-        return {"flags": [bits.id for bits in register.fields if word >> bits.low & 1]}
-    if register.kind is Kind.FIELDS:
-        return {"fields": {bits.id: str(_part(bits, word)) for bits in register.fields}}
-    return {}
-
-
-def _part(bits: BitField, word: int) -> int:
-    return (word >> bits.low) % (1 << bits.width)
+        return {"flags": [name for name, part in parts.items() if part & 1]}
+    return {"fields": {name: str(part) for name, part in parts.items()}} if register.kind is Kind.FIELDS else {}
 
 
 def _writes(register: Register, view: View, scale: Scale | None, situation: Situation) -> Json:
     known, encodes, refuses = situation.known, [], []
-    for value, note in _offered(register, view, scale, situation):
+    offered: Iterable[tuple[Fraction | str, str]]
+    if register.kind in TEXTS:
+        offered = offered_values.texts(register, view)
+    else:
+        offered = _once(offered_values.numbers(register, view, scale, known, full=situation.full)).items()
+    for value, note in offered:
         shown = value if isinstance(value, str) else show(value)
         try:
             encodes.append({"value": shown, "words": list(encode(register, view, value, known)), "note": note})
         except RefusedError as refusal:
             refuses.append({"value": shown, "reason": refusal.reason.value, "note": note})
-    if scale is not None and situation.full and register.kind not in CODED and view.type.is_integer:
+    if scale is not None and situation.full and register.fractional and view.type.is_integer:
         encodes += _rounded(register, view, scale, known)
     found: Json = {"encode": encodes, "refuse": refuses}
     if situation.full and word_order(view, known) is not None:
@@ -136,27 +117,17 @@ def _writes(register: Register, view: View, scale: Scale | None, situation: Situ
     return found
 
 
-def _offered(
-    register: Register, view: View, scale: Scale | None, situation: Situation
-) -> Iterator[tuple[Fraction | str, str]]:
-    if register.kind in {Kind.STRING, Kind.VERSION}:
-        yield from offered_values.texts(register, view)
-        return
-    yield from _once(offered_values.numbers(register, view, scale, situation.known, full=situation.full))
-
-
-def _once(proposals: Iterator[Proposal]) -> Iterator[Proposal]:
-    seen: dict[Fraction, str] = {}
+def _once(proposals: Iterable[Proposal]) -> dict[Fraction, str]:
+    """Return each value with the first of its notes, without values beyond the numbers that a driver takes."""
+    notes: dict[Fraction, str] = {}
     for value, note in proposals:
         if abs(value) < LARGEST_TRIED:
-            seen.setdefault(value, note)
-    return (Proposal(value, note) for value, note in seen.items())
+            notes.setdefault(value, note)
+    return notes
 
 
 def _rounded(register: Register, view: View, scale: Scale, known: Surroundings) -> Iterator[Json]:
-    if not register.fractional:
-        return
-    for value, note in _once(offered_values.rounded(scale)):
+    for value, note in _once(offered_values.rounded(scale)).items():
         try:
             words = encode(register, view, value, known, rounded=True)
         except RefusedError:

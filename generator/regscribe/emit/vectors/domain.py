@@ -1,4 +1,4 @@
-"""The stretches of values that can be written to a register in one situation, for tests that draw from them."""
+"""Intervals of values that can be written to a register in one situation, for tests that draw values from them."""
 
 from collections.abc import Iterator
 from fractions import Fraction
@@ -12,23 +12,20 @@ Json = dict[str, Any]
 CODED = frozenset({Kind.ENUM, Kind.FLAGS, Kind.FIELDS, Kind.BOOLEAN})
 TEXTS = frozenset({Kind.STRING, Kind.VERSION})
 WIDEST = LARGEST[WireType.FLOAT64]
-"""Beyond this no program reads a value as a float."""
+"""No float holds a value beyond it."""
 
 
 def domain(register: Register, view: View, scale: Scale | None, known: Surroundings) -> Iterator[Json]:
-    """Yield the codes of an enum, or each stretch of numbers that survive being written and read back."""
+    """Yield the codes of an enum, or each interval of numbers that are the same when written and read back."""
     if register.kind is Kind.ENUM and register.enum is not None:
         yield from ({"low": str(member.code), "high": str(member.code)} for member in register.enum.members)
     elif scale is not None and register.kind not in CODED | TEXTS:
         line = _line(scale, view) if view.type.is_float else {}
         holes = _holes(register, scale, known)
-        yield from (_stretch(*stretch, line, holes) for stretch in _stretches(register, scale, line))
-
-
-def _stretch(low: Fraction, high: Fraction, step: Fraction, line: dict[str, str], holes: list[Fraction]) -> Json:
-    inside = [show(value) for value in holes if low <= value <= high]
-    found = {"low": show(low), "high": show(high), "step": show(step) if step else "", **line, "except": inside}
-    return {key: value for key, value in found.items() if value}
+        for low, high, step in _stretches(register, scale, line):
+            inside = [show(value) for value in holes if low <= value <= high]
+            found = {"low": show(low), "high": show(high), "step": show(step) if step else "", **line, "except": inside}
+            yield {key: value for key, value in found.items() if value}
 
 
 def _stretches(register: Register, scale: Scale, line: dict[str, str]) -> Iterator[tuple[Fraction, Fraction, Fraction]]:

@@ -1,9 +1,9 @@
-"""Which values of a register are worth writing: limits and both sides of them, edges of rounding, members, bits."""
+"""Values of a register that are worth writing: limits and both sides of them, edges of rounding, members, bits."""
 
 from collections.abc import Iterator
 from fractions import Fraction
 
-from regscribe.emit.vectors.candidates import PATTERNS_OF_BITS, Proposal, codes
+from regscribe.emit.vectors.candidates import PATTERNS_OF_BITS, Proposal, codes, with_neighbours
 from regscribe.emit.vectors.domain import CODED
 from regscribe.emit.vectors.scale import Scale
 from regscribe.model import Kind, Register, View
@@ -19,10 +19,9 @@ TEXTS = {"A": "one character", "": "empty", "\u00e9": "no ASCII"}
 def numbers(
     register: Register, view: View, scale: Scale | None, known: Surroundings, *, full: bool
 ) -> Iterator[Proposal]:
-    """Yield numbers to write; whether the device's map takes them is for the reference to say."""
+    """Yield numbers to write, accepted and refused ones; the reference tells which is which."""
     if register.kind in CODED:
         yield from _coded(register)
-        yield from _faults(register)
         return
     if isinstance(register.default, Fraction):
         yield Proposal(register.default, "default")
@@ -38,36 +37,25 @@ def numbers(
 
 
 def _coded(register: Register) -> Iterator[Proposal]:
-    yield from ((Proposal(Fraction(0), "zero"), Proposal(Fraction(1), "one"), Proposal(Fraction(-1), "below zero")))
+    yield from (Proposal(Fraction(0), "zero"), Proposal(Fraction(1), "one"), Proposal(Fraction(-1), "below zero"))
     yield from codes(register)
     if register.kind is Kind.BOOLEAN:
         yield Proposal(Fraction(2), "neither true nor false")
     yield Proposal(Fraction(1 << register.bits), "one bit more than the type has")
-
-
-def _faults(register: Register) -> Iterator[Proposal]:
-    """Yield the codes that report faults: without a sign where the register is a pattern of bits."""
-    signless = register.kind in PATTERNS_OF_BITS
+    unsigned = register.kind in PATTERNS_OF_BITS
     for stored in register.faults:
-        yield Proposal(stored % (1 << register.bits) if signless else stored, "how the device reports a fault")
+        yield Proposal(stored % (1 << register.bits) if unsigned else stored, "how the device reports a fault")
 
 
 def _special(register: Register, scale: Scale, known: Surroundings) -> Iterator[Proposal]:
     yield Proposal(Fraction(0), "zero")
     for special in register.specials:
-        if special.means is None:
-            value = special_value(register, special, known)
-            yield from _beside(value, scale.step, f"special: {special.id}")
-        else:
-            yield from _beside(special.means, scale.step, f"special: {special.id} stands for this number")
+        value, note = special.means, f"special: {special.id} stands for this number"
+        if value is None:
+            value, note = special_value(register, special, known), f"special: {special.id}"
+        if value is not None:
+            yield from with_neighbours(value, scale.step, note)
     yield from (Proposal(scale.value(stored), "how the device reports a fault") for stored in register.faults)
-
-
-def _beside(value: Fraction | None, step: Fraction, note: str) -> Iterator[Proposal]:
-    """Yield a value and, because only it is special, the values on both sides of it."""
-    if value is not None:
-        yield Proposal(value, note)
-        yield from (Proposal(value + side * step, f"beside {note}") for side in (-1, 1))
 
 
 def _around_limits(scale: Scale) -> Iterator[Proposal]:
@@ -111,24 +99,6 @@ def rounded(scale: Scale) -> Iterator[Proposal]:
             yield Proposal(middle + scale.step * HALF, "half a step: the rule decides")
             yield Proposal(middle + scale.step * Fraction(49, 100), "less than half a step")
             yield Proposal(middle + scale.step * Fraction(51, 100), "more than half a step")
-
-
-def stored_numbers(view: View) -> Iterator[Proposal]:
-    """Yield numbers that a device may hold, to see what it makes of them on the wire."""
-    for whole in (0, 1, 2, 120, 121, -1, -2, -120):
-        for part, note in (
-            (HALF, "half a step"),
-            (Fraction(49, 100), "below a half"),
-            (Fraction(51, 100), "above a half"),
-        ):
-            if whole >= 0 or view.type.minimum < 0:
-                yield Proposal((whole + part) / view.factor, note)
-    if view.saturates:
-        ends = ((view.type.maximum, 1), (view.type.minimum, -1))
-        yield from (Proposal(Fraction(end) / view.factor, "exactly the end") for end, _ in ends)
-        yield from (
-            Proposal(Fraction(end + 1000 * outward) / view.factor, "beyond the end: clipped") for end, outward in ends
-        )
 
 
 def texts(register: Register, view: View) -> Iterator[tuple[str, str]]:

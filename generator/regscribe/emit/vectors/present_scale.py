@@ -1,48 +1,85 @@
-"""What scale and range a register has in given surroundings: which cases hold, and to which numbers they come."""
+"""Scale and range of a register in given surroundings: which cases hold, as numbers, and values for limits."""
+
+from fractions import Fraction
+from typing import NamedTuple
 
 from regscribe.emit.vectors.scale import range_now
-from regscribe.model import Cases, Conversion, Register
+from regscribe.model import Cases, Conversion, Interval, Kind, Number, Ref, Register
 from regscribe.reference import Surroundings, choose, decimal_factor, holds
 from regscribe_runtime.values.conditions import T
+
+LOW_STORED, HIGH_STORED = Fraction(100), Fraction(1500)
+"""Values for limits in other registers, as stored numbers: every type of 16 bits and more can hold them."""
+
+
+class CasesNow(NamedTuple):
+    """Indices of the cases of scale and range that hold, and the numbers in them: equal ones behave the same."""
+
+    scale: int
+    range: int
+    numbers: tuple[object, ...]
+
+
+def cases_of(register: Register, known: Surroundings) -> CasesNow:
+    """Return which cases of scale and range hold, with their numbers."""
+    ranges = register.range if register.access.writable else ()
+    return CasesNow(_index(register.scale, known), _index(ranges, known), _numbers(register, known))
 
 
 def _index(cases: Cases[T], known: Surroundings) -> int:
     return next((index for index, case in enumerate(cases) if holds(case.when, known)), -1)
 
 
-def _special_factor(register: Register, known: Surroundings) -> object:
-    conversion = choose(register.special_scale, known)
-    return conversion and decimal_factor(conversion.decimals, known)
-
-
-def cases_of(register: Register, known: Surroundings) -> object:
-    """Return the cases of scale and range that hold with their decimals, as something to compare."""
-    conversion = choose(register.scale, known)
+def _numbers(register: Register, known: Surroundings) -> tuple[object, ...]:
+    conversion, special = choose(register.scale, known), choose(register.special_scale, known)
     limits_now = range_now(register, known)
+    factor = conversion and decimal_factor(conversion.decimals, known)
     return (
-        _index(register.scale, known),
-        conversion and decimal_factor(conversion.decimals, known),
-        _special_factor(register, known),
-        _index(register.range, known) if register.access.writable else 0,
-        limits_now and decimal_factor(limits_now.decimals, known),
+        (conversion.multiply / factor, conversion.add / factor) if conversion and factor else None,
         _increment(register, conversion, known),
+        limits_now and (limits_now.intervals, decimal_factor(limits_now.decimals, known)),
+        special and decimal_factor(special.decimals, known),
     )
 
 
 def _increment(register: Register, conversion: Conversion | None, known: Surroundings) -> object:
-    """Return what tells how fine a value may be written."""
+    """Return the step between the stored numbers that may be written."""
     if conversion is None or conversion.step is None or not register.access.writable:
         return conversion and conversion.step
     factor = decimal_factor(conversion.places, known)
     return factor and conversion.step / factor
 
 
-def numbers_of(register: Register, known: Surroundings) -> object:
-    """Return the scale and the limits as numbers: two cases that say the same are the same."""
+def limit_values(register: Register, known: Surroundings) -> dict[str, Fraction]:
+    """Return a value for each register that holds a limit of what may be written now."""
+    limits_now = range_now(register, known)
+    if limits_now is None or register.kind is Kind.STRING:
+        return {}
+    lowest, highest = _usual(register, known)
+    factor = decimal_factor(limits_now.decimals, known) or Fraction(1)
+    values: dict[str, Fraction] = {}
+    for interval in limits_now.intervals:
+        for limit, value in zip((interval.low, interval.high), _ends(interval, lowest, highest, factor), strict=True):
+            if isinstance(limit, Ref):
+                values.setdefault(limit.register, value)
+    return values
+
+
+def _usual(register: Register, known: Surroundings) -> tuple[Fraction, Fraction]:
+    """Return LOW_STORED and HIGH_STORED as values of use, the lower one first."""
     conversion = choose(register.scale, known)
     factor = conversion and decimal_factor(conversion.decimals, known)
-    increment = _increment(register, conversion, known)
-    scale = (conversion.multiply / factor, conversion.add / factor, increment) if conversion and factor else None
-    limits_now = range_now(register, known)
-    limits = limits_now and limits_now.intervals, limits_now and decimal_factor(limits_now.decimals, known)
-    return scale, limits, _special_factor(register, known)
+    if conversion is None or not factor:  # nothing can be written then, whatever the limits
+        return LOW_STORED, HIGH_STORED
+    low, high = sorted((conversion.multiply * stored + conversion.add) / factor for stored in (LOW_STORED, HIGH_STORED))
+    return low, high
+
+
+def _ends(interval: Interval, low: Fraction, high: Fraction, factor: Fraction) -> tuple[Fraction, Fraction]:
+    """Return both ends, moved where the other end is a number beyond them."""
+    width = high - low
+    if isinstance(interval.low, Number) and interval.low / factor >= high:
+        high = interval.low / factor + width
+    if isinstance(interval.high, Number) and interval.high / factor <= low:
+        low = interval.high / factor - width
+    return low, high

@@ -1,4 +1,4 @@
-"""The scale and the limits of a register as they stand in one situation, as numbers."""
+"""Scale and limits of a register in one situation, as numbers."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -39,9 +39,14 @@ class Scale:
         return (value - self.offset) / self.slope
 
     @property
+    def size(self) -> Fraction:
+        """Distance of two values that the view can carry; 0 where it has no steps."""
+        return abs(self.slope) * self.wire_step
+
+    @property
     def step(self) -> Fraction:
-        """How far two values lie apart; a tenth of a stored unit where the view has no steps."""
-        return abs(self.slope) * (self.wire_step or Fraction(1, 10))
+        """Distance of two values; a tenth of a stored unit where the view has no steps."""
+        return self.size or abs(self.slope) * Fraction(1, 10)
 
     def stored_limits(self) -> Iterator[tuple[Fraction, str]]:
         """Yield the stored numbers of all limits, and of both neighbours of each."""
@@ -54,25 +59,20 @@ class Scale:
 
     def domain(self) -> tuple[tuple[Fraction, Fraction], ...]:
         """Return the stretches of values that can be written: limits and view together, ends on whole steps."""
-        ends = sorted((self.value(self.lowest), self.value(self.highest)))
-        found = []
-        for low, high in self.limits or ((None, None),):
-            inner = (max(ends[0], ends[0] if low is None else low), min(ends[1], ends[1] if high is None else high))
-            stretch = self._on_steps(*inner)
-            if stretch[0] <= stretch[1]:
-                found.append(stretch)
-        return tuple(found)
-
-    @property
-    def size(self) -> Fraction:
-        """How far two values lie apart that the view can carry; 0 where it has no steps."""
-        return abs(self.slope) * self.wire_step
+        lowest, highest = sorted((self.value(self.lowest), self.value(self.highest)))
+        limits = self.limits or ((None, None),)
+        inner = (
+            (lowest if low is None else max(lowest, low), highest if high is None else min(highest, high))
+            for low, high in limits
+        )
+        stretches = (self._on_steps(low, high) for low, high in inner)
+        return tuple((low, high) for low, high in stretches if low <= high)
 
     def whole_domain(self) -> tuple[Fraction, tuple[tuple[Fraction, Fraction], ...]]:
         """Return the step between whole numbers among the values, and the stretches between such; none without any."""
         if not self.size:
             return Fraction(1), tuple((Fraction(ceil(low)), Fraction(floor(high))) for low, high in self.domain())
-        period = Fraction(lcm(self.size.numerator, self.size.denominator), self.size.denominator)
+        period = Fraction(self.size.numerator)
         first = (self.offset + self.size * steps for steps in range(self.size.denominator))
         whole = next((value for value in first if value.denominator == 1), None)
         if whole is None:
@@ -94,7 +94,7 @@ class Scale:
 
 
 def range_now(register: Register, known: Surroundings) -> Range | None:
-    """Return the range that counts for writing in this situation; None if nothing can be written or no case holds."""
+    """Return the range that holds for writing in this situation; None if nothing can be written or no case holds."""
     return choose(register.range, known) if register.access.writable else None
 
 
@@ -108,7 +108,10 @@ def scale_now(register: Register, view: View, known: Surroundings) -> Scale | No
     places = decimal_factor(conversion.places if register.access.writable else None, known)
     if factor is None or places is None or (limits_now and decimal_factor(limits_now.decimals, known) is None):
         return None
-    lowest, highest = _carried(view)
+    if view.type.is_float:
+        lowest, highest = -LARGEST[view.type], LARGEST[view.type]
+    else:
+        lowest, highest = Fraction(view.type.minimum + view.saturates), Fraction(view.type.maximum - view.saturates)
     return Scale(
         slope=conversion.multiply / factor,
         offset=conversion.add / factor,
@@ -117,12 +120,6 @@ def scale_now(register: Register, view: View, known: Surroundings) -> Scale | No
         highest=highest / view.factor,
         limits=limits(limits_now, known) if limits_now else (),
     )
-
-
-def _carried(view: View) -> tuple[Fraction, Fraction]:
-    if view.type.is_float:
-        return -LARGEST[view.type], LARGEST[view.type]
-    return Fraction(view.type.minimum + view.saturates), Fraction(view.type.maximum - view.saturates)
 
 
 def _wire_step(view: View, step: Fraction | None) -> Fraction:

@@ -1,41 +1,51 @@
 """What a device sends while it holds a number between two steps of a view, or one beyond the view's ends."""
 
 from collections.abc import Iterator
+from fractions import Fraction
 from typing import Any
 
-from regscribe.emit.vectors.offered_values import stored_numbers
+from regscribe.emit.vectors.candidates import Proposal
 from regscribe.emit.vectors.vector_sets import view_facts
-from regscribe.model import Order, Register, RegisterMap, Rounding, View, show
+from regscribe.model import Order, RegisterMap, Rounding, View, show
 from regscribe.reference import RefusedError, transmit
 
 Json = dict[str, Any]
+PARTS = {Fraction(1, 2): "half a step", Fraction(49, 100): "below a half", Fraction(51, 100): "above a half"}
 
 
 def transmissions(register_map: RegisterMap) -> list[Json]:
     """Return one entry for each kind of view that rounds or clips: stored numbers and the words that are sent."""
-    registers: Iterator[Register] = (register for model in register_map.models for register in model.registers)
     views = (
         view._replace(offset=0, region=None, order=order)
-        for register in registers
+        for model in register_map.models
+        for register in model.registers
         for view in register.views
+        if view.type.is_integer and (view.saturates or view.rounding is not Rounding.NONE)
         for order in _orders(view)
     )
-    return [{"view": view_facts(view), "sends": list(_sends(view))} for view in dict.fromkeys(views) if _alters(view)]
+    return [{"view": view_facts(view), "sends": list(_sends(view))} for view in dict.fromkeys(views)]
 
 
 def _orders(view: View) -> tuple[Order, ...]:
     """Every order of words that the view may have; where a register sets it, each that it can set."""
-    if isinstance(view.order, Order):
-        return (view.order,)
-    return tuple(dict.fromkeys(order for _, order in view.order.codes))
+    return (view.order,) if isinstance(view.order, Order) else tuple(order for _, order in view.order.codes)
 
 
-def _alters(view: View) -> bool:
-    return view.type.is_integer and (view.saturates or view.rounding is not Rounding.NONE)
+def _stored_numbers(view: View) -> Iterator[Proposal]:
+    """Yield numbers that a device may hold, to see what it makes of them on the wire."""
+    for whole in (0, 1, 2, 120, 121, -1, -2, -120):
+        if whole >= 0 or view.type.minimum < 0:
+            yield from (Proposal((whole + part) / view.factor, note) for part, note in PARTS.items())
+    if view.saturates:
+        ends = ((view.type.maximum, 1), (view.type.minimum, -1))
+        yield from (Proposal(Fraction(end) / view.factor, "exactly the end") for end, _ in ends)
+        yield from (
+            Proposal(Fraction(end + 1000 * outward) / view.factor, "beyond the end: clipped") for end, outward in ends
+        )
 
 
 def _sends(view: View) -> Iterator[Json]:
-    for stored, note in dict(reversed(list(stored_numbers(view)))).items():
+    for stored, note in dict(reversed(list(_stored_numbers(view)))).items():
         try:
             yield {"stored": show(stored), "words": list(transmit(view, stored)), "note": note}
         except RefusedError:

@@ -1,26 +1,15 @@
-"""In which surroundings a register must be tried: every case of its scale and range, every order, every decimals."""
+"""Situations in which a register is tried: each case of its scale and range, each word order, each decimals."""
 
-from collections.abc import Callable
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import islice
 
-from regscribe.emit.vectors.limit_values import limit_values
-from regscribe.emit.vectors.present_scale import cases_of, numbers_of
-from regscribe.emit.vectors.tried_values import (
-    Dependencies,
-    GivenTry,
-    TriedValues,
-    Values,
-    dependencies_of,
-    tried_values,
-)
+from regscribe.emit.vectors.present_scale import cases_of, limit_values
+from regscribe.emit.vectors.tried_values import Dependencies, TriedValues, Values, dependencies_of, tried_values
 from regscribe.model import Model, Register, RegisterMap, View
 from regscribe.reference import Surroundings, holds, word_order
 from regscribe.reference.states import combinations
-
-Meaning = Callable[[Surroundings], object]
-"""What a situation comes to, for the register that is tried."""
 
 MOST_COMBINATIONS = 20_000
 """Enough for every combination of six registers with five values each; more would only repeat what was tried."""
@@ -28,7 +17,7 @@ MOST_COMBINATIONS = 20_000
 
 @dataclass(frozen=True, slots=True)
 class Situation:
-    """What is known beside the register itself. Not `full`: it differs from another one only in the codes.
+    """Values of other registers and givens. Not `full`: it differs from another situation in the codes only.
 
     `parts` are the names in `values` that are a field of a register; `words` those of such registers.
     """
@@ -47,12 +36,12 @@ class Situation:
 
     @property
     def known(self) -> Surroundings:
-        """The same as the reference wants it."""
+        """The situation as the reference takes it."""
         return Surroundings(dict(self.values), dict(self.codes), dict(self.facts))
 
 
 class Finder:
-    """Finds situations; registers that depend on the same things in the same way are worked out once."""
+    """Finds situations, once for registers that depend on the same things in the same way."""
 
     def __init__(self, register_map: RegisterMap) -> None:
         self._map = register_map
@@ -74,15 +63,17 @@ class Finder:
 
 
 def _situations(tried: TriedValues, register: Register, view: View) -> tuple[Situation, ...]:
-    seen: dict[object, Situation] = {}
-    every = _combinations(tried)
-    for situation in every:
+    first: dict[object, Situation] = {}
+    meanings: dict[Situation, object] = {}
+    for situation in _combinations(tried):
         known = situation.known
-        seen.setdefault(cases_of(register, known), situation)
+        cases = cases_of(register, known)
+        meanings[situation] = cases.numbers
+        first.setdefault(cases, situation)
         if view.words > 1:
-            seen.setdefault(word_order(view, known), situation)
-    full = list(dict.fromkeys(seen.values()))
-    found = [*full, *_missing(tried.values, full, every, lambda known: numbers_of(register, known))]
+            first.setdefault(word_order(view, known), situation)
+    full = list(dict.fromkeys(first.values()))
+    found = [*full, *_missing(tried.values, full, meanings)]
     return tuple(_with_limits(register, situation) for situation in found)
 
 
@@ -94,57 +85,52 @@ def writable_situations(
         return ()
     condition = register.writable.when
     tried = tried_values(register_map, model, Dependencies((condition,)))
-    every = _combinations(tried)
-    seen = {holds(condition, situation.known): situation for situation in reversed(every)}
-    full = list(seen.values())
-    found = [*full, *_missing(tried.values, full, every, lambda known: holds(condition, known))]
+    meanings = {situation: holds(condition, situation.known) for situation in _combinations(tried)}
+    full = list({allowed: situation for situation, allowed in reversed(meanings.items())}.values())
+    found = [*full, *_missing(tried.values, full, meanings)]
     return tuple((situation, holds(condition, situation.known)) for situation in found)
 
 
 def _combinations(tried: TriedValues) -> list[Situation]:
-    """Return the combinations of all that is to be tried, as many as there is time for."""
+    """Return the combinations of all values to try, at most MOST_COMBINATIONS."""
     every = ((values, givens) for values in combinations(tried.values) for givens in combinations(tried.givens))
-    return [_situation(tried, values, givens) for values, givens in islice(every, MOST_COMBINATIONS)]
-
-
-def _situation(tried: TriedValues, values: dict[str, Fraction], givens: dict[str, GivenTry]) -> Situation:
-    return Situation(
-        (*values.items(), *_words(tried, values)),
-        tuple((name, codes) for name, codes in givens.items() if isinstance(codes, frozenset)),
-        tuple((name, fact) for name, fact in givens.items() if isinstance(fact, bool)),
-        tuple(tried.parts),
-        tuple(register for register, _ in tried.parts.values()),
-    )
+    parts, words = tuple(tried.parts), tuple(register for register, _ in tried.parts.values())
+    return [
+        Situation(
+            (*values.items(), *_words(tried, values)),
+            tuple((name, codes) for name, codes in givens.items() if isinstance(codes, frozenset)),
+            tuple((name, fact) for name, fact in givens.items() if isinstance(fact, bool)),
+            parts,
+            words,
+        )
+        for values, givens in islice(every, MOST_COMBINATIONS)
+    ]
 
 
 def _words(tried: TriedValues, values: dict[str, Fraction]) -> tuple[tuple[str, Fraction], ...]:
-    """Put fields together to the words that they are parts of."""
+    """Combine fields to the words that they are parts of."""
     words: dict[str, int] = {}
     for name, (register, low) in tried.parts.items():
         words[register] = words.get(register, 0) | int(values[name]) << low
     return tuple((register, Fraction(word)) for register, word in words.items() if register not in values)
 
 
-def _missing(values: Values, full: list[Situation], every: list[Situation], meaning: Meaning) -> list[Situation]:
+def _missing(values: Values, full: list[Situation], meanings: Mapping[Situation, object]) -> list[Situation]:
     """Return a situation for each value that no full one has: one where this value makes a difference, if it can."""
-    wanted = _uncovered(values, full)
-    meanings = {situation: meaning(situation.known) for situation in every} if wanted else {}
-    effects = {name: _effects(name, meanings) for name in dict.fromkeys(name for name, _ in wanted)}
+    covered = {pair for situation in full for pair in situation.values}
     found: dict[Situation, None] = {}
-    for name, value in wanted:
-        having = [situation for situation in every if (name, value) in situation.values]
-        if having:
-            found[replace(max(having, key=effects[name].__getitem__), full=False)] = None
+    for name, listed in values.items():
+        uncovered = [(name, value) for value in listed if (name, value) not in covered]
+        effects = _effects(name, meanings) if uncovered else {}
+        for pair in uncovered:
+            having = [situation for situation in meanings if pair in situation.values]
+            if having:
+                found[replace(max(having, key=effects.__getitem__), full=False)] = None
     return list(found)
 
 
-def _uncovered(values: Values, full: list[Situation]) -> list[tuple[str, Fraction]]:
-    covered = {pair for situation in full for pair in situation.values}
-    return [(name, value) for name, listed in values.items() for value in listed if (name, value) not in covered]
-
-
-def _effects(name: str, meanings: dict[Situation, object]) -> dict[Situation, int]:
-    """Return how many different meanings each situation can take by a change of `name` alone."""
+def _effects(name: str, meanings: Mapping[Situation, object]) -> dict[Situation, int]:
+    """Count the different meanings that each situation can take by a change of `name` alone."""
     found: dict[object, set[object]] = {}
     for situation, meant in meanings.items():
         found.setdefault(_without(situation, name), set()).add(meant)

@@ -1,6 +1,7 @@
 """The generated pytest module: names and paths only; what is tested stands in `regscribe.testing`."""
 
 from regscribe.emit.header import header
+from regscribe.emit.python.literals import literal
 from regscribe.model import RegisterMap
 
 BODY = '''"""The driver against its vectors, and properties that hold for every value."""
@@ -118,7 +119,7 @@ def test_the_views_of_a_register_agree(driver: DriverUnderTest, data: st.DataObj
 """
 
 
-def test_module(register_map: RegisterMap) -> str:
+def module_text(register_map: RegisterMap) -> str:
     """Return the text of the test module of a map; maker and file names are checked identifiers of the map."""
     maker, family = register_map.id.split("/")
     registers = [register for model in register_map.models for register in model.registers]
@@ -127,26 +128,15 @@ def test_module(register_map: RegisterMap) -> str:
         (WRITTEN, any(register.access.writable for register in registers)),
         (MIRRORED, any(register.access.writable and len(register.views) > 1 for register in registers)),
     )
-    more = "".join(text for text, wanted in parts if wanted)
-    return (
-        BODY.format(
-            header=header(register_map, prefix="# ", separator="\n# "),
-            maker=maker.replace("-", "_"),
-            module=family.replace("-", "_"),
-            maker_text=_quoted(maker),
-            file_text=_quoted(f"{family}.json"),
-            classes=_classes([f"module.{model.class_name}" for model in register_map.models]),
-        )
-        + more
+    body = BODY.format(
+        header=header(register_map, prefix="# ", separator="\n# "),
+        maker=maker.replace("-", "_"),
+        module=family.replace("-", "_"),
+        maker_text=literal(maker),
+        file_text=literal(f"{family}.json"),
+        classes=_classes([f"module.{model.class_name}" for model in register_map.models]),
     )
-
-
-def _quoted(text: str) -> str:
-    quoted = repr(text)
-    return f'"{quoted[1:-1]}"' if '"' not in quoted else quoted
-
-
-test_module.__test__ = False  # type: ignore[attr-defined]  # pytest must not take it for a test
+    return body + "".join(text for text, wanted in parts if wanted)
 
 
 def _classes(names: list[str]) -> str:

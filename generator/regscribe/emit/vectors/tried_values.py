@@ -1,4 +1,4 @@
-"""Which values of other registers are worth trying: both ends of each code range, what lies beside, each order."""
+"""Values to try of the registers that a meaning depends on: ends of each code range, their neighbours, each order."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -28,7 +28,7 @@ Domain = tuple[Stretch, ...]
 class TriedValues:
     """Values to try by `register` or `register.field`, and what the givens may be, by id.
 
-    `parts` tells of a `register.field` which register it is a part of and at which bit it begins.
+    `parts` has the register and the lowest bit of each `register.field`.
     """
 
     values: Values
@@ -38,7 +38,7 @@ class TriedValues:
 
 @dataclass(frozen=True, slots=True)
 class Dependencies:
-    """What the meaning of a register depends on: conditions, numbers of decimals and perhaps the word order."""
+    """Dependencies of the meaning of a register: conditions, numbers of decimals and perhaps the word order."""
 
     conditions: tuple[Condition, ...]
     decimals: tuple[Decimals, ...] = ()
@@ -51,7 +51,7 @@ class Dependencies:
 
 
 def dependencies_of(register: Register, view: View) -> Dependencies:
-    """Return what must be known to read `view`, and to write it if it can be written."""
+    """Return the dependencies of reading `view`, and of writing it if it can be written."""
     conditions = [case.when for case in (*register.scale, *register.special_scale)]
     decimals = [case.then.decimals for case in (*register.scale, *register.special_scale)]
     if register.access.writable:
@@ -63,7 +63,7 @@ def dependencies_of(register: Register, view: View) -> Dependencies:
 
 
 def tried_values(register_map: RegisterMap, model: Model, dependencies: Dependencies) -> TriedValues:
-    """Return the values to try for everything that `dependencies` ask."""
+    """Return the values to try of everything in `dependencies`."""
     sets = {given.id for given in register_map.givens if given.kind is GivenKind.CODES}
     values: dict[str, set[Fraction]] = {}
     for subject, found in _values(model, dependencies, sets):
@@ -71,7 +71,13 @@ def tried_values(register_map: RegisterMap, model: Model, dependencies: Dependen
     return TriedValues(
         {subject: tuple(sorted(found)) for subject, found in values.items()},
         {test.given: _given(model, test, sets) for test in dependencies.tests if test.given},
-        {test.subject: _part(model, test) for test in dependencies.tests if test.field},
+        {
+            test.subject: (test.register, bits.low)
+            for test in dependencies.tests
+            if test.field
+            for bits in model.register(test.register).fields
+            if bits.id == test.field
+        },
     )
 
 
@@ -92,18 +98,12 @@ def _values(model: Model, dependencies: Dependencies, sets: set[str]) -> Iterato
 
 
 def _given(model: Model, test: Is, sets: set[str]) -> tuple[GivenTry, ...]:
-    """Return what a given may be: true or false, or of the first two values of its register the second."""
+    """Return the choices for a given: false and true, or a set of the second value of its register alone."""
     return (frozenset({_first_two(_domain(model, test))[1]}),) if test.given in sets else (False, True)
 
 
 def _domain(model: Model, test: Is) -> Domain:
     return domain(model.register(test.register), test.field)
-
-
-def _part(model: Model, test: Is) -> tuple[str, int]:
-    """Return the register of a field and the field's lowest bit."""
-    fields = model.register(test.register).fields
-    return test.register, next(bits.low for bits in fields if bits.id == test.field)
 
 
 def _first_two(stretches: Domain) -> tuple[Fraction, Fraction]:

@@ -1,21 +1,20 @@
-"""Vector sets: what registers of several models have in common is worked out and written once."""
+"""Vector sets: registers of several models with equal vectors share one set, worked out and written once."""
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
+from regscribe.emit.common_values import models_by
 from regscribe.emit.vectors.content import case_of, surroundings
 from regscribe.emit.vectors.situations import Finder, Situation, writable_situations
 from regscribe.model import (
     Enum,
-    Model,
     OrderFrom,
     Register,
     RegisterMap,
     Rounding,
     Span,
-    Special,
     View,
     always,
     show,
@@ -28,24 +27,26 @@ NOWHERE = Span("")
 
 def vector_sets(register_map: RegisterMap) -> list[Json]:
     """Return the vector sets of a map; each names the registers, models and addresses that it is true of."""
-    worked_out: dict[tuple[Register, Plan], str] = {}
-    places: dict[str, list[tuple[Register, str]]] = {}
+    keys: dict[tuple[Register, Plan], str] = {}
     contents: dict[str, Json] = {}
+    places: dict[str, list[tuple[str, Json]]] = {}
     finder = Finder(register_map)
-    for model, register in _registers(register_map):
-        tried = tuple(finder.situations(model, register, view) for view in register.views)
-        key = (_bare(register), (tried, writable_situations(register_map, model, register)))
-        known = worked_out.get(key)
-        if known is None:
-            content = _content(*key)
-            known = worked_out[key] = json.dumps(content)
-            contents[known] = content
-        places.setdefault(known, []).append((register, model.name))
-    return [{"registers": _placed(places[key]), **content} for key, content in contents.items()]
+    for model in register_map.models:
+        for register in model.registers:
+            tried = tuple(finder.situations(model, register, view) for view in register.views)
+            bare = (_bare(register), (tried, writable_situations(register_map, model, register)))
+            if bare not in keys:
+                content = _content(*bare)
+                keys[bare] = json.dumps(content)
+                contents[keys[bare]] = content
+            places.setdefault(keys[bare], []).append((model.name, _place(register)))
+    return [{"registers": once_for_models(places[key], "path"), **content} for key, content in contents.items()]
 
 
-def _registers(register_map: RegisterMap) -> Iterator[tuple[Model, Register]]:
-    return ((model, register) for model in register_map.models for register in model.registers)
+def once_for_models(facts: Iterable[tuple[str, Json]], key: str) -> list[Json]:
+    """Return each fact once, with `models`, the names of the models that have it, as the second key after `key`."""
+    found = models_by((model, json.dumps(fact)) for model, fact in facts)
+    return [{key: None, "models": models} | json.loads(fact) for fact, models in found.items()]
 
 
 def _bare(register: Register) -> Register:
@@ -86,14 +87,6 @@ def _bare_enum(enum: Enum) -> Enum:
     return replace(enum, id="", description="", span=NOWHERE)
 
 
-def _placed(places: list[tuple[Register, str]]) -> list[Json]:
-    folded: dict[str, tuple[Json, list[str]]] = {}
-    for register, model in places:
-        place = _place(register)
-        folded.setdefault(json.dumps(place), (place, []))[1].append(model)
-    return [{"path": place["path"], "models": models, **place} for place, models in folded.values()]
-
-
 def _place(register: Register) -> Json:
     found: Json = {
         "path": register.path,
@@ -108,9 +101,8 @@ def _place(register: Register) -> Json:
 
 def _content(register: Register, plan: Plan) -> Json:
     tried, writable = plan
-    found: Json = {"kind": register.kind.value, "access": register.access.value}
-    found["views"] = [view_facts(view) for view in register.views]
-    found |= _names(register)
+    views = [view_facts(view) for view in register.views]
+    found: Json = {"kind": register.kind.value, "access": register.access.value, "views": views, **_names(register)}
     if writable:
         found["writable"] = [{**surroundings(situation), "allowed": allowed} for situation, allowed in writable]
     found["cases"] = [
@@ -144,7 +136,11 @@ def _names(register: Register) -> Json:
     if register.enum is not None:
         found["members"] = _members(register.enum)
     if register.specials:
-        found["specials"] = [_special(special) for special in register.specials]
+        found["specials"] = [
+            {"code": show(special.code), "id": special.id, "label": special.label}
+            | ({} if special.means is None else {"means": show(special.means)})
+            for special in register.specials
+        ]
     if register.sentinels:
         found["faults"] = [{"stored": one.spelled, "id": one.id, "label": one.label} for one in register.sentinels]
     if register.fields:
@@ -154,11 +150,6 @@ def _names(register: Register) -> Json:
             for bits in register.fields
         ]
     return found
-
-
-def _special(special: Special) -> Json:
-    means = {} if special.means is None else {"means": show(special.means)}
-    return {"code": show(special.code), "id": special.id, "label": special.label, **means}
 
 
 def _members(enum: Enum) -> list[Json]:

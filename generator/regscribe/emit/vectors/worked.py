@@ -3,10 +3,9 @@
 from fractions import Fraction
 from typing import Any
 
-from regscribe.emit.vectors.assumed_state import Assumed
 from regscribe.emit.vectors.scale import scale_now
-from regscribe.model import FrameExample, Outcome, Register, RegisterMap, ValueExample, View, show
-from regscribe.reference import RefusedError, UnknownValueError, decode, encode
+from regscribe.model import FrameExample, GivenKind, Outcome, Register, RegisterMap, ValueExample, View, show
+from regscribe.reference import RefusedError, Surroundings, UnknownValueError, decode, encode, number_of
 
 Json = dict[str, Any]
 Pairs = tuple[tuple[str, Fraction], ...]
@@ -31,7 +30,7 @@ def _place(register_map: RegisterMap, model: str, path: str, name: str) -> tuple
 def _value(register_map: RegisterMap, example: ValueExample) -> Json:
     register, view = _place(register_map, example.model, example.register, example.view)
     words = tuple(word & 0xFFFF for word in example.words)
-    known = Assumed(register_map, example.model, example.state)
+    known = _ExampleState(register_map, example.model, example.state)
     encodes = False
     try:
         scale_now(register, view, known.surroundings)  # asks also where a fault or a clipped view decides first
@@ -41,8 +40,8 @@ def _value(register_map: RegisterMap, example: ValueExample) -> Json:
     except (RefusedError, UnknownValueError):
         encodes = False  # a limit or a condition that the example leaves open
     found: Json = {"source": example.source, "model": example.model, "register": example.register, "view": view.name}
-    found |= {"words": list(words), **known.told(), **_outcome(example)}
-    return {**found, **({"encodes": True} if encodes else {})}
+    found |= {"words": list(words), **known.facts(), **_outcome(example)}
+    return found | ({"encodes": True} if encodes else {})
 
 
 def _outcome(example: ValueExample) -> Json:
@@ -59,7 +58,7 @@ def _outcome(example: ValueExample) -> Json:
 
 
 def _frame(register_map: RegisterMap, example: FrameExample) -> Json:
-    known = Assumed(register_map, example.model, example.state, example.writes)
+    known = _ExampleState(register_map, example.model, example.state, example.writes)
     places = ((_place(register_map, example.model, path, example.view), value) for path, value in example.writes)
     try:
         encodes = bool([encode(register, view, value, known.surroundings) for (register, view), value in places])
@@ -67,17 +66,66 @@ def _frame(register_map: RegisterMap, example: FrameExample) -> Json:
         encodes = False
     found: Json = {"source": example.source, "model": example.model, "frame": example.frame.hex(" ").upper()}
     found |= {"crc": example.crc, "answer": example.answer, "unit": example.unit, "function": example.function}
-    found |= _said(example) | (known.told() if example.writes else {})
-    return {**found, **({"encodes": True} if encodes else {})}
+    found |= _request_facts(example) | (known.facts() if example.writes else {})
+    return found | ({"encodes": True} if encodes else {})
 
 
-def _said(example: FrameExample) -> Json:
-    numbers = {name: getattr(example, name) for name in ("address", "count") if getattr(example, name) is not None}
-    words = {} if example.words is None else {"words": [word & 0xFFFF for word in example.words]}
-    writes = {"writes": {path: show(value) for path, value in example.writes}} if example.writes else {}
-    return {
-        **numbers,
-        **words,
-        **writes,
-        **{name: getattr(example, name) for name in ("view", "command") if getattr(example, name)},
-    }
+def _request_facts(example: FrameExample) -> Json:
+    found: Json = {name: getattr(example, name) for name in ("address", "count") if getattr(example, name) is not None}
+    if example.words is not None:
+        found["words"] = [word & 0xFFFF for word in example.words]
+    if example.writes:
+        found["writes"] = {path: show(value) for path, value in example.writes}
+    return found | {name: getattr(example, name) for name in ("view", "command") if getattr(example, name)}
+
+
+class _RecordedValues(dict[str, Fraction]):
+    """Values that record which of them were read."""
+
+    def __init__(self, values: dict[str, Fraction]) -> None:
+        super().__init__(values)
+        self.read: dict[str, None] = {}
+
+    def __getitem__(self, name: str) -> Fraction:
+        self.read[name] = None
+        return super().__getitem__(name)
+
+
+class _ExampleState:
+    """State of the device in an example: what the example states, else the defaults.
+
+    An example may name a given: then that is the only code of the given (a boolean: true unless 0).
+    """
+
+    def __init__(self, register_map: RegisterMap, model: str, stated: Pairs, writes: Pairs = ()) -> None:
+        registers = register_map.model(model).registers
+        self._stated, self._known = dict(stated), dict((*stated, *writes))
+        defaults = ((register.path, number_of(register, register.default)) for register in registers)
+        values = {path: default for path, default in defaults if default is not None} | self._known
+        self._owners: dict[str, str] = {}
+        fields: dict[str, Fraction] = {}
+        for register in registers:
+            for bits in register.fields:
+                name = f"{register.path}.{bits.id}"
+                self._owners[name] = register.path
+                if register.path in values:
+                    fields[name] = Fraction(int(values[register.path]) >> bits.low & ((1 << bits.width) - 1))
+        self._values = _RecordedValues(fields | values)
+        kinds = {given.id: given.kind for given in register_map.givens}
+        self._codes = {
+            name: frozenset({values[name]} if name in values else ())
+            for name, kind in kinds.items()
+            if kind is GivenKind.CODES
+        }
+        self._facts = {name: bool(values.get(name, 0)) for name, kind in kinds.items() if kind is GivenKind.BOOLEAN}
+        self.surroundings = Surroundings(self._values, self._codes, self._facts)
+
+    def facts(self) -> Json:
+        """Return `state` as the example states it, `assumed` for defaults that were read so far, and `givens`."""
+        givens: Json = {name: [show(code) for code in sorted(codes)] for name, codes in self._codes.items()}
+        givens |= self._facts
+        read = dict.fromkeys(self._owners.get(name, name) for name in self._values.read)
+        state = {name: show(value) for name, value in self._stated.items() if name not in givens}
+        assumed = {name: show(self._values.get(name, Fraction(0))) for name in read if name not in self._known}
+        found = {"state": state, "assumed": assumed, "givens": givens}
+        return {key: value for key, value in found.items() if value}

@@ -9,8 +9,7 @@ from typing import Any
 import jsonschema
 import pytest
 
-from regscribe.emit.vectors import render
-from regscribe.emit.vectors.json_layout import dumps
+from regscribe.emit.vectors import dumps, render
 from regscribe.model import RegisterMap
 
 ROOT = Path(__file__).parents[4]
