@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from regscribe_runtime.planning.address_ranges import AddressRanges, AddressStretch, RegisterSpan
 from regscribe_runtime.planning.cost import Cost
-from regscribe_runtime.planning.plan import Block, RequestLimits, SplitReason, Terms, Uncoverable, blocks, plan
+from regscribe_runtime.planning.plan import Block, RequestLimits, SplitReason, Terms, Uncoverable, blocks, explain
 from regscribe_runtime.values.protocol import Latency
 from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.values.wire_types import Space
@@ -174,7 +174,8 @@ def test_the_reasons_of_a_plan_say_why_each_request_is_its_own() -> None:
     ]
     more = [(Space.HOLDING, 40, 2), (Space.HOLDING, 47, 2), (Space.HOLDING, 50, 2)]
 
-    found = plan([RegisterSpan(*one) for one in at + more], Terms(RequestLimits(words=6), ground, cost))
+    terms = Terms(RequestLimits(words=6), ground, cost)
+    found = explain(blocks([RegisterSpan(*one) for one in at + more], terms), terms)
 
     assert [(one.block.address, one.carried, one.split.reason) for one in found.requests] == [
         (0, 1, SplitReason.FIRST),
@@ -186,9 +187,8 @@ def test_the_reasons_of_a_plan_say_why_each_request_is_its_own() -> None:
         (47, 2, SplitReason.LIMIT),
         (50, 2, SplitReason.ALIGNMENT),
     ]
-    apart = plan(
-        [RegisterSpan(Space.HOLDING, 0, 1), RegisterSpan(Space.HOLDING, 3, 1)], Terms(RequestLimits(), ground, cost)
-    )
+    terms = Terms(RequestLimits(), ground, cost)
+    apart = explain(blocks([RegisterSpan(Space.HOLDING, 0, 1), RegisterSpan(Space.HOLDING, 3, 1)], terms), terms)
     assert apart.requests[1].split.reason is SplitReason.CHEAPER
     assert apart.requests[1].split.detail == "2 between, saves 88.3 ms"  # 2 words of 54.6 ms against 20 characters
 
@@ -197,12 +197,12 @@ def test_a_register_that_can_only_be_written_is_never_read_along() -> None:
     known = {Space.HOLDING: [(0, 3), (4, 6)]}
     terms = Terms(RequestLimits(), AddressRanges(known, unreadable={Space.HOLDING: [(3, 4)]}, holes=True), LINES[0])
 
-    found = plan([RegisterSpan(Space.HOLDING, 0, 3), RegisterSpan(Space.HOLDING, 4, 2)], terms)
+    found = explain(blocks([RegisterSpan(Space.HOLDING, 0, 3), RegisterSpan(Space.HOLDING, 4, 2)], terms), terms)
 
     assert [(one.block.address, one.carried) for one in found.requests] == [(0, 3), (4, 2)]
     assert found.requests[1].split.reason is SplitReason.UNREADABLE
     with pytest.raises(Uncoverable, match=r"holding 2\.\.4 cannot be read"):
-        plan([RegisterSpan(Space.HOLDING, 2, 3)], terms)
+        blocks([RegisterSpan(Space.HOLDING, 2, 3)], terms)
 
 
 def test_an_address_in_an_aligned_view_is_asked_for_with_its_neighbour() -> None:

@@ -145,7 +145,7 @@ class _PlanReport:
 
     def __init__(self, layout: ReadOrder, paths: Sequence[str], terms: Terms, single_ms: float) -> None:
         self.terms, self.single_ms, self.paths = terms, single_ms, paths
-        self.found = plan.told(layout.blocks, terms, again=layout.again)
+        self.found = plan.explain(layout.blocks, terms, again=layout.again)
         self.names: list[list[str]] = [[] for _ in layout.blocks]
         for path in paths:
             for number in dict.fromkeys(found[path].block for found in (layout.places, layout.checks) if path in found):

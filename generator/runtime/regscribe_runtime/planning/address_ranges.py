@@ -1,11 +1,12 @@
-"""Where a read may run: the stretches of addresses that one request can cover without being refused.
+"""Address ranges that read requests may cover without being refused.
 
-What is no register is a hole, crossed only where the device lets holes be read or the map calls it unused. What can
-only be written, what the read function may not address, and what this unit turned out not to have is never read along.
-A view whose requests must be aligned has a stretch of its own.
+A hole (an address of no register) is crossed only where the device lets holes be read or the map calls it unused.
+Registers that cannot be read, or that this unit refused, are never read along. A view whose requests must be aligned
+has a stretch of its own.
 """
 
 from bisect import bisect_right
+from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import pairwise
 from typing import NamedTuple
@@ -19,7 +20,7 @@ Range = tuple[int, int]
 
 
 class RegisterSpan(NamedTuple):
-    """Addresses that are wanted together: one view of one register."""
+    """The addresses of one view of one register; they are read together."""
 
     space: Space
     address: int
@@ -57,16 +58,15 @@ class AddressRanges:
         self.holes, self._aligned = holes, aligned or {}
         self._known, self._refused, self._apart = _merged(readable), _merged(refused), _merged(apart)
         self._unreadable = {
-            space: without(found, self._known.get(space, ())) for space, found in _merged(unreadable).items()
+            space: without(ranges, self._known.get(space, ())) for space, ranges in _merged(unreadable).items()
         }
         self._stretches = {
-            space: tuple(self._parted(space, self._cut(space, self._aligned.get(space, []))))
-            for space in {*self._known, *self._unreadable, *self._refused}
+            space: tuple(self._cut(space)) for space in {*self._known, *self._unreadable, *self._refused}
         }
-        self._starts = {space: [one.first for one in found] for space, found in self._stretches.items()}
+        self._starts = {space: [one.first for one in stretches] for space, stretches in self._stretches.items()}
 
     def refusing(self, items: Iterable[RegisterSpan], *, apart: Iterable[RegisterSpan] = ()) -> "AddressRanges":
-        """The same ground without addresses that a unit refused; those in `apart` may be read, but not read along."""
+        """The same ranges without items that a unit refused; those in `apart` may be read, but not read along."""
         return AddressRanges(
             self._known,
             unreadable=self._unreadable,
@@ -76,27 +76,18 @@ class AddressRanges:
             holes=self.holes,
         )
 
-    def _parted(self, space: Space, stretches: Iterable[AddressStretch]) -> Iterator[AddressStretch]:
-        edges = sorted(edge for found in self._apart.get(space, ()) for edge in found)
-        for stretch in stretches:
-            inside = [edge for edge in edges if stretch.first < edge < stretch.end]
-            for first, end in pairwise([stretch.first, *inside, stretch.end]):
-                yield AddressStretch(first, end, stretch.align)
-
-    def _cut(self, space: Space, aligned: list[AddressStretch]) -> Iterator[AddressStretch]:
+    def _cut(self, space: Space) -> Iterator[AddressStretch]:
+        """The stretches of a space: what may be read, cut where alignment changes and where reading along ends."""
+        aligned = self._aligned.get(space, [])
         allowed = [(0, ADDRESSES)] if self.holes else self._known.get(space, [])
         barred = merged([*self._unreadable.get(space, ()), *self._refused.get(space, ())])
-        for first, end in without(allowed, barred):
-            place = first
-            for region in aligned:
-                low, high = max(place, region.first), min(end, region.end)
-                if low < high:
-                    if place < low:
-                        yield AddressStretch(place, low)
-                    yield AddressStretch(low, high, region.align)
-                    place = high
-            if place < end:
-                yield AddressStretch(place, end)
+        cuts = [*((one.first, one.end) for one in aligned), *self._apart.get(space, ())]
+        edges = sorted({edge for cut in cuts for edge in cut})
+        for start, stop in without(allowed, barred):
+            inside = [edge for edge in edges if start < edge < stop]
+            for first, end in pairwise([start, *inside, stop]):
+                align = next((one.align for one in aligned if one.first <= first < one.end), 1)
+                yield AddressStretch(first, end, align)
 
     def stretch(self, item: RegisterSpan) -> AddressStretch | None:
         """The stretch that holds an item and what must be read along for alignment; None if it cannot be read."""
@@ -104,13 +95,13 @@ class AddressRanges:
         if place < 0:
             return None
         found = self._stretches[item.space][place]
-        wide = item if found.align == 1 else _aligned(item, found.align)
+        wide = item if found.align == 1 else _widened(item, found.align)
         return found if found.first <= wide.address and wide.end <= found.end else None
 
     def widened(self, item: RegisterSpan) -> RegisterSpan:
-        """The addresses that must be asked for to read an item: whole steps of the alignment there."""
+        """The addresses to request for an item: whole steps of the alignment there."""
         found = self.stretch(item)
-        return item if found is None or found.align == 1 else _aligned(item, found.align)
+        return item if found is None or found.align == 1 else _widened(item, found.align)
 
     def between(self, before: RegisterSpan, after: RegisterSpan) -> str:
         """Why no request reads from `before` to `after`: unreadable, refused, hole or alignment; "" if one may."""
@@ -126,18 +117,18 @@ class AddressRanges:
         return "alignment"
 
 
-def _merged(found: Mapping[Space, list[Range]] | None) -> dict[Space, list[Range]]:
-    return {space: merged(ranges) for space, ranges in (found or {}).items()}
+def _merged(by_space: Mapping[Space, list[Range]] | None) -> dict[Space, list[Range]]:
+    return {space: merged(ranges) for space, ranges in (by_space or {}).items()}
 
 
 def _by_space(items: Iterable[RegisterSpan]) -> dict[Space, list[Range]]:
-    found: dict[Space, list[Range]] = {}
+    found: dict[Space, list[Range]] = defaultdict(list)
     for item in items:
-        found.setdefault(item.space, []).append((item.address, item.end))
+        found[item.space].append((item.address, item.end))
     return found
 
 
-def _aligned(item: RegisterSpan, align: int) -> RegisterSpan:
+def _widened(item: RegisterSpan, align: int) -> RegisterSpan:
     first = item.address // align * align
     return RegisterSpan(item.space, first, -(-(item.end - first) // align) * align)
 
@@ -148,29 +139,29 @@ def ground_of(
     unused: Iterable[tuple[Space, int, int]] = (),
     holes: bool = False,
 ) -> AddressRanges:
-    """The ground of a device with these registers; `unused` are spaces, first and last addresses that read as 0."""
-    readable: dict[Space, list[Range]] = {}
-    unreadable: dict[Space, list[Range]] = {}
+    """The address ranges of a device with these registers; `unused` (space, first, last address) read as 0."""
+    readable: dict[Space, list[Range]] = defaultdict(list)
+    unreadable: dict[Space, list[Range]] = defaultdict(list)
     aligned: dict[tuple[Space, str], AddressStretch] = {}
     for register in registers:
         for view, address in places(register):
-            may = register.access.readable and view.readable
-            (readable if may else unreadable).setdefault(view.space, []).append((address, address + view.words))
+            end = address + view.words
+            ranges = readable if register.access.readable and view.readable else unreadable
+            ranges[view.space].append((address, end))
             if view.align > 1:
-                key = view.space, view.name
-                known = aligned.get(key, AddressStretch(address, address, view.align))
-                first, end = min(known.first, address), max(known.end, address + view.words)
-                aligned[key] = AddressStretch(first, end, view.align)
+                known = aligned.get((view.space, view.name), AddressStretch(address, end, view.align))
+                both = AddressStretch(min(known.first, address), max(known.end, end), view.align)
+                aligned[view.space, view.name] = both
     for space, first, last in unused:
-        readable.setdefault(space, []).append((first, last + 1))
-    regions: dict[Space, list[AddressStretch]] = {}
+        readable[space].append((first, last + 1))
+    regions: dict[Space, list[AddressStretch]] = defaultdict(list)
     for (space, _), stretch in sorted(aligned.items(), key=lambda one: one[1]):
-        regions.setdefault(space, []).append(stretch)
+        regions[space].append(stretch)
     return AddressRanges(readable, unreadable=unreadable, aligned=regions, holes=holes)
 
 
 def places(register: Placed) -> Iterator[tuple[View, int]]:
-    """Every place where a register is transmitted: its views, then the aliases of the base view."""
+    """Every view of a register with its address, then the base view with the aliases."""
     for view in register.views:
         yield view, view.address(register.at)
     base = register.views[0]
@@ -179,7 +170,7 @@ def places(register: Placed) -> Iterator[tuple[View, int]]:
 
 
 def merged(ranges: Iterable[Range]) -> list[Range]:
-    """The same addresses in few ranges, in order."""
+    """The same addresses in the fewest ranges, sorted."""
     found: list[Range] = []
     for first, end in sorted(ranges):
         if found and first <= found[-1][1]:

@@ -1,6 +1,6 @@
-"""What a read costs in time on a real line: frames, silences, and the device's own latency.
+"""Time that a read takes on a real line: frames, silences, and the device's own latency.
 
-Costs are whole nanoseconds, so that plans are exact and the same on every machine; people read them in milliseconds.
+Costs are whole nanoseconds, so that plans are exact and the same on every machine.
 """
 
 from typing import NamedTuple
@@ -15,16 +15,16 @@ NANOSECONDS = 1_000_000
 """Nanoseconds in a millisecond."""
 
 TCP_ROUND_TRIP = 1.0
-"""Milliseconds that a request and its answer are assumed to travel: a local network, and the stacks at both ends."""
+"""Milliseconds assumed for a request and its answer on a local network, with the stacks at both ends."""
 
 TCP_BYTE = 80
 """Nanoseconds of a byte at 100 Mbit/s."""
 
 
 class Tariff(NamedTuple):
-    """What reads of one space cost, in nanoseconds: a part that is fixed, and one for each step of addresses.
+    """Cost of reads of one space in nanoseconds: a fixed part, and one for each word.
 
-    A word is a step; of bits, eight make a byte on the wire and sixteen count as a word of the device's latency.
+    Of bits, eight make a byte on the wire and sixteen count as a word of the device's latency.
     """
 
     fixed: int
@@ -41,17 +41,17 @@ class Tariff(NamedTuple):
         return self.fixed + self.per_word * quantity
 
     def saved(self, addresses: int) -> int:
-        """What a request costs less at least, if it carries so many addresses less."""
+        """The least that a request costs less with so many addresses less."""
         if self.bits:
             return self.per_byte * (addresses // BITS_IN_BYTE) + self.per_word * (addresses // BITS_IN_WORD)
         return self.per_word * addresses
 
 
 class Cost(NamedTuple):
-    """The price list of one device behind one line: `line` is None where no serial line is known to be in between.
+    """Cost of requests to one device: `line` is the serial line (None: none is known), `framing` rtu or ascii.
 
-    `round_trip` is what a network adds to every request, in ms; `latencies` are those of the device, whose expected
-    time is the mean of its shortest and longest. What the map does not state costs nothing. `framing` is rtu or ascii.
+    `round_trip` is what a network adds to every request, in ms. Of the device's `latencies` the expected time is the
+    mean of the shortest and the longest. What the map does not state costs nothing.
     """
 
     line: SerialLine | None = None
@@ -62,7 +62,7 @@ class Cost(NamedTuple):
 
     @classmethod
     def of(cls, protocol: Protocol, line: SerialLine | None) -> "Cost":
-        """Of the line that a link has; over TCP without one."""
+        """Over the line of a link; over TCP without one."""
         return cls(line, protocol.serial.gap, 0, protocol.latencies) if line else cls.tcp(protocol)
 
     @classmethod
@@ -73,11 +73,11 @@ class Cost(NamedTuple):
 
     @classmethod
     def tcp(cls, protocol: Protocol, *, line: SerialLine | None = None, framing: str = "rtu") -> "Cost":
-        """Over TCP: a price for each request; `line` is the one behind a gateway, if it is known."""
+        """Over TCP; `line` is the one behind a gateway, if it is known."""
         return cls(line, protocol.serial.gap, TCP_ROUND_TRIP, protocol.latencies, framing)
 
     def tariff(self, space: Space) -> Tariff:
-        """The price list of one space."""
+        """The cost of reads of one space."""
         function, bits = space.read_function, space.is_bits
         latency = next((one for one in self.latencies if one.function == function), None)
         fixed, per_byte = self._frames(1 if space is Space.STATUS else 5, 2)
@@ -88,10 +88,10 @@ class Cost(NamedTuple):
             per_word = float(latency.minimum_per_word + latency.maximum_per_word) / 2
         if not bits:
             per_word, per_byte = per_word + BYTES_IN_WORD * per_byte, 0
-        return Tariff(_nanoseconds(fixed), _nanoseconds(per_word), _nanoseconds(per_byte), bits)
+        return Tariff(*(round(ms * NANOSECONDS) for ms in (fixed, per_word, per_byte)), bits)
 
     def _frames(self, request: int, answer: int) -> tuple[float, float]:
-        """Milliseconds of both frames without the values, and of a byte of values."""
+        """Milliseconds of both frames without the values, and of a byte of values; `request`, `answer`: PDU bytes."""
         byte = TCP_BYTE / NANOSECONDS
         fixed = self.round_trip + (self._bytes(request) + self._bytes(answer)) * byte if self.round_trip else 0.0
         if self.line is None:
@@ -110,18 +110,13 @@ class Cost(NamedTuple):
         return 3 + 2 * (pdu + 2) if self.framing == "ascii" else pdu + 3
 
     def frame_bytes(self, space: Space, quantity: int) -> int:
-        """The characters of a request and its answer, as they pass the line (or the bytes, over TCP)."""
+        """The characters on the line (bytes over TCP) of a request and its answer."""
         request = 1 if space is Space.STATUS else 5
         values = -(-quantity // BITS_IN_BYTE) if space.is_bits else BYTES_IN_WORD * quantity
-        answer = 2 + values
         frame = self._characters if self.line else self._bytes
-        return frame(request) + frame(answer)
+        return frame(request) + frame(2 + values)
 
 
 def milliseconds(nanoseconds: int) -> float:
-    """A cost for people and for JSON."""
+    """A cost in milliseconds."""
     return nanoseconds / NANOSECONDS
-
-
-def _nanoseconds(ms: float) -> int:
-    return round(ms * NANOSECONDS)

@@ -1,20 +1,18 @@
-"""Which registers in which requests: the plan of least total cost, and why it is parted where it is.
+"""The read requests of least total cost for a set of registers, and why neighbours are not one request.
 
-A request may cover what `ground` allows, up to the device's limit; it costs what `cost` says of the real line. Among
-all partitions the cheapest is taken, exactly; of equally cheap ones the same at every time. `blocks` is for drivers,
-`told` adds costs and reasons for people: `regscribe plan` shows them.
+A request may cover what `ground` allows, up to the device's limit. The result is exact and the same every time.
+`blocks` serves drivers; `explain` adds costs and reasons for `regscribe plan`.
 """
 
-from bisect import bisect_right
+from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from enum import StrEnum
-from functools import cache
 from itertools import pairwise
 from typing import NamedTuple
 
-from regscribe_runtime.planning.address_ranges import AddressRanges, RegisterSpan
-from regscribe_runtime.planning.block_cover import Lane, cover
-from regscribe_runtime.planning.cost import Cost, Tariff, milliseconds
+from regscribe_runtime.planning.address_ranges import AddressRanges, AddressStretch, RegisterSpan
+from regscribe_runtime.planning.block_cover import cheapest_cover
+from regscribe_runtime.planning.cost import Cost, milliseconds
 from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.wire_types import Space
 
@@ -47,7 +45,7 @@ class RequestLimits(NamedTuple):
 
     @classmethod
     def of(cls, protocol: Protocol) -> "RequestLimits":
-        """What reads of a device must keep to."""
+        """The limits of a device."""
         return cls(protocol.read_words, protocol.read_bits, protocol.read_holes)
 
     def most(self, space: Space) -> int:
@@ -56,7 +54,7 @@ class RequestLimits(NamedTuple):
 
 
 class Terms(NamedTuple):
-    """What a plan must keep to and what it pays: the device's limits, where requests may run, the line's cost."""
+    """Constraints and prices of a plan: the device's limits, the addresses that may be read, the cost of requests."""
 
     limits: RequestLimits
     ground: AddressRanges
@@ -85,7 +83,7 @@ class Split(NamedTuple):
 
 
 class Planned(NamedTuple):
-    """One request of a plan: how many of its addresses are wanted, and what it takes."""
+    """One request of a plan: how many of its addresses are wanted, bytes of its frames, expected milliseconds."""
 
     block: Block
     wanted: int
@@ -131,31 +129,40 @@ class Uncoverable(ValueError):  # noqa: N818 (a fact about an item; callers ask 
 
 def blocks(items: Iterable[RegisterSpan], terms: Terms) -> tuple[Block, ...]:
     """The requests of least total cost that read all items; Uncoverable for one that cannot be read."""
-    wide = {item: _widened(item, terms.ground) for item in items}
-    requests = cover(wide.values(), _lanes(wide.values(), terms))
-    return tuple(_filled(requests, wide))
+    stretches: dict[tuple[Space, AddressStretch], dict[RegisterSpan, list[RegisterSpan]]] = defaultdict(dict)
+    for item in dict.fromkeys(items):
+        stretch = terms.ground.stretch(item)
+        if stretch is None:
+            message = f"{item.space} {item.address}..{item.end - 1} cannot be read"
+            raise Uncoverable(message)
+        stretches[item.space, stretch].setdefault(terms.ground.widened(item), []).append(item)
+    tariffs = {space: terms.cost.tariff(space) for space, _ in stretches}
+    found = []
+    for (space, stretch), held in stretches.items():
+        most = terms.limits.most(space)
+        for spans in cheapest_cover(sorted(held), tariffs[space], most - most % stretch.align):
+            first, end = spans[0].address, max(span.end for span in spans)
+            carried = sorted(item for span in spans for item in held[span])
+            found.append(Block(space.read_function, first, end - first, tuple(carried)))
+    return tuple(sorted(found, key=lambda block: (block.space, block.address, block.quantity)))
 
 
-def plan(items: Iterable[RegisterSpan], terms: Terms) -> Plan:
-    """The same with costs and reasons, for people."""
-    return told(blocks(items, terms), terms)
+def explain(requests: Sequence[Block], terms: Terms, *, again: int = 0) -> Plan:
+    """Requests in the order of sending, each with its cost and why it is not one with its neighbour by address.
 
-
-def told(made: Sequence[Block], terms: Terms, *, again: int = 0) -> Plan:
-    """Requests in the order of sending, each with its cost and why it is not one with the one before it by address.
-
-    The last `again` of them are read once more.
+    The last `again` of them are repeated reads.
     """
-    first_time = sorted(made[: len(made) - again], key=lambda one: (one.space, one.address))
+    first_time = sorted(requests[: len(requests) - again], key=lambda one: (one.space, one.address))
     reasons = {block: split(before, block, terms) for before, block in pairwise((None, *first_time)) if block}
-    requests = []
-    for number, block in enumerate(made):
-        repeated = number >= len(made) - again
-        taken = terms.cost.frame_bytes(block.space, block.quantity)
+    planned = []
+    for number, block in enumerate(requests):
+        repeated = number >= len(requests) - again
+        wanted = {address for item in block.items for address in range(item.address, item.end)}
+        size = terms.cost.frame_bytes(block.space, block.quantity)
         ms = milliseconds(terms.cost.tariff(block.space).of(block.quantity))
         reason = Split(SplitReason.AGAIN, "others depend on it, and it on them") if repeated else reasons[block]
-        requests.append(Planned(block, _wanted(block.items), taken, ms, reason))
-    return Plan(tuple(requests))
+        planned.append(Planned(block, len(wanted), size, ms, reason))
+    return Plan(tuple(planned))
 
 
 GAPS = {"hole": "no registers", "refused": "refused by this unit", "unreadable": "not readable"}
@@ -168,7 +175,7 @@ def split(before: Block | None, block: Block, terms: Terms) -> Split:
         return Split(SplitReason.FIRST)
     if before.space != block.space:
         return Split(SplitReason.SPACE, f"function {before.function:02d} before")
-    first, last = _hull(before), _hull(block)
+    first, last = (RegisterSpan(one.space, one.address, one.quantity) for one in (before, block))
     gap = block.address - before.end
     barred = terms.ground.between(first, last)
     if barred in GAPS:
@@ -182,62 +189,3 @@ def split(before: Block | None, block: Block, terms: Terms) -> Split:
     tariff = terms.cost.tariff(block.space)
     saved = tariff.of(together) - tariff.of(before.quantity) - tariff.of(block.quantity)
     return Split(SplitReason.CHEAPER, f"{gap} between, saves {milliseconds(saved):.1f} ms")
-
-
-def _hull(block: Block) -> RegisterSpan:
-    return RegisterSpan(block.space, block.address, block.quantity)
-
-
-def _widened(item: RegisterSpan, ground: AddressRanges) -> RegisterSpan:
-    if ground.stretch(item) is None:
-        message = f"{item.space} {item.address}..{item.end - 1} cannot be read"
-        raise Uncoverable(message)
-    return ground.widened(item)
-
-
-def _lanes(items: Iterable[RegisterSpan], terms: Terms) -> dict[RegisterSpan, Lane]:
-    @cache
-    def lane(space: Space, first: int, align: int) -> Lane:
-        most = terms.limits.most(space)
-        return Lane(space, first, tariffs(space), most - most % align)
-
-    @cache
-    def tariffs(space: Space) -> Tariff:
-        return terms.cost.tariff(space)
-
-    found = {}
-    for item in items:
-        stretch = terms.ground.stretch(item)
-        found[item] = lane(item.space, stretch.first, stretch.align) if stretch else lane(item.space, -1, 1)
-    return found
-
-
-def _filled(requests: Sequence[RegisterSpan], wide: dict[RegisterSpan, RegisterSpan]) -> Iterable[Block]:
-    spaces = {request.space for request in requests}
-    holders = {space: _Holders([one for one in requests if one.space == space]) for space in spaces}
-    held: dict[RegisterSpan, list[RegisterSpan]] = {request: [] for request in requests}
-    for item, asked in wide.items():
-        held[holders[item.space].of(asked)].append(item)
-    for request, items in held.items():
-        yield Block(request.space.read_function, request.address, request.words, tuple(sorted(items)))
-
-
-class _Holders:
-    """Sorted requests of one space, to find the one that reads an item."""
-
-    def __init__(self, requests: list[RegisterSpan]) -> None:
-        self._requests = requests
-        self._starts = [one.address for one in requests]
-        self._longest = max(one.words for one in requests)
-
-    def of(self, item: RegisterSpan) -> RegisterSpan:
-        place = bisect_right(self._starts, item.address)
-        while place and item.address - self._starts[place - 1] < self._longest:
-            place -= 1
-            if item.end <= self._requests[place].end:
-                return self._requests[place]
-        raise Uncoverable(item)  # not reached: `cover` holds each item whole
-
-
-def _wanted(items: Iterable[RegisterSpan]) -> int:
-    return len({address for item in items for address in range(item.address, item.end)})

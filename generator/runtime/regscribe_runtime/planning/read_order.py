@@ -1,10 +1,10 @@
-"""Where each register of one read stands in its requests, and the order of the requests.
+"""The position of each register in the requests of one read, and the order of the requests.
 
-What values depend on is read behind them (or in the same request, which a device answers at once), so that it bears
-witness for all that was read before. Where that goes round in a circle, it is read once more at the end.
+What values depend on is read behind them (or in the same request, which a device answers at once), so that it holds
+for all that was read before. Dependencies in a cycle are read once more at the end.
 """
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import NamedTuple
 
 from regscribe_runtime.planning.dependency_order import dependency_order
@@ -22,10 +22,10 @@ class WordPosition(NamedTuple):
 
 
 class ReadOrder(NamedTuple):
-    """Blocks in the order of sending, the place of each register in them, and the one where a dependency is checked.
+    """Blocks in the order of sending, the position of each register in them, and the one that checks a dependency.
 
-    The last `again` blocks are read once more: what goes round in a circle, behind all that depends on it. `atomic`:
-    each value stands in one request with all that it depends on.
+    The last `again` blocks repeat reads of dependencies in a cycle. `atomic`: each value stands in one request with all
+    that it depends on.
     """
 
     blocks: tuple[Block, ...]
@@ -36,49 +36,29 @@ class ReadOrder(NamedTuple):
 
 
 def lay_out(wanted: Mapping[str, ReadPlace], needs: Mapping[str, Collection[str]], terms: Terms) -> ReadOrder:
-    """The cheapest blocks for `wanted` (places by path), ordered by what the meaning of each depends on."""
-    made = blocks((place.span for place in wanted.values()), terms)
-    taken = _numbers(wanted, made)
-    relations = _relations(wanted, needs)
-    waits = _waits(len(made), [(taken[path], taken[need]) for path, need in relations])
-    order = dependency_order(waits, int)
-    late = _late(relations, {path: order.index(number) for path, number in taken.items()})
-    twice = {path: place for path, place in wanted.items() if path in late}
+    """The cheapest blocks for `wanted` (places by path), dependencies (`needs` by path) behind what depends on them."""
+    unordered = blocks((place.span for place in wanted.values()), terms)
+    numbers = {path: place.block for path, place in _positions(wanted, unordered).items()}
+    relations = [(path, need) for path in wanted for need in needs.get(path, ()) if need in wanted]
+    waits: dict[int, set[int]] = {number: set() for number in range(len(unordered))}
+    for path, need in relations:
+        waits[numbers[need]] |= {numbers[path]} - {numbers[need]}
+    first = [unordered[number] for number in dependency_order(waits, int)]
+    places = _positions(wanted, first)
+    early = {need for path, need in relations if places[path].block > places[need].block}
+    early |= {need for path, need in relations if path in early}
+    twice = {path: place for path, place in wanted.items() if path in early}
     tail = blocks((place.span for place in twice.values()), terms)
-    first = [made[number] for number in order]
-    places, again = _positions(wanted, first, 0), _positions(twice, tail, len(first))
+    again = _positions(twice, tail, len(first))
     checks = {need: again.get(need, places[need]) for _, need in relations}
-    return ReadOrder((*first, *tail), places, checks, atomic=not (late or any(waits.values())), again=len(tail))
+    return ReadOrder((*first, *tail), places, checks, atomic=not (early or any(waits.values())), again=len(tail))
 
 
-def _numbers(wanted: Mapping[str, ReadPlace], made: Sequence[Block]) -> dict[str, int]:
-    """The number of the block that carries each register."""
+def _positions(wanted: Mapping[str, ReadPlace], made: Sequence[Block], first: int = 0) -> dict[str, WordPosition]:
+    """The position of each register in blocks that are numbered from `first`."""
     numbers = {span: number for number, block in enumerate(made) for span in block.items}
-    return {path: numbers[place.span] for path, place in wanted.items()}
-
-
-def _relations(wanted: Collection[str], needs: Mapping[str, Collection[str]]) -> list[tuple[str, str]]:
-    """Each register with each of those that it needs and that are read, too."""
-    return [(path, need) for path in wanted for need in needs.get(path, ()) if need in wanted]
-
-
-def _waits(count: int, relations: Iterable[tuple[int, int]]) -> dict[int, set[int]]:
-    """The blocks that go before each block: those of what depends on it."""
-    waits: dict[int, set[int]] = {number: set() for number in range(count)}
-    for first, then in relations:
-        waits[then] |= {first} - {then}
-    return waits
-
-
-def _late(relations: Sequence[tuple[str, str]], rank: Mapping[str, int]) -> set[str]:
-    """What would be read before something that depends on it, and what these depend on in turn."""
-    late = {need for path, need in relations if rank[path] > rank[need]}
-    return late | {need for path, need in relations if path in late}
-
-
-def _positions(wanted: Mapping[str, ReadPlace], made: Sequence[Block], first: int) -> dict[str, WordPosition]:
-    """Where each register stands in blocks whose first has the number `first`."""
-    return {
-        path: WordPosition(first + number, wanted[path].view, wanted[path].span.address - made[number].address)
-        for path, number in _numbers(wanted, made).items()
-    }
+    found = {}
+    for path, place in wanted.items():
+        number = numbers[place.span]
+        found[path] = WordPosition(first + number, place.view, place.span.address - made[number].address)
+    return found

@@ -1,15 +1,16 @@
 """The places where a register can be read, and the first of them that this unit has.
 
-A driver decodes the view to prefer. Another view is as good only if it transmits the same number in the same type:
-equal type, length, factor, rounding and clipping; so an integer view never stands in for an IEEE one. Aliases repeat
-the base view, so they count where the base view does. The others are for units that lack the first.
+The preferred view is decoded. Another view is as good only if it transmits the same number with the same precision, so
+an integer view never replaces an IEEE one. Aliases repeat the base view. The others serve units that lack the first.
 """
 
-from collections.abc import Iterator
+from operator import attrgetter
 from typing import NamedTuple
 
 from regscribe_runtime.planning.address_ranges import AddressRanges, RegisterSpan, places
 from regscribe_runtime.values.views import Placed, View, read_view
+
+_precision = attrgetter("type", "words", "factor", "rounding", "saturates")
 
 
 class ReadPlace(NamedTuple):
@@ -18,19 +19,24 @@ class ReadPlace(NamedTuple):
     view: View
     span: RegisterSpan
 
+    @classmethod
+    def at(cls, view: View, address: int) -> "ReadPlace":
+        """The place of a view whose first word is at `address`."""
+        return cls(view, RegisterSpan(view.space, address, view.words))
+
 
 def read_places(register: Placed) -> tuple[ReadPlace, ...]:
-    """All places to read a register at, the view to prefer first; at least one."""
+    """All places to read a register at, that of the preferred view first; at least one."""
     preferred = read_view(register)
+    first = ReadPlace.at(preferred, preferred.address(register.at))
     if len(register.views) == 1 and not register.aliases:
-        return (_place(preferred, preferred.address(register.at)),)
-    found: dict[RegisterSpan, ReadPlace] = {}
-    for view, address in _from_preferred(register, preferred):
+        return (first,)
+    found = {first.span: first}
+    for view, address in places(register):
         if view is preferred or same_number(view, preferred):
-            place = _place(view, address)
+            place = ReadPlace.at(view, address)
             found.setdefault(place.span, place)
-    readable = tuple(place for place in found.values() if place.view.readable)
-    return readable or tuple(found.values())[:1]
+    return tuple(place for place in found.values() if place.view.readable) or (first,)
 
 
 def place_of(register: Placed, ranges: AddressRanges) -> ReadPlace | None:
@@ -39,7 +45,7 @@ def place_of(register: Placed, ranges: AddressRanges) -> ReadPlace | None:
 
 
 def same_number(view: View, other: View) -> bool:
-    """Whether a view transmits the same number as another with the same precision, and needs to know no more for it."""
+    """Whether a view transmits the same number as `other` with the same precision, and depends on no more registers."""
     return (
         set(view.needs()) <= set(other.needs()) and view.byte_order == other.byte_order and same_precision(view, other)
     )
@@ -47,25 +53,4 @@ def same_number(view: View, other: View) -> bool:
 
 def same_precision(view: View, other: View) -> bool:
     """Whether two views transmit the same number, in whatever order of words and bytes."""
-    return (
-        view.type,
-        view.words,
-        view.factor,
-        view.rounding,
-        view.saturates,
-    ) == (
-        other.type,
-        other.words,
-        other.factor,
-        other.rounding,
-        other.saturates,
-    )
-
-
-def _from_preferred(register: Placed, preferred: View) -> Iterator[tuple[View, int]]:
-    yield preferred, preferred.address(register.at)
-    yield from places(register)
-
-
-def _place(view: View, address: int) -> ReadPlace:
-    return ReadPlace(view, RegisterSpan(view.space, address, view.words))
+    return bool(_precision(view) == _precision(other))
