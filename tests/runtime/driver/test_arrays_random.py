@@ -8,6 +8,8 @@ from typing import Any
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from regscribe_runtime.values.views import scale_needs
+
 HEAD = """\
 format: 1
 map: {id: test/random, title: Random, maker: Nobody, class_prefix: Random}
@@ -102,7 +104,7 @@ def test_whatever_stands_in_whichever_array_means_the_nearest_of_its_name(
     assert set(wanted) == {path for path in registers if re.search(r"\b\w_value$", path)}
     for path, asked in wanted.items():
         one = registers[path]
-        assert one.scale_needs == (asked,), path
+        assert scale_needs(one) == (asked,), path
         assert one.limit_needs == (asked,), path
         assert one.writable.when.registers == (asked,), path
         assert one.unit[0].when.registers == (asked,), path

@@ -88,7 +88,7 @@ class Cost(NamedTuple):
             per_word = float(latency.minimum_per_word + latency.maximum_per_word) / 2
         if not bits:
             per_word, per_byte = per_word + BYTES_IN_WORD * per_byte, 0
-        return Tariff(*(round(ms * NANOSECONDS) for ms in (fixed, per_word, per_byte)), bits)
+        return Tariff(round(fixed * NANOSECONDS), round(per_word * NANOSECONDS), round(per_byte * NANOSECONDS), bits)
 
     def _frames(self, request: int, answer: int) -> tuple[float, float]:
         """Milliseconds of both frames without the values, and of a byte of values; `request`, `answer`: PDU bytes."""

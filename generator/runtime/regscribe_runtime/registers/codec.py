@@ -1,10 +1,11 @@
-"""From words to values of use and back, exactly: the only place where numbers are scaled."""
+"""Words to values in engineering units and back, in exact arithmetic: the only place where numbers are scaled."""
 
 import math
 import struct
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
+from functools import partial
 from types import MappingProxyType
 from typing import Any, NoReturn, Protocol
 
@@ -19,7 +20,7 @@ from regscribe_runtime.values.wire_types import Order, WireType
 
 
 class Coded(Scaled, Protocol):
-    """What decides how the words of a register spell its value."""
+    """The part of a register's declaration that encoding and decoding depend on."""
 
     @property
     def path(self) -> str: ...  # noqa: D102 (a field)
@@ -32,12 +33,12 @@ class Coded(Scaled, Protocol):
 
 
 Unknown = Mapping[str, object]
-"""Registers of no known value, by path, and why."""
+"""Registers without a known value: the reason by path."""
 
 NOTHING: Unknown = MappingProxyType({})
 
 Converter = Callable[[Any], Any]
-"""From a wire number to a value of use."""
+"""From a number on the wire to a value."""
 
 LARGEST_FLOAT = Fraction(sys.float_info.max)
 
@@ -45,11 +46,11 @@ PATTERNS = frozenset({Kind.FLAGS, Kind.FIELDS})
 """Kinds whose words are patterns of bits: never negative, whatever the type of the view."""
 
 MAX_DECIMALS = 9
-"""A decimals register above this is no decimal position of any device; scaling by it would only hide a fault."""
+"""Most decimals that a register can state; scaling by more would only hide a fault."""
 
 
 def power(name: str, decimals: Decimals | None, state: State) -> int:
-    """10^d with d from a register; NotDecodable if that holds no plausible number of decimals."""
+    """10^d with d from a register; NotDecodable if d is no plausible number of decimals."""
     if decimals is None:
         return 1
     digits = int(state[decimals.register])
@@ -70,7 +71,7 @@ Words = Sequence[int]
 
 
 def word_order(view: View, register: str, state: State) -> Order:
-    """The order of the words as things stand; NotDecodable for a code that the manual does not list."""
+    """The present word order of a view; NotDecodable for a code that the manual does not list."""
     if isinstance(view.order, Order):
         return view.order
     code = int(state[view.order.register])
@@ -81,27 +82,15 @@ def word_order(view: View, register: str, state: State) -> Order:
 
 
 def arranger(view: View, name: str, state: State) -> Callable[[Words], Words]:
-    """What turns words from wire order to most-significant-first under the present `state`; the same step both ways."""
+    """A function between wire order and most-significant-first under the present `state`; the same both ways."""
     backward = view.words > 1 and word_order(view, name, state) is Order.LITTLE
     if view.byte_order is Order.LITTLE:
-        return _backward_and_swapped if backward else _swapped
-    return _backward if backward else _as_they_are
-
-
-def _as_they_are(words: Words) -> Words:
-    return words
-
-
-def _backward(words: Words) -> Words:
-    return words[::-1]
+        return (lambda words: _swapped(words[::-1])) if backward else _swapped
+    return (lambda words: words[::-1]) if backward else (lambda words: words)
 
 
 def _swapped(words: Words) -> Words:
     return [(word & 0xFF) << 8 | word >> 8 for word in words]
-
-
-def _backward_and_swapped(words: Words) -> Words:
-    return _swapped(words[::-1])
 
 
 def reader(
@@ -113,11 +102,11 @@ def reader(
     *,
     named: bool = True,
 ) -> Converter:
-    """A function from a wire number of `view` to a value of use, under the present `state`.
+    """A function from a wire number of `view` to a value, under the present `state`.
 
-    It raises Saturated, SensorFault or NotDecodable for numbers that are no values. A fault is a fault even where no
-    scale holds, or where a register that the scale needs now is `unknown` (its path, and why). A special value is
-    returned as its member; without `named` as the number that it is, which is how conditions and limits count it.
+    It raises Saturated, SensorFault or NotDecodable for numbers that are no values; SensorFault even where no scale
+    holds, or the scale depends on a register that is `unknown`. A special value is returned as its enum member; without
+    `named` as its number, as conditions and limits compare it.
     """
     try:
         convert = _with_specials(register, view, known(register, state, unknown), givens, named=named)
@@ -127,7 +116,7 @@ def reader(
 
 
 class _Known(dict[str, Any]):
-    """The values that are known; asking for one that is not says so of the register that depends on it."""
+    """A state without unknown registers; looking one up raises NotDecodable for the register that depends on it."""
 
     def __init__(self, register: Coded, state: State, unknown: Unknown) -> None:
         super().__init__({path: value for path, value in state.items() if path not in unknown})
@@ -139,12 +128,12 @@ class _Known(dict[str, Any]):
 
 
 def known(register: Coded, state: State, unknown: Unknown) -> State:
-    """The state as it decides about a register: NotDecodable for what is asked of it and `unknown` (path, and why)."""
+    """The state for decoding a register; looking up an `unknown` one in it raises NotDecodable."""
     return _Known(register, state, unknown) if unknown else state
 
 
 def failing(error: ValueNotDecodable) -> Converter:
-    """A reader of what cannot be read: it raises `error`."""
+    """A converter that raises `error`."""
 
     def fail(_: object) -> NoReturn:
         raise error
@@ -153,7 +142,7 @@ def failing(error: ValueNotDecodable) -> Converter:
 
 
 def same(wire: int) -> int:
-    """The reader of plain whole numbers; a block recognises it and does not call it."""
+    """The converter of plain whole numbers; blocks recognise it and do not call it."""
     return wire
 
 
@@ -208,7 +197,7 @@ def _ieee(register: Coded, view: View, slope: Fraction, offset: Fraction) -> Cal
 
 
 def _on_wire(view: View, stored: Fraction) -> float | None:
-    """The number that is unpacked from what a view sends for `stored`; None if the view cannot carry it."""
+    """The number on the wire for `stored` in a view; None if the view cannot carry it."""
     exactly = stored * Fraction(view.factor)
     if view.type.is_float:
         try:
@@ -220,7 +209,7 @@ def _on_wire(view: View, stored: Fraction) -> float | None:
 
 
 def _specials(register: Coded, state: State, givens: Givens) -> dict[Fraction, tuple[Any, Fraction]]:
-    """Of each special value, by its code as a value of use: its member (None where it has none) and its number."""
+    """Enum member (None where it has none) and number of each special value, by its code in engineering units."""
     special, means = register.value_type.special, register.value_type.means
     if special is None and not means:
         return {}
@@ -251,7 +240,7 @@ def _with_specials(register: Coded, view: View, state: State, givens: Givens, *,
 
 
 Faults = dict[float | None, tuple[str, str]]
-"""By the number on the wire, as it is unpacked: id and label of a fault; None stands for a float that is no number."""
+"""Id and label of each fault by its number on the wire; None stands for NaN."""
 
 
 def _faults(register: Coded, view: View) -> Faults:
@@ -294,31 +283,27 @@ def decoder(
     *,
     named: bool = True,
 ) -> Callable[[Sequence[int]], Any]:
-    """A function from the words of `view` (in wire order) to a value of use, under the present `state`; see `reader`.
+    """A function from the words of `view` (in wire order) to a value, under the present `state`; see `reader`.
 
     It raises ValueNotDecodable with the words in it.
     """
     state = known(register, state, unknown)
     arrange = arranger(view, register.path, state)
-    convert = (
-        _text_reader(register)
-        if register.kind is Kind.STRING
-        else _number_reader(view, reader(register, view, state, givens, named=named))
-    )
+    unpack: Callable[[Words], Any] = view.type.unpack
+    convert: Converter = same
+    if register.kind is Kind.STRING:
+        unpack = partial(_text, register.path)
+    else:
+        convert = reader(register, view, state, givens, named=named)
 
     def decode(words: Sequence[int]) -> Any:
         try:
-            return convert(arrange(words))
+            return convert(unpack(arrange(words)))
         except ValueNotDecodable as error:
             error.words = tuple(words)
             raise
 
     return decode
-
-
-def _number_reader(view: View, convert: Converter) -> Callable[[Words], Any]:
-    unpack = view.type.unpack
-    return lambda words: convert(unpack(words))
 
 
 def decode(
@@ -331,7 +316,7 @@ def decode(
     *,
     named: bool = True,
 ) -> Any:
-    """The value that `words` (in wire order) spell; ValueNotDecodable carries the words. The rest: see `reader`."""
+    """The value of `words` (in wire order), see `reader`; ValueNotDecodable carries the words."""
     if len(words) != view.words:
         message = f"{register.path} has {view.words} words in its {view.name} view, not {len(words)}"
         raise ValueError(message)
@@ -342,19 +327,16 @@ def decode(
         raise
 
 
-def _text_reader(register: Coded) -> Callable[[Sequence[int]], str]:
-    def text(words: Sequence[int]) -> str:
-        raw = struct.pack(f">{len(words)}H", *words).partition(b"\0")[0]  # what follows is whatever was there before
-        try:
-            return raw.decode("ascii").rstrip(" ")
-        except UnicodeDecodeError:
-            raise NotDecodable(register.path, f"{raw.hex(' ')} is no ASCII text") from None
-
-    return text
+def _text(register: str, words: Words) -> str:
+    raw = struct.pack(f">{len(words)}H", *words).partition(b"\0")[0]  # what follows is whatever was there before
+    try:
+        return raw.decode("ascii").rstrip(" ")
+    except UnicodeDecodeError:
+        raise NotDecodable(register, f"{raw.hex(' ')} is no ASCII text") from None
 
 
 def carried_over(register: Coded, view: View, other: View, words: Words, state: State) -> tuple[int, ...]:
-    """The words by which a device shows in the view `other` what `words` in `view` set; ValueRefused if it cannot."""
+    """The words of view `other` for the value that `words` set in `view`; ValueRefused if it cannot carry that."""
     numbers = arranger(view, register.path, state)(words)
     if register.kind is Kind.STRING:
         return tuple(arranger(other, register.path, state)(numbers))
@@ -374,10 +356,10 @@ def encode(
     rounded: bool = False,
     kept: int = 0,
 ) -> tuple[int, ...]:
-    """The words of `value` in wire order; ValueRefused says which limit, step or type it breaks.
+    """The words of `value` in wire order; ValueRefused for a wrong type, a limit or a step.
 
     With `rounded`, a value finer than the view can carry is rounded by the view's rule instead of refused. `kept` are
-    bits without a name that the device has set and that stay as they are.
+    unnamed bits that are set in the device and stay so.
     """
     arrange = arranger(view, register.path, state)
     if register.kind is Kind.STRING:
@@ -401,7 +383,7 @@ def encode(
 
 
 def _amount(register: Coded, value: object, state: State, givens: Givens) -> tuple[Fraction, bool]:
-    """`value` as an exact value of use, and whether it is a special value, which no range limits."""
+    """The exact number of `value`, and whether it is a special value, which no range limits."""
     specials = _specials(register, state, givens)
     for code, (member, _) in specials.items():
         if value is member and member is not None:
@@ -433,12 +415,9 @@ def _within_limits(register: Coded, amount: Fraction, state: State, givens: Give
     divisor = power(register.path, limits.decimals, state)
     ends = [(_limit(low, divisor, state), _limit(high, divisor, state)) for low, high in limits.intervals]
     if not any((low is None or low <= amount) and (high is None or amount <= high) for low, high in ends):
-        allowed = " or ".join(f"{_shown_limit(low)} to {_shown_limit(high)}" for low, high in ends)
+        shown = [["(open)" if end is None else rough(end) for end in interval] for interval in ends]
+        allowed = " or ".join(map(" to ".join, shown))
         raise ValueRefused(register.path, f"{rough(amount)} lies outside {allowed}")
-
-
-def _shown_limit(bound: Fraction | None) -> str:
-    return "(open)" if bound is None else str(rough(bound))
 
 
 def _stored(register: Coded, amount: Fraction, state: State, givens: Givens, *, rounded: bool) -> Fraction:

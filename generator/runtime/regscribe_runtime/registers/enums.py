@@ -10,8 +10,8 @@ V = TypeVar("V")
 class Choice(IntEnum):
     """An enum of a register: members carry the manual's `label` and perhaps a `description`.
 
-    A code that the manual does not list becomes a pseudo-member named `UNKNOWN_<code>` whose `known` is False, so a
-    read never fails on one; a write refuses it.
+    A code that the manual does not list is read as a pseudo-member named `UNKNOWN_<code>` whose `known` is False; a
+    write refuses it.
     """
 
     _value_: int
@@ -37,7 +37,7 @@ class Choice(IntEnum):
 
 
 class SpecialNumber(float, Enum):
-    """Special values some of which have a fraction: members are numbers that carry the manual's `label`."""
+    """Special values that are no whole numbers: members are floats that carry the manual's `label`."""
 
     label: str
     description: str

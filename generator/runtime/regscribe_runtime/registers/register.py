@@ -11,21 +11,21 @@ from regscribe_runtime.values.conditions import Cases, Givens, State, always
 from regscribe_runtime.values.facts import Governs, WriteCondition
 from regscribe_runtime.values.kinds import Access
 from regscribe_runtime.values.scales import SAME, Conversion, Range, Sentinel
-from regscribe_runtime.values.views import View, limit_needs, needs, scale_needs
+from regscribe_runtime.values.views import View, limit_needs, needs
 
 T = TypeVar("T")
 SPEAKING = ("views", "scale", "special_scale", "range", "unit", "writable")
-"""The attributes of a register that may speak of other registers."""
+"""The attributes of a register that may refer to other registers."""
 
 
 class Register(Generic[T]):
-    """What a device's register is: where it stands, what its words mean and when it may be written.
+    """The declaration of a register: its address, what its words mean and when it may be written.
 
     `at` is the n of its views' address formulas. `special_scale` divides the codes of special values, as the range's
-    decimals divide its limits. `default` is the manual's, in values of use. `unit` is an engineering
-    unit, or cases of them. `stays` is why the value must not be copied to another device (address, line, calibration,
-    identity, counter, operation; "": it may be), `governs` what it sets of the line, `settle` for how many milliseconds
-    after a write reading it back says nothing; `rescales` names the unit whose values the device converts then.
+    decimals divide its limits. `default` is the manual's, in engineering units. `unit` is an engineering unit, or cases
+    of them. `stays` is why the value must not be copied to another device (address, line, calibration, identity,
+    counter, operation; "": it may be), `governs` what it sets of the serial line, `settle` the milliseconds after a
+    write in which reading back is not reliable; `rescales` names the unit whose values the device converts then.
 
     `decode` and `encode` need no device: `state` holds the values of the registers in `needs`.
     """
@@ -84,12 +84,12 @@ class Register(Generic[T]):
 
     @cached_property
     def is_open(self) -> bool:
-        """Whether it speaks of others in the same element of an array, as the declaration of all elements does."""
+        """Whether it refers to others in the same element of an array."""
         return any(element.is_open(getattr(self, name)) for name in SPEAKING)
 
     def moved(self, steps: int, path: str) -> Self:
         """The same register of another array element: `steps` further on, at this path."""
-        _ = self.is_open  # found out before the copy is made, so that all elements share the answer
+        _ = self.is_open  # cached before the copy is made, so that all elements share it
         other = self._copy()
         other.at, other.path = self.at + steps, path
         stride = self.views[0].stride
@@ -97,7 +97,7 @@ class Register(Generic[T]):
         return other
 
     def closed(self) -> Self:
-        """The same register where the path is whole: what it says of the same element is said of that at its path."""
+        """The same register with references to the same element resolved by its path."""
         if not self.is_open:
             return self
         other = self._copy()
@@ -108,7 +108,7 @@ class Register(Generic[T]):
 
     @property
     def is_configuration(self) -> bool:
-        """Whether it is a setting that the device keeps: no passing operation, no counter, not in RAM alone."""
+        """Whether it is a setting that the device keeps: no operation, no counter, not in RAM alone."""
         passing = self.persistence == "ram" or self.stays in {"operation", "counter"}
         return self.access is Access.READ_WRITE and not passing
 
@@ -128,9 +128,9 @@ class Register(Generic[T]):
         raise ValueError(message)
 
     def read_view(self, name: str | None = None) -> View:
-        """The view of that name, or else the one to read: that to prefer, if the map lets it be read.
+        """The view of that name, or without one the preferred view, or the first that can be read.
 
-        ValueError for an unknown name, and for a view by functions that do not read.
+        ValueError for an unknown name, and for a view that cannot be read.
         """
         return self._view_by(name, [view.name for view in self.views if view.readable], "read")
 
@@ -154,11 +154,6 @@ class Register(Generic[T]):
         """The view in which what was written in `view` is read back."""
         return view if view.readable else self.read_view()
 
-    @property
-    def scale_needs(self) -> tuple[str, ...]:
-        """Registers that decide or set the scale, or that of special values."""
-        return scale_needs(self)
-
     def needs(self, view: View) -> tuple[str, ...]:
         """Registers whose values the meaning of `view` depends on."""
         return needs(self, view)
@@ -171,7 +166,7 @@ class Register(Generic[T]):
     def decode(
         self, words: Sequence[int], *, view: str | None = None, state: State | None = None, givens: Givens | None = None
     ) -> T:
-        """The value of use that `words` spell in `view`; raises ValueNotDecodable (SensorFault, Saturated, ...)."""
+        """The value of `words` in `view`; raises ValueNotDecodable (SensorFault, Saturated, NotDecodable)."""
         chosen = self.view(view) if view else self.read_view()
         return cast("T", codec.decode(self, chosen, words, state or {}, givens or {}))
 
@@ -184,7 +179,7 @@ class Register(Generic[T]):
         givens: Givens | None = None,
         rounded: bool = False,
     ) -> tuple[int, ...]:
-        """The words of `value` in `view`; raises ValueRefused for what may not or cannot be written."""
+        """The words of `value` in `view`; raises ValueRefused for what must not or cannot be written."""
         if not self.access.writable:
             raise ValueRefused(self.path, "the register is read-only")
         chosen = self.view(view) if view else self.write_view()

@@ -1,9 +1,9 @@
-"""What a number is to a program: float, int, enum, flags, word, text, version or bool."""
+"""Python types of register values: float, int, enum, flags, word, text, version or bool."""
 
 from collections.abc import Callable
 from enum import Enum
 from fractions import Fraction
-from typing import Any, Generic, NoReturn, TypeVar
+from typing import Any, Generic, TypeVar
 
 from regscribe_runtime.errors import NotDecodable, ValueRefused
 from regscribe_runtime.registers.enums import Choice, Flags, SpecialNumber, Word
@@ -17,17 +17,12 @@ F = TypeVar("F", bound=Flags)
 W = TypeVar("W", bound=Word)
 
 
-def _refuse(value: object) -> NoReturn:
-    message = f"{value!r} is of the wrong type"
-    raise TypeError(message)
-
-
 class ValueType(Generic[T]):
-    """How values of a register look to a program.
+    """The Python type of a register's values.
 
-    `make` builds a value from a number of use; `number` takes one apart again (ValueRefused for what is no value).
-    `coded` kinds have no scale: their number is the code itself. `special` names values beside the range, `means` maps
-    their code to the number they stand for.
+    `make` builds a value from a number; `number` is the reverse (ValueRefused for what is no value). `coded` kinds have
+    no scale: their number is the code itself. `special` is the enum of special values, `means` maps codes of special
+    values to the number they stand for.
     """
 
     __slots__ = ("coded", "kind", "make", "means", "number", "special")
@@ -87,7 +82,7 @@ def integer_with(means: dict[Number, Number]) -> ValueType[int]:
 
 
 def choice(members: type[C]) -> ValueType[C]:
-    """An enum: only members are written, unknown codes are read as pseudo-members."""
+    """An enum; unknown codes are read as pseudo-members and refused in a write."""
 
     def code(register: str, value: Any) -> Fraction:
         if isinstance(value, bool) or not isinstance(value, int) or (isinstance(value, Choice) and not value.known):
@@ -103,7 +98,7 @@ def choice(members: type[C]) -> ValueType[C]:
 
 
 def flags(members: type[F]) -> ValueType[F]:
-    """A word of single bits: only named bits are written."""
+    """A word of single bits; unnamed bits are refused in a write."""
 
     def code(register: str, value: Any) -> Fraction:
         if isinstance(value, bool) or not isinstance(value, int):
@@ -157,10 +152,11 @@ def version(digits: int, group: int) -> ValueType[str]:
     return ValueType(Kind.VERSION, make, code, coded=True)
 
 
-def _no_number(register: str, value: Any) -> Fraction:
+def _refuse_number(register: str, value: Any) -> Fraction:
     if not isinstance(value, str):
         raise ValueRefused(register, f"{brief(value)} is no text")
-    _refuse(value)  # texts are encoded from their characters, never through a number
+    message = f"{value!r} is of the wrong type"  # texts are encoded from their characters, never through a number
+    raise TypeError(message)
 
 
-text: ValueType[str] = ValueType(Kind.STRING, str, _no_number, coded=True)
+text: ValueType[str] = ValueType(Kind.STRING, str, _refuse_number, coded=True)
