@@ -1,14 +1,15 @@
-"""A request that the unit refused is halved until the registers that it does not have are found; the rest is delivered.
+"""Bisection of a refused read request until the registers that the unit lacks are found; the others are delivered.
 
-What counts as "does not have" is the exception that the map gives for bad addresses (illegal data address, as a rule).
-Every other exception, and silence, concerns the whole operation and is raised. Only where the map says that the device
-keeps silent about bad addresses is silence taken for an absence: if it was silent twice, and the unit spoke otherwise.
+A register is absent if the unit answers a read of it alone with the exception that the map gives for bad addresses
+(as a rule illegal data address). Other exceptions, and silence, concern the whole operation and are raised. Only where
+the map says that the device does not answer for bad addresses does silence mean absence: two times, and if the unit
+answers other requests.
 
-Each register that is called absent was refused alone. If a half is good, the other one must be bad, so it is halved
-without being asked for: one absent register among n takes between log2(n) and 2 log2(n) requests.
+If one half is good, the other must be bad, so it is halved without being requested as a whole: one absent register
+among n takes between log2(n) and 2 log2(n) requests.
 """
 
-from collections.abc import Generator, Iterator, Sequence
+from collections.abc import Generator, Sequence
 from typing import Any
 
 from regscribe_runtime.errors import ExceptionAnswer, NoAnswer, RegscribeError
@@ -19,24 +20,24 @@ from regscribe_runtime.planning.read_places import read_places
 from regscribe_runtime.wire.requests import Request
 
 MOST_SILENT = 3
-"""Requests in a row without an answer after which the unit is not asked any more."""
+"""Requests in a row without an answer after which no more are sent."""
 
 REFUSALS = (ExceptionAnswer, NoAnswer)
-"""What an absent register may be answered with; `is_absence` tells whether it is."""
+"""Errors that may mean an absent register; see `is_absence`."""
 
 Words = tuple[int | None, ...]
-"""What a block holds; None at addresses that could not be read."""
+"""The words of a block; None at addresses that could not be read."""
 
 
 def is_absence(error: RegscribeError, absent: int) -> bool:
-    """Whether an error is this device's way to say that it has no such address."""
+    """Whether an error means a bad address; `absent` is the device's exception code for these (0: silence)."""
     if isinstance(error, ExceptionAnswer):
         return bool(absent) and error.code == absent
     return isinstance(error, NoAnswer) and not absent
 
 
 class Bisection:
-    """Reads of a refused block whatever can be read, and remembers in the session what cannot."""
+    """Reads what can be read of a refused block, and remembers in the session what cannot."""
 
     def __init__(self, session: Session, block: Block, error: RegscribeError, *, heard: bool) -> None:
         self.session, self.block, self.error = session, block, error
@@ -46,7 +47,7 @@ class Bisection:
         self.heard = heard or not self.silent
 
     def run(self) -> Generator[Any, Any, Words]:
-        """The words of the block that can be read; raises what concerns the whole unit."""
+        """The words of the block that can be read; raises errors of the whole unit."""
         items = self.block.items
         if len(items) == 1 and isinstance(self.error, ExceptionAnswer):
             self.refused[items[0]] = self.error
@@ -57,8 +58,10 @@ class Bisection:
         proven = {one.span for path in self.session.proven for one in read_places(self.session.registers[path])}
         for item, error in self.refused.items():
             self.session.absences.add(item, error, passing=item in proven)
-        for item in self._between():
-            self.session.absences.add(item, self.error, alone=False)
+        wanted = {address for item in items for address in range(item.address, item.end)}
+        for address, word in enumerate(self.words, self.block.address):
+            if word is None and address not in wanted:  # read along and in no good request: it may have been refused
+                self.session.absences.add(RegisterSpan(self.block.space, address, 1), self.error, alone=False)
         self.session.prepared.clear()
         return tuple(self.words)
 
@@ -82,29 +85,19 @@ class Bisection:
         return error is None
 
     def _read(self, items: Sequence[RegisterSpan]) -> Generator[Any, Any, RegscribeError | None]:
-        """Read items by one request; the device's way to say that it has not all of them, if it does."""
+        """Read items by one request; the error that says that the device lacks one of them, or None."""
         wide = [self.session.terms().ground.widened(item) for item in items]
         start, end = min(item.address for item in wide), max(item.end for item in wide)
         try:
             words = yield from self.session.exchange(Request(self.block.function, start, end - start))
         except REFUSALS as error:
-            self._judge(error)
+            if not is_absence(error, self.session.protocol.absent):
+                raise
+            self.silent = self.silent + 1 if isinstance(error, NoAnswer) else 0
+            self.heard = self.heard or not self.silent
+            if self.silent >= MOST_SILENT and not self.heard:
+                raise
             return error
         self.heard, self.silent = True, 0
         self.words[start - self.block.address : end - self.block.address] = words
         return None
-
-    def _judge(self, error: RegscribeError) -> None:
-        if not is_absence(error, self.session.protocol.absent):
-            raise error
-        self.silent = self.silent + 1 if isinstance(error, NoAnswer) else 0
-        self.heard = self.heard or not self.silent
-        if self.silent >= MOST_SILENT and not self.heard:
-            raise error
-
-    def _between(self) -> Iterator[RegisterSpan]:
-        """The addresses that were read along and are in no good request: what was refused may lie there."""
-        wanted = {address for item in self.block.items for address in range(item.address, item.end)}
-        for address, word in enumerate(self.words, self.block.address):
-            if word is None and address not in wanted:
-                yield RegisterSpan(self.block.space, address, 1)

@@ -1,7 +1,8 @@
-"""Decoding many registers of one request at once: one struct.unpack for all of them."""
+"""Decoding of all registers of one request by one struct.unpack."""
 
 import struct
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from types import MappingProxyType
 from typing import Any
 
@@ -17,14 +18,14 @@ from regscribe_runtime.values.wire_types import Order
 from regscribe_runtime.wire.requests import Request
 
 Placed = tuple["Register[Any]", View, int]
-"""A register, its view, and the place of its first word in the block."""
+"""A register, its view, and the index of its first word in the block."""
 
 
 class PreparedBlock:
-    """A request and what to do with its words, under the state of the device at the time of preparation.
+    """A request and the decoders of its words, for the state of the device at the time of preparation.
 
-    Registers of numbers are unpacked together; texts, bits and registers that share words are decoded alone. `unknown`
-    are registers whose values could not be learnt, with why: what depends on them has no value either.
+    Numbers are unpacked together; texts, bits and registers that share words are decoded alone. `unknown` are registers
+    without a known value, with the error by path: what depends on them is not decoded.
     """
 
     __slots__ = ("alone", "block", "converters", "order", "packer", "paths", "placed", "request", "unpacker")
@@ -43,37 +44,35 @@ class PreparedBlock:
         self.unpacker = struct.Struct(_format(together, block.quantity))
         self.order = _order(together, block.quantity, session)
         self.paths = [register.path for register, _, _ in together]
-        converters = [_converter(*one, session, unknown) for one in together]
+        converters = [_converter(register, view, session, unknown) for register, view, _ in together]
         self.converters = [(place, convert) for place, convert in enumerate(converters) if convert is not codec.same]
-        self.alone = [(*one, _decoder(*one, session, unknown)) for one in others]
+        self.alone = [(*one, _decoder(*one[:2], session, unknown)) for one in others]
 
     def decode(self, words: Sequence[int]) -> dict[str, Any]:
-        """Values by path; a ValueNotDecodable in place of a value that is none."""
-        if self.order:
-            words = [words[place] for place in self.order]
-        found = self._together(words) if self.paths else {}
-        for register, view, start, decode in self.alone:
-            found[register.path] = _caught(decode, words[start : start + view.words])
-        return found
-
-    def decode_partly(self, words: Words, session: Session, unknown: Mapping[str, RegscribeError]) -> dict[str, Any]:
-        """As `decode`, of the registers whose words are all there."""
-        found = {}
-        for register, view, start in self.placed:
-            there = words[start : start + view.words]
-            if None not in there:
-                decode = _decoder(register, view, start, session, unknown)
-                found[register.path] = _caught(decode, there)
-        return found
-
-    def _together(self, words: Sequence[int]) -> dict[str, Any]:
-        values: list[Any] = list(self.unpacker.unpack(self.packer.pack(*words)))
+        """Values by path, or the ValueNotDecodable of a register without a value."""
+        values: list[Any] = []
+        if self.paths:
+            ordered = [words[place] for place in self.order] if self.order else words
+            values += self.unpacker.unpack(self.packer.pack(*ordered))
         for place, convert in self.converters:
             try:
                 values[place] = convert(values[place])
             except ValueNotDecodable as error:
                 values[place] = error
-        return dict(zip(self.paths, values, strict=True))
+        found = dict(zip(self.paths, values, strict=True))
+        for register, view, start, decode in self.alone:
+            found[register.path] = _caught(decode, words[start : start + view.words])
+        return found
+
+    def decode_partly(self, words: Words, session: Session, unknown: Mapping[str, RegscribeError]) -> dict[str, Any]:
+        """As `decode`, for the registers none of whose words is None."""
+        found = {}
+        for register, view, start in self.placed:
+            there = words[start : start + view.words]
+            if None not in there:
+                decode = _decoder(register, view, session, unknown)
+                found[register.path] = _caught(decode, there)
+        return found
 
 
 def _split(placed: Sequence[Placed]) -> tuple[list[Placed], list[Placed]]:
@@ -99,31 +98,25 @@ def _format(together: Sequence[Placed], quantity: int) -> str:
 def _order(together: Sequence[Placed], quantity: int, session: Session) -> list[int] | None:
     places = list(range(quantity))
     for register, view, start in together:
-        if view.words > 1 and _backward(register, view, session):
-            places[start : start + view.words] = places[start : start + view.words][::-1]
+        with suppress(ValueNotDecodable, KeyError):  # its converter raises it, for this register alone
+            if view.words > 1 and codec.word_order(view, register.path, session.memory) is Order.LITTLE:
+                places[start : start + view.words] = places[start : start + view.words][::-1]
     return None if places == sorted(places) else places
 
 
-def _backward(register: Register[Any], view: View, session: Session) -> bool:
-    try:
-        return codec.word_order(view, register.path, session.memory) is Order.LITTLE
-    except (ValueNotDecodable, KeyError):
-        return False  # its converter says so, for this register alone
-
-
 def _converter(
-    register: Register[Any], view: View, _: int, session: Session, unknown: Mapping[str, RegscribeError]
+    register: Register[Any], view: View, session: Session, unknown: Mapping[str, RegscribeError]
 ) -> Callable[[Any], Any]:
     try:
         if view.words > 1:
             codec.word_order(view, register.path, codec.known(register, session.memory, unknown))
+        return codec.reader(register, view, session.memory, session.givens, unknown)
     except ValueNotDecodable as error:
         return codec.failing(error)
-    return codec.reader(register, view, session.memory, session.givens, unknown)
 
 
 def _decoder(
-    register: Register[Any], view: View, _: int, session: Session, unknown: Mapping[str, RegscribeError]
+    register: Register[Any], view: View, session: Session, unknown: Mapping[str, RegscribeError]
 ) -> Callable[[Any], Any]:
     try:
         return codec.decoder(register, view, session.memory, session.givens, unknown)

@@ -1,8 +1,8 @@
-"""What a read of several registers comes down to under the present state: requests, decoders, and what must not change.
+"""The requests and decoders of a read of several registers under the present state.
 
-The registers that the meaning of values depends on (decimals, input type, word order) are read in the same plan, behind
+Registers that the meaning of values depends on (decimals, input type, word order) are read in the same plan, behind
 all values that depend on them. If they hold at the end what was known before the first request, they held it all the
-time between, so every value was made under the state that it is decoded with.
+time, so every value is decoded with the state under which it was sent.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -20,13 +20,13 @@ from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.views import Readable, needs, read_view
 
 MISSING = object()
-"""In place of a value that is not known."""
+"""In place of an unknown value."""
 
 
 class PreparedRead:
-    """The requests of one read, and how to judge and decode the answers; made by `make_ready`."""
+    """The requests of one read and the decoders of the answers; made by `make_ready`."""
 
-    __slots__ = ("_seen", "_watched", "absent", "atomic", "blocks", "paths", "unknown")
+    __slots__ = ("_unchanged", "_watched", "absent", "atomic", "blocks", "paths", "unknown")
 
     def __init__(
         self,
@@ -41,12 +41,12 @@ class PreparedRead:
         self.blocks, self.paths, self.atomic = blocks_, tuple(paths), atomic
         self.absent, self.unknown = absent, unknown
         self._watched = watched
-        self._seen: list[Words] | None = None if watched else []
+        self._unchanged: list[Words] | None = None if watched else []
 
     def changed(self, answers: Sequence[Words], session: Session) -> dict[str, Any]:
-        """What the values depend on and is not as it was known: new values, MISSING for what is none any more."""
+        """The dependencies that differ from the remembered ones: new values by path, MISSING for what is no value."""
         words = [_words(place, answers) for _, place in self._watched]
-        if words == self._seen:
+        if words == self._unchanged:
             return {}
         state, found = dict(session.memory), {}
         for (register, place), raw in zip(self._watched, words, strict=True):
@@ -58,11 +58,11 @@ class PreparedRead:
             else:
                 state[register.path] = value
         if not found:
-            self._seen = words
+            self._unchanged = words
         return found
 
     def decode(self, answers: Sequence[Sequence[int]]) -> dict[str, Any]:
-        """Values by path, in the order asked for; an error in place of a value that is none."""
+        """Values or errors by path, in the order of `paths`."""
         values: dict[str, Any] = dict.fromkeys(self.paths)
         values.update(self.absent)
         for block, words in zip(self.blocks, answers, strict=True):
@@ -70,7 +70,7 @@ class PreparedRead:
         return values
 
     def decode_partly(self, answers: Sequence[Words], session: Session) -> dict[str, Any]:
-        """As `decode`, where words may be missing: None for a register that could not be read."""
+        """As `decode`, for answers in which words are missing: None for a register that could not be read."""
         values: dict[str, Any] = dict.fromkeys(self.paths)
         values.update(self.absent)
         for block, words in zip(self.blocks, answers, strict=True):
@@ -78,7 +78,7 @@ class PreparedRead:
         return values
 
     def blind(self, answers: Sequence[Words]) -> bool:
-        """Whether something that values depend on could not be read."""
+        """Whether a dependency could not be read."""
         return any(None in _words(place, answers) for _, place in self._watched)
 
     def alike(self, other: "PreparedRead") -> bool:
@@ -103,7 +103,7 @@ R = TypeVar("R", bound=Readable)
 
 
 def dependencies(registers: Mapping[str, R], wanted: Iterable[R]) -> dict[str, frozenset[str]]:
-    """Of each register and of all that the meaning of one depends on, what its own depends on; those first."""
+    """Dependencies of each register by path, transitively, in topological order."""
     found: dict[str, frozenset[str]] = {}
 
     def visit(register: R) -> frozenset[str]:
@@ -121,19 +121,19 @@ def dependencies(registers: Mapping[str, R], wanted: Iterable[R]) -> dict[str, f
 def laid_out(
     registers: Mapping[str, R], chosen: Sequence[R], terms: Terms, *, fresh: bool
 ) -> tuple[ReadOrder, dict[str, R], dict[str, frozenset[str]]]:
-    """Where registers and, with `fresh`, all that they depend on are read; these by path, and what each depends on."""
-    needed_by = dependencies(registers, chosen) if fresh else {}
-    needed = frozenset().union(*needed_by.values())
+    """The read order of registers and, with `fresh`, of their dependencies; all of these, and dependencies, by path."""
+    needs = dependencies(registers, chosen) if fresh else {}
+    needed = frozenset().union(*needs.values())
     wanted = {register.path: register for register in chosen}
-    wanted |= {path: registers[path] for path in needed_by if path in needed and path not in wanted}
+    wanted |= {path: registers[path] for path in needs if path in needed and path not in wanted}
     there = {path: place for path, one in wanted.items() if (place := place_of(one, terms.ground))}
-    return lay_out(there, needed_by, terms), wanted, needed_by
+    return lay_out(there, needs, terms), wanted, needs
 
 
 def make_ready(
     session: Session, registers: Sequence[Register[Any]], *, fresh: bool, unknown: Mapping[str, RegscribeError]
 ) -> PreparedRead:
-    """Plan the read of registers and, with `fresh`, of what they depend on; `unknown` are those of no known value."""
+    """Plan a read of registers and, with `fresh`, of their dependencies; `unknown`: errors of dependencies by path."""
     layout, wanted, needs = laid_out(session.registers, registers, session.terms(), fresh=fresh)
     chosen = {register.path: register for register in registers}
     placed: list[list[Placed]] = [[] for _ in layout.blocks]
@@ -155,7 +155,7 @@ def make_ready(
 
 
 def missing(session: Session, register: Register[Any]) -> RegscribeError | None:
-    """Why a register is left out of every plan; None if it can be read somewhere."""
+    """The error of a register that this unit does not have; None if it can be read somewhere."""
     if place_of(register, session.terms().ground):
         return None
     for place in read_places(register):

@@ -1,7 +1,4 @@
-"""What reading takes, step by step, without I/O: each operation is a generator of requests.
-
-An operation is created with a register and run by a part of a driver, which sends the session in first.
-"""
+"""Read operations: generators of requests, without I/O."""
 
 # an annotation of an inner function is evaluated at every call otherwise, which costs a read a hundredth of its time
 from __future__ import annotations
@@ -15,28 +12,27 @@ from regscribe_runtime.operations.prepared_read import MISSING, PreparedRead, de
 from regscribe_runtime.operations.session import Operation, Session, Task
 from regscribe_runtime.operations.snapshot import Snapshot
 from regscribe_runtime.planning.address_ranges import RegisterSpan
-from regscribe_runtime.planning.plan import RequestLimits, Terms, blocks
+from regscribe_runtime.planning.plan import Block, RequestLimits, blocks
 from regscribe_runtime.registers import codec
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.conditions import choose, registers_of
 from regscribe_runtime.values.views import View
-from regscribe_runtime.values.wire_types import Space
 from regscribe_runtime.wire.requests import Request
 
 T = TypeVar("T")
 
 TRIES = 4
-"""Reads of a snapshot until it is given up as unsteady; an absent dependency takes one of them."""
+"""Most reads of a snapshot whose dependencies change; an absent dependency takes one of them."""
 
 FEW = 3
-"""Requests for registers that another one depends on, up to which no plan of the whole device is made for them."""
+"""Most requests for dependencies without a plan of the whole device."""
 
 MAX_DEPTH = 8
-"""Dependencies of dependencies; the compiler refuses cycles, this bounds what it let through."""
+"""Most levels of dependencies, in case of a cycle that the compiler let through."""
 
 
 def item_of(register: Register[Any], view: View) -> RegisterSpan:
-    """Where a register stands in a view."""
+    """The addresses of a register in a view."""
     return RegisterSpan(view.space, view.address(register.at), view.words)
 
 
@@ -45,42 +41,39 @@ def fetch(session: Session, items: Iterable[RegisterSpan]) -> Operation[dict[Reg
     wanted = sorted(set(items))
     requests = _joined(wanted, RequestLimits.of(session.protocol))
     if len(requests) > FEW or session.absences:
-        requests = _planned(wanted, session.terms())
+        terms = session.terms()
+        alone = [item for item in wanted if terms.ground.stretch(item) is None]  # not in plans: requested alone
+        requests = [_block([item]) for item in alone]
+        requests += blocks([item for item in wanted if item not in alone], terms)
     found = {}
-    for asked, held in requests.items():
-        words = yield from session.exchange(Request(asked.space.read_function, asked.address, asked.words))
+    for function, address, quantity, held in requests:
+        words = yield from session.exchange(Request(function, address, quantity))
         for item in held:
-            start = item.address - asked.address
+            start = item.address - address
             found[item] = tuple(words[start : start + item.words])
     return found
 
 
-def _planned(items: Sequence[RegisterSpan], terms: Terms) -> Mapping[RegisterSpan, Sequence[RegisterSpan]]:
-    """Items by the span that reads them at the least cost; what plans go round is asked for alone."""
-    alone = [item for item in items if terms.ground.stretch(item) is None]
-    planned = blocks([item for item in items if item not in alone], terms)
-    return {item: [item] for item in alone} | {
-        RegisterSpan(block.space, block.address, block.quantity): block.items for block in planned
-    }
-
-
-def _joined(items: Sequence[RegisterSpan], limits: RequestLimits) -> Mapping[RegisterSpan, Sequence[RegisterSpan]]:
-    """Sorted items by the span that reads them: those that follow each other without a gap are read together."""
-    found: dict[RegisterSpan, Sequence[RegisterSpan]] = {}
-    last = RegisterSpan(Space.HOLDING, -1, 0)
+def _joined(items: Sequence[RegisterSpan], limits: RequestLimits) -> list[Block]:
+    """The requests for sorted items, one for items that follow each other without a gap."""
+    runs: list[list[RegisterSpan]] = []
     for item in items:
-        both = last._replace(words=item.end - last.address)
-        if (item.space, item.address) == (last.space, last.end) and both.words <= limits.most(item.space):
-            found[both] = [*found.pop(last), item]
-            last = both
+        run = runs[-1] if runs else [item]
+        adjacent = (item.space, item.address) == (run[-1].space, run[-1].end)
+        if adjacent and item.end - run[0].address <= limits.most(item.space):
+            run.append(item)
         else:
-            found[item] = [item]
-            last = item
-    return found
+            runs.append([item])
+    return [_block(run) for run in runs]
+
+
+def _block(run: Sequence[RegisterSpan]) -> Block:
+    first = run[0].address
+    return Block(run[0].space.read_function, first, run[-1].end - first, tuple(run))
 
 
 def know(session: Session, paths: Iterable[str], *, fresh: bool = False, depth: int = 0) -> Operation[dict[str, Any]]:
-    """The values of registers, from memory or (all of them, with `fresh`) from the device."""
+    """The values of registers by path, from memory or (with `fresh`) all of them from the device."""
     wanted = [path for path in dict.fromkeys(paths) if fresh or path not in session.memory]
     if not wanted:
         return session.memory
@@ -89,30 +82,18 @@ def know(session: Session, paths: Iterable[str], *, fresh: bool = False, depth: 
         raise RuntimeError(message)
     registers = list(map(session.registers.__getitem__, wanted))
     views = [register.read_view() for register in registers]
-    unknown = yield from _unknown(session, _needs(registers, views), depth=depth + 1)
+    needs = dict.fromkeys(path for one, view in zip(registers, views, strict=True) for path in one.needs(view))
+    unknown = yield from _unknown(session, needs, depth=depth + 1)
     spans = list(map(item_of, registers, views))
     found = yield from fetch(session, spans)
     values = {
         register.path: codec.decode(register, view, found[span], session.memory, session.givens, unknown, named=False)
         for register, view, span in zip(registers, views, spans, strict=True)
     }
-    _remember(session, values, fresh=fresh)
-    return session.memory | values if fresh else session.memory
-
-
-def _remember(session: Session, values: dict[str, Any], *, fresh: bool) -> None:
-    """Keep values; of those that were read `fresh`, only the ones that were known and have changed."""
     for path, value in values.items():
-        if not fresh or session.memory.get(path, value) != value:
+        if not fresh or session.memory.get(path, value) != value:  # of fresh ones, those remembered that have changed
             session.remember(path, value)
-
-
-def _needs(registers: Iterable[Register[Any]], views: Iterable[View]) -> dict[str, None]:
-    """What the meaning of registers depends on, each once."""
-    found: dict[str, None] = {}
-    for register, view in zip(registers, views, strict=True):
-        found |= dict.fromkeys(register.needs(view))
-    return found
+    return session.memory | values if fresh else session.memory
 
 
 def read(register: Register[T], view_name: str | None) -> Task[T]:
@@ -126,7 +107,7 @@ def read(register: Register[T], view_name: str | None) -> Task[T]:
             made = codec.decoder(register, view, session.memory, session.givens, unknown)
             if unknown:
                 only_now: T = made((yield from session.exchange(read_request(register, view))))
-                return only_now  # what is unknown may have a value when it is read again
+                return only_now  # an unknown register may have a value when it is read again
             session.prepared[key] = read_request(register, view), made
         request, decode = session.prepared[key]
         value: T = decode((yield from session.exchange(request)))
@@ -150,7 +131,7 @@ def read_raw(register: Register[Any], view_name: str | None) -> Task[tuple[int, 
 
 
 def read_unit(register: Register[Any]) -> Task[str]:
-    """The engineering unit under the present configuration."""
+    """The engineering unit in the present configuration."""
 
     def task(session: Session) -> Operation[str]:
         unknown = yield from _unknown(session, registers_of(register.unit))
@@ -163,15 +144,14 @@ def read_unit(register: Register[Any]) -> Task[str]:
 def read_many(registers: Sequence[Register[Any]], *, fresh: bool = True, rest: bool = False) -> Task[Snapshot]:
     """Read several registers in the requests of least cost: one snapshot with a value or an error for each.
 
-    The snapshot is consistent: what the meaning of values depends on (decimals, input type, word order) is read along,
-    behind the values. If it is not as it was known before, everything is read again under the new state, unless values
-    and state came in one request; after TRIES times Unsteady is raised. Without `fresh`, what was remembered is
-    trusted, as single reads do: cheaper, and right as long as nobody else configures the device.
+    The snapshot is consistent: registers that the meaning of values depends on (decimals, input type, word order) are
+    read behind the values. If they differ from the remembered ones, all is read again, unless values and dependencies
+    came in one request; after TRIES reads Unsteady is raised. Without `fresh` remembered dependencies are used, as in
+    single reads: cheaper, and right as long as no other master configures the device.
 
-    If the unit refuses a request because it lacks a register, `Bisection` finds it and delivers the rest; the entry of
-    that register is an Absent error, and reads go round it until that expires: at the next read (that of a `rest`
-    excepted) if others depend on it and the unit was heard to have it. What concerns the whole unit is raised:
-    NoAnswer, LinkLost, WrongAnswer, and any other exception answer.
+    If the unit refuses a request because it lacks a register, `Bisection` finds it. Its entry is an Absent error, and
+    plans leave it out until the refusal expires: at the next read (but not that of a `rest`) if others depend on it and
+    the unit was seen to have it. Raises NoAnswer, LinkLost, WrongAnswer, and ExceptionAnswer for other exceptions.
     """
 
     def task(session: Session) -> Operation[Snapshot]:
@@ -185,7 +165,10 @@ def read_many(registers: Sequence[Register[Any]], *, fresh: bool = True, rest: b
                 continue
             changed = ready.changed(answers, session)
             if changed:
-                _take_over(session, changed)
+                session.forget(path for path, value in changed.items() if value is MISSING)
+                for path, value in changed.items():
+                    if value is not MISSING:
+                        session.remember(path, value)
                 before, ready = ready, (yield from _ready(session, registers, fresh=fresh))
                 if not (before.atomic and complete and ready.alike(before)):
                     continue
@@ -193,8 +176,21 @@ def read_many(registers: Sequence[Register[Any]], *, fresh: bool = True, rest: b
             if complete:
                 return Snapshot(ready.decode(answers), read)
             partly = Snapshot(ready.decode_partly(answers, session), read)
-            return (yield from _patched(session, registers, partly, fresh=fresh))
+            values = partly.entries
+            left = [register for register in registers if values[register.path] is None]
+            others = (yield from read_many(left, fresh=fresh, rest=True)(session)) if left else Snapshot({})
+            return Snapshot(values | others.entries, partly.answers + others.answers)
         raise Unsteady(unit=session.unit, changed=tuple(changed), tries=TRIES)
+
+    return task
+
+
+def read_part(placed: Mapping[str, Register[Any]]) -> Task[Snapshot]:
+    """Read several registers; the snapshot has the keys of `placed`."""
+
+    def task(session: Session) -> Operation[Snapshot]:
+        found = yield from read_many(list(placed.values()))(session)
+        return found.renamed({register.path: name for name, register in placed.items()})
 
     return task
 
@@ -209,7 +205,7 @@ def _ready(session: Session, registers: Sequence[Register[Any]], *, fresh: bool)
 
 
 def _learn(session: Session, registers: Sequence[Register[Any]]) -> Operation[dict[str, RegscribeError]]:
-    """Make known what the meaning of registers depends on; why not, of each that has no value."""
+    """Make the dependencies of registers known; the error by path of those without a value."""
     needs = dependencies(session.registers, registers)
     needed = frozenset().union(*needs.values())
     paths = [path for path in needs if path in needed]
@@ -219,11 +215,11 @@ def _learn(session: Session, registers: Sequence[Register[Any]]) -> Operation[di
 
 
 def _unknown(session: Session, paths: Iterable[str], *, depth: int = 0) -> Operation[dict[str, RegscribeError]]:
-    """Make the values of registers known; of each that has none, why."""
+    """Make the values of registers known; the error by path of those without a value."""
     try:
         yield from know(session, paths, depth=depth)
     except (ValueNotDecodable, ExceptionAnswer) as error:
-        _bearable(session, error)
+        _raise_unless_absent(session, error)
     else:
         return {}
     unknown: dict[str, RegscribeError] = {}
@@ -231,12 +227,12 @@ def _unknown(session: Session, paths: Iterable[str], *, depth: int = 0) -> Opera
         try:
             yield from know(session, [path], depth=depth)
         except (ValueNotDecodable, ExceptionAnswer) as error:
-            _bearable(session, error)
+            _raise_unless_absent(session, error)
             unknown[path] = error
     return unknown
 
 
-def _bearable(session: Session, error: RegscribeError) -> None:
+def _raise_unless_absent(session: Session, error: RegscribeError) -> None:
     if not isinstance(error, ValueNotDecodable) and not is_absence(error, session.protocol.absent):
         raise error
 
@@ -254,22 +250,3 @@ def _answers(session: Session, ready: PreparedRead) -> Operation[tuple[list[Any]
             complete = False
             answers.append((yield from Bisection(session, block.block, error, heard=bool(answers)).run()))
     return answers, complete
-
-
-def _take_over(session: Session, changed: dict[str, Any]) -> None:
-    session.forget(path for path, value in changed.items() if value is MISSING)
-    for path, value in changed.items():
-        if value is not MISSING:
-            session.remember(path, value)
-
-
-def _patched(
-    session: Session, registers: Sequence[Register[Any]], partly: Snapshot, *, fresh: bool
-) -> Operation[Snapshot]:
-    """A snapshot with what was refused read by another way, or the error that there is none."""
-    values = partly.entries
-    left = [register for register in registers if values[register.path] is None]
-    if not left:
-        return partly
-    rest = yield from read_many(left, fresh=fresh, rest=True)(session)
-    return Snapshot(values | rest.entries, partly.answers + rest.answers)

@@ -1,10 +1,10 @@
-"""What a driver knows between requests: the device's protocol, the givens and the remembered registers. No I/O."""
+"""The state of a driver between requests: protocol, givens, remembered registers. No I/O."""
 
 from collections.abc import Callable, Generator, Iterable, Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar
 
-from regscribe_runtime.errors import ExceptionAnswer, LinkLost, NoAnswer, RegscribeError, WrongAnswer
+from regscribe_runtime.errors import ExceptionAnswer, LinkLost, NoAnswer, WrongAnswer
 from regscribe_runtime.link.links import AsyncLink, Link
 from regscribe_runtime.link.retry import Retry
 from regscribe_runtime.link.timing import response_seconds, slowest
@@ -17,16 +17,15 @@ from regscribe_runtime.report import Wear, WriteReport
 from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.serial_line import MODBUS, LineChange, SerialLine
 from regscribe_runtime.values.wire_types import Space
-from regscribe_runtime.wire.requests import READ_SPACES, Reply, Request, verify
+from regscribe_runtime.wire.requests import Reply, Request, verify
 
 T = TypeVar("T")
 
 Operation = Generator["Request | Pause | LineChange", Reply | None, T]
-"""Protocol logic without I/O: yields requests (or pauses, or how to talk on), receives replies, returns a value."""
-
+"""Protocol logic without I/O: yields requests, pauses or line changes, receives replies, returns a value."""
 
 GATEWAY_GOT_NO_ANSWER = 0x0B
-"""The exception of a gateway whose serial side stayed silent, unless a device's manual gives it another meaning."""
+"""The exception of a gateway whose serial side stayed silent, unless the device's manual gives it another meaning."""
 
 
 class Pause(NamedTuple):
@@ -36,23 +35,25 @@ class Pause(NamedTuple):
 
 
 MOST_TIMED = 2000
-"""Reads whose timeout is kept: more than a device has registers; a scan of all addresses must not fill the memory."""
+"""Most reads whose timeout is cached: more than a device has registers, fewer than a scan of all addresses makes."""
 
 TERMS = object()
-"""The key of the terms among what is prepared."""
+"""The key of the terms in `Session.prepared`."""
 
 
 class Session:
-    """One device behind one link: `memory` holds the registers that the meaning of others depends on.
+    """One device behind one link.
 
-    It is forgotten when one of them is written, when a command ran, and when the link was opened anew (`epoch`).
-    `prepared` caches requests and decoders made under that memory, so it goes whenever the memory changes. `line` is
-    the link's serial line (None over TCP), `retry` what is tried again (None: as the link has it), `wrote` whether the
-    operation under way has sent anything but reads. `proven` are registers that others depend on and that were read
-    since the link was opened. `unused` addresses (space, first, last) read as 0; `absences` are
-    those that this unit refused. `broken_off` is the report of the last `configure` that a cancelled task or Ctrl-C
-    ended in the middle, where nothing could be undone. `home` is how the device talked before a write that governs the
-    line: what breaks the operation off, whatever it is, brings the driver back there.
+    `memory` holds the values of registers that the meaning of others depends on. It is cleared when one of them is
+    written, after a command, and when the link was reopened (`epoch`). `prepared` caches requests and decoders made
+    under that memory, so it is cleared whenever the memory changes. `proven` are remembered registers that were read
+    since the link was opened, `absences` addresses that this unit refused; those in `unused` (space, first, last) are
+    read as 0.
+
+    `line` is the link's serial line (None over TCP), `retry` the retries (None: those of the link), `wrote` whether the
+    present operation has sent anything but reads. `broken_off` is the report of the last `configure` that was cancelled
+    or interrupted and could not be undone. `home` is the line setting before a write that governs the line, which is
+    restored if that operation fails.
     """
 
     __slots__ = (
@@ -96,15 +97,14 @@ class Session:
         self._ground: AddressRanges | None = None
 
     def own(self, register: Register[Any]) -> Register[Any]:
-        """The register of this device that a declaration means.
-
-        ValueError for one of another device, or of the elements of an array as such, which stands nowhere.
-        """
+        """The register of this device for a declaration; ValueError if it is of another device or of all elements."""
         found: Register[Any] | None = self.registers.get(register.path)
         if found is not None and (found is register or (found.at, found.views) == (register.at, register.views)):
             return found
-        message = f"{register.path} at {register.at} is no register of this device; one of an array's element is taken"
-        message = f"{message} from the driver itself, as driver.elements[1].{register.id}"
+        message = (
+            f"{register.path} at {register.at} is no register of this device; one of an array's element is taken "
+            f"from the driver itself, as driver.elements[1].{register.id}"
+        )
         raise ValueError(message)
 
     def remember(self, path: str, value: object) -> None:
@@ -122,7 +122,7 @@ class Session:
             self.prepared.clear()
 
     def at_epoch(self, epoch: int) -> None:
-        """Forget everything if the link was opened anew since the last operation."""
+        """Forget everything if the link was reopened since the last operation."""
         if epoch != self.epoch:
             self.epoch = epoch
             self.forget()
@@ -131,7 +131,7 @@ class Session:
                 self.prepared.clear()
 
     def terms(self) -> Terms:
-        """What a read plan must keep to, and what requests cost on this line."""
+        """The constraints and prices of read plans on this line."""
         if TERMS not in self.prepared:
             if self._ground is None:
                 holes = self.protocol.read_holes
@@ -144,9 +144,8 @@ class Session:
         return found
 
     def begin(self, link: Link | AsyncLink) -> None:
-        """Before an operation: what its link is like now."""
-        if link.epoch != self.epoch:
-            self.at_epoch(link.epoch)
+        """Adopt the present state of the link before an operation."""
+        self.at_epoch(link.epoch)
         self.addressing = link.addressing
         self._tries = self.retry or link.retry
         self.wrote, self.home = False, None
@@ -157,7 +156,7 @@ class Session:
             self._timed.clear()
 
     def retuned(self, change: LineChange, *, line: SerialLine | None, addressing: str) -> None:
-        """The device talks otherwise from now on: another unit id, line or addressing. Nothing remembered counts."""
+        """Adopt another unit id, line or addressing; everything remembered is dropped."""
         self.unit = self.unit if change.unit is None else change.unit
         self.line, self.addressing = line, addressing
         self._timed.clear()
@@ -166,22 +165,17 @@ class Session:
         self.prepared.clear()
 
     def doubt(self) -> None:
-        """The device fell silent: it may be another one when it speaks again, so nothing remembered will count."""
+        """Forget everything before the next operation: after a silence another device may answer."""
         self.epoch = -1
 
     def timed(self, request: Request) -> Request:
-        """The request with its response timeout, from the manual's latencies and the line."""
+        """The request with its response timeout, by the manual's latencies and the line."""
         found = self._timed.get(request)
         if found is None:
             found = request._replace(seconds=response_seconds(self.protocol, request, self.line, behind=self._behind))
             if request.reads and len(self._timed) < MOST_TIMED:
                 self._timed[request] = found
         return found
-
-    def _heard(self, request: Request) -> None:
-        """A good answer ends the memory of a refusal."""
-        if self.absences.heard(READ_SPACES[request.function], request.address, request.quantity):
-            self.prepared.clear()
 
     def exchange(self, request: Request) -> Operation[tuple[int, ...]]:
         """Send one request and verify its answer; a read is sent again as `retry` says, a write never."""
@@ -192,25 +186,16 @@ class Session:
                 assert reply is not None, "an executor answers a request with a reply"  # noqa: S101 (their contract)
                 words = verify(request, reply, unit=self.unit, protocol=self.protocol)
             except (NoAnswer, WrongAnswer, LinkLost, ExceptionAnswer) as error:
-                if not left or not _passing(error):
+                refused = isinstance(error, ExceptionAnswer) and (error.code != GATEWAY_GOT_NO_ANSWER or error.name)
+                if refused or not left:
                     raise
-                left = _left_after(error, left)
+                left = 0 if isinstance(error, LinkLost) else left - 1  # a link that is lost once more is gone
             else:
-                if self.absences and request.reads:
-                    self._heard(request)
+                if self.absences and request.reads and self.absences.heard(request):
+                    self.prepared.clear()
                 return words
             yield Pause(self._tries.pause)
 
 
-def _left_after(error: RegscribeError, left: int) -> int:
-    """How often a read may be tried again after this try; a link that is lost once more is gone."""
-    return 0 if isinstance(error, LinkLost) else left - 1
-
-
-def _passing(error: RegscribeError) -> bool:
-    """Whether an error may be gone at the next try; of a device's refusals, only that of a gateway before it."""
-    return not isinstance(error, ExceptionAnswer) or (error.code == GATEWAY_GOT_NO_ANSWER and not error.name)
-
-
 Task = Callable[[Session], Operation[T]]
-"""An operation before it knows its device."""
+"""An operation without its device."""

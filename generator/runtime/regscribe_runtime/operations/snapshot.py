@@ -13,11 +13,10 @@ Answers = tuple[tuple["PreparedBlock", "Sequence[int | None]"], ...]
 
 
 class Snapshot(Mapping[str, Any]):
-    """Values by register path; a register without a value raises its error when it is asked for.
+    """Values by register path; looking up a register without a value raises its error.
 
-    Such errors are ValueNotDecodable (with SensorFault and Saturated), or Absent for what this unit does not have.
-
-    Index it with a register of the driver's class for a typed value: `snapshot[Athena16C.process_value]`.
+    That is ValueNotDecodable (SensorFault, Saturated, NotDecodable), or Absent if this unit does not have the register.
+    With a register of the driver's class as key the value is typed: `snapshot[Athena16C.process_value]`.
     """
 
     def __init__(self, values: Mapping[str, Any], answers: Answers = ()) -> None:
@@ -42,17 +41,17 @@ class Snapshot(Mapping[str, Any]):
 
     @property
     def entries(self) -> dict[str, Any]:
-        """Values and errors as they are, by path."""
+        """Values and errors by path."""
         return dict(self._values)
 
     @property
     def valid(self) -> dict[str, Any]:
-        """The values, by path, of the registers that hold one."""
+        """The values, by path, without errors."""
         return {path: value for path, value in self._values.items() if not isinstance(value, RegscribeError)}
 
     @property
     def errors(self) -> dict[str, RegscribeError]:
-        """The registers that hold no value, with why."""
+        """The errors, by path, of the registers without a value."""
         return {path: value for path, value in self._values.items() if isinstance(value, RegscribeError)}
 
     @property

@@ -1,10 +1,10 @@
-"""All operations of a driver: reading, writing, commanding, and the functions that concern no register."""
+"""All operations of a driver: reading, writing, commands, and the functions that concern no register."""
 
 # an annotation of an inner function is evaluated at every call otherwise, which costs a read a hundredth of its time
 from __future__ import annotations
 
 from regscribe_runtime.operations.configure import configure
-from regscribe_runtime.operations.read import read, read_many, read_raw, read_unit
+from regscribe_runtime.operations.read import read, read_many, read_part, read_raw, read_unit
 from regscribe_runtime.operations.session import Operation, Session, Task
 from regscribe_runtime.operations.write import change, write, write_raw
 from regscribe_runtime.operations.write_request import run
@@ -18,6 +18,7 @@ __all__ = [
     "loopback",
     "read",
     "read_many",
+    "read_part",
     "read_raw",
     "read_unit",
     "run",
