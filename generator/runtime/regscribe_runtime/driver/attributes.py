@@ -8,14 +8,15 @@ from regscribe_runtime.operations import tasks
 from regscribe_runtime.registers.register import Register
 
 T = TypeVar("T")
+P = TypeVar("P", bound=Part | AsyncPart)
 
 
 class WriteOptions(TypedDict, total=False):
-    """How to write.
+    """Options of a write.
 
     `view` chooses another view than the preferred one. `rounded` allows a value finer than the device can hold.
-    `confirm` is needed where the map calls the write dangerous. `verify` reads the value back (or not); without it,
-    what the device keeps as its configuration is read back, and passing operation is not.
+    `confirm` is needed where the map calls the write dangerous. `verify` tells whether the value is read back; by
+    default that of a setting is, and that of a passing operation is not.
     """
 
     view: str | None
@@ -24,87 +25,77 @@ class WriteOptions(TypedDict, total=False):
     verify: bool | None
 
 
-class _Bound(Generic[T]):
+class BoundRegister(Generic[T, P]):
+    """A register of a part of a driver."""
+
     __slots__ = ("_part", "register")
 
-    def __init__(self, register: Register[T], part: Part) -> None:
-        self.register = register
-        self._part = part
+    def __init__(self, register: Register[T], part: P) -> None:
+        self.register, self._part = register, part
 
     def __repr__(self) -> str:
         return f"<{self.register.path} of {self._part!r}>"
 
 
-class Readable(_Bound[T]):
+class Readable(BoundRegister[T, Part]):
     """A register of a synchronous driver that can be read."""
 
     __slots__ = ()
 
     def read(self, *, view: str | None = None) -> T:
-        """Read the value of use; `view` chooses another view than the preferred one.
+        """Read the value; `view` chooses another view than the preferred one.
 
-        What its meaning depends on (decimals, word order) is read once and remembered until it is written through this
-        driver. `device.read(register)` reads it along instead: for when others configure the device as well.
+        Registers that its meaning depends on (decimals, word order) are read once and remembered until they are written
+        through this driver. `device.read(register)` reads them every time: for when others configure the device too.
 
-        Raises SensorFault, Saturated or NotDecodable for words that are no value, NoAnswer, ExceptionAnswer,
-        WrongAnswer or LinkLost for what happens on the line.
+        Raises SensorFault, Saturated or NotDecodable for words that are no value, and NoAnswer, ExceptionAnswer,
+        WrongAnswer or LinkLost.
         """
         return self._part.run(tasks.read(self.register, view))
 
     def read_raw(self, *, view: str | None = None) -> tuple[int, ...]:
-        """Read the words as they stand on the wire."""
+        """Read the words in wire order."""
         return self._part.run(tasks.read_raw(self.register, view))
 
     def read_unit(self) -> str:
-        """The engineering unit as the device is configured now ("" where it has none)."""
+        """The engineering unit in the present configuration of the device ("" where it has none)."""
         return self._part.run(tasks.read_unit(self.register))
 
 
-class WritableAttribute(_Bound[T]):
+class Writable(BoundRegister[T, Part]):
     """A register of a synchronous driver that can be written."""
 
     __slots__ = ()
 
     def write(self, value: T, **how: Unpack[WriteOptions]) -> None:
-        """Write a value of use, after checking condition, range and resolution; `how`: see `WriteOptions`.
+        """Check condition, range and resolution of a value, then write it; `how`: see `WriteOptions`.
 
-        What the device keeps as its configuration is read back. A lost answer is answered by reading back, never by
-        sending again. Raises ValueRefused before anything is sent, ExceptionAnswer if the device refuses, and
-        WriteFailed (NotWritten, WriteUnknown, ReadBackDiffers, NotApplied, LeftAt) for all that may come after.
+        After a lost answer the register is read back; a write is never sent again. Raises ValueRefused before anything
+        is sent, ExceptionAnswer if the device refuses, and WriteFailed (NotWritten, WriteUnknown, ReadBackDiffers,
+        NotApplied, LeftAt) after that.
         """
         self._part.run(tasks.write(self.register, value, **how))
 
     def write_raw(self, words: tuple[int, ...], *, view: str | None = None) -> None:
-        """Write words as they are; nothing is checked but their number and the answer (a lost one as in `write`)."""
+        """Write words in wire order; only their number is checked, and the answer as in `write`."""
         self._part.run(tasks.write_raw(self.register, words, view))
 
 
-class ReadWritable(Readable[T], WritableAttribute[T]):
+class ReadWritable(Readable[T], Writable[T]):
     """A register of a synchronous driver that can be read and written."""
 
     __slots__ = ()
 
     def change(self, how: Callable[[T], T], *, confirm: bool = False, verify: bool | None = None) -> T:
-        """Read, modify by `how`, write; returns what was written. For the fields of a word, which only go together.
+        """Read the value, modify it by `how`, write it; returns what was written. For single fields of a word.
 
-        These are a read and a write, not one step of the device: what the device or another master changes in between
-        is overwritten. Nothing else of this driver comes in between. Raises what `read` and `write` raise.
+        A read and a write are not one step of the device: a change by another master in between is overwritten. Other
+        operations of this driver wait. Raises what `read` and `write` raise.
         """
         return self._part.run(tasks.change(self.register, how, confirm=confirm, verify=verify))
 
 
-class _AsyncBound(Generic[T]):
-    __slots__ = ("_part", "register")
-
-    def __init__(self, register: Register[T], part: AsyncPart) -> None:
-        self.register = register
-        self._part = part
-
-    def __repr__(self) -> str:
-        return f"<{self.register.path} of {self._part!r}>"
-
-
-class AsyncReadable(_AsyncBound[T]):
+class AsyncReadable(BoundRegister[T, AsyncPart]):
     """A register of an asyncio driver that can be read."""
 
     __slots__ = ()
@@ -122,7 +113,7 @@ class AsyncReadable(_AsyncBound[T]):
         return self._part.run(tasks.read_unit(self.register))
 
 
-class AsyncWritable(_AsyncBound[T]):
+class AsyncWritable(BoundRegister[T, AsyncPart]):
     """A register of an asyncio driver that can be written."""
 
     __slots__ = ()

@@ -1,4 +1,4 @@
-"""What may be sent to all units of a line at once, and as which request."""
+"""Broadcast requests: writes to all units of a line at once."""
 
 from collections.abc import Iterable, Mapping
 from typing import Any
@@ -29,13 +29,17 @@ def request_for(
     givens: State,
     confirm: bool,
 ) -> Request:
-    """The request that writes a register of all units; ValueRefused with the reason why it may not be sent.
+    """The request that writes a register of all units; ValueRefused with the reason if it must not be sent.
 
-    `drivers` are those of all units on the line, by what a message is to call them.
+    `drivers` are those of all units on the line, by their names in messages.
     """
     chosen = register.write_view(view)
-    _known_to_all(register, drivers)
-    _no_dialogue(register)
+    _check_units(register, drivers)
+    command = register.unlock or register.apply
+    if command:
+        raise ValueRefused(register.path, f"each unit has to answer the command {command} with it: write unit by unit")
+    if register.governs is not None:
+        raise ValueRefused(register.path, "it changes how units talk, or their ids: write unit by unit")
     confirmed(register, confirm=confirm)
     needs = (*register.needs(chosen), *register.limit_needs, *condition_needs(register))
     missing = [path for path in dict.fromkeys(needs) if path not in state]
@@ -49,7 +53,7 @@ def request_for(
     return Request(function, address, len(words), words)
 
 
-def _known_to_all(register: Register[Any], drivers: Mapping[str, Driver]) -> None:
+def _check_units(register: Register[Any], drivers: Mapping[str, Driver]) -> None:
     if not drivers:
         raise ValueRefused(register.path, NOBODY)
     for name, driver in drivers.items():
@@ -57,15 +61,6 @@ def _known_to_all(register: Register[Any], drivers: Mapping[str, Driver]) -> Non
         if other is None or (other.at, other.views) != (register.at, register.views):
             reason = f"a broadcast reaches every unit, but {name} ({driver.model}) has no such register there"
             raise ValueRefused(register.path, reason)
-
-
-def _no_dialogue(register: Register[Any]) -> None:
-    """Refuse what takes more than one write that nobody answers."""
-    command = register.unlock or register.apply
-    if command:
-        raise ValueRefused(register.path, f"each unit has to answer the command {command} with it: write unit by unit")
-    if register.governs is not None:
-        raise ValueRefused(register.path, "it changes how units talk, or their ids: write unit by unit")
 
 
 def _function(register: Register[Any], view: View, words: int, protocols: Iterable[Protocol]) -> int:
@@ -80,16 +75,13 @@ def _function(register: Register[Any], view: View, words: int, protocols: Iterab
 
 def timed(request: Request, drivers: Mapping[str, Driver], line: SerialLine | None) -> Request:
     """The request with the time that the slowest unit needs; ValueRefused if a manual does not allow it."""
+    shown = f"broadcast of function {request.function:02d} to address {request.address}"
     for name, driver in drivers.items():
         if request.function not in driver.protocol.broadcast:
             allowed = list(driver.protocol.broadcast) or "none"
             reason = f"to {name} ({driver.model}) the manual allows {allowed}"
-            raise ValueRefused(_shown(request), reason)
+            raise ValueRefused(shown, reason)
     seconds = [broadcast_seconds(driver.protocol, request, line) for driver in drivers.values()]
     if not seconds:
-        raise ValueRefused(_shown(request), NOBODY)
+        raise ValueRefused(shown, NOBODY)
     return request._replace(seconds=max(seconds))
-
-
-def _shown(request: Request) -> str:
-    return f"broadcast of function {request.function:02d} to address {request.address}"

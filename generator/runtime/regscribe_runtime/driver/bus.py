@@ -1,8 +1,7 @@
 """Several devices on one line: `Bus` for threads, `AsyncBus` for the tasks of an event loop.
 
-The devices share one link. Their requests go out one after the other, first come, first served; operations of one unit
-(a read with what it depends on, a write with its read-back) come one after the other, but requests of other units may
-stand between theirs: a long operation of one device does not keep the others waiting.
+The devices share one link. Requests are sent first come, first served. Operations of one unit are sequential, but
+requests of other units may come between theirs: a long operation of one device does not block the others.
 """
 
 from collections.abc import Iterator, Mapping
@@ -11,7 +10,6 @@ from typing import Any, Generic, Self, TypeVar, Unpack
 
 from regscribe_runtime.driver import broadcast
 from regscribe_runtime.driver.device import AsyncBareDevice, BareDevice
-from regscribe_runtime.driver.member import AsyncMember, Member
 from regscribe_runtime.errors import ValueRefused
 from regscribe_runtime.link import connect
 from regscribe_runtime.link.links import (
@@ -58,10 +56,10 @@ class _Common(Generic[D]):
 
     @property
     def units(self) -> tuple[int, ...]:
-        """The ids of the devices, in ascending order: that of taking their locks."""
+        """The ids of the devices, in ascending order, in which their locks are taken."""
         return tuple(sorted(device.session.unit for device in self._devices))
 
-    def _added(self, device: D, line: SerialLine | None) -> None:
+    def _add(self, device: D, line: SerialLine | None) -> None:
         unit, protocol = device.session.unit, device.protocol
         if unit in self.units:
             message = f"unit {unit} of this bus is {self[unit]!r} already: give each device an id of its own"
@@ -70,29 +68,20 @@ class _Common(Generic[D]):
         if line is not None and gap > self._gap:
             message = f"{device!r} needs {gap:g} characters of silence: open the bus with gap={gap:g}"
             raise ValueError(message)
+        device._on_bus = True  # noqa: SLF001 (its link is the bus's)
         self._devices.append(device)
 
     def _drivers(self, driver: broadcast.Driver | None) -> dict[str, broadcast.Driver]:
-        known: dict[str, Any] = {f"unit {one.session.unit}": type(one) for one in self._devices}
-        return known | ({driver.__name__: driver} if driver is not None else {})
+        found: dict[str, Any] = {f"unit {one.session.unit}": type(one) for one in self._devices}
+        return found | ({driver.__name__: driver} if driver is not None else {})
 
-    def _givens(self, register: Register[Any]) -> Mapping[str, Any]:
-        found = [one.session.givens for one in self]
-        if any(one != found[0] for one in found):
+    def _broadcast_request(
+        self, register: Register[Any], value: object, driver: broadcast.Driver | None, **how: Any
+    ) -> Request:
+        givens = [one.session.givens for one in self] or [{}]
+        if any(one != givens[0] for one in givens):
             raise ValueRefused(register.path, "the units have different givens, so it may mean something else to each")
-        return found[0] if found else {}
-
-    def _encoded(self, register: Register[Any], value: object, **more: Any) -> Request:
-        drivers, state = self._drivers(more["driver"]), more["state"] or {}
-        return broadcast.request_for(
-            register,
-            value,
-            drivers,
-            view=more["view"],
-            state=state,
-            givens=self._givens(register),
-            confirm=more["confirm"],
-        )
+        return broadcast.request_for(register, value, self._drivers(driver), givens=givens[0], **how)
 
     def _forget(self) -> None:
         for device in self:
@@ -119,17 +108,14 @@ class Bus(_Common[BareDevice]):
 
     @classmethod
     def over(cls, client: SyncClient, **settings: Unpack[ClientSettings]) -> Self:
-        """A bus over a connected pymodbus client, which stays the caller's; see `ClientSettings`."""
+        """A bus over a connected pymodbus client, which the bus does not close; see `ClientSettings`."""
         gap = settings.setdefault("gap", USUAL_GAP)
         return cls(connect.over(client, **settings), gap=gap)
 
     def device(self, driver: type[S], *, unit: int, **givens: Any) -> S:
-        """A driver of a unit of this bus; ValueError if the unit has one already.
-
-        It needs no `open`: closing it leaves the bus open.
-        """
-        device = driver(Member(self.link), unit=unit, **givens)
-        self._added(device, self.link.line)
+        """A driver of a unit of this bus; ValueError if the unit has one already. Closing it leaves the bus open."""
+        device = driver(self.link, unit=unit, **givens)
+        self._add(device, self.link.line)
         return device
 
     def open(self) -> None:
@@ -157,13 +143,13 @@ class Bus(_Common[BareDevice]):
         driver: type[BareDevice] | None = None,
         confirm: bool = False,
     ) -> None:
-        """Write a register of all units at once (`Athena16C.setpoint_ram`); returns when all had time to do it.
+        """Write a register (`Athena16C.setpoint_ram`) of all units at once; returns when all had time to carry it out.
 
-        Nobody answers, so nothing tells who took it. ValueRefused where a manual does not allow it, a unit of the bus
-        has another register there, or the value depends on registers that are not in `state`. `driver` stands for the
-        units of a bus that has no devices.
+        No unit answers, so success is unknown. ValueRefused if a manual does not allow it, a unit of the bus has
+        another register there, or the value depends on registers that are not in `state`. `driver` stands for the units
+        of a bus without devices.
         """
-        request = self._encoded(register, value, view=view, state=state, driver=driver, confirm=confirm)
+        request = self._broadcast_request(register, value, driver, view=view, state=state or {}, confirm=confirm)
         self.broadcast_raw(request, driver=driver)
 
     def broadcast_raw(self, request: Request, *, driver: type[BareDevice] | None = None) -> None:
@@ -204,8 +190,8 @@ class AsyncBus(_Common[AsyncBareDevice]):
 
     def device(self, driver: type[A], *, unit: int, **givens: Any) -> A:
         """As `Bus.device`."""
-        device = driver(AsyncMember(self.link), unit=unit, **givens)
-        self._added(device, self.link.line)
+        device = driver(self.link, unit=unit, **givens)
+        self._add(device, self.link.line)
         return device
 
     async def open(self) -> None:
@@ -234,7 +220,7 @@ class AsyncBus(_Common[AsyncBareDevice]):
         confirm: bool = False,
     ) -> None:
         """As `Bus.broadcast`."""
-        request = self._encoded(register, value, view=view, state=state, driver=driver, confirm=confirm)
+        request = self._broadcast_request(register, value, driver, view=view, state=state or {}, confirm=confirm)
         await self.broadcast_raw(request, driver=driver)
 
     async def broadcast_raw(self, request: Request, *, driver: type[AsyncBareDevice] | None = None) -> None:

@@ -8,7 +8,7 @@ from regscribe_runtime.driver.attributes import (
     AsyncWritable,
     Readable,
     ReadWritable,
-    WritableAttribute,
+    Writable,
 )
 from regscribe_runtime.driver.parts import AsyncPart, Part
 from regscribe_runtime.registers.register import Register
@@ -57,10 +57,10 @@ class WriteOnly(Register[T]):
     @overload
     def __get__(self, instance: None, owner: type) -> Self: ...
     @overload
-    def __get__(self, instance: Part, owner: type) -> WritableAttribute[T]: ...
+    def __get__(self, instance: Part, owner: type) -> Writable[T]: ...
     @overload
     def __get__(self, instance: AsyncPart, owner: type) -> AsyncWritable[T]: ...
-    def __get__(self, instance: Part | AsyncPart | None, owner: type) -> Self | WritableAttribute[T] | AsyncWritable[T]:
+    def __get__(self, instance: Part | AsyncPart | None, owner: type) -> Self | Writable[T] | AsyncWritable[T]:
         if instance is None:
             return self
-        return cast("WritableAttribute[T]", instance.bind(self, WritableAttribute, AsyncWritable))
+        return cast("Writable[T]", instance.bind(self, Writable, AsyncWritable))

@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from typing import Any, ClassVar, Self, TypeVar, Unpack
 
-from regscribe_runtime.driver.attributes import _AsyncBound, _Bound
+from regscribe_runtime.driver.attributes import BoundRegister
 from regscribe_runtime.driver.executor import run, run_async
-from regscribe_runtime.driver.parts import AsyncPart, Catalogue, Command, Group, Part, SubPart, groups_of
+from regscribe_runtime.driver.parts import AsyncPart, Catalogue, Group, Part, SubPart, groups_of
 from regscribe_runtime.link import connect
 from regscribe_runtime.link.links import (
     AsyncClient,
@@ -28,23 +28,23 @@ from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.wire_types import Space
 
 T = TypeVar("T")
-What = Group | Register[Any] | _Bound[Any] | _AsyncBound[Any]
+What = Group | Register[Any] | BoundRegister[Any, Any]
 
 
 class SerialSettings(LineSettings, total=False):
-    """Settings of a serial line: `baud` and what `LineSettings` has, by default what the manual gives."""
+    """Settings of a serial line: `baud` and those of `LineSettings`; the manual's are the default."""
 
     baud: int
 
 
 class TcpSettings(LinkSettings, total=False):
-    """Settings of a TCP link: `port` and what `LinkSettings` has."""
+    """Settings of a TCP link: `port` and those of `LinkSettings`."""
 
     port: int
 
 
 class _Common:
-    """What both kinds of driver have: the model's facts and the session."""
+    """The facts of the model and the session, for both kinds of driver."""
 
     model: ClassVar[str] = ""
     map_id: ClassVar[str] = ""
@@ -55,29 +55,30 @@ class _Common:
     _unused: ClassVar[tuple[tuple[Space, int, int], ...]] = ()
     registers: ClassVar[Catalogue] = Catalogue(whole=True)
     session: Session
+    _on_bus = False
 
     def _begin(self, unit: int, givens: Mapping[str, Any]) -> None:
+        owner: type = type(self)
+        section = getattr(owner, "commands", None)
         self.session = Session(
             unit=unit,
             protocol=self.protocol,
             registers=type(self).registers,
-            commands=self._declared_commands(),
+            commands=section.commands() if isinstance(section, SubPart) else {},
             givens=givens,
-            groups=groups_of(type(self)),
+            groups=groups_of(owner),
             unused=self._unused,
         )
 
     @property
     def wear(self) -> Wear:
-        """Writes to the EEPROM by this driver: how many were sent, and how many spared, of each register."""
+        """Writes to the EEPROM by this driver, sent and spared, by register."""
         return self.session.wear
-
-    def _declared_commands(self) -> dict[str, Command]:
-        section = getattr(type(self), "commands", None)
-        return section.commands() if isinstance(section, SubPart) else {}
 
     def _chosen(self, what: tuple[What, ...]) -> list[Register[Any]]:
         found: list[Register[Any]] = []
+        if not what:
+            return [register for register in self.session.registers.values() if register.access.readable]
         for one in what:
             if isinstance(one, Group):
                 found += one.registers(type(self))
@@ -90,7 +91,7 @@ class _Common:
 
 
 class BareDevice(_Common, Part):
-    """A synchronous driver of one unit behind a link; `givens` are the facts that the manual leaves to others."""
+    """A synchronous driver of one unit behind a link; `givens` are the facts that the manual leaves open."""
 
     def __init__(self, link: Link, *, unit: int, **givens: Any) -> None:
         Part.__init__(self, self)
@@ -102,8 +103,9 @@ class BareDevice(_Common, Part):
         self.link.open()
 
     def close(self) -> None:
-        """Close the link."""
-        self.link.close()
+        """Close the link; that of a bus stays open."""
+        if not self._on_bus:
+            self.link.close()
 
     def __enter__(self) -> Self:
         self.open()
@@ -113,31 +115,24 @@ class BareDevice(_Common, Part):
         self.close()
 
     def run(self, task: tasks.Task[T]) -> T:
-        """Carry out an operation, alone among those of this unit; other units may talk between its requests."""
+        """Run an operation; others of this unit wait, requests of other units may come between its own."""
         return run(task, self.session, self.link)
 
     def read(self, *what: What, fresh: bool = True) -> Snapshot:
-        """Read groups and registers (all without arguments) at the least cost on this line; see `Snapshot`.
+        """Read groups and registers (all without arguments) in the requests of least cost on this line.
 
-        What the values depend on is read along (decimals, input type, word order), so no value has a stale scale;
-        Unsteady is raised if that changes again and again meanwhile. Without `fresh` what was read before is trusted.
+        Registers that the values depend on (decimals, input type, word order) are read along, so that no scale is
+        stale; Unsteady is raised if they change during several reads. Without `fresh` remembered values are used.
         """
-        chosen = self._chosen(what) if what else list(self.placed().values())
-        return self.run(tasks.read_many(chosen, fresh=fresh))
-
-    def read_part(self, part: Part) -> Snapshot:
-        """Read the registers of a part, keyed by their ids in it."""
-        placed = part.placed()
-        values = self.run(tasks.read_many(list(placed.values())))
-        return values.renamed({register.path: path for path, register in placed.items()})
+        return self.run(tasks.read_many(self._chosen(what), fresh=fresh))
 
     def configure(self, values: Mapping[Any, Any], **how: Unpack[ConfigureOptions]) -> WriteReport:
         """Write several values as one operation; `values` by path, declaration or attribute; `how`: `ConfigureOptions`.
 
-        All values are checked before the first is sent, each in the state that those before it will leave. They are
-        written in the map's order, neighbours in one request; what the device holds already is left out; unlocking and
-        applying is done once, and all is read back in the end. Raises ValueRefused (ValuesRefused for several) before
-        anything is sent, and NotConfigured with a report of every register if it breaks off.
+        All values are checked before the first is sent, each in the state that those before it leave. They are written
+        in the map's order, neighbours in one request, without those that the device holds already; it unlocks and
+        applies once, and reads all back at the end. Raises ValueRefused (ValuesRefused for several) before anything is
+        sent, and NotConfigured with a report of every register if it fails after that.
         """
         return self.run(tasks.configure(values, **how))
 
@@ -165,7 +160,7 @@ class Device(BareDevice):
 
     @classmethod
     def over(cls, client: SyncClient, *, unit: int, **settings: Unpack[ClientSettings]) -> Self:
-        """A driver over a connected pymodbus client, which stays the caller's; see `ClientSettings`."""
+        """A driver over a connected pymodbus client, which the driver does not close; see `ClientSettings`."""
         return cls(client_link(cls.protocol, client, **settings), unit=unit)
 
 
@@ -182,8 +177,9 @@ class AsyncBareDevice(_Common, AsyncPart):
         await self.link.open()
 
     async def close(self) -> None:
-        """Close the link."""
-        await self.link.close()
+        """As `BareDevice.close`."""
+        if not self._on_bus:
+            await self.link.close()
 
     async def __aenter__(self) -> Self:
         await self.open()
@@ -198,14 +194,7 @@ class AsyncBareDevice(_Common, AsyncPart):
 
     async def read(self, *what: What, fresh: bool = True) -> Snapshot:
         """As `BareDevice.read`."""
-        chosen = self._chosen(what) if what else list(self.placed().values())
-        return await self.run(tasks.read_many(chosen, fresh=fresh))
-
-    async def read_part(self, part: AsyncPart) -> Snapshot:
-        """As `BareDevice.read_part`."""
-        placed = part.placed()
-        values = await self.run(tasks.read_many(list(placed.values())))
-        return values.renamed({register.path: path for path, register in placed.items()})
+        return await self.run(tasks.read_many(self._chosen(what), fresh=fresh))
 
     async def configure(self, values: Mapping[Any, Any], **how: Unpack[ConfigureOptions]) -> WriteReport:
         """As `BareDevice.configure`."""
@@ -239,24 +228,22 @@ class AsyncDevice(AsyncBareDevice):
         return cls(async_client_link(cls.protocol, client, **settings), unit=unit)
 
 
-def _usual(protocol: Protocol, line: SerialSettings) -> dict[str, Any]:
-    return {**protocol.serial.line._asdict(), "gap": float(protocol.serial.gap), **line}
+def _serial_settings(protocol: Protocol, port: str, line: SerialSettings) -> dict[str, Any]:
+    return {**protocol.serial.line._asdict(), "gap": float(protocol.serial.gap), **line, "port": port}
 
 
 def serial_link(protocol: Protocol, port: str, **line: Unpack[SerialSettings]) -> Link:
-    """A serial link with the settings that the manual gives as default, unless `line` says otherwise."""
-    settings: dict[str, Any] = {**_usual(protocol, line), "port": port}
-    return connect.serial(**settings)
+    """A serial link; the manual's settings are the default."""
+    return connect.serial(**_serial_settings(protocol, port, line))
 
 
 def async_serial_link(protocol: Protocol, port: str, **line: Unpack[SerialSettings]) -> AsyncLink:
     """As `serial_link`, for asyncio."""
-    settings: dict[str, Any] = {**_usual(protocol, line), "port": port}
-    return connect.async_serial(**settings)
+    return connect.async_serial(**_serial_settings(protocol, port, line))
 
 
 def client_link(protocol: Protocol, client: SyncClient, **settings: Unpack[ClientSettings]) -> Link:
-    """A link over a client of one's own, with the silence between frames that the manual asks for."""
+    """A link over a pymodbus client, by default with the manual's silence between frames."""
     settings.setdefault("gap", float(protocol.serial.gap))
     return connect.over(client, **settings)
 

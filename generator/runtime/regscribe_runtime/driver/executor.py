@@ -1,4 +1,4 @@
-"""The two executors: they carry the requests of an operation over a link, and tell it of errors there."""
+"""The two executors: they send the requests of an operation over a link, and raise the link's errors inside it."""
 
 import asyncio
 import time
@@ -14,9 +14,9 @@ T = TypeVar("T")
 
 
 def carry_out(operation: Operation[T], link: Link, unit: int, session: Session | None = None) -> T:
-    """Run an operation to its end; errors of the link are raised inside it first, so that it may act on them.
+    """Run an operation to its end; errors of the link are raised inside it, so that it may handle them.
 
-    `session` gives its requests their response timeouts; without one they are left to the link.
+    `session` gives requests their response timeouts; without one the link's own apply.
     """
     try:
         asked = next(operation)
@@ -65,12 +65,13 @@ async def carry_out_async(operation: Operation[T], link: AsyncLink, unit: int, s
 
 
 def _break_off(operation: Operation[T], error: BaseException, session: Session | None, link: Link | AsyncLink) -> None:
-    """End an operation that failed, is cancelled or interrupted; what it leaves half done is noted at the error."""
-    if session is None:
-        operation.close()
-        return
-    before = session.broken_off
+    """End an operation that failed, was cancelled or interrupted; a report of what is half done goes to the error."""
+    before = session.broken_off if session else None
     operation.close()
+    if session is None:
+        return
+    if isinstance(error, NoAnswer):
+        session.doubt()
     if session.home is not None:
         _retune(session.home, session, link)
     if session.broken_off is not None and session.broken_off is not before:
@@ -92,35 +93,25 @@ def _timed(asked: Request, session: Session | None, link: Link | AsyncLink) -> R
 
 
 def run(task: Task[T], session: Session, link: Link) -> T:
-    """Carry out the operation of a device, alone among those of its unit.
+    """Run an operation of a device; others of its unit wait.
 
-    If the link was opened anew under an operation that only read, the device may be another one: it is run once more.
+    If the link was reopened during an operation that only read, it is run once more: the device may be another one.
     """
     with link.lock.of(session.unit):
-        value = _once(task, session, link)
-        return value if session.wrote or session.epoch == link.epoch else _once(task, session, link)
-
-
-def _once(task: Task[T], session: Session, link: Link) -> T:
-    session.begin(link)
-    try:
+        session.begin(link)
+        value = carry_out(task(session), link, session.unit, session)
+        if session.wrote or session.epoch == link.epoch:
+            return value
+        session.begin(link)
         return carry_out(task(session), link, session.unit, session)
-    except NoAnswer:
-        session.doubt()
-        raise
 
 
 async def run_async(task: Task[T], session: Session, link: AsyncLink) -> T:
     """As `run`, for asyncio."""
     async with link.lock.of(session.unit):
-        value = await _once_async(task, session, link)
-        return value if session.wrote or session.epoch == link.epoch else await _once_async(task, session, link)
-
-
-async def _once_async(task: Task[T], session: Session, link: AsyncLink) -> T:
-    session.begin(link)
-    try:
+        session.begin(link)
+        value = await carry_out_async(task(session), link, session.unit, session)
+        if session.wrote or session.epoch == link.epoch:
+            return value
+        session.begin(link)
         return await carry_out_async(task(session), link, session.unit, session)
-    except NoAnswer:
-        session.doubt()
-        raise

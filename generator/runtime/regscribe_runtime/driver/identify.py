@@ -1,8 +1,8 @@
-"""Which device answers: every known model is asked what shows its identity; several may fit, none is guessed."""
+"""Identification of a device by the identity registers of all known models; several models may fit."""
 
 import importlib
 import pkgutil
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from importlib.metadata import entry_points
 from importlib.util import find_spec
 from types import ModuleType
@@ -20,13 +20,12 @@ from regscribe_runtime.values.views import View
 from regscribe_runtime.wire.requests import Request, verify
 
 DRIVERS = "regscribe.drivers"
-"""The group of entry points by which a package says that it holds generated drivers."""
+"""The group of entry points of packages with generated drivers."""
 SHIPPED = "regscribe_devices"
 """The package of the drivers that come with regscribe, and of those that `regscribe generate` writes."""
 
-
 Answer = tuple[int, ...] | RegscribeError
-"""The words of a register, or why there are none."""
+"""The words of a register, or the error in their place."""
 
 
 class Known(NamedTuple):
@@ -39,7 +38,7 @@ class Known(NamedTuple):
 
 
 class Evidence(NamedTuple):
-    """What one identity register of some models gave: words and value, or the error in place of them."""
+    """Words and value of one identity register of some models, or the error in their place."""
 
     map_ids: tuple[str, ...]
     register: str
@@ -50,7 +49,7 @@ class Evidence(NamedTuple):
 
 
 class Identification(NamedTuple):
-    """The models that fit what was read (none, one, or several that the answers do not tell apart), with evidence."""
+    """The models that fit what was read (none, one or several), with the evidence."""
 
     models: tuple[Known, ...]
     evidence: tuple[Evidence, ...]
@@ -62,21 +61,21 @@ class Identification(NamedTuple):
 
 
 def known_models(*packages: ModuleType) -> tuple[Known, ...]:
-    """The models of generated packages (by default of all that are installed) that have identity facts."""
+    """The models with identity facts in generated packages.
+
+    Without `packages` in `regscribe_devices`, if it is installed, and in the modules of entry points of DRIVERS.
+    """
+    if not packages:
+        declared = {point.module for point in entry_points(group=DRIVERS)}
+        names = sorted(declared | ({SHIPPED} if find_spec(SHIPPED) else set()))
+        packages = tuple(map(importlib.import_module, names))
     found = {}
-    for module in _modules(packages or _installed()):
+    for module in _modules(packages):
         for value in list(vars(module).values()):
             if isinstance(value, type) and issubclass(value, BareDevice) and value.identity:
                 partner = getattr(module, f"Async{value.__name__}")
                 found[value.map_id, value.model] = Known(value.map_id, value.model, value, partner)
     return tuple(found[key] for key in sorted(found))
-
-
-def _installed() -> tuple[ModuleType, ...]:
-    """`regscribe_devices`, if it is there, and what distributions declare as entry points of the group DRIVERS."""
-    declared = {point.module for point in entry_points(group=DRIVERS)}
-    names = sorted(declared | ({SHIPPED} if find_spec(SHIPPED) else set()))
-    return tuple(map(importlib.import_module, names))
 
 
 def _modules(packages: Iterable[ModuleType]) -> Iterator[ModuleType]:
@@ -87,7 +86,7 @@ def _modules(packages: Iterable[ModuleType]) -> Iterator[ModuleType]:
 
 
 def identify(link: Link, *, unit: int, packages: tuple[ModuleType, ...] = ()) -> Identification:
-    """Ask the unit on an open link what it is; only reads are sent."""
+    """Identify the unit on an open link; only reads are sent."""
     with link.lock.of(unit):
         return carry_out(_identify(known_models(*packages), unit), link, unit)
 
@@ -99,7 +98,7 @@ async def identify_async(link: AsyncLink, *, unit: int, packages: tuple[ModuleTy
 
 
 def identity_of(*models: Known) -> Task[Identification]:
-    """The question whether a device shows to be one of `models`, as an operation."""
+    """The operation that identifies a device among `models`."""
     return lambda session: _identify(models, session.unit)
 
 
@@ -114,27 +113,19 @@ def _identify(models: tuple[Known, ...], unit: int) -> Operation[Identification]
             request = read_request(register, _view(register))
             if request not in answers:
                 answers[request] = yield from _ask(request, unit, known)
-            found = _seen(known, path, request, answers[request])
-            _note(evidence, (request, path), found)
+            earlier = evidence.get((request, path))
+            maps = (*(earlier.map_ids if earlier else ()), known.map_id)
+            found = _evidence(tuple(dict.fromkeys(maps)), register, request, answers[request])
+            evidence[request, path] = found
             if found.error is None:
                 state[path] = found.value
-        if _fits(known, state):
+        if any(one.fits(state) for one in known.driver.identity if set(one.registers()) <= set(state)):
             fitting.append(known)
     return Identification(tuple(fitting), tuple(evidence.values()))
 
 
-def _note(evidence: dict[tuple[Request, str], Evidence], key: tuple[Request, str], found: Evidence) -> None:
-    """Keep what was seen last, for all maps that were asked about it."""
-    before = evidence[key].map_ids if key in evidence else ()
-    evidence[key] = found._replace(map_ids=tuple(dict.fromkeys((*before, *found.map_ids))))
-
-
-def _fits(known: Known, state: Mapping[str, Any]) -> bool:
-    return any(one.fits(state) for one in known.driver.identity if set(one.registers()) <= set(state))
-
-
 def _view(register: Register[Any]) -> View:
-    """The first view that may be read and needs no other register to be understood."""
+    """The first readable view whose meaning depends on no other register."""
     return next((view for view in register.views if view.readable and not view.needs()), register.read_view())
 
 
@@ -148,12 +139,11 @@ def _ask(request: Request, unit: int, known: Known) -> Operation[Answer]:
         return error
 
 
-def _seen(known: Known, path: str, request: Request, answer: Answer) -> Evidence:
+def _evidence(map_ids: tuple[str, ...], register: Register[Any], request: Request, answer: Answer) -> Evidence:
     if isinstance(answer, RegscribeError):
-        return Evidence((known.map_id,), path, request.address, (), None, answer)
-    value, error, register = None, None, known.driver.registers[path]
+        return Evidence(map_ids, register.path, request.address, (), None, answer)
     try:
-        value = codec.decode(register, _view(register), answer, {}, {})
+        value, error = codec.decode(register, _view(register), answer, {}, {}), None
     except RegscribeError as undecodable:
-        error = undecodable
-    return Evidence((known.map_id,), path, request.address, answer, value, error)
+        value, error = None, undecodable
+    return Evidence(map_ids, register.path, request.address, answer, value, error)

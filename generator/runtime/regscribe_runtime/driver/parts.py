@@ -1,6 +1,7 @@
 """The parts of a driver: the device itself, its array elements, commands and groups, for both kinds of I/O."""
 
-from collections.abc import Awaitable, Callable, Iterator, Mapping
+from collections.abc import Awaitable, Iterator, Mapping
+from functools import cache
 from types import MappingProxyType
 from typing import Any, ClassVar, Generic, Protocol, Self, TypeVar, overload
 
@@ -10,40 +11,33 @@ from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.facts import CommandStep
 
 T = TypeVar("T")
+R = TypeVar("R", bound="Runner | AsyncRunner")
 P = TypeVar("P", bound="Part")
 A = TypeVar("A", bound="AsyncPart")
+B = TypeVar("B", bound="Part | AsyncPart")
 
 
 class Catalogue:
     """A class attribute: every register of a part by path, array elements included.
 
-    They stand in the order of the manual, which is that of a driver's groups; without groups, in that of declaration.
-    In a `whole` device each path is complete, so that "the same element" of an array has a meaning.
+    They stand in the order of the driver's groups; without groups, in that of declaration. In a `whole` device
+    references to the same element of an array are resolved.
     """
 
     def __init__(self, *, whole: bool = False) -> None:
         self.whole = whole
 
     def __get__(self, instance: object, owner: type) -> Mapping[str, Register[Any]]:
-        cached: Mapping[str, Register[Any]] | None = vars(owner).get("_catalogue")
-        if cached is None:
-            found = sorted(_registers(owner), key=_place(owner))
-            cached = MappingProxyType({path: register.closed() if self.whole else register for path, register in found})
-            owner._catalogue = cached  # type: ignore[attr-defined] # noqa: SLF001 (its own cache)
-        return cached
+        return _catalogue(owner, whole=self.whole)
 
 
 class Runner(Protocol):
-    """What a part asks of the synchronous device that it belongs to."""
+    """The synchronous device of a part."""
 
     registers: ClassVar[Catalogue]
 
     def run(self, task: tasks.Task[T]) -> T:
         """Run an operation on the device."""
-        raise NotImplementedError
-
-    def read_part(self, part: "Part") -> Snapshot:
-        """Read all registers of a part."""
         raise NotImplementedError
 
 
@@ -56,17 +50,13 @@ class AsyncRunner(Protocol):
         """Run an operation on the device."""
         raise NotImplementedError
 
-    async def read_part(self, part: "AsyncPart") -> Snapshot:
-        """Read all registers of a part."""
-        raise NotImplementedError
 
-
-def _place(owner: type) -> Callable[[tuple[str, object]], int]:
-    """What says where in the manual's order a register stands, by its path."""
-    groups = getattr(owner, "groups", object)
-    members = [member for group in _declared(groups, Group).values() for member in group.members]
-    places = {member: place for place, member in reversed(list(enumerate(members)))}
-    return lambda found: places.get(found[0].partition("[")[0], len(members))
+@cache
+def _catalogue(owner: type, *, whole: bool) -> Mapping[str, Register[Any]]:
+    members = [member for group in groups_of(owner).values() for member in group.members]
+    ranks = {member: rank for rank, member in reversed(list(enumerate(members)))}
+    found = sorted(_registers(owner), key=lambda one: ranks.get(one[0].partition("[")[0], len(members)))
+    return MappingProxyType({path: register.closed() if whole else register for path, register in found})
 
 
 def _registers(owner: type) -> Iterator[tuple[str, Register[Any]]]:
@@ -78,31 +68,24 @@ def _registers(owner: type) -> Iterator[tuple[str, Register[Any]]]:
             for index in range(declared.first, declared.first + declared.count):
                 for path, register in inside:
                     there = f"{name}[{index}].{path}"
-                    yield there, register.moved(declared.steps(index), there)
+                    yield there, register.moved((index - declared.first) * declared.stride, there)
 
 
-_GROUPS: dict[type, Mapping[str, "Group"]] = {}
-_MEMBERS: dict[type, Mapping[str, list[Register[Any]]]] = {}
-"""What was asked of classes: worked out once for all drivers of a model."""
-
-
+@cache
 def groups_of(owner: type) -> Mapping[str, "Group"]:
     """The groups of a driver's class by id, in the order of the manual."""
-    if owner not in _GROUPS:
-        _GROUPS[owner] = MappingProxyType(_declared(getattr(owner, "groups", object), Group))
-    return _GROUPS[owner]
+    return MappingProxyType(_declared(getattr(owner, "groups", object), Group))
 
 
+@cache
 def _members_of(owner: type) -> Mapping[str, list[Register[Any]]]:
-    """The readable registers of a driver's class by what groups call them: a register's id, or that of its array."""
-    if owner not in _MEMBERS:
-        found: dict[str, list[Register[Any]]] = {}
-        every: Mapping[str, Register[Any]] = getattr(owner, "registers", {})
-        for path, register in every.items():
-            if register.access.readable:
-                found.setdefault(path.partition("[")[0], []).append(register)
-        _MEMBERS[owner] = found
-    return _MEMBERS[owner]
+    """The readable registers of a driver's class by the id of the register, or of its array."""
+    found: dict[str, list[Register[Any]]] = {}
+    registers: Mapping[str, Register[Any]] = getattr(owner, "registers", {})
+    for path, register in registers.items():
+        if register.access.readable:
+            found.setdefault(path.partition("[")[0], []).append(register)
+    return found
 
 
 def _declared(owner: type, *kinds: type) -> dict[str, Any]:
@@ -112,39 +95,31 @@ def _declared(owner: type, *kinds: type) -> dict[str, Any]:
     return found
 
 
-def _here(part: "Part | AsyncPart", register: Register[T]) -> Register[T]:
-    """A register as the device has it that this part belongs to."""
-    if part._prefix:  # noqa: SLF001 (parts are one family)
-        return _everything(part)[f"{part._prefix}.{register.id}"]  # noqa: SLF001 (as above)
-    return register
-
-
-def _placed(part: "Part | AsyncPart") -> dict[str, Register[Any]]:
-    every, prefix = _everything(part), part._prefix  # noqa: SLF001 (as above)
-    return {
-        path: every[f"{prefix}.{path}"] if prefix else register
-        for path, register in type(part).registers.items()
-        if register.access.readable
-    }
-
-
-def _everything(part: "Part | AsyncPart") -> Mapping[str, Register[Any]]:
-    return part._device.registers  # noqa: SLF001 (as above)
-
-
-class Part:
-    """A place of registers in a synchronous driver: the device, an array element, its commands."""
-
+class _AnyPart(Generic[R]):
     registers = Catalogue()
-    _device: Runner
     _prefix = ""
 
-    def __init__(self, device: Runner, prefix: str = "") -> None:
+    def __init__(self, device: R, prefix: str = "") -> None:
         self._device, self._prefix = device, prefix
+
+    def placed(self) -> dict[str, Register[Any]]:
+        """The readable registers of this part as they stand in the device, by their ids here."""
+        return {
+            path: self._in_device(path, register)
+            for path, register in type(self).registers.items()
+            if register.access.readable
+        }
+
+    def _in_device(self, path: str, register: Register[T]) -> Register[T]:
+        return self._device.registers[f"{self._prefix}.{path}"] if self._prefix else register
+
+
+class Part(_AnyPart[Runner]):
+    """A part of a synchronous driver: the device, an array element, its commands."""
 
     def bind(self, register: Register[T], sync: Any, _: object) -> Any:
         """Make a register an attribute of this part."""
-        return sync(_here(self, register), self)
+        return sync(self._in_device(register.id, register), self)
 
     def run(self, task: tasks.Task[T]) -> T:
         """Run an operation on the device."""
@@ -152,26 +127,15 @@ class Part:
 
     def read(self) -> Snapshot:
         """Read all registers of this part in few requests; the snapshot is keyed by their ids."""
-        return self._device.read_part(self)
-
-    def placed(self) -> dict[str, Register[Any]]:
-        """The readable registers of this part as they stand in the device, by their ids here."""
-        return _placed(self)
+        return self.run(tasks.read_part(self.placed()))
 
 
-class AsyncPart:
+class AsyncPart(_AnyPart[AsyncRunner]):
     """As `Part`, for asyncio."""
-
-    registers = Catalogue()
-    _device: AsyncRunner
-    _prefix = ""
-
-    def __init__(self, device: AsyncRunner, prefix: str = "") -> None:
-        self._device, self._prefix = device, prefix
 
     def bind(self, register: Register[T], _: object, awaitable: Any) -> Any:
         """Make a register an attribute of this part."""
-        return awaitable(_here(self, register), self)
+        return awaitable(self._in_device(register.id, register), self)
 
     def run(self, task: tasks.Task[T]) -> Awaitable[T]:
         """Run an operation on the device."""
@@ -179,15 +143,11 @@ class AsyncPart:
 
     def read(self) -> Awaitable[Snapshot]:
         """As `Part.read`, awaitable."""
-        return self._device.read_part(self)
-
-    def placed(self) -> dict[str, Register[Any]]:
-        """As `Part.placed`."""
-        return _placed(self)
+        return self.run(tasks.read_part(self.placed()))
 
 
 class Elements(Generic[T]):
-    """The elements of an array, numbered as the manual does."""
+    """The elements of an array, by the manual's numbers."""
 
     def __init__(self, make: Any, first: int, count: int) -> None:
         self._make, self.first, self.count = make, first, count
@@ -207,7 +167,7 @@ class Elements(Generic[T]):
 
 
 class Array(Generic[P, A]):
-    """A repeated structure: `count` elements, the manual's numbers from `first`, `stride` steps apart."""
+    """A repeated structure: `count` elements, numbered from `first` as in the manual, `stride` steps apart."""
 
     def __init__(self, element: type[P], awaitable: type[A], *, first: int, count: int, stride: int) -> None:
         self.element, self.awaitable = element, awaitable
@@ -216,10 +176,6 @@ class Array(Generic[P, A]):
 
     def __set_name__(self, owner: type, name: str) -> None:
         self.id = name
-
-    def steps(self, index: int) -> int:
-        """How far element `index` stands behind the first."""
-        return (index - self.first) * self.stride
 
     @overload
     def __get__(self, instance: None, owner: type) -> Self: ...
@@ -239,22 +195,23 @@ class Array(Generic[P, A]):
         return Elements(element, self.first, self.count)
 
 
-class _BoundCommand:
+class _Bound(Generic[B]):
     __slots__ = ("_part", "command")
 
-    def __init__(self, command: "Command", part: Part) -> None:
+    def __init__(self, command: "Command", part: B) -> None:
         self.command, self._part = command, part
+
+
+class _BoundCommand(_Bound[Part]):
+    __slots__ = ()
 
     def __call__(self, *, confirm: bool = False) -> None:
         """Send the command; `confirm` is needed for a dangerous one (ValueRefused otherwise)."""
         self._part.run(tasks.run(self.command, confirm=confirm))
 
 
-class _AsyncBoundCommand:
-    __slots__ = ("_part", "command")
-
-    def __init__(self, command: "Command", part: AsyncPart) -> None:
-        self.command, self._part = command, part
+class _AsyncBoundCommand(_Bound[AsyncPart]):
+    __slots__ = ()
 
     def __call__(self, *, confirm: bool = False) -> Awaitable[None]:
         """Send the command; `confirm` is needed for a dangerous one (ValueRefused otherwise)."""
@@ -283,7 +240,7 @@ class Command:
 
 
 class SubPart(Generic[P, A]):
-    """A named part of a device without registers of its own address: its commands."""
+    """A named part of a device without address: its commands."""
 
     def __init__(self, part: type[P], awaitable: type[A]) -> None:
         self.part, self.awaitable = part, awaitable
@@ -307,10 +264,10 @@ class SubPart(Generic[P, A]):
 
 
 class Group:
-    """A named, ordered set of registers and arrays; an array stands for all that is in it.
+    """A named, ordered set of registers and arrays; an array stands for all registers of its elements.
 
-    A model whose register of the same id is another one has that in the group. `order` is the group's place when a
-    whole configuration is written (None: the manual gives none).
+    Members are found by id, so that a model's own register of that id takes the place of the declared one. `order` is
+    the group's position when a whole configuration is written (None: the manual gives none).
     """
 
     def __init__(self, name: str, *members: Register[Any] | Array[Any, Any], order: int | None = None) -> None:
