@@ -82,14 +82,16 @@ def test_clients_that_flood_stall_or_send_rubbish_keep_nobody_from_being_served(
     asyncio.run(run())
 
 
-class Outlet:
+class Outlet(asyncio.Transport):
     """A client that takes nothing until it is told to."""
 
     def __init__(self) -> None:
+        super().__init__()
         self.reading = True
         self.sent = b""
 
-    def write(self, data: bytes) -> None:
+    def write(self, data: object) -> None:
+        assert isinstance(data, bytes)
         self.sent += data
 
     def pause_reading(self) -> None:
@@ -105,17 +107,18 @@ class Outlet:
         self.reading = False
 
 
-def connected(device: SimulatedDevice, manners: ConnectionPolicy) -> tuple[Connection, Outlet]:
-    outlet = Outlet()
-    return Connection(framer_for("tcp"), ServerContext([device]), manners, outlet), outlet
+def connected(device: SimulatedDevice, policy: ConnectionPolicy) -> tuple[Connection, Outlet]:
+    connection, outlet = Connection(framer_for("tcp"), ServerContext([device]), policy), Outlet()
+    connection.connection_made(outlet)
+    return connection, outlet
 
 
 def test_a_client_that_does_not_read_is_not_read_from_until_it_does(controller: RegisterMap) -> None:
     async def run() -> None:
         connection, outlet = connected(SimulatedDevice(controller, "16C"), ConnectionPolicy())
-        connection.paused()
+        connection.pause_writing()
         assert not outlet.reading
-        connection.resumed()
+        connection.resume_writing()
         assert outlet.reading
 
     asyncio.run(run())
@@ -130,9 +133,9 @@ def test_a_client_with_too_many_requests_waiting_is_not_read_from_until_they_are
             return each.frame
 
         connection, outlet = connected(SimulatedDevice(controller, "16C"), ConnectionPolicy(delivery=hold))
-        connection.received(READ * (MOST_WAITING - 1))
+        connection.data_received(READ * (MOST_WAITING - 1))
         assert outlet.reading
-        connection.received(READ * 2)
+        connection.data_received(READ * 2)
         assert not outlet.reading
         let_go.set()
         async with asyncio.timeout(5):

@@ -107,8 +107,8 @@ def test_clients_that_flood_and_never_read_do_not_keep_others_waiting(transport:
             finally:
                 stop.set()
                 attack.join()
-        for client in tuple(server._clients):
-            assert client._transport.get_write_buffer_size() < 1 << 20
+        for client in tuple(server.clients):
+            assert client._writer.get_write_buffer_size() < 1 << 20
         assert served_well(made, 2) == 2
 
 
@@ -126,7 +126,7 @@ def test_hordes_of_clients_that_stall_in_half_a_frame_neither_fill_the_server_no
             with honest(server, transport) as made:
                 assert served_well(made) == 10
                 assert served_well(earlier) == 10  # it lost its place, and takes another one
-                assert len(server._clients) <= 16
+                assert len(server.clients) <= 16
         assert len(list(Path("/proc/self/fd").iterdir())) <= before + 20
 
 

@@ -78,14 +78,16 @@ def streams(framing: str) -> st.SearchStrategy[list[bytes]]:
     return st.lists(st.one_of(sound, broken, noise), max_size=6)
 
 
-class Sink:
+class Sink(asyncio.Transport):
     """Where a server's answers go."""
 
     def __init__(self) -> None:
+        super().__init__()
         self.sent = bytearray()
         self.closed = False
 
-    def write(self, data: bytes) -> None:
+    def write(self, data: object) -> None:
+        assert isinstance(data, bytes)
         self.sent += data
 
     def pause_reading(self) -> None:
@@ -107,16 +109,17 @@ class Sink:
 def test_a_server_takes_any_bytes_keeps_few_and_answers_the_next_good_request(framing: str, data: Any) -> None:
     async def serve() -> None:
         sink = Sink()
-        connection = Connection(framer_for(framing), ServerContext([device()]), ConnectionPolicy(), sink)
+        connection = Connection(framer_for(framing), ServerContext([device()]), ConnectionPolicy())
+        connection.connection_made(sink)
         for piece in data.draw(streams(framing)):
-            connection.received(piece)
+            connection.data_received(piece)
             assert len(connection._framer._buffer) <= MOST_KEPT  # type: ignore[attr-defined] # of each framer
         connection._expire()
         sink.sent.clear()
-        connection.received(built(framing, 1, b"\x08\x00\x00\x12\x34"))
+        connection.data_received(built(framing, 1, b"\x08\x00\x00\x12\x34"))
         assert sink.sent == built(framing, 1, b"\x08\x00\x00\x12\x34")
         assert len(connection._waiting) <= MOST_WAITING
-        connection.end()
+        connection.connection_lost(None)
 
     asyncio.run(serve())
 

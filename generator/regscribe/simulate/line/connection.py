@@ -3,10 +3,9 @@
 import asyncio
 from collections import deque
 from collections.abc import Awaitable, Callable, Sequence
-from dataclasses import dataclass, field
-from typing import Protocol
+from dataclasses import dataclass
+from typing import cast
 
-from regscribe.simulate.line.response_delay import Pace
 from regscribe.simulate.line.server_context import ServerContext
 from regscribe_runtime.wire.framing import Frame
 from regscribe_runtime.wire.server_framing import Framer
@@ -66,59 +65,29 @@ class Patience:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ConnectionPolicy:
-    """How a connection treats its client: patience, pace, and who stands between the device and the line."""
+    """How a connection treats its client, and who stands between the device and the line."""
 
-    patience: Patience = field(default_factory=Patience)
-    pace: Pace | None = None
+    patience: Patience | None = None
     arrival: Arrival | None = None
     delivery: Delivery | None = None
     recorder: Recorder | None = None
     watcher: Watcher | None = None
 
-    @property
-    def immediate(self) -> bool:
-        """Whether each answer is sent as soon as it is known."""
-        return self.pace is None and self.delivery is None
 
+class Connection(asyncio.Protocol):
+    """Serves one client or one serial line: requests from its bytes, answers in the order of the requests.
 
-class Outlet(Protocol):
-    """Where frames go: what a connection needs of an asyncio transport."""
-
-    def write(self, data: bytes) -> None:
-        """Send, sooner or later."""
-
-    def pause_reading(self) -> None:
-        """Let the client wait."""
-
-    def resume_reading(self) -> None:
-        """Let it go on."""
-
-    def close(self) -> None:
-        """Send what is left, and close."""
-
-    def abort(self) -> None:
-        """Close at once."""
-
-
-class Connection:
-    """Serves one client (or one serial line): `received` is called with its bytes, all else follows.
-
-    What it keeps is bounded: half a frame, `MOST_WAITING` requests and a chunk's, and what `outlet` has buffered when
-    it says `paused`; then the client is not read from until `resumed`.
+    What it keeps is bounded: half a frame, `MOST_WAITING` requests and a chunk's, and what the transport has buffered
+    when it pauses writing; then the client is not read from until writing resumes.
     """
 
-    __slots__ = (
-        *("_expiry", "_framer", "_leaving", "_loop", "_manners", "_outlet"),
-        *("_room", "_station", "_task", "_waiting", "heard"),
-    )
-
-    def __init__(self, framer: Framer, station: ServerContext, manners: ConnectionPolicy, outlet: Outlet) -> None:
+    def __init__(self, framer: Framer, station: ServerContext, policy: ConnectionPolicy) -> None:
         self._loop = asyncio.get_running_loop()
         self.heard = self._loop.time()
         self._framer = framer
         self._station = station
-        self._manners = manners
-        self._outlet = outlet
+        self._policy = policy
+        self._gap = (policy.patience or Patience()).gap
         self._waiting: deque[Frame] = deque()
         self._task: asyncio.Task[None] | None = None
         self._expiry: asyncio.TimerHandle | None = None
@@ -126,7 +95,12 @@ class Connection:
         self._room = asyncio.Event()
         self._room.set()
 
-    def received(self, data: bytes) -> None:
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        """Take the transport of a client."""
+        self._reader: asyncio.ReadTransport = cast("asyncio.Transport", transport)
+        self._writer: asyncio.WriteTransport = cast("asyncio.Transport", transport)
+
+    def data_received(self, data: bytes) -> None:
         """Act on bytes of the client."""
         self.heard = self._loop.time()
         self._take(self._framer.feed(data))
@@ -134,31 +108,39 @@ class Connection:
             self._expiry.cancel()
             self._expiry = None
         if self._framer.pending:
-            self._expiry = self._loop.call_later(self._manners.patience.gap, self._expire)
+            self._expiry = self._loop.call_later(self._gap, self._expire)
 
-    def finish(self) -> None:
-        """Close once all that was asked is answered."""
+    def eof_received(self) -> bool:
+        """Close once all requests are answered."""
         self._leaving = True
         if self._task is None:
-            self._outlet.close()
+            self._writer.close()
+        return True
 
-    def paused(self) -> None:
-        """The client does not read: ask no more of it."""
+    def pause_writing(self) -> None:
+        """Read no more of a client that does not read."""
         self._room.clear()
-        self._outlet.pause_reading()
+        self._reader.pause_reading()
 
-    def resumed(self) -> None:
-        """It reads again."""
+    def resume_writing(self) -> None:
+        """Go on with a client that reads again."""
         self._room.set()
         if len(self._waiting) < MOST_WAITING:
-            self._outlet.resume_reading()
+            self._reader.resume_reading()
 
-    def end(self) -> None:
-        """Forget what is still to be done: the client is gone."""
+    def connection_lost(self, exc: Exception | None) -> None:  # noqa: ARG002 - how a client ends is its own affair
+        """Forget what is still to be done."""
         if self._expiry is not None:
             self._expiry.cancel()
         if self._task is not None:
             self._task.cancel()
+
+    def _write(self, data: bytes) -> None:
+        self._writer.write(data)
+
+    def _abort(self) -> None:
+        if not self._writer.is_closing():
+            self._writer.abort()
 
     def _expire(self) -> None:
         self._expiry = None
@@ -167,56 +149,53 @@ class Connection:
     def _take(self, requests: list[Frame]) -> None:
         if not requests:
             return
-        if self._manners.immediate:
+        if self._station.pace is None and self._policy.delivery is None:
             frames = [self._exchange(request).frame for request in requests]
-            self._outlet.write(b"".join(frames))
+            self._write(b"".join(frames))
             return
         self._waiting.extend(requests)
         if len(self._waiting) >= MOST_WAITING:
-            self._outlet.pause_reading()
+            self._reader.pause_reading()
         if self._task is None:
-            self._task = self._loop.create_task(self._work_off())
+            self._task = self._loop.create_task(self._answer_waiting())
 
     def _exchange(self, request: Frame) -> Exchange:
-        manners = self._manners
-        if manners.recorder is not None and self._station.has(request.unit):
-            manners.recorder(request)
-        act, arrival = self._station.answer, manners.arrival
+        policy = self._policy
+        if policy.recorder is not None and self._station.has(request.unit):
+            policy.recorder(request)
+        act, arrival = self._station.answer, policy.arrival
         unit, pdu = request.unit, request.pdu
         answer = act(unit, pdu) if arrival is None else arrival(request, lambda: act(unit, pdu))
         exchange = Exchange(request, answer, b"" if answer is None else self._framer.answer(request, answer))
-        if manners.watcher is not None:
-            manners.watcher(exchange)
+        if policy.watcher is not None:
+            policy.watcher(exchange)
         return exchange
 
-    async def _work_off(self) -> None:
+    async def _answer_waiting(self) -> None:
         try:
             while self._waiting:
                 await self._deliver(self._exchange(self._waiting.popleft()))
                 await self._room.wait()
                 if len(self._waiting) == MOST_WAITING - 1:
-                    self._outlet.resume_reading()
+                    self._reader.resume_reading()
         except BaseException:
-            self._outlet.abort()
+            self._abort()
             raise
         finally:
             self._task = None
         if self._leaving:
-            self._outlet.close()
+            self._writer.close()
 
     async def _deliver(self, exchange: Exchange) -> None:
-        pace, delivery = self._manners.pace, self._manners.delivery
+        pace, delivery = self._station.pace, self._policy.delivery
         if pace is not None and exchange.answer is not None:
             await asyncio.sleep(pace.seconds(exchange.request))
         sent = exchange.frame if delivery is None else await delivery(exchange)
-        for piece in (Chunk(sent),) if isinstance(sent, bytes) else sent:
-            await self._send(piece)
-
-    async def _send(self, piece: Chunk) -> None:
-        if piece.pause:
-            await asyncio.sleep(piece.pause)
-        if piece.data:
-            self._outlet.write(piece.data)
-        if piece.hangup:
-            self._waiting.clear()
-            self._outlet.close()
+        for chunk in (Chunk(sent),) if isinstance(sent, bytes) else sent:
+            if chunk.pause:
+                await asyncio.sleep(chunk.pause)
+            if chunk.data:
+                self._write(chunk.data)
+            if chunk.hangup:
+                self._waiting.clear()
+                self._writer.close()

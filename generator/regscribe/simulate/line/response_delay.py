@@ -1,10 +1,9 @@
-"""How long a device thinks: the map's latencies by function and word, real, scaled, or off."""
+"""Latencies of simulated devices by function and word, as the map says: real, scaled, or off."""
 
 import math
 from collections.abc import Sequence
 from random import Random
 
-from regscribe.model import Protocol
 from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.simulate.errors import SimulatorError
 from regscribe_runtime.values.serial_line import SerialLine
@@ -30,50 +29,37 @@ def factor_of(latency: float | str) -> float:
     return factor
 
 
-def words_of(pdu: bytes) -> int:
-    """Return how many registers a request is about, for the part of the latency that counts them."""
+class Pace:
+    """Time from the end of a request to the start of its answer: the latencies of the device.
+
+    They lie between minimum and maximum, as a generator with a seed of its own for each device picks.
+    """
+
+    def __init__(self, devices: Sequence[SimulatedDevice], line: SerialLine, *, factor: float) -> None:
+        self._character = line.character
+        self._factor = factor
+        self._devices = [(device, Random(f"{device.seed} {device.unit}")) for device in devices]  # noqa: S311 - repeatable, and no secret
+
+    def seconds(self, request: Frame) -> float:
+        """Return the seconds that a request takes; 0 where the map says nothing of its function."""
+        device, random = next((each for each in self._devices if each[0].unit == request.unit), (None, None))
+        if device is None or random is None:
+            return 0.0
+        function = request.pdu[0]
+        latency = device.register_map.protocol.latency(REPEATED.get(function, function))
+        if latency is None:
+            return 0.0
+        words = _words(request.pdu)
+        low = float(latency.minimum + words * latency.minimum_per_word)
+        high = float(latency.longest(words))
+        milliseconds = random.uniform(low, high)
+        return self._factor * (milliseconds / 1000 + float(latency.characters) * self._character)
+
+
+def _words(pdu: bytes) -> int:
+    """How many registers a request is about, for the part of the latency that counts them."""
     try:
         request = decode_request(pdu)
     except MalformedError:
         return 1
     return request.quantity if request.function in WORDS_COUNTED else 1
-
-
-class Thought:
-    """The latencies of one device: between minimum and maximum, as a generator with a seed of its own picks."""
-
-    __slots__ = ("_character", "_factor", "_protocol", "_random")
-
-    def __init__(self, protocol: Protocol, line: SerialLine, factor: float, seed: str) -> None:
-        self._protocol = protocol
-        self._character = line.character
-        self._factor = factor
-        self._random = Random(seed)  # noqa: S311 - repeatable, and no secret
-
-    def seconds(self, pdu: bytes) -> float:
-        """Return how long this request takes; 0 where the map says nothing of its function."""
-        latency = self._protocol.latency(REPEATED.get(pdu[0], pdu[0]))
-        if latency is None:
-            return 0.0
-        words = words_of(pdu)
-        low = float(latency.minimum + words * latency.minimum_per_word)
-        high = float(latency.longest(words))
-        milliseconds = self._random.uniform(low, high)
-        return self._factor * (milliseconds / 1000 + float(latency.characters) * self._character)
-
-
-class Pace:
-    """How long each request takes until its answer begins: the device's latency."""
-
-    __slots__ = ("_devices",)
-
-    def __init__(self, devices: Sequence[SimulatedDevice], line: SerialLine, *, factor: float) -> None:
-        self._devices = [
-            (device, Thought(device.register_map.protocol, line, factor, f"{device.seed} {device.unit}"))
-            for device in devices
-        ]
-
-    def seconds(self, request: Frame) -> float:
-        """Return the seconds from the end of the request to the start of the answer."""
-        thought = next((thought for device, thought in self._devices if device.unit == request.unit), None)
-        return thought.seconds(request.pdu) if thought is not None else 0.0

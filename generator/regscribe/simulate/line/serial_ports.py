@@ -49,7 +49,10 @@ class OpenLine:
 
 
 def open_serial(path: str, line: SerialLine) -> OpenLine:
-    """Open a serial device; SimulatorError if it is absent, busy, not ours, or cannot be set to `line`."""
+    """Open a serial device; SimulatorError if it is not named, absent, busy, not ours, or cannot be set to `line`."""
+    if not path:
+        message = "no serial device is named: give its path, such as /dev/ttyUSB0"
+        raise SimulatorError(message)
     try:
         port = serial.Serial(path, timeout=0, write_timeout=0, exclusive=True, **line.checked().settings())
     except (OSError, ValueError) as problem:

@@ -1,10 +1,11 @@
-"""The devices that share one line, and who of them answers what."""
+"""The devices that share one line: which of them answers what, and how long it takes."""
 
 from collections.abc import Iterable
 from enum import StrEnum
 
 from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.simulate.errors import SimulatorError
+from regscribe.simulate.line.response_delay import Pace
 from regscribe_runtime.wire.pdu import encode_reply
 from regscribe_runtime.wire.requests import Reply
 
@@ -20,11 +21,15 @@ class Foreign(StrEnum):
 
 
 class ServerContext:
-    """Devices by the unit id that they have now; raises SimulatorError if two have the same at first."""
+    """Devices by the unit id that they have now; raises SimulatorError if two have the same at first.
 
-    __slots__ = ("_devices", "_foreign", "_units")
+    Without a `pace` they answer at once.
+    """
 
-    def __init__(self, devices: Iterable[SimulatedDevice], *, foreign: Foreign = Foreign.SILENCE) -> None:
+    def __init__(
+        self, devices: Iterable[SimulatedDevice], *, foreign: Foreign = Foreign.SILENCE, pace: Pace | None = None
+    ) -> None:
+        self.pace = pace
         self._units: dict[int, SimulatedDevice] = {}
         self._foreign = foreign
         for device in devices:

@@ -1,23 +1,22 @@
 """The simulator's front door: choose a transport, and serve devices from asyncio."""
 
+import asyncio
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
-from functools import partial
 
 from regscribe.model import SerialDefaults
 from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.simulate.errors import SimulatorError
-from regscribe.simulate.line.connection import Arrival, ConnectionPolicy, Delivery, Patience, Recorder, Watcher
-from regscribe.simulate.line.paced_line import LineTransport, PacedTransport
+from regscribe.simulate.line.connection import ConnectionPolicy, Patience
+from regscribe.simulate.line.paced_line import PacedLineServer
 from regscribe.simulate.line.response_delay import Pace, factor_of
-from regscribe.simulate.line.serial_ports import OpenLine, open_pseudo_terminal, open_serial
+from regscribe.simulate.line.serial_ports import open_pseudo_terminal, open_serial
 from regscribe.simulate.line.server_context import Foreign, ServerContext
-from regscribe.simulate.line.servers import LineServer, Server, TcpServer, Wiring
+from regscribe.simulate.line.servers import LineServer, Server, TcpServer
 from regscribe.simulate.process.clock import speed_of, tick
 from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.wire.framing import ASCII, RTU, TCP
-from regscribe_runtime.wire.server_framing import Framer, RtuFramer, SilenceFramer
 
 LOOPBACK = "127.0.0.1"
 MOST_CONNECTIONS = 64
@@ -43,7 +42,7 @@ _FRAMINGS = {
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Service:
+class Service(ConnectionPolicy):
     """Where and how to serve.
 
     `host` and `port` (0: any free one) are for TCP, `path` for a serial device. `line` is its speed and format, and
@@ -68,11 +67,6 @@ class Service:
     speed: float = 1.0
     foreign: Foreign | None = None
     connections: int = MOST_CONNECTIONS
-    patience: Patience | None = None
-    arrival: Arrival | None = None
-    delivery: Delivery | None = None
-    recorder: Recorder | None = None
-    watcher: Watcher | None = None
 
 
 async def start(devices: Sequence[SimulatedDevice], service: Service) -> Server:
@@ -81,44 +75,37 @@ async def start(devices: Sequence[SimulatedDevice], service: Service) -> Server:
     Raises SimulatorError where the port is taken, the serial device cannot be opened, two devices share a unit, or the
     service asks for something impossible.
     """
-    transport = Transport(service.transport)
-    speed_of(service.speed)
+    transport, speed = Transport(service.transport), speed_of(service.speed)
     usual = Foreign.GATEWAY if transport is Transport.TCP else Foreign.SILENCE
-    station = ServerContext(devices, foreign=service.foreign or usual)
+    line, factor = service.line or line_of(devices), factor_of(service.latency)
+    pace = Pace(devices, line, factor=factor) if factor else None
+    station = ServerContext(devices, foreign=service.foreign or usual, pace=pace)
     if service.paced and transport is not Transport.PTY:
         message = f"only a pty can be paced, not {transport}: a serial device has its own speed, TCP has none"
         raise SimulatorError(message)
     server: TcpServer | LineServer
     if transport in _FRAMINGS:
-        manners = _manners(devices, service, Patience())
-        server = TcpServer(station, _FRAMINGS[transport], manners, most=service.connections)
+        server = TcpServer(station, _FRAMINGS[transport], service, most=service.connections)
         await server.listen(service.host, service.port)
     else:
-        manners = _manners(devices, service, Patience(idle=None, gap=SERIAL_GAP))
-        server = LineServer(_open(transport, devices, service), station, manners, *_wiring(devices, service))
+        policy = replace(service, patience=service.patience or Patience(idle=None, gap=SERIAL_GAP))
+        opened = open_pseudo_terminal() if transport is Transport.PTY else open_serial(service.path, line)
+        if service.paced:
+            gap = max((each.register_map.protocol.serial.gap for each in devices), default=SerialDefaults().gap)
+            silence = float(gap) * line.character
+            server = PacedLineServer(opened, station, policy, serial=line, gap=silence, strict=service.strict_gaps)
+        else:
+            server = LineServer(opened, station, policy)
+        await server.listen()
     moving = [device for device in devices if device.moves]
-    if moving and service.speed:
-        server.accompany(tick(moving, service.speed))
+    if moving and speed:
+        server.clock = asyncio.get_running_loop().create_task(tick(moving, speed))
     return server
-
-
-def _wiring(devices: Sequence[SimulatedDevice], service: Service) -> tuple[Wiring, Framer]:
-    if not service.paced:
-        return LineTransport, RtuFramer()
-    line = service.line or line_of(devices)
-    gap = _gap(devices, line)
-    return partial(PacedTransport, line=line, gap=gap, strict=service.strict_gaps), SilenceFramer()
 
 
 def line_of(devices: Sequence[SimulatedDevice]) -> SerialLine:
     """The line that the first device has as delivered, as far as its map says."""
     return devices[0].register_map.protocol.serial.line if devices else SerialLine()
-
-
-def _gap(devices: Sequence[SimulatedDevice], line: SerialLine) -> float:
-    """Seconds of silence that separate frames: what the most demanding device here needs."""
-    characters = (device.register_map.protocol.serial.gap for device in devices)
-    return float(max(characters, default=SerialDefaults().gap)) * line.character
 
 
 async def serve(
@@ -138,24 +125,3 @@ async def serve(
         await server.wait()
     finally:
         await server.stop()
-
-
-def _manners(devices: Sequence[SimulatedDevice], service: Service, usual: Patience) -> ConnectionPolicy:
-    factor, line = factor_of(service.latency), service.line or line_of(devices)
-    return ConnectionPolicy(
-        patience=service.patience or usual,
-        pace=Pace(devices, line, factor=factor) if factor else None,
-        arrival=service.arrival,
-        delivery=service.delivery,
-        recorder=service.recorder,
-        watcher=service.watcher,
-    )
-
-
-def _open(transport: Transport, devices: Sequence[SimulatedDevice], service: Service) -> OpenLine:
-    if transport is Transport.PTY:
-        return open_pseudo_terminal()
-    if not service.path:
-        message = "no serial device is named: give its path, such as /dev/ttyUSB0"
-        raise SimulatorError(message)
-    return open_serial(service.path, service.line or line_of(devices))
