@@ -1,8 +1,4 @@
-"""A bad line: requests and answers that are lost, late, doubled, cut, garbled, foreign, stale, or end in a hang-up.
-
-`LineFaults` stands between simulated devices and their line, as the `arrival` and the `delivery` of a `Service`. Which
-exchange gets which fault is decided by a seed, or by a test (`plan`).
-"""
+"""Faults of a line: requests and answers that are lost, late, doubled, cut, garbled, foreign, stale, or hang up."""
 
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Sequence
@@ -40,7 +36,7 @@ class LineFault(StrEnum):
     `REQUEST_LOST` and `REFUSED` keep the request from the device; after all others it was carried out. `FORGED` flips
     a bit of what the protocol compares (byte count, echo) and repairs the check; `FALSIFIED` one of what nothing can
     compare: values, exception codes, counts of words written. No client can detect `FALSIFIED`, nor a `STALE` answer
-    that looks like the right one (see `Faults.forgeries`).
+    that looks like the right one (see `LineFaults.forgeries`).
     """
 
     REQUEST_LOST = "request lost"
@@ -69,9 +65,9 @@ USUAL = tuple(fault for fault in LineFault if fault not in UNDETECTABLE)
 
 
 class LineFaults:
-    """Faults of one service, one for about every `rate` of its exchanges; safe to read from any thread.
+    """Faults of one service in a share `rate` of its exchanges, by a seed or by `plan`; safe to read from any thread.
 
-    `framing` is tcp, rtu or ascii, as the service has it.
+    Its `arrival` and `delivery` are those of a `Service`; `framing` is tcp, rtu or ascii, as the service has it.
     `late` is in seconds: longer than the client's timeout, shorter than its patience with late answers. `kinds` may
     hold `HANGUP` only where a line can hang up (TCP). `injected` counts the faults, `exchanges` all exchanges; in
     `forgeries` are the faults that no client could have detected.
@@ -117,7 +113,12 @@ class LineFaults:
         """Choose a fault for an exchange, and keep its request from the device if that is the fault."""
         with self._lock:
             self.exchanges += 1
-            fault, at = self._choose()
+            fault: LineFault | None = None
+            at: int | None = None
+            if self._planned:
+                fault, at = self._planned.popleft()
+            elif self._random.random() < self.rate:
+                fault = self._random.choice(self.kinds)
             if (fault is LineFault.REFUSED or self._storm) and request.unit:
                 self._storm = self._storm - 1 if self._storm else STORM - 1
                 self.injected[LineFault.REFUSED] += 1
@@ -128,11 +129,6 @@ class LineFaults:
             if request.unit:
                 self._chosen[id(request)] = (fault, at)
         return act()
-
-    def _choose(self) -> tuple[LineFault | None, int | None]:
-        if self._planned:
-            return self._planned.popleft()
-        return (self._random.choice(self.kinds) if self._random.random() < self.rate else None), None
 
     async def delivery(self, exchange: Exchange) -> Sequence[Chunk]:
         """The answer as it comes out of the bad line."""
@@ -147,7 +143,7 @@ class LineFaults:
         return (Chunk(exchange.frame),) if spoilt is None else spoilt
 
     def _spoil(self, fault: LineFault, exchange: Exchange, at: int | None) -> Sequence[Chunk] | None:
-        """What is sent instead of the frame; None where this fault does not fit this answer."""
+        """The chunks to send instead of the frame; None where this fault does not fit this answer."""
         if fault in CUTS:
             frame = exchange.frame
             return CUTS[fault](self, frame, self._random.randrange(len(frame)) if at is None else at)
@@ -170,34 +166,34 @@ class LineFaults:
 
     def _stale(self, exchange: Exchange) -> Sequence[Chunk] | None:
         """An earlier answer in place of this one, or before it."""
-        able = [one for one in self._earlier if not self._resembles(one, exchange)]
-        if not able:
+        others = [each for each in self._earlier if self._identity(each) != self._identity(exchange)]
+        if not others:
             return None
-        old = self._random.choice(able).frame
+        old = self._random.choice(others).frame
         return (Chunk(old + exchange.frame if self._random.random() < 1 / 2 else old),)
 
-    def _resembles(self, one: Exchange, other: Exchange) -> bool:
-        """Whether nothing in an answer tells it from another; a transaction id does."""
-        mine, its = one.request, other.request
-        if self._framing == TCP:
-            return mine.transaction == its.transaction
-        return (mine.unit, mine.pdu[0]) == (its.unit, its.pdu[0])
+    def _identity(self, exchange: Exchange) -> tuple[int, ...]:
+        """What tells an answer from others in any case."""
+        request = exchange.request
+        return (request.transaction,) if self._framing == TCP else (request.unit, request.pdu[0])
 
     def _rewritten(self, fault: LineFault, exchange: Exchange, at: int | None) -> Sequence[Chunk] | None:
-        to, answer, chance = exchange.request, exchange.answer or b"", self._random
+        """The answer in a frame of its own, to another request or with another byte."""
+        to, answer, chance = exchange.request, bytearray(exchange.answer or b""), self._random
         if fault is LineFault.FOREIGN_UNIT:
             to = to._replace(unit=_other(range(1, 248), to.unit, chance))
         elif fault is LineFault.FOREIGN_TRANSACTION and self._framing == TCP:
             to = to._replace(transaction=(to.transaction + chance.randrange(1, 1 << 16)) % (1 << 16))
         elif fault is LineFault.FOREIGN_FUNCTION:
-            answer = bytes([_other(FUNCTIONS, to.pdu[0], chance)]) + answer[1:]
+            answer[0] = _other(FUNCTIONS, to.pdu[0], chance)
         elif fault in FORGERIES and (places := _places(answer, compared=fault is LineFault.FORGED)):
-            answer = _flip(answer, chance.choice(places) if at is None else places[at % len(places)], chance)
+            place = chance.choice(places) if at is None else places[at % len(places)]
+            answer[place] ^= 1 << chance.randrange(8)
         else:
             return None
         if fault in UNDETECTABLE:
             self.forgeries.append(exchange)
-        return (Chunk(build(self._framing, to.unit, answer, to.transaction)),)
+        return (Chunk(build(self._framing, to.unit, bytes(answer), to.transaction)),)
 
 
 CUTS: dict[LineFault, Callable[[LineFaults, bytes, int], Sequence[Chunk]]] = {
@@ -211,20 +207,14 @@ CUTS: dict[LineFault, Callable[[LineFaults, bytes, int], Sequence[Chunk]]] = {
     LineFault.CHATTER: lambda faults, frame, _: (Chunk(frame), Chunk(faults.noise(), CHATTER_SECONDS)),
     LineFault.HANGUP: lambda _, frame, at: (Chunk(frame[:at], hangup=True),),
 }
-"""What needs nothing but the frame: what is sent, given a place in it."""
+"""Faults that need nothing but the frame: the chunks to send, by the frame and a place in it."""
 
 
 def _other(candidates: Sequence[int], than: int, chance: Random) -> int:
-    return chance.choice([one for one in candidates if one != than])
+    return chance.choice([each for each in candidates if each != than])
 
 
-def _flip(answer: bytes, place: int, chance: Random) -> bytes:
-    changed = bytearray(answer)
-    changed[place] ^= 1 << chance.randrange(8)
-    return bytes(changed)
-
-
-def _compared(answer: bytes) -> range:
+def _compared(answer: bytes | bytearray) -> range:
     """The bytes of an answer that a client can compare with its request, the function code first."""
     function, whole = answer[0], range(len(answer))
     if function in WORD_READS or function in BIT_READS:
@@ -234,7 +224,6 @@ def _compared(answer: bytes) -> range:
     return whole[:3] if function in BLOCK_WRITES else whole[:0]  # 07 with the bit of an exception is one
 
 
-def _places(answer: bytes, *, compared: bool) -> Sequence[int]:
+def _places(answer: bytearray, *, compared: bool) -> Sequence[int]:
     """The bytes behind the function code that a client can compare with its request, or those that it cannot."""
-    sure = _compared(answer)
-    return [place for place in range(1, len(answer)) if (place in sure) is compared]
+    return [place for place in range(1, len(answer)) if (place in _compared(answer)) is compared]

@@ -1,8 +1,6 @@
-"""How a device talks on its line: the registers that govern it, and what follows when they are written."""
+"""The settings of a device on its line (unit id, first address), and the registers that govern them."""
 
-from fractions import Fraction
-
-from regscribe.model import Governs, Register, Setting
+from regscribe.model import Setting
 from regscribe.simulate.device.state import DeviceState
 from regscribe.simulate.errors import SimulatorError
 from regscribe_runtime.values.serial_line import ADDRESSINGS, first_address
@@ -17,8 +15,6 @@ class Tuning:
     holds after the answer.
     """
 
-    __slots__ = ("_governing", "_known", "_state", "first", "unit")
-
     def __init__(self, state: DeviceState, *, unit: int, addressing: str) -> None:
         self._state, self.unit = state, unit
         try:
@@ -27,40 +23,36 @@ class Tuning:
             raise SimulatorError(str(problem)) from None
         registers = state.blueprint.model.registers
         self._governing = tuple((each, each.governs) for each in registers if each.governs is not None)
-        self._known: dict[str, object] = {}
+        self._applied: dict[str, object] = {}
         self.keep()
 
     def keep(self) -> None:
-        """Talk on as now, whatever was put into the registers: they show it."""
+        """Keep the present settings whatever was put into the registers, and show them there."""
         addressing = next(name for name, first in ADDRESSINGS.items() if first == self.first)
         for register, governs in self._governing:
-            self._show(register, governs, addressing)
-        self._known.update((each.path, self._state.stored(each.path)) for each, _ in self._governing)
-
-    def _show(self, register: Register, governs: Governs, addressing: str) -> None:
-        if governs.setting is Setting.ADDRESS:
-            self._state.poke(register.path, self.unit)
-        elif governs.setting is Setting.ADDRESSING:
-            code = next((code for code, name in governs.codes if name == addressing), None)
+            code = None
+            if governs.setting is Setting.ADDRESS:
+                code = self.unit
+            elif governs.setting is Setting.ADDRESSING:
+                code = next((code for code, name in governs.codes if name == addressing), None)
             if code is not None:
                 self._state.poke(register.path, code)
+        self._applied.update((each.path, self._state.stored(each.path)) for each, _ in self._governing)
 
     def follow(self, *, restarted: bool = False) -> bool:
-        """Talk as the registers say after a request, or after power came back; whether its answer is lost by that."""
+        """Apply the registers after a request, or after power came back; whether its answer is lost by that."""
         lost = False
         for register, governs in self._governing:
             path, stored = register.path, self._state.stored(register.path)
             waits = path in self._state.pending or (governs.since == RESTART and not restarted)
-            if waits or stored == self._known[path]:
+            if waits or stored == self._applied[path]:
                 continue
-            self._known[path] = stored
-            self._set(governs, self._state.look_up(path))
+            self._applied[path] = stored
+            value = self._state.look_up(path)
+            if governs.setting is Setting.ADDRESS:
+                self.unit = int(value)
+            elif governs.setting is Setting.ADDRESSING:
+                name = next((name for code, name in governs.codes if code == value), "")
+                self.first = ADDRESSINGS.get(name, self.first)
             lost |= governs.since == AT_ONCE
         return lost
-
-    def _set(self, governs: Governs, value: Fraction) -> None:
-        if governs.setting is Setting.ADDRESS:
-            self.unit = int(value)
-        elif governs.setting is Setting.ADDRESSING:
-            name = next((name for code, name in governs.codes if code == value), "")
-            self.first = ADDRESSINGS.get(name, self.first)

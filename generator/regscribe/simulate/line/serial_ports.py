@@ -10,13 +10,11 @@ from regscribe.simulate.errors import SimulatorError
 from regscribe_runtime.values.serial_line import SerialLine
 
 LOCAL_FLAGS = 3
-"""Where they stand in what `termios.tcgetattr` gives."""
+"""Their index in the list of `termios.tcgetattr`."""
 
 
 class OpenLine:
     """An open serial line: `fd` to read and write raw bytes (not blocking), `path` for the other side to open."""
-
-    __slots__ = ("_held", "_port", "fd", "path")
 
     def __init__(self, path: str, fd: int, *, port: serial.Serial | None = None, held: int | None = None) -> None:
         self.path = path
@@ -25,7 +23,7 @@ class OpenLine:
         self._held = held
 
     def heard(self) -> None:
-        """Let the next client set the line up, too: to be called when the present one has sent something.
+        """Let the next client set the line up as well; to be called when the present one has sent something.
 
         A pseudo terminal has no parity. The kernel ignores the wish, and the C library of Linux calls that an error if
         no other flag changed, as for the second client with the same settings. So a flag is put back that every client

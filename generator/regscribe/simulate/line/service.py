@@ -1,6 +1,7 @@
 """The simulator's front door: choose a transport, and serve devices from asyncio."""
 
 import asyncio
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
@@ -14,7 +15,6 @@ from regscribe.simulate.line.response_delay import Pace, factor_of
 from regscribe.simulate.line.serial_ports import open_pseudo_terminal, open_serial
 from regscribe.simulate.line.server_context import Foreign, ServerContext
 from regscribe.simulate.line.servers import LineServer, Server, TcpServer
-from regscribe.simulate.process.clock import speed_of, tick
 from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.wire.framing import ASCII, RTU, TCP
 
@@ -22,6 +22,12 @@ LOOPBACK = "127.0.0.1"
 MOST_CONNECTIONS = 64
 SERIAL_GAP = 0.1
 """Seconds of silence that end a frame on a serial line: longer than 3.5 characters, for adapters deliver in chunks."""
+
+CLOCK_TICK = 0.25
+"""Real seconds between two advances of the devices."""
+
+MOST_BEHIND = 3600.0
+"""Simulated seconds that are caught up with at once; what is beyond is left out (the computer slept)."""
 
 
 class Transport(StrEnum):
@@ -51,7 +57,7 @@ class Service(ConnectionPolicy):
     take their time at the speed of the line, frames end by silence; with `strict_gaps`, a request that comes too soon
     after an answer is lost, too. Simulated time passes `speed` times as fast as real time for devices with a process
     (0: only by `advance`). `foreign` is what a unit that is not there gets (None: over MBAP a gateway's
-    exception, elsewhere silence). `arrival` and `delivery` stand between device and line (`Faults` has both),
+    exception, elsewhere silence). `arrival` and `delivery` stand between device and line (`LineFaults` has both),
     `recorder` is told of each request to a device here, `watcher` of each exchange. `connections`: how many clients at
     once. `patience` None: 1 s for half a frame and 10 minutes for an idle client on TCP, 0.1 s and for ever on a line.
     """
@@ -75,7 +81,7 @@ async def start(devices: Sequence[SimulatedDevice], service: Service) -> Server:
     Raises SimulatorError where the port is taken, the serial device cannot be opened, two devices share a unit, or the
     service asks for something impossible.
     """
-    transport, speed = Transport(service.transport), speed_of(service.speed)
+    transport, speed = Transport(service.transport), _checked_speed(service.speed)
     usual = Foreign.GATEWAY if transport is Transport.TCP else Foreign.SILENCE
     line, factor = service.line or line_of(devices), factor_of(service.latency)
     pace = Pace(devices, line, factor=factor) if factor else None
@@ -99,7 +105,7 @@ async def start(devices: Sequence[SimulatedDevice], service: Service) -> Server:
         await server.listen()
     moving = [device for device in devices if device.moves]
     if moving and speed:
-        server.clock = asyncio.get_running_loop().create_task(tick(moving, speed))
+        server.clock = asyncio.get_running_loop().create_task(_tick(moving, speed))
     return server
 
 
@@ -125,3 +131,24 @@ async def serve(
         await server.wait()
     finally:
         await server.stop()
+
+
+def _checked_speed(speed: float) -> float:
+    """The speed; SimulatorError if it is negative or not finite."""
+    if not 0 <= speed < math.inf:
+        message = f"speed {speed!r} is no factor of 0 or more (0: time stands still, 60: a minute a second)"
+        raise SimulatorError(message)
+    return speed
+
+
+async def _tick(devices: Sequence[SimulatedDevice], speed: float) -> None:
+    """Advance the devices with real time, or faster, until cancelled; the loop is free between two devices."""
+    loop = asyncio.get_running_loop()
+    before = loop.time()
+    while True:
+        await asyncio.sleep(CLOCK_TICK)
+        now = loop.time()
+        for device in devices:
+            device.advance(min((now - before) * speed, MOST_BEHIND))
+            await asyncio.sleep(0)
+        before = now

@@ -1,16 +1,16 @@
-"""How an output follows from a process value and a setpoint: PID, on/off, by hand."""
+"""Outputs and alarms of a controller: PID, on/off and manual outputs; trips with hysteresis, delay and latch."""
 
-from regscribe.model import Output, Pid
+from collections.abc import Callable
+
+from regscribe.model import Alarm, Output, Pid, TripKind
 from regscribe.simulate.process.controller_settings import ControllerSettings
 from regscribe.simulate.process.thermal_process import STEP
 
 FULL = 1.0
 
 
-class Loop:
+class ControlLoop:
     """One output of a controller: its share of full output from 0 to 1, and what PID remembers."""
-
-    __slots__ = ("_integral", "_last", "_settings", "output", "share")
 
     def __init__(self, output: Output, settings: ControllerSettings) -> None:
         self.output = output
@@ -21,25 +21,25 @@ class Loop:
 
     @property
     def cools(self) -> bool:
-        """Whether it takes heat away now."""
+        """Whether the output cools now."""
         return self._settings.holds(self.output.cools)
 
     def reset(self) -> None:
-        """Give nothing and forget what was, as when power comes."""
+        """Switch off and forget the past, as when power comes."""
         self.share, self._integral, self._last = 0.0, 0.0, None
 
     def by_hand(self) -> None:
-        """Give what the manual register says; PID begins there when it takes over."""
+        """Take the share of the manual register; PID begins there when it takes over."""
         self.share = self._part(self.output.manual or self.output.percent, self.share)
         self._integral = self.share
 
     def fail(self) -> None:
-        """The sensor is broken: give what is set for that."""
+        """Take the failsafe share: the sensor is broken."""
         self.share = self._part(self.output.failsafe, 0.0)
         self._last = None
 
     def control(self, value: float, setpoint: float) -> None:
-        """Give what the distance to the setpoint asks for."""
+        """Take the share that PID or on/off control computes."""
         sign = -1.0 if self.cools else 1.0
         error = sign * (setpoint - value)
         change = 0.0 if self._last is None else sign * (self._last - value) / STEP
@@ -49,7 +49,9 @@ class Loop:
         if pid is not None and band > 0:
             self.share = self._proportional(pid, band, error, change)
         elif on_off is not None and self._settings.holds(on_off.when):
-            self.share = self._switched(error, self._settings.number(on_off.hysteresis))
+            hysteresis = self._settings.number(on_off.hysteresis)
+            on = error > 0 if self.share else error >= max(hysteresis, 0.0) and error > 0
+            self.share = self._limited(FULL if on else 0.0)
         else:
             self.share = 0.0
 
@@ -67,10 +69,6 @@ class Loop:
             self._integral += step
         return possible
 
-    def _switched(self, error: float, hysteresis: float) -> float:
-        on = error > 0 if self.share else error >= max(hysteresis, 0.0) and error > 0
-        return self._limited(FULL if on else 0.0)
-
     def _limited(self, share: float) -> float:
         low = self._part(self.output.low, 0.0)
         high = self._part(self.output.high, FULL)
@@ -87,3 +85,45 @@ class Loop:
 
     def _part(self, path: str, otherwise: float) -> float:
         return self._settings.number(path) / float(self.output.full) if path else otherwise
+
+
+Distance = Callable[[float, float, float], float]
+"""How far a process value is beyond the trip (above 0: it trips), from value, setpoint and limit."""
+
+DISTANCES: dict[TripKind, Distance] = {
+    TripKind.HIGH: lambda value, _, limit: value - limit,
+    TripKind.LOW: lambda value, _, limit: limit - value,
+    TripKind.DEVIATION_HIGH: lambda value, setpoint, limit: value - (setpoint + limit),
+    TripKind.DEVIATION_LOW: lambda value, setpoint, limit: (setpoint - limit) - value,
+    TripKind.INSIDE: lambda value, setpoint, limit: limit - abs(value - setpoint),
+    TripKind.OUTSIDE: lambda value, setpoint, limit: abs(value - setpoint) - limit,
+}
+
+
+class AlarmWatch:
+    """One alarm of one device; `on` is what its bits show."""
+
+    def __init__(self, alarm: Alarm, settings: ControllerSettings) -> None:
+        self.alarm = alarm
+        self.on = False
+        self._settings = settings
+        self._pending: float | None = None
+
+    def reset(self) -> None:
+        """Switch off, latched or not, as when power comes; the delay of what still trips begins anew."""
+        self.on, self._pending = False, None
+
+    def look(self, value: float, setpoint: float, now: float) -> None:
+        """Judge the process value, `now` seconds after power came."""
+        trip = next((each for each in self.alarm.trips if self._settings.holds(each.when)), None)
+        if trip is None or not self._settings.holds(self.alarm.when):
+            self.reset()
+            return
+        beyond = DISTANCES[trip.kind](value, setpoint, self._settings.number(trip.limit))
+        if self.on:
+            self.on = self._settings.holds(self.alarm.latched) or beyond > -self._settings.number(self.alarm.hysteresis)
+        elif beyond <= 0 or now < self._settings.number(self.alarm.inhibit):
+            self._pending = None
+        else:
+            self._pending = now if self._pending is None else self._pending
+            self.on = now - self._pending >= self._settings.number(self.alarm.delay)

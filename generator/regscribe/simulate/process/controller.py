@@ -6,9 +6,8 @@ from regscribe.model import Process, Ramp
 from regscribe.simulate.device.device_plan import Stored
 from regscribe.simulate.device.state import DeviceState
 from regscribe.simulate.errors import SimulatorError
-from regscribe.simulate.process.alarms import Watch
-from regscribe.simulate.process.control_loop import Loop
-from regscribe.simulate.process.controller_settings import ControllerSettings, scale_of
+from regscribe.simulate.process.control_loop import AlarmWatch, ControlLoop
+from regscribe.simulate.process.controller_settings import ControllerSettings, dependencies
 from regscribe.simulate.process.thermal_process import STEP, Oven, ThermalProcess
 
 DIGITS = 6
@@ -16,16 +15,11 @@ DIGITS = 6
 
 
 class Controller:
-    """What a device does as time passes. With an oven, its outputs move the process value; without, it stays put.
+    """Process values, outputs, alarms and status bits as time passes; without an oven the process value stays put.
 
     A process value that someone else sets is taken over: a number as the oven's temperature, a fault of the sensor as
     one that lasts until a number is set.
     """
-
-    __slots__ = (
-        *("_extremes", "_loops", "_oven", "_process", "_put_before", "_rest", "_scale", "_settings"),
-        *("_shown", "_state", "_value", "_watches", "_working", "seconds"),
-    )
 
     def __init__(self, process: Process, state: DeviceState, oven: Oven | None) -> None:
         self.seconds = 0.0
@@ -33,18 +27,19 @@ class Controller:
         self._state = state
         self._settings = ControllerSettings(state)
         self._oven = oven
-        self._loops = [Loop(output, self._settings) for output in process.outputs]
-        self._watches = [Watch(alarm, self._settings) for alarm in process.alarms]
+        self._loops = [ControlLoop(output, self._settings) for output in process.outputs]
+        self._watches = [AlarmWatch(alarm, self._settings) for alarm in process.alarms]
         self._rest = 0.0
         self._working: float | None = None
-        self._scale = scale_of(state.find(process.value)[0])
+        register, _ = state.find(process.value)
+        self._scale = set(dependencies(register)) - {register.path}
         self._put_before: dict[str, Fraction] = {}
         self._extremes: dict[str, float] = {}
         self._value: tuple[Stored, float | None] = ("", None)
         self._shown = None if oven is None else self._show_temperature(oven)
 
     def reset(self) -> None:
-        """Power came: the controller forgets, the oven does not."""
+        """Forget everything but the oven, as when power comes."""
         self.seconds, self._rest, self._working = 0.0, 0.0, None
         for loop in self._loops:
             loop.reset()
@@ -52,13 +47,13 @@ class Controller:
             watch.reset()
 
     def release(self) -> None:
-        """Let go of latched alarms."""
+        """Reset latched alarms."""
         for watch in self._watches:
             watch.reset()
         self._show_bits()
 
     def convert(self, path: str, factor: float, offset: float) -> None:
-        """The device counts the process value in another unit from now on."""
+        """Convert what is remembered of a register to another unit: new = old x `factor` + `offset`."""
         if path == self._process.value and self._oven is not None:
             self._oven.convert(factor, offset)
             self._shown = self._state.stored(path)
@@ -93,18 +88,18 @@ class Controller:
         self._show_bits()
 
     def _measure(self) -> float | None:
-        """Let the oven go on; return the process value, None where the sensor is broken."""
+        """Step the oven; return the process value, None where the sensor is broken."""
         oven, before = self._oven, self._state.stored(self._process.value)
-        if oven is not None and before != self._shown and (value := self._meant(before)) is not None:
+        if oven is not None and before != self._shown and (value := self._decoded(before)) is not None:
             oven.level = value
         if oven is not None:
             oven.step(sum(-loop.share if loop.cools else loop.share for loop in self._loops))
-            if self._meant(before) is not None:
+            if self._decoded(before) is not None:
                 self._shown = self._show_temperature(oven)
-        return self._meant(self._state.stored(self._process.value))
+        return self._decoded(self._state.stored(self._process.value))
 
-    def _meant(self, stored: Stored) -> float | None:
-        """What a stored process value means; None for a fault of the sensor."""
+    def _decoded(self, stored: Stored) -> float | None:
+        """The number of a stored process value; None for a fault of the sensor."""
         if stored != self._value[0]:
             register = self._state.register(self._process.value)
             number = None
@@ -114,7 +109,7 @@ class Controller:
         return self._value[1]
 
     def _put(self, path: str, value: Fraction) -> None:
-        """Set a register (or a bit) unless it was set to the same before and nobody touched it."""
+        """Set a register or a bit unless it was set to the same before and nobody touched it."""
         if self._put_before.get(path) != value:
             self._put_before[path] = value
             self._state.put(path, value)
@@ -143,7 +138,7 @@ class Controller:
         path = ramp.rises if rising else ramp.falls
         return max(0.0, self._settings.number(path)) if self._settings.holds(ramp.when) else 0.0
 
-    def _run(self, loop: Loop, value: float | None, setpoint: float) -> None:
+    def _run(self, loop: ControlLoop, value: float | None, setpoint: float) -> None:
         process, output = self._process, loop.output
         if self._settings.holds(process.manual):
             loop.by_hand()
@@ -177,7 +172,7 @@ class Controller:
             for path in watch.alarm.active:
                 bits[path] = bits.get(path, False) or watch.on
         if self._process.fault:
-            bits[self._process.fault] = self._meant(self._state.stored(self._process.value)) is None
+            bits[self._process.fault] = self._decoded(self._state.stored(self._process.value)) is None
         for path, on in bits.items():
             self._put(path, Fraction(int(on)))
 

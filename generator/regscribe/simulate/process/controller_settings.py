@@ -1,4 +1,4 @@
-"""What a controller is set to: numbers and conditions that are looked up again only when one of them changed."""
+"""Settings of a controller: numbers and conditions that are looked up again only when one of them changed."""
 
 from collections.abc import Iterator
 
@@ -8,9 +8,7 @@ from regscribe.simulate.device.state import DeviceState
 
 
 class ControllerSettings:
-    """A memory of look-ups. Registers that the controller itself moves are in it, too: `refresh` sees that."""
-
-    __slots__ = ("_conditions", "_numbers", "_paths", "_state")
+    """Cache of numbers and conditions, also of registers that the controller itself moves."""
 
     def __init__(self, state: DeviceState) -> None:
         self._state = state
@@ -19,7 +17,7 @@ class ControllerSettings:
         self._paths: set[str] = set()
 
     def refresh(self) -> frozenset[str]:
-        """Forget all that may have changed since the last time; return the registers that were touched."""
+        """Forget what may have changed since the last call; return the registers that were touched."""
         touched = frozenset(self._state.touched)
         if not touched.isdisjoint(self._paths):
             self._numbers.clear()
@@ -33,7 +31,7 @@ class ControllerSettings:
             return 0.0
         if path not in self._numbers:
             register, _ = self._state.find(path)
-            self._paths.update(_needed(register))
+            self._paths.update(dependencies(register))
             self._numbers[path] = float(self._state.look_up(path))
         return self._numbers[path]
 
@@ -44,18 +42,13 @@ class ControllerSettings:
         key = id(condition)  # conditions live as long as their map
         if key not in self._conditions:
             for path in condition.registers:
-                self._paths.update(_needed(self._state.register(path)))
+                self._paths.update(dependencies(self._state.register(path)))
             self._conditions[key] = holds(condition, self._state)
         return self._conditions[key]
 
 
-def scale_of(register: Register) -> frozenset[str]:
-    """Return the registers on which the scale of one depends."""
-    return frozenset(_needed(register)) - {register.path}
-
-
-def _needed(register: Register) -> Iterator[str]:
-    """The registers on which the value of one depends."""
+def dependencies(register: Register) -> Iterator[str]:
+    """The registers on which the value of one depends, itself first."""
     yield register.path
     yield from registers_of(register.scale)
     yield from (case.then.decimals.register for case in register.scale if case.then.decimals)

@@ -2,7 +2,7 @@
 
 import math
 from collections import deque
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from random import Random
 
 from regscribe.simulate.errors import SimulatorError
@@ -16,7 +16,7 @@ MOST_STEPS = 100_000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ThermalProcess:
-    """What hangs on a simulated controller: an oven that loses heat to its surroundings.
+    """The process of a simulated controller: an oven that loses heat to its surroundings.
 
     With its outputs at `u` (all heating on: 1, all cooling on: -1) it goes to `ambient` + `gain` x u (times `cooling`
     where u is negative), as fast as `time_constant` says and `dead_time` later. `noise` is the standard deviation of
@@ -35,8 +35,7 @@ class ThermalProcess:
     start: float | None = None
 
     def __post_init__(self) -> None:
-        for name in ("ambient", "gain", "cooling", "time_constant", "dead_time", "noise", "resolution", "start"):
-            value = getattr(self, name)
+        for name, value in asdict(self).items():
             if value is None and name == "start":
                 continue
             if not isinstance(value, (int, float)) or not math.isfinite(value):
@@ -69,8 +68,6 @@ def _not_negative(name: str, value: float, why: str) -> None:
 
 class Oven:
     """A thermal process in motion: `step` with what the outputs give, `temperature` as the sensor sees it."""
-
-    __slots__ = ("_ambient", "_decay", "_gain", "_given", "_parameters", "_random", "level")
 
     def __init__(self, parameters: ThermalProcess, seed: int) -> None:
         self._parameters = parameters
