@@ -1,4 +1,4 @@
-"""Lines of logs to captured bytes: what in a line is a frame, and which way it went, whatever program wrote it."""
+"""Finds frames and their direction in lines of logs, whatever program wrote them."""
 
 import re
 from collections.abc import Iterable, Iterator
@@ -15,7 +15,7 @@ _PREFIXED = re.compile(r"(?:0x[0-9A-Fa-f]{1,2}[\s,]*)+")
 _PAIRS = re.compile(r"(?<![0-9A-Za-z:.])[0-9A-Fa-f]{2}(?:[ :,\-\t]+[0-9A-Fa-f]{2})+(?![0-9A-Za-z])")
 _SOLID = re.compile(r"(?<![0-9A-Za-z])(?:[0-9A-Fa-f]{2}){4,}(?![0-9A-Za-z])")
 _ASCII = re.compile(r":(?:[0-9A-Fa-f]{2}){3,}")
-_WAYS = (
+_DIRECTIONS = (
     (SENT, re.compile(r"\b(?:tx|sent|sending|send|request|query|out|write)\b|(?<![-=])[-=]+>|>>>?|→", re.IGNORECASE)),
     (RECEIVED, re.compile(r"\b(?:rx|received|receiving|recv|response|answer|reply|in)\b|<[-=]+|<<<?|←", re.IGNORECASE)),
 )
@@ -35,11 +35,12 @@ def captured(lines: Iterable[str], framing: str = "") -> Iterator[Captured]:
         text = line[:MOST].strip()
         candidates = [found for raw in _candidates(text) if (found := frames(raw, framing))]
         if candidates:
+            directions = [name for name, pattern in _DIRECTIONS if pattern.search(text)]
             best = min(
                 candidates,
                 key=lambda one: (any(frame.complaint for frame in one), -sum(len(frame.raw) for frame in one)),
             )
-            yield Captured(number, _direction(text), tuple(best))
+            yield Captured(number, directions[0] if len(directions) == 1 else "", tuple(best))
 
 
 def _candidates(text: str) -> Iterator[bytes]:
@@ -52,8 +53,3 @@ def _candidates(text: str) -> Iterator[bytes]:
     for pattern in (_PAIRS, _SOLID):
         for found in pattern.findall(text):
             yield bytes.fromhex(re.sub(r"[^0-9A-Fa-f]", "", found))
-
-
-def _direction(text: str) -> str:
-    found = [way for way, pattern in _WAYS if pattern.search(text)]
-    return found[0] if len(found) == 1 else ""

@@ -1,11 +1,11 @@
-"""What frames say in the names of a map: requests and their answers, registers with values, exceptions, commands."""
+"""Decodes frames into the names of a map: requests and answers, registers with values, exceptions, commands."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 from regscribe.tools.live.capture import RECEIVED, SENT
 from regscribe.tools.live.names import Driver, commands_of
-from regscribe.tools.live.reading import unit_of
+from regscribe.tools.live.reading import reason, unit_of
 from regscribe.tools.live.value_text import Plain, as_text, show
 from regscribe_runtime import Register, RegscribeError, View
 from regscribe_runtime.errors import STANDARD
@@ -28,7 +28,7 @@ from regscribe_runtime.wire.requests import (
 
 
 class DecodedItem(NamedTuple):
-    """A register in a frame: its words there and its value with unit, or the problem; without words it is asked for."""
+    """A register in a frame: its words and its value with unit, or the problem; no words in a request to read it."""
 
     name: str
     view: str
@@ -41,8 +41,8 @@ class DecodedItem(NamedTuple):
     @property
     def spelled(self) -> str:
         """For people: `setpoint = 150.5 °F`."""
-        told = f"{self.text} {self.unit}".rstrip() if not self.problem else f"({self.problem})"
-        return f"{self.name} = {told}" if self.text or self.problem else self.name
+        value = f"{self.text} {self.unit}".rstrip() if not self.problem else f"({self.problem})"
+        return f"{self.name} = {value}" if self.text or self.problem else self.name
 
 
 class Decoded(NamedTuple):
@@ -59,7 +59,7 @@ class Decoded(NamedTuple):
 
 
 class Decoder:
-    """Decodes the frames of one line in their order; what it saw of a unit decides scales and units there later on.
+    """Decodes the frames of one line in their order; values seen before decide the scales and units of later ones.
 
     `state` are values of use known beforehand, by register path, for all units; `first` is 1 for JBUS addresses.
     """
@@ -73,9 +73,9 @@ class Decoder:
         first: int = 0,
     ) -> None:
         self.driver, self.first = driver, first
-        self._givens, self._known = dict(givens or {}), dict(state or {})
+        self._givens, self._initial = dict(givens or {}), dict(state or {})
         self._states: dict[int, dict[str, Any]] = {}
-        self._asked: tuple[int, Request] | None = None
+        self._pending: tuple[int, Request] | None = None
         """A request that waits for its answer, with its unit."""
         self._index = _index(driver)
 
@@ -83,114 +83,116 @@ class Decoder:
         """Decode the next frame; `direction` is sent, received, or "" where only the frames themselves tell."""
         if not frame.pdu:
             return self._strange("request", frame, "no function code")
-        if direction != SENT and (answer := self._as_answer(frame, sure=direction == RECEIVED)):
-            return answer
-        asked = _asked(frame, self.first)
-        self._asked = (frame.unit, asked) if asked else None
-        return self._request(frame, asked)
-
-    def _as_answer(self, frame: CapturedFrame, *, sure: bool) -> Decoded | None:
-        """What a frame says if it is an answer; `sure` if it can be nothing else."""
-        unit, asked = self._asked or (frame.unit, None)
-        if asked and unit == frame.unit and _answers(frame, asked, sure=sure):
-            self._asked = None
-            return self._answer(frame, asked)
-        return self._unasked(frame) if sure or _is_answer(frame) else None
-
-    def _request(self, frame: CapturedFrame, asked: Request | None) -> Decoded:
-        if asked is None:
+        if direction != SENT:
+            unit, request = self._pending or (frame.unit, None)
+            if request and unit == frame.unit and _answers(frame, request, sure=direction == RECEIVED):
+                self._pending = None
+                return self._answer(frame, request)
+            if direction == RECEIVED or _is_answer(frame):
+                return self._answer(frame, None)
+        request = _request(frame, self.first)
+        if request is None:
+            self._pending = None
             return self._strange("request", frame, "of a form that is not known")
-        items = tuple(self._items(frame.unit, asked, asked.words if asked.function in WRITES else None))
-        return Decoded(
-            "request", frame.unit, frame.function, self._verb(asked), asked.address, items, 0, frame.complaint
-        )
+        self._pending = (frame.unit, request)
+        items = self._items(frame.unit, request, request.words if request.function in WRITES else None)
+        return _decoded("request", frame, self._action(request), request, items)
 
-    def _answer(self, frame: CapturedFrame, asked: Request) -> Decoded:
+    def _answer(self, frame: CapturedFrame, request: Request | None) -> Decoded:
         if frame.pdu[0] & EXCEPTION_BIT:
-            return self._exception(frame, asked)
-        if asked.function in WRITES:
-            self._learn(frame.unit, asked, asked.words)
-            return Decoded("response", frame.unit, asked.function, "written", asked.address, (), 0, frame.complaint)
-        words = decode_reply(asked, frame.pdu).words
-        if len(words) != asked.quantity:
-            return self._strange("response", frame, f"{len(words)} values where {asked.quantity} were asked for")
-        self._learn(frame.unit, asked, words)
-        items = tuple(self._items(frame.unit, asked, words))
-        return Decoded("response", frame.unit, asked.function, "", asked.address, items, 0, frame.complaint)
+            return self._exception(frame, request)
+        if request is None:
+            return self._strange("response", frame, "to a request that is not in the capture")
+        if request.function in WRITES:
+            self._learn(frame.unit, request, request.words)
+            return _decoded("response", frame, "written", request)
+        words = decode_reply(request, frame.pdu).words
+        if len(words) != request.quantity:
+            return self._strange("response", frame, f"{len(words)} values where {request.quantity} were asked for")
+        self._learn(frame.unit, request, words)
+        return _decoded("response", frame, "", request, self._items(frame.unit, request, words))
 
-    def _unasked(self, frame: CapturedFrame) -> Decoded:
-        if frame.pdu[0] & EXCEPTION_BIT:
-            return self._exception(frame, None)
-        return self._strange("response", frame, "to a request that is not in the capture")
-
-    def _exception(self, frame: CapturedFrame, asked: Request | None) -> Decoded:
+    def _exception(self, frame: CapturedFrame, request: Request | None) -> Decoded:
         code = frame.pdu[1] if len(frame.pdu) > 1 else 0
         _, name, meaning = self.driver.protocol.exception(code)
-        said = f"exception {code:02d} ({name or STANDARD.get(code, 'unknown')}{f': {meaning}' if meaning else ''})"
-        address = asked.address if asked else None
-        items = tuple(self._items(frame.unit, asked, None)) if asked else ()
-        return Decoded("response", frame.unit, frame.function, said, address, items, code, frame.complaint)
+        what = f"exception {code:02d} ({name or STANDARD.get(code, 'unknown')}{f': {meaning}' if meaning else ''})"
+        items = self._items(frame.unit, request, None) if request else ()
+        return _decoded("response", frame, what, request, items, code)
 
-    def _strange(self, kind: str, frame: CapturedFrame, said: str) -> Decoded:
-        function = frame.function if frame.pdu else 0
-        return Decoded(kind, frame.unit, function, f"function {function:02d}, {said}", None, (), 0, frame.complaint)
+    def _strange(self, kind: str, frame: CapturedFrame, what: str) -> Decoded:
+        return _decoded(kind, frame, f"function {frame.function if frame.pdu else 0:02d}, {what}")
 
-    def _verb(self, asked: Request) -> str:
-        if asked.function == LOOPBACK:
+    def _action(self, request: Request) -> str:
+        """What a request does, for people."""
+        if request.function == LOOPBACK:
             return "loopback"
-        if asked.function == READ_STATUS:
+        if request.function == READ_STATUS:
             return "read the exception status"
-        space, end = SPACES[asked.function], asked.address + asked.quantity - 1
-        where = f"{space} {asked.address}" + (f" to {end}" if end > asked.address else "")
-        step = CommandStep(asked.function, asked.address, asked.words)
-        acts = [name for name, command in commands_of(self.driver).items() if step in command.steps]
-        told = f" (command {' or '.join(acts)})" if acts else ""
-        return f"{'write' if asked.function in WRITES else 'read'} {where}{told}"
+        space, end = SPACES[request.function], request.address + request.quantity - 1
+        where = f"{space} {request.address}" + (f" to {end}" if end > request.address else "")
+        step = CommandStep(request.function, request.address, request.words)
+        commands = [name for name, command in commands_of(self.driver).items() if step in command.steps]
+        named = f" (command {' or '.join(commands)})" if commands else ""
+        return f"{'write' if request.function in WRITES else 'read'} {where}{named}"
 
     def _state(self, unit: int) -> dict[str, Any]:
-        return self._states.setdefault(unit, dict(self._known))
+        return self._states.setdefault(unit, dict(self._initial))
 
-    def _learn(self, unit: int, asked: Request, words: tuple[int, ...]) -> None:
-        """Keep what registers hold now; those first whose values others need."""
+    def _learn(self, unit: int, request: Request, words: tuple[int, ...]) -> None:
+        """Keep what registers hold now; twice, since the values of some decide those of others."""
         state = self._state(unit)
-        for register, view, part in list(self._found(asked, words)) * 2:
+        for register, view, part in list(self._registers(request, words)) * 2:
             try:
                 state[register.path] = codec.decode(register, view, part, state, self._givens, named=False)
             except (RegscribeError, KeyError, ValueError):
                 state.pop(register.path, None)
 
-    def _items(self, unit: int, asked: Request, words: tuple[int, ...] | None) -> Iterator[DecodedItem]:
-        for register, view, part in self._found(asked, words):
-            yield (
-                self._item(unit, register, view, part) if words is not None else DecodedItem(register.path, view.name)
-            )
+    def _items(self, unit: int, request: Request, words: tuple[int, ...] | None) -> Iterator[DecodedItem]:
+        for register, view, part in self._registers(request, words):
+            item = DecodedItem(register.path, view.name)
+            yield item if words is None else self._decode(item, unit, register, view, part)
 
-    def _item(self, unit: int, register: Register[Any], view: View, words: tuple[int, ...]) -> DecodedItem:
-        state = self._state(unit)
-        item = DecodedItem(register.path, view.name, words)
+    def _decode(
+        self, item: DecodedItem, unit: int, register: Register[Any], view: View, words: tuple[int, ...]
+    ) -> DecodedItem:
+        state, item = self._state(unit), item._replace(words=words)
+        digits = " ".join(f"{word:04X}" for word in words)
         if len(words) < view.words:
-            return item._replace(problem=f"{len(words)} of {view.words} words: {_hexadecimal(words)}")
+            return item._replace(problem=f"{len(words)} of {view.words} words: {digits}")
         try:
             value = register.decode(words, view=view.name, state=state, givens=self._givens)
         except KeyError as missing:
-            return item._replace(problem=f"{_hexadecimal(words)}; {missing.args[0]} decides what it means")
+            return item._replace(problem=f"{digits}; {missing.args[0]} decides what it means")
         except RegscribeError as error:
-            return item._replace(problem=f"{_hexadecimal(words)}; {str(error).removeprefix(f'{register.path}: ')}")
+            return item._replace(problem=f"{digits}; {reason(error, register.path)}")
         unit_name = unit_of(register, {**state, register.path: value}, self._givens)
         return item._replace(value=show(register, value), text=as_text(register, value), unit=unit_name)
 
-    def _found(
-        self, asked: Request, words: tuple[int, ...] | None
+    def _registers(
+        self, request: Request, words: tuple[int, ...] | None
     ) -> Iterator[tuple[Register[Any], View, tuple[int, ...]]]:
-        space = SPACES.get(asked.function, "")
-        for address in range(asked.address, asked.address + asked.quantity):
-            for register, view in self._index.get((space, address), ()):
-                at = address - asked.address
-                yield register, view, (words or ())[at : at + view.words]
+        """The registers that begin within a request, each with its part of the words."""
+        space = SPACES.get(request.function, "")
+        for offset in range(request.quantity):
+            for register, view in self._index.get((space, request.address + offset), ()):
+                yield register, view, (words or ())[offset : offset + view.words]
+
+
+def _decoded(
+    kind: str,
+    frame: CapturedFrame,
+    what: str,
+    request: Request | None = None,
+    items: Iterable[DecodedItem] = (),
+    exception: int = 0,
+) -> Decoded:
+    function = frame.function if frame.pdu else 0
+    address = request.address if request else None
+    return Decoded(kind, frame.unit, function, what, address, tuple(items), exception, frame.complaint)
 
 
 def _index(driver: Driver) -> dict[tuple[str, int], list[tuple[Register[Any], View]]]:
-    """Which registers begin at an address, in which view."""
+    """Registers with their views, by space and first address."""
     found: dict[tuple[str, int], list[tuple[Register[Any], View]]] = {}
     for register in driver.registers.values():
         for view in register.views:
@@ -210,22 +212,17 @@ def _is_answer(frame: CapturedFrame) -> bool:
     return function in (*BIT_READS, *WORD_READS) and len(data) != HEAD_SIZE and counted
 
 
-def _answers(frame: CapturedFrame, asked: Request, *, sure: bool) -> bool:
+def _answers(frame: CapturedFrame, request: Request, *, sure: bool) -> bool:
     """Whether a frame of the same unit is the answer to a request; `sure` if it is known to be an answer."""
-    if frame.function != asked.function:
+    if frame.function != request.function:
         return False
-    return sure or bool(frame.pdu[0] & EXCEPTION_BIT) or len(frame.pdu) == sizes(asked)[1]
+    return sure or bool(frame.pdu[0] & EXCEPTION_BIT) or len(frame.pdu) == sizes(request)[1]
 
 
-def _asked(frame: CapturedFrame, first: int) -> Request | None:
+def _request(frame: CapturedFrame, first: int) -> Request | None:
     """The request of a frame; None for one of another form."""
     try:
         request = decode_request(frame.pdu).shifted(-first)
     except MalformedError:
         return None
-    known = request.function in {*SPACES, LOOPBACK}
-    return request._replace(address=max(request.address, 0)) if known else None
-
-
-def _hexadecimal(words: tuple[int, ...]) -> str:
-    return " ".join(f"{word:04X}" for word in words)
+    return request._replace(address=max(request.address, 0)) if request.function in {*SPACES, LOOPBACK} else None

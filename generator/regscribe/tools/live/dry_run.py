@@ -14,14 +14,14 @@ class DryWrite(NamedTuple):
 
 
 def dry(device: BareDevice) -> "DryLink":
-    """Let a driver write nothing any more; the link tells what it would have written."""
+    """Keep a driver from writing; the link has what it would have written."""
     link = DryLink(device.link)
     device.link = cast("Link", link)
     return link
 
 
 class DryLink:
-    """Passes reads to a link and answers writes itself, as a device that takes everything."""
+    """Passes reads to a link and answers writes itself, as a device that accepts every value."""
 
     def __init__(self, link: Link) -> None:
         self._link = link
@@ -32,22 +32,20 @@ class DryLink:
         return getattr(self._link, name)
 
     def retune(self, change: object) -> None:
-        """Talk as before: what would have changed the line was not written."""
+        """Keep the line as it is: what would have changed it was not written."""
 
     def call(self, unit: int, request: Request) -> Reply:
-        """Answer a write with its echo; send anything else."""
+        """Answer a write with its echo; send a read, and lay what was written over its answer."""
         if request.function not in WRITES:
-            return self._overlaid(unit, request, self._link.call(unit, request))
+            reply = self._link.call(unit, request)
+            space = READ_SPACES.get(request.function)
+            if space is None or reply.exception is not None:
+                return reply
+            held = (self._held.get((unit, space, request.address + at), word) for at, word in enumerate(reply.words))
+            return reply._replace(words=tuple(held))
         self.written.append(DryWrite(unit, request))
         space = SPACES[request.function]
         for offset, word in enumerate(request.words):
             self._held[unit, space, request.address + offset] = word
         words = () if request.function in BLOCK_WRITES else request.words
         return Reply(request.function, words, request.address, len(request.words))
-
-    def _overlaid(self, unit: int, request: Request, reply: Reply) -> Reply:
-        space = READ_SPACES.get(request.function)
-        if space is None or reply.exception is not None:
-            return reply
-        held = (self._held.get((unit, space, request.address + at), word) for at, word in enumerate(reply.words))
-        return reply._replace(words=tuple(held))

@@ -1,4 +1,4 @@
-"""Givens as text: what a device's manual leaves to another, for the constructors of generated drivers."""
+"""Givens as text (what a device's manual leaves to another manual), for the constructors of generated drivers."""
 
 import inspect
 import re
@@ -37,35 +37,27 @@ def givens_of(driver: type[BareDevice]) -> tuple[GivenArgument, ...]:
 def understood(driver: type[BareDevice], texts: Mapping[str, str]) -> dict[str, bool | frozenset[int]]:
     """The givens as a driver takes them; TargetError for one that is missing, unknown or not understood."""
     known = {given.id: given for given in givens_of(driver)}
-    fault = _fault(texts, known)
-    if fault:
-        message = f"{driver.model}: {fault}"
-        raise TargetError(message)
+    for name in texts:
+        if name not in known:
+            fault = unknown("given", name, known) if known else f"it has no givens, so no `{name}`"
+            message = f"{driver.model}: {fault}"
+            raise TargetError(message)
+    for name, given in known.items():
+        if name not in texts:
+            form = f"?given.{name}={given.example} or --given {name}={given.example}"
+            message = f"{driver.model}: its manual leaves `{name}` to another manual, so it must be given: {form}"
+            raise TargetError(message)
     return {name: _value(known[name], text) for name, text in texts.items()}
-
-
-def _fault(texts: Mapping[str, str], known: Mapping[str, GivenArgument]) -> str:
-    """What is wrong with the names that are given; empty if nothing."""
-    strange = next((name for name in texts if name not in known), None)
-    if strange is not None:
-        return unknown("given", strange, known) if known else f"it has no givens, so no `{strange}`"
-    missing = next((given for given in known.values() if given.id not in texts), None)
-    if missing is None:
-        return ""
-    form = f"{missing.id}={missing.example}"
-    return f"its manual leaves `{missing.id}` to another manual, so it must be given: ?given.{form} or --given {form}"
 
 
 def _value(given: GivenArgument, text: str) -> bool | frozenset[int]:
     try:
-        return _codes(text) if given.codes else flag_of(given.id, text)
+        if not given.codes:
+            return flag_of(given.id, text)
+        return codes_in(filter(None, text.split(",")) if text != "none" else ())
     except ValueError as error:
         message = f"given {given.id}={text}: {error}"
         raise TargetError(message) from None
-
-
-def _codes(text: str) -> frozenset[int]:
-    return codes_in(filter(None, text.split(",")) if text != "none" else ())
 
 
 def flag_of(name: str, text: str) -> bool:

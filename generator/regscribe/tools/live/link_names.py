@@ -27,7 +27,7 @@ SERIAL_KEYS = ("baud", "data_bits", "parity", "stop_bits")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LinkName:
-    """How a device is reached: `host` and `port` over TCP, else the serial `device` with its line.
+    """Link to a device: `host` and `port` over TCP, else the serial `device` with its line.
 
     What is None (or "" for `parity`) is left to the driver: the manual's own line, the timeout of its latencies.
     `timeout` is in seconds.
@@ -51,7 +51,7 @@ class LinkName:
 
     @property
     def place(self) -> str:
-        """Where it leads, without any setting: what tells one line or gateway from another."""
+        """The line or gateway that it leads to, without any setting."""
         return self.device if self.serial else f"{self.host}:{self.port}"
 
     def settings(self) -> dict[str, Any]:
@@ -77,16 +77,22 @@ def is_link(text: str) -> bool:
 
 
 def split(text: str) -> tuple[LinkName, dict[str, str]]:
-    """The link of a text, and the keys behind its `?` that are none of a link; TargetError."""
+    """The link of a text, and the keys behind its `?` that do not belong to a link; TargetError."""
     scheme, _, rest = text.partition(":")
     if scheme not in SCHEMES:
         message = f"`{text[:100]}`: `{scheme}` is no kind of link{meant(scheme, SCHEMES)}"
         raise TargetError(message)
     place, _, query = rest.partition("?")
     given = _query(text, query)
-    start = _tcp(text, place) if scheme == "tcp" else _serial(text, place, scheme)
+    if scheme == "tcp":
+        link = _tcp(text, place)
+    elif place:
+        link = LinkName(device=place, framing=scheme)
+    else:
+        message = f"{text}: name the serial device, for example {scheme}:/dev/ttyUSB0"
+        raise TargetError(message)
     own = {key: value for key, value in given.items() if key in KEYS}
-    return with_settings(start, own), {key: value for key, value in given.items() if key not in KEYS}
+    return with_settings(link, own), {key: value for key, value in given.items() if key not in KEYS}
 
 
 def _query(text: str, query: str) -> dict[str, str]:
@@ -110,11 +116,8 @@ def parse(text: str) -> LinkName:
 
 def with_settings(link: LinkName, given: Mapping[str, str]) -> LinkName:
     """The link with settings as texts laid over it; TargetError for a value that is none."""
-    wrong = (
-        [key for key in sorted(given) if key in SERIAL_KEYS]
-        if not link.serial
-        else [key for key in given if key == "framing"]
-    )
+    misplaced = ("framing",) if link.serial else SERIAL_KEYS
+    wrong = [key for key in sorted(given) if key in misplaced]
     if wrong:
         why = "TCP has no serial line" if not link.serial else "the framing of a line is its first word, rtu or ascii"
         message = f"{link}: `{wrong[0]}` cannot stand here: {why}"
@@ -128,13 +131,6 @@ def _tcp(text: str, place: str) -> LinkName:
         message = f"{text}: write tcp:HOST or tcp:HOST:PORT with a port from 1 to 65535, for example tcp:10.0.0.7:502"
         raise TargetError(message)
     return LinkName(host=found[1] or found[2], port=int(found[3] or MODBUS_TCP_PORT))
-
-
-def _serial(text: str, place: str, framing: str) -> LinkName:
-    if not place:
-        message = f"{text}: name the serial device, for example {framing}:/dev/ttyUSB0"
-        raise TargetError(message)
-    return LinkName(device=place, framing=framing)
 
 
 def _setting(key: str, value: str) -> Any:  # noqa: ANN401 - each field has a type of its own

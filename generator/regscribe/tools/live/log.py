@@ -1,4 +1,4 @@
-"""Logs of what was watched, by the ending of the file: CSV, JSON lines, SQLite. What is in a log is whole.
+"""Logs of watched registers, by the ending of the file: CSV, JSON lines, SQLite. Each holds whole rounds only.
 
 A round is written at once; where that fails (a full disk) the file is cut back to the last whole round. A log that
 exists is continued if it is one of the same kind, and left alone otherwise.
@@ -8,16 +8,18 @@ import csv
 import io
 import os
 import sqlite3
-from abc import abstractmethod
+from abc import ABC, abstractmethod
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 from regscribe.tools.live.errors import TargetError, meant
 from regscribe.tools.live.watch import Round
 from regscribe.visible import cell, json_text
 
 COLUMNS = ("time", "device", "register", "value", "unit", "error")
+ENDINGS = (".csv", ".jsonl", ".ndjson", ".sqlite", ".sqlite3", ".db")
 TABLE = "readings"
 READ_AT_ONCE = 1 << 16
 
@@ -26,7 +28,7 @@ class LogError(Exception):
     """A round could not be written; the log holds every round before it."""
 
 
-class Log(Protocol):
+class Log(ABC):
     """Takes rounds until it is closed."""
 
     @abstractmethod
@@ -40,102 +42,83 @@ class Log(Protocol):
 
 def open_log(path: Path, device: str) -> Log:
     """A log at `path`, new or continued; TargetError for another ending, a file of another kind, or no access."""
-    makers: dict[str, Any] = {
-        ".csv": _Csv,
-        **dict.fromkeys((".jsonl", ".ndjson"), _JsonLines),
-        **dict.fromkeys((".sqlite", ".sqlite3", ".db"), _Sqlite),
-    }
     ending = path.suffix.lower()
-    if ending not in makers:
-        message = f"{path}: a log ends in .csv, .jsonl or .sqlite{meant(ending, makers) if ending else ''}"
+    if ending not in ENDINGS:
+        message = f"{path}: a log ends in .csv, .jsonl or .sqlite{meant(ending, ENDINGS) if ending else ''}"
         raise TargetError(message)
     try:
-        log: Log = makers[ending](path, device)
+        if ending == ".csv":
+            return _TextLog(path, device, _csv_lines, (",".join(COLUMNS) + "\n").encode())
+        if ending in {".jsonl", ".ndjson"}:
+            return _TextLog(path, device, _json_line)
+        return _SqliteLog(path, device)
     except (OSError, sqlite3.Error) as error:
-        message = f"{path} cannot be written: {_said(error)}"
+        message = f"{path} cannot be written: {_reason(error)}"
         raise TargetError(message) from None
-    return log
 
 
-class _Text:
-    """A log of lines: each round is one write, and the file is cut back to `whole` bytes if it fails."""
+class _TextLog(Log):
+    """A log of lines after a `head`: each round is one write, and the file is cut back to `whole` bytes if it fails."""
 
-    head = b""
-
-    def __init__(self, path: Path, device: str) -> None:
-        self.path, self.device = path, device
-        self.file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o666)
+    def __init__(self, path: Path, device: str, lines: Callable[[Round, str], bytes], head: bytes = b"") -> None:
+        self.path, self.device, self.lines, self.head = path, device, lines, head
+        self.file = io.FileIO(path, "a+")
         try:
             self.whole = self._begin()
         except BaseException:
-            os.close(self.file)
+            self.file.close()
             raise
 
     def write(self, one: Round) -> None:
-        """Add the lines of a round."""
-        self._append(self.lines(one), f"the round of {one.time.isoformat()}")
+        self._append(self.lines(one, self.device), f"the round of {one.time.isoformat()}")
 
     def close(self) -> None:
-        """Close the file."""
-        if self.file >= 0:
-            os.close(self.file)
-            self.file = -1
-
-    def lines(self, one: Round) -> bytes:
-        """A round as lines."""
-        raise NotImplementedError
+        self.file.close()
 
     def _begin(self) -> int:
-        size = os.fstat(self.file).st_size
-        if not size:
+        file = self.file.fileno()
+        end = os.fstat(file).st_size
+        if not end:
             self.whole = 0
             self._append(self.head, "the first line")
             return len(self.head)
-        start = os.pread(self.file, max(len(self.head), 1), 0)
+        start = os.pread(file, max(len(self.head), 1), 0)
         if start != (self.head or b"{"):
             message = f"{self.path} exists and is no log of this kind: name another file"
             raise TargetError(message)
-        whole = self._end_of_last_line(size)
-        os.ftruncate(self.file, whole)  # a line that ends in the middle was cut off when its writer was
-        return whole
-
-    def _end_of_last_line(self, size: int) -> int:
-        end = size
-        while end > 0:
-            start = max(end - READ_AT_ONCE, 0)
-            found = os.pread(self.file, end - start, start).rfind(b"\n")
-            if found >= 0:
-                return start + found + 1
-            end = start
-        return 0
+        found = -1
+        while found < 0 < end:  # a line that ends in the middle was cut off when its writer was
+            start_of_block = max(end - READ_AT_ONCE, 0)
+            found = os.pread(file, end - start_of_block, start_of_block).rfind(b"\n")
+            end = start_of_block
+        self.file.truncate(end + found + 1)
+        return end + found + 1
 
     def _append(self, data: bytes, what: str) -> None:
         left = memoryview(data)
         try:
             while left:
-                left = left[os.write(self.file, left) :]
+                left = left[self.file.write(left) :]
         except OSError as error:
             with suppress(OSError):
-                os.ftruncate(self.file, self.whole)
+                self.file.truncate(self.whole)
             raise _unwritten(self.path, what, error) from None
         self.whole += len(data)
 
 
-class _Csv(_Text):
-    head = (",".join(COLUMNS) + "\n").encode()
-
-    def lines(self, one: Round) -> bytes:
-        text = io.StringIO()
-        csv.writer(text, lineterminator="\n").writerows(map(_shown, row) for row in _rows(one, self.device))
-        return text.getvalue().encode()
-
-
-class _JsonLines(_Text):
-    def lines(self, one: Round) -> bytes:
-        return (json_text(plain(one, self.device)) + "\n").encode()
+def _csv_lines(one: Round, device: str) -> bytes:
+    text = io.StringIO()
+    rows = _rows(one, device)
+    cells = [[cell(value) if isinstance(value, str) else value for value in row] for row in rows]
+    csv.writer(text, lineterminator="\n").writerows(cells)
+    return text.getvalue().encode()
 
 
-class _Sqlite:
+def _json_line(one: Round, device: str) -> bytes:
+    return (json_text(plain(one, device)) + "\n").encode()
+
+
+class _SqliteLog(Log):
     def __init__(self, path: Path, device: str) -> None:
         self.path, self.device = path, device
         self.base = sqlite3.connect(path)
@@ -170,29 +153,20 @@ def plain(one: Round, device: str) -> dict[str, Any]:
 
 
 def _rows(one: Round, device: str) -> list[tuple[Any, ...]]:
+    """A round as rows of `COLUMNS`."""
     if one.error is not None:
         return [(one.moment, device, "", None, "", str(one.error))]
-    return [
-        (
-            one.moment,
-            device,
-            each.name,
-            each.text if isinstance(each.value, list) else each.value,
-            each.unit,
-            "" if each.error is None else str(each.error),
-        )
-        for each in one.readings
-    ]
-
-
-def _shown(value: Any) -> Any:  # noqa: ANN401 - as above
-    """A cell of a spreadsheet."""
-    return cell(value) if isinstance(value, str) else value
+    rows = []
+    for each in one.readings:
+        value = each.text if isinstance(each.value, list) else each.value
+        error = "" if each.error is None else str(each.error)
+        rows.append((one.moment, device, each.name, value, each.unit, error))
+    return rows
 
 
 def _unwritten(path: Path, what: str, error: Exception) -> LogError:
-    return LogError(f"{path}: {what} could not be written ({_said(error)}); the log is whole up to there")
+    return LogError(f"{path}: {what} could not be written ({_reason(error)}); the log is whole up to there")
 
 
-def _said(error: Exception) -> str:
+def _reason(error: Exception) -> str:
     return (getattr(error, "strerror", None) or str(error)).lower()

@@ -1,4 +1,4 @@
-"""Names of registers, groups, array elements and commands of a driver, and what was meant by one that is none."""
+"""Names of registers, groups, array elements and commands of a driver, with suggestions for unknown ones."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
@@ -43,7 +43,7 @@ def command_named(driver: Driver, name: str) -> Command:
 
 
 def chosen(driver: Driver, names: Iterable[str]) -> list[Register[Any]]:
-    """The readable registers that names mean: paths, groups, arrays and elements of arrays; each once, in this order.
+    """The readable registers of paths, groups, arrays and elements of arrays; each once, in this order.
 
     TargetError for a name that is none, and for a register that cannot be read.
     """
@@ -59,7 +59,7 @@ def readable(driver: Driver) -> list[Register[Any]]:
 
 
 def completions(driver: Driver) -> Iterator[tuple[str, str]]:
-    """Names that `chosen` takes, each with a hint: registers first, then groups, then arrays."""
+    """Names that `chosen` accepts, each with a hint: registers first, then groups, then arrays."""
     yield from ((path, register.section) for path, register in driver.registers.items())
     yield from ((name, group.name) for name, group in groups_of(driver).items())
     yield from ((name, "") for name in dict.fromkeys(path.split(".")[0] for path in driver.registers if "." in path))

@@ -1,4 +1,4 @@
-"""Several registers at once, as plain values with the unit that each stands in; one consistent reading."""
+"""Reads several registers in few requests, as plain values with the present unit of each."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
@@ -34,8 +34,16 @@ def readings(registers: Sequence[Register[Any]]) -> Task[tuple[RegisterReading, 
 
     def task(session: Session) -> Operation[tuple[RegisterReading, ...]]:
         snapshot = yield from with_units(registers)(session)
-        state = snapshot.valid
-        return tuple(_reading(register, snapshot, state, session.givens) for register in registers)
+        found = []
+        for register in registers:
+            path, unit = register.path, unit_of(register, snapshot.valid, session.givens)
+            try:
+                plain = show(register, snapshot[path])
+            except RegscribeError as error:
+                found.append(RegisterReading(path, None, "", unit, error))
+            else:
+                found.append(RegisterReading(path, plain, text_of(plain), unit if is_number(plain) else "", None))
+        return tuple(found)
 
     return task
 
@@ -88,15 +96,3 @@ def unit_of(register: Register[Any], state: Mapping[str, Any], givens: Mapping[s
 def reason(error: RegscribeError, name: str) -> str:
     """What an error says, without the name that stands beside it already."""
     return str(error).removeprefix(f"{name}: ")
-
-
-def _reading(
-    register: Register[Any], snapshot: Snapshot, state: Mapping[str, Any], givens: Mapping[str, Any]
-) -> RegisterReading:
-    path, unit = register.path, unit_of(register, state, givens)
-    try:
-        value = snapshot[path]
-    except RegscribeError as error:
-        return RegisterReading(path, None, "", unit, error)
-    plain = show(register, value)
-    return RegisterReading(path, plain, text_of(plain), unit if is_number(plain) else "", None)

@@ -1,7 +1,8 @@
-"""Which units answer on a line or behind a gateway: bounded, told as it goes, and only reads are sent."""
+"""Scans a line or a gateway for units that answer: bounded, reported as it goes, and only reads are sent."""
 
 import re
 from collections.abc import Iterator, Sequence
+from contextlib import closing
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -37,7 +38,7 @@ class FoundDevice(NamedTuple):
 
 
 class Probe(NamedTuple):
-    """One question: which unit is asked on which link, and whom it found; `noise` is what came and is no answer."""
+    """One request of a scan: its link and unit, and the device found; `noise` is what came and is no answer."""
 
     link: LinkName
     unit: int
@@ -64,20 +65,15 @@ def settings(link: LinkName, bauds: Sequence[int], formats: Sequence[str]) -> tu
     TargetError for a format that is none, and for speeds over TCP.
     """
     if link.serial:
-        shapes = formats or _shapes(link)
+        named = link.parity or link.data_bits or link.stop_bits
+        own = f"{link.data_bits or 8}{link.parity or 'N'}{link.stop_bits or 1}"
+        shapes = formats or ((own,) if named else USUAL_FORMATS)
         speeds = bauds or ((link.baud,) if link.baud else USUAL_BAUDS)
         return tuple(_with_format(replace(link, baud=baud), shape) for baud in speeds for shape in shapes)
     if bauds or formats:
         message = f"{link}: TCP has no speed and no character format"
         raise TargetError(message)
     return (link,)
-
-
-def _shapes(link: LinkName) -> tuple[str, ...]:
-    """The character format that a link's name says, else the usual ones."""
-    told = link.parity or link.data_bits or link.stop_bits
-    own = f"{link.data_bits or 8}{link.parity or 'N'}{link.stop_bits or 1}"
-    return (own,) if told else USUAL_FORMATS
 
 
 def seconds_for(link: LinkName) -> float:
@@ -88,7 +84,7 @@ def seconds_for(link: LinkName) -> float:
 
 
 def longest(links: Sequence[LinkName], asked: Sequence[int]) -> float:
-    """Seconds that a scan takes if nobody answers."""
+    """Seconds that a scan takes if no unit answers."""
     return sum(seconds_for(link) for link in links) * len(asked)
 
 
@@ -109,9 +105,8 @@ def scan(
     for name in links:
         any_found = False
         target = Target(link=replace(name, timeout=seconds_for(name)), packages=packages)
-        link = link_of(target)
-        link.open()
-        try:
+        with closing(link_of(target)) as link:
+            link.open()
             for unit in asked:
                 probe = _probe(link, name, unit, address)
                 if probe.found and names:
@@ -120,8 +115,6 @@ def scan(
                 yield probe
                 if probe.noise and not name.serial:
                     break  # whoever listens there does not speak Modbus, whatever unit is asked
-        finally:
-            link.close()
         if any_found and not every:
             return
 

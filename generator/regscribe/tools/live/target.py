@@ -1,6 +1,7 @@
-"""A target: one text that names a device, wherever a command takes one; read here, and made a driver."""
+"""A target: the text that names a device for every command; parsed here, and made a driver."""
 
 from collections.abc import Mapping, Sequence
+from contextlib import closing
 from dataclasses import dataclass, field, replace
 from types import ModuleType
 from typing import Any
@@ -29,7 +30,7 @@ IDENTIFY_SECONDS = 1.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Target:
-    """A device: the link to it, its unit, its model ("" as long as nobody asked it), its givens as texts.
+    """A device: the link to it, its unit, its model ("" until it was identified), its givens as texts.
 
     `name` is what the configuration calls it, `packages` are the user's packages of drivers.
     `trace` is told of every frame.
@@ -69,7 +70,9 @@ def parse(text: str, config: Config | None = None) -> Target:
         link, more = link_names.split(text)
         return _with(Target(link=link, packages=configured.packages), text, more)
     if text not in configured.devices:
-        raise TargetError(_nobody(text, configured))
+        where = f"in {configured.path}" if configured.path else "and no configuration names devices (regscribe.yaml)"
+        hint = "" if configured.devices else ": write tcp:HOST:PORT or rtu:/dev/ttyUSB0"
+        raise TargetError(unknown("device", text, configured.devices, where=where) + hint)
     entry = configured.devices[text]
     link, more = link_names.split(entry.link)
     link = link_names.with_settings(link, {"timeout": entry.timeout} if entry.timeout else {})
@@ -86,7 +89,7 @@ def named(text: str, config: str | None = None, packages: Sequence[str] = ()) ->
 def override(
     target: Target, *, unit: int | None = None, model: str = "", given: Mapping[str, str] | None = None
 ) -> Target:
-    """The target with what is given in place of what it had; TargetError for a unit id that is none."""
+    """The target with the given parts replaced; TargetError for a unit id that is none."""
     if unit is not None and not 0 <= unit <= LAST_UNIT:
         message = f"unit {unit}: a unit id is 0 to {LAST_UNIT}"
         raise TargetError(message)
@@ -128,17 +131,14 @@ def packages_of(target: Target) -> tuple[ModuleType, ...]:
 
 
 def identification(target: Target) -> Identification:
-    """Ask the device what it is; RegscribeError for the link, else what fits (perhaps nothing) with the evidence."""
-    link = link_of(target)
-    link.open()
-    try:
+    """Identify the device: the models that fit (perhaps none) with the evidence; RegscribeError for the link."""
+    with closing(link_of(target)) as link:
+        link.open()
         return identify(link, unit=target.unit, packages=packages_of(target))
-    finally:
-        link.close()
 
 
 def identified(target: Target) -> Target:
-    """The target with its model: as given, else as the device says; TargetError if it is unknown or ambiguous."""
+    """The target with its model, as given or as identified; TargetError if that is unknown or ambiguous."""
     if target.model:
         return target
     found = identification(target)
@@ -155,9 +155,9 @@ def identified(target: Target) -> Target:
 
 
 def check_identity(device: BareDevice, target: Target) -> None:
-    """Ask the open device whether it is what its driver is for; TargetError if it shows to be something else.
+    """Verify that the open device is the model of its driver; TargetError if it is another.
 
-    A model that its manual gives no identity passes.
+    A model passes if its manual gives it no identity.
     """
     known = target.known()
     if not known.driver.identity:
@@ -172,7 +172,7 @@ def check_identity(device: BareDevice, target: Target) -> None:
 
 
 def answered(found: Identification) -> None:
-    """Raise the link's own error if nothing at all was answered."""
+    """Raise the error of the link if nothing was answered."""
     silent = [one.error for one in found.evidence if isinstance(one.error, (NoAnswer, LinkLost))]
     if silent and len(silent) == len(found.evidence):
         raise silent[0]
@@ -189,12 +189,6 @@ def _with(target: Target, text: str, more: Mapping[str, str]) -> Target:
         raise TargetError(message)
     given = {key.removeprefix(GIVEN): value for key, value in more.items() if key.startswith(GIVEN)}
     return override(target, unit=int(unit), model=more.get("model", ""), given=given)
-
-
-def _nobody(text: str, config: Config) -> str:
-    where = f"in {config.path}" if config.path else "and no configuration names devices (regscribe.yaml)"
-    hint = "" if config.devices else ": write tcp:HOST:PORT or rtu:/dev/ttyUSB0"
-    return f"{unknown('device', text, config.devices, where=where)}{hint}"
 
 
 def given_texts(texts: Sequence[str]) -> dict[str, str]:

@@ -2,7 +2,7 @@
 
 import re
 import unicodedata
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from decimal import Decimal, InvalidOperation
 from enum import Enum
 from typing import Any
@@ -29,9 +29,11 @@ def show(register: Register[Any], value: Any) -> Plain:  # noqa: ANN401 - a valu
     if isinstance(value, (Choice, SpecialNumber)):
         return str(value.name)
     if isinstance(value, Flags):
-        return [*(member.name or "" for member in type(value) if member in value), *_unnamed(value)]
+        rest = unnamed_bits(value)
+        unnamed = [f"bit_{bit}" for bit in range(rest.bit_length()) if rest >> bit & 1]
+        return [*(member.name or "" for member in type(value) if member in value), *unnamed]
     if isinstance(value, Word):
-        return [f"{name}={_shown_part(part)}" for name, part in value] + _rest(value)
+        return _show_parts(value)
     if register.kind == "boolean":
         return bool(value)
     return value if isinstance(value, (int, float)) else str(value)
@@ -64,21 +66,19 @@ def parse(register: Register[Any], plain: Plain, *, unit: str = "", current_unit
     `unit` is what stands beside the value; a number's text may carry its own (`150.5 °F`). `current_unit` is the unit
     that the device works in now.
     """
-    name = register.kind
-    if name in {"number", "integer", "raw"}:
+    if register.kind in {"number", "integer", "raw"}:
         return _number(register, plain, unit, current_unit)
     _same_unit(register, unit, current_unit)
-    match name:
+    match register.kind:
         case "enum":
             return _member(register, _members_of(register), plain)
-        case "flags":
-            return _flags(register, plain)
-        case "fields":
-            return _word(register, plain)
+        case "flags" | "fields":
+            return _flags_or_fields(register, plain)
         case "boolean":
             return _boolean(register.path, plain)
-        case _:
-            return _text(register, plain)
+    if not isinstance(plain, str):
+        raise ValueRefused(register.path, f"{plain!r} is no text: put it in quotes")
+    return plain
 
 
 def choices(register: Register[Any]) -> tuple[str, ...]:
@@ -97,23 +97,13 @@ def _members_of(register: Register[Any]) -> Any:  # noqa: ANN401 - an enum, flag
     return type(register.value_type.make(0)) if register.kind == "fields" else register.value_type.make
 
 
-def _unnamed(value: Flags) -> list[str]:
-    rest = unnamed_bits(value)
-    return [f"bit_{bit}" for bit in range(rest.bit_length()) if rest >> bit & 1]
-
-
-def _rest(value: Word) -> list[str]:
-    rest = int(value)
-    for name in value.parts:
-        part = vars(type(value))[name]
+def _show_parts(word: Word) -> list[str]:
+    rest, shown = int(word), []
+    for name, value in word:
+        shown.append(f"{name}={value.name if isinstance(value, Choice) else text_of(value)}")
+        part = vars(type(word))[name]
         rest &= ~((1 << part.high + 1) - (1 << part.low))
-    return [f"rest=0x{rest:04X}"] if rest else []
-
-
-def _shown_part(part: Any) -> str:  # noqa: ANN401 - a bool, a number or a member
-    if isinstance(part, bool):
-        return str(part).lower()
-    return part.name if isinstance(part, Choice) else str(part)
+    return [*shown, f"rest=0x{rest:04X}"] if rest else shown
 
 
 def _number(register: Register[Any], plain: Plain, unit: str, current: str) -> Any:  # noqa: ANN401 - or a special value
@@ -190,11 +180,11 @@ def _member(register: Register[Any], members: type[Enum], plain: Plain) -> Any: 
     if found:
         which = " or ".join(f"{one.name} ({one.value} {one.label})" for one in found)
         raise ValueRefused(register.path, f"`{text[:60]}` may be {which}: write the name")
-    raise ValueRefused(register.path, f"`{text[:60]}` is no member of {members.__name__}{_named(known, text)}")
+    raise ValueRefused(register.path, f"`{text[:60]}` is no member of {members.__name__}{_suggestion(known, text)}")
 
 
 def _fitting(known: Sequence[Any], text: str) -> list[Any]:
-    """The members that have this name; else this label or code; else a label that begins with this word."""
+    """Members with this name; else with this label or code; else with a label that begins with this word."""
     wanted, code = text.casefold(), _whole(text)
     by_name = [one for one in known if one.name.casefold() == wanted]
     by_label_or_code = [one for one in known if one.label.casefold() == wanted or one.value == code]
@@ -202,7 +192,7 @@ def _fitting(known: Sequence[Any], text: str) -> list[Any]:
     return by_name or by_label_or_code or by_first_word
 
 
-def _named(known: Sequence[Any], text: str) -> str:
+def _suggestion(known: Sequence[Any], text: str) -> str:
     labels = {one.label: one.name for one in known if one.label}
     hint = meant(text, [*(one.name for one in known), *labels])
     for label, name in labels.items():
@@ -210,64 +200,54 @@ def _named(known: Sequence[Any], text: str) -> str:
     return hint if "did you mean" in hint else meant("", [one.name for one in known])
 
 
-def _flags(register: Register[Any], plain: Plain) -> Any:  # noqa: ANN401 - flags of the register
+def _flags_or_fields(register: Register[Any], plain: Plain) -> Any:  # noqa: ANN401 - flags or a word of the register
     members = _members_of(register)
     bits = _bits(register.path, plain)
     if bits is not None:
         return members(bits)
     value = members(0)
-    for name in _parts(plain):
-        value |= _flag(register.path, members, name)
+    for part in plain if isinstance(plain, list) else str(plain).split(","):
+        text = str(part).strip()
+        if not text or text.casefold() == "none":
+            continue
+        if register.kind == "flags":
+            value |= _flag(register.path, members, text)
+        else:
+            value = _with_part(register, value, text)
     return value
 
 
 def _flag(path: str, members: Any, name: str) -> Any:  # noqa: ANN401 - flags of the register
-    found = [one for one in members if name.casefold() in {one.name.casefold(), _label(one).casefold()}]
-    if found:
-        return found[0]
+    for member in members:
+        label = getattr(member, "label", "")
+        if name.casefold() in {member.name.casefold(), str(label).casefold()}:
+            return member
     bit = re.fullmatch(r"bit_([0-9]{1,2})", name)
     if bit:
         return members(1 << int(bit[1]))
     raise ValueRefused(path, f"`{name[:60]}` is no flag{meant(name, [one.name for one in members])}")
 
 
-def _label(member: Any) -> str:  # noqa: ANN401 - a member of flags, which need no label
-    return str(getattr(member, "label", ""))
+def _with_part(register: Register[Any], word: Any, text: str) -> Any:  # noqa: ANN401 - a word of the register
+    """The word with one part set by `part=value` or `rest=0x8000`."""
+    name, _, value = text.partition("=")
+    rest = _whole(value) if name == "rest" else None
+    if rest is not None:
+        return type(word)(int(word) | rest)
+    if name not in word.parts or not value:
+        hint = meant(name, word.parts) if name not in word.parts else ": write part=value"
+        raise ValueRefused(register.path, f"`{text[:60]}` is no part{hint}")
+    return word.replace(**{name: _part(register, vars(type(word))[name], value)})
 
 
-def _parts(plain: Plain) -> Iterable[str]:
-    given = plain if isinstance(plain, list) else str(plain).split(",")
-    names = [str(name).strip() for name in given]
-    return [name for name in names if name and name.casefold() != "none"]
-
-
-def _word(register: Register[Any], plain: Plain) -> Any:  # noqa: ANN401 - a word of the register
-    members = _members_of(register)
-    bits = _bits(register.path, plain)
-    if bits is not None:
-        return members(bits)
-    value = members(0)
-    for text in _parts(plain):
-        name, _, said = text.partition("=")
-        rest = _whole(said) if name == "rest" else None
-        if rest is not None:
-            value = members(int(value) | rest)
-            continue
-        if name not in members.parts or not said:
-            hint = meant(name, members.parts) if name not in members.parts else ": write part=value"
-            raise ValueRefused(register.path, f"`{text[:60]}` is no part{hint}")
-        value = value.replace(**{name: _part(register, vars(members)[name], said)})
-    return value
-
-
-def _part(register: Register[Any], part: Bit | Field[Any], said: str) -> int:
+def _part(register: Register[Any], part: Bit | Field[Any], text: str) -> int:
     if isinstance(part, Bit):
-        return int(_boolean(register.path, said))
+        return int(_boolean(register.path, text))
     if issubclass(part.kind, Choice):
-        return int(_member(register, part.kind, said))
-    number = _whole(said)
+        return int(_member(register, part.kind, text))
+    number = _whole(text)
     if number is None:
-        raise ValueRefused(register.path, f"`{said[:60]}` is no whole number")
+        raise ValueRefused(register.path, f"`{text[:60]}` is no whole number")
     if not 0 <= number < 1 << (part.high - part.low + 1):
         raise ValueRefused(register.path, f"{number} does not fit {part.high - part.low + 1} bits")
     return number
@@ -287,9 +267,3 @@ def _boolean(path: str, plain: object) -> bool:
     if text not in _TRUE | _FALSE:
         raise ValueRefused(path, f"`{text[:60]}` is neither true nor false")
     return text in _TRUE
-
-
-def _text(register: Register[Any], plain: Plain) -> str:
-    if not isinstance(plain, str):
-        raise ValueRefused(register.path, f"{plain!r} is no text: put it in quotes")
-    return plain

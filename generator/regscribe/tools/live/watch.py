@@ -1,7 +1,7 @@
-"""Reading the same registers again and again: round by round, what changed, never faster than the line can carry."""
+"""Reads the same registers again and again: rounds with what changed, never faster than the line can carry."""
 
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from datetime import UTC, datetime
 from typing import Any, NamedTuple
 
@@ -9,13 +9,13 @@ from regscribe.tools.live.reading import RegisterReading, readings
 from regscribe_runtime import BareDevice, LinkLost, NoAnswer, Register, RegscribeError, WrongAnswer
 
 IDLE_SHARE = 0.1
-"""Of the time that a round takes on the line, how much it is left to others before the next."""
+"""Share of a round's time on the line for which the line is left to others before the next round."""
 
 NEVER = 0
 
 
 class Round(NamedTuple):
-    """One reading of all: when it began, how long it took, what it read; `changed` since the last good round.
+    """One reading of all registers: when it began, how long it took, the values; `changed` since the last good round.
 
     `error` is why nothing was read this time; `late` says that the round took longer than was asked for.
     """
@@ -40,7 +40,7 @@ def rfc3339(time: datetime) -> str:
 
 
 class GaveUp(Exception):  # noqa: N818 - it is the end of watching
-    """So many rounds in a row failed that watching ends; `error` is the last one's."""
+    """Too many rounds in a row failed; `error` is the last one's."""
 
     def __init__(self, failed: int, error: RegscribeError) -> None:
         super().__init__(f"{failed} rounds in a row failed: {error}")
@@ -63,34 +63,24 @@ def watch(
     raised.
     """
     task = readings(registers)
-    last: dict[str, RegisterReading] = {}
+    last: dict[str, tuple[object, ...]] = {}
     failed = number = 0
     while not count or number < count:
         number += 1
         moment, started = datetime.now(UTC), time.monotonic()
-        found, error = _read(device, task)
+        found: tuple[RegisterReading, ...] = ()
+        error = None
+        try:
+            found = device.run(task)
+        except (NoAnswer, LinkLost, WrongAnswer) as problem:
+            error = problem
         seconds = time.monotonic() - started
-        changed = _changed(last, found)
-        last.update((one.name, one) for one in found)
+        now = {each.name: (each.value, each.unit, str(each.error)) for each in found}
+        changed = frozenset(name for name, reading in now.items() if last and last.get(name) != reading)
+        last.update(now)
         yield Round(number, moment, seconds, found, changed, error, late=seconds > every)
         failed = failed + 1 if error else 0
         if error and failed == give_up:
             raise GaveUp(failed, error)
         if number != count:
             sleep(max(started + every - time.monotonic(), seconds * IDLE_SHARE))
-
-
-def _read(device: BareDevice, task: Any) -> tuple[tuple[RegisterReading, ...], RegscribeError | None]:  # noqa: ANN401 - a task
-    try:
-        return device.run(task), None
-    except (NoAnswer, LinkLost, WrongAnswer) as error:
-        return (), error
-
-
-def _changed(last: Mapping[str, RegisterReading], found: Sequence[RegisterReading]) -> frozenset[str]:
-    """The registers that are not as they were; none in the first round."""
-    return frozenset(one.name for one in found if last and _said(last.get(one.name)) != _said(one))
-
-
-def _said(one: RegisterReading | None) -> object:
-    return one and (one.value, one.unit, str(one.error))
