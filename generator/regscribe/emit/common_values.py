@@ -1,4 +1,4 @@
-"""What several models have in common: each thing once, with the models that differ."""
+"""Merges what several models have: each thing once, with the models that differ."""
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ U = TypeVar("U")
 
 @dataclass(frozen=True, slots=True)
 class Stated(Generic[T]):
-    """A fact with the models of which it is true; no models: of all that are asked."""
+    """A fact with the names of the models that it is true of; none: of all models in question."""
 
     models: tuple[str, ...]
     value: T
@@ -20,29 +20,25 @@ class Stated(Generic[T]):
 
 @dataclass(frozen=True, slots=True)
 class Merged(Generic[T]):
-    """One thing of a family: its key and what each model that has it makes of it, in the order of the models."""
+    """One thing of a family: its key and its version in each model that has it, in the order of the models."""
 
     key: str
     versions: tuple[tuple[Model, T], ...]
 
     @property
     def first(self) -> T:
-        """Return what the first model that has it makes of it."""
+        """The version of the first model that has it."""
         return self.versions[0][1]
 
     @property
     def models(self) -> tuple[str, ...]:
-        """Return the names of the models that have it."""
+        """The names of the models that have it."""
         return tuple(model.name for model, _ in self.versions)
 
     def states(self, fact: Callable[[Model, T], U]) -> tuple[Stated[U], ...]:
         """Return the fact once for all models that agree; no model names where all do."""
-        if len(self.versions) == 1:
-            return (Stated((), fact(*self.versions[0])),)
         found = models_by((model.name, fact(model, version)) for model, version in self.versions)
-        if len(found) == 1:
-            return (Stated((), next(iter(found))),)
-        return tuple(Stated(tuple(names), value) for value, names in found.items())
+        return tuple(Stated(tuple(names) if len(found) > 1 else (), value) for value, names in found.items())
 
 
 def models_by(pairs: Iterable[tuple[str, T]]) -> dict[T, list[str]]:
@@ -56,34 +52,26 @@ def models_by(pairs: Iterable[tuple[str, T]]) -> dict[T, list[str]]:
 def merge(models: Sequence[Model], parts: Callable[[Model], Iterable[T]], key: Callable[[T], str]) -> list[Merged[T]]:
     """Merge the parts of all models by key, in the order of the first model; others stand after their predecessor."""
     versions: dict[str, list[tuple[Model, T]]] = {}
-    order: list[str] = []
+    orders: list[list[str]] = []
     for model in models:
-        order = _insert(order, _collect(model, parts(model), key, versions))
-    return [Merged(name, tuple(versions[name])) for name in order]
+        keyed = [(key(part), part) for part in parts(model)]
+        orders.append([name for name, _ in keyed])
+        for name, part in keyed:
+            versions.setdefault(name, []).append((model, part))
+    return [Merged(name, tuple(versions[name])) for name in merged_order(orders)]
 
 
-def _collect(
-    model: Model, parts: Iterable[T], key: Callable[[T], str], versions: dict[str, list[tuple[Model, T]]]
-) -> list[str]:
-    names: list[str] = []
-    for part in parts:
-        name = key(part)
-        versions.setdefault(name, []).append((model, part))
-        names.append(name)
-    return names
-
-
-def _insert(order: list[str], names: list[str]) -> list[str]:
-    """Add the names that are new, each after the name before it."""
-    known = set(order)
-    after: dict[str, list[str]] = {}
-    place = ""
-    for name in names:
-        if name in known:
-            place = name
-        else:
-            after.setdefault(place, []).append(name)
-    merged = list(after.get("", ()))
-    for name in order:
-        merged += [name, *after.get(name, ())]
+def merged_order(orders: Iterable[Iterable[str]]) -> list[str]:
+    """Return the names of several orders in one, each new name after the one that it follows in its own order."""
+    merged: list[str] = []
+    for order in orders:
+        known = set(merged)
+        following: dict[str, dict[str, None]] = {}
+        place = ""
+        for name in order:
+            if name in known:
+                place = name
+            else:
+                following.setdefault(place, {})[name] = None
+        merged = [*following.get("", ()), *(new for name in merged for new in (name, *following.get(name, ())))]
     return merged

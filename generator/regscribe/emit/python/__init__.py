@@ -6,6 +6,7 @@ The text is laid out as `ruff format` would lay it out (line length 120), so not
 import re
 from collections.abc import Iterable, Sequence
 from functools import cache
+from itertools import groupby
 
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 
@@ -27,11 +28,6 @@ STANDARD = {"collections.abc": ["Collection"], "fractions": ["Fraction"], "typin
 NOT_CODE = re.compile(r'"""[\s\S]*?"""|"(?:[^"\\\n]|\\.)*"|\'(?:[^\'\\\n]|\\.)*\'|#[^\n]*')
 
 
-def path_of(register_map: RegisterMap) -> str:
-    """Where the driver of a map stands in the output tree."""
-    return module_path(register_map.id)
-
-
 def render(register_map: RegisterMap) -> dict[str, str]:
     """The driver module of a map and the modules of its libraries, as {path: text}.
 
@@ -45,7 +41,7 @@ def render(register_map: RegisterMap) -> dict[str, str]:
     }
     named = NamedClasses(register_map, offered(used))
     named.collect_all()
-    return {**modules, path_of(register_map): _driver(register_map, named)}
+    return {**modules, module_path(register_map.id): _driver(register_map, named)}
 
 
 def _library(library: Library, named: NamedClasses) -> str:
@@ -91,6 +87,7 @@ def _module(
 ) -> str:
     own = [match[1] for line in named.lines() if (match := re.match(r"class (\w+)\(", line))]
     used = set(re.findall(r"\w+", NOT_CODE.sub("", body)))
+    aliases = {f"_{name}" for name in hidden_names}
     standard = [line for module, names in STANDARD.items() for line in _import(module, [n for n in names if n in used])]
     head = [
         *docstring(about, 0),
@@ -100,28 +97,22 @@ def _module(
         *standard,
         *([""] if standard else []),
         *_library_imports(named.imports.values()),
-        *_runtime_imports(used, hidden_names),
+        *_import("regscribe_runtime", [name for name in RUNTIME if name in used - hidden_names]),
+        *(f"from regscribe_runtime import {name} as _{name}" for name in RUNTIME if f"_{name}" in used & aliases),
         "",
-        *_all(sorted({*own, *named.imported, *classes}, key=natural)),
+        "__all__ = [",
+        *(f"    {literal(name)}," for name in sorted({*own, *named.imported, *classes}, key=_natural)),
+        "]",
         *([] if body.startswith("\n") else [""]),
     ]
     return "\n".join(head) + "\n" + body
 
 
-def _runtime_imports(used: set[str], hidden_names: frozenset[str]) -> list[str]:
-    names = [name for name in RUNTIME if name in used and name not in hidden_names]
-    aliases = [name for name in RUNTIME if f"_{name}" in used and name in hidden_names]
-    return [
-        *_import("regscribe_runtime", names),
-        *(f"from regscribe_runtime import {name} as _{name}" for name in aliases),
-    ]
-
-
 def _library_imports(origins: Iterable[Origin]) -> list[str]:
-    """Imports of the named values that the modules of libraries have."""
-    imports, lines = set(origins), list[str]()
-    for module in sorted({origin.module for origin in imports}):
-        lines += _import(module, sorted((one.name for one in imports if one.module == module), key=_import_order))
+    """Imports of named values from the modules of libraries."""
+    lines: list[str] = []
+    for module, found in groupby(sorted(set(origins)), lambda origin: origin.module):
+        lines += _import(module, sorted((origin.name for origin in found), key=_import_order))
     return lines
 
 
@@ -135,18 +126,14 @@ def _import(module: str, names: Sequence[str]) -> list[str]:
 def _import_order(name: str) -> tuple[object, ...]:
     # the order that ruff asks of imported names: constants, classes, the rest, each without regard to case
     kind = 0 if name.isupper() and len(name) > 1 else 1 if name[:1].isupper() else 2
-    return kind, natural(name.lower())[1], natural(name)[1]
+    return kind, _natural(name.lower())[1], _natural(name)[1]
 
 
-def natural(name: str) -> tuple[bool, list[tuple[str, int]]]:
+def _natural(name: str) -> tuple[bool, list[tuple[str, int]]]:
     """The order that ruff asks of `__all__`: names in capitals first, and numbers inside names count as numbers."""
     parts = re.findall(r"\d+|\D", name)
     capitals = name.isupper() and len(name) > 1
     return not capitals, [("", int(part)) if part.isdecimal() else (part, 0) for part in parts]
-
-
-def _all(names: list[str]) -> list[str]:
-    return ["__all__ = [", *(f"    {literal(name)}," for name in names), "]"]
 
 
 @cache

@@ -3,19 +3,19 @@
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+from regscribe.emit.common_values import models_by
 from regscribe.emit.header import HASH_DIGITS
 from regscribe.emit.python.class_sharing import Shared, partition, suffix
 from regscribe.emit.python.constants import Pool
 from regscribe.emit.python.enum_classes import NamedClasses
 from regscribe.emit.python.expressions import Specs
 from regscribe.emit.python.formatting import INDENT, call, group, lay
-from regscribe.emit.python.group_facts import with_group_facts
-from regscribe.emit.python.groups import groups_body, groups_of
+from regscribe.emit.python.groups import groups_body, with_group_facts
 from regscribe.emit.python.literals import camel, docstring, literal, member
 from regscribe.emit.python.register_lines import Declarations, command_call, command_text, declaration_lines
 from regscribe.emit.python.reserved_names import free
 from regscribe.emit.words import one_line
-from regscribe.model import Array, Command, Model, Register, RegisterMap
+from regscribe.model import Array, Model, Register, RegisterMap
 
 Members = Mapping[str, Sequence[Register | Array]]
 
@@ -42,7 +42,9 @@ class Classes:
         for one in shared:
             self.homes = {item.id: one.name for item in one.items} | self.homes
         commands = self._commands()
-        self._groups()
+        about = "Groups in the order of the manual; a model has what it has of them."
+        self._class(f"{self.stem}Groups", [], about, groups_body(self.register_map, self.homes))
+        self.public.append(f"{self.stem}Groups")
         for model in models:
             parents = [one.name for one in shared if model.name in one.models]
             self._model(model, parents, commands.get(model.name))
@@ -118,37 +120,23 @@ class Classes:
         }
         shared = partition(owned, self._namer(f"{self.stem}Commands", owned))
         for one in shared:
-            body = [line for command in one.items for line in self._command_lines(command)]
+            body: list[str] = []
+            for command in one.items:
+                body += lay(command_call(command, self.pool), head=f"{command.id} = ", depth=1)
+                body += docstring(command_text(command), 1)
             self._class(one.name, [], f"Commands of {', '.join(one.models)}.", body)
         return self._command_classes({name: tuple(one.name for one in shared if name in one.models) for name in owned})
 
-    def _command_lines(self, command: Command) -> list[str]:
-        declaration = lay(command_call(command, self.pool), head=f"{command.id} = ", depth=1)
-        return [*declaration, *docstring(command_text(command), 1)]
-
     def _command_classes(self, parents: Mapping[str, tuple[str, ...]]) -> dict[str, str]:
         """Emit a class for each set of parents; its name by model."""
-        usual = max(parents.values(), key=list(parents.values()).count, default=())
+        models = models_by(parents.items())
+        usual = max(models, key=lambda own: len(models[own]), default=())
         names = {}
-        for own in dict.fromkeys(parents.values()):
-            same = [model for model, found in parents.items() if found == own]
-            names[own] = self._command_class(own, "" if own == usual else suffix(same))
+        for own, alike in models.items():
+            names[own] = self._free(f"{self.stem}Commands{'' if own == usual else suffix(alike)}")
+            self._class(names[own], [*own, "Part"], "The commands of a synchronous driver.", [])
+            self._class(f"Async{names[own]}", [*own, "AsyncPart"], "The commands of an asyncio driver.", [])
         return {model: names[own] for model, own in parents.items()}
-
-    def _command_class(self, parents: Sequence[str], ending: str) -> str:
-        name = self._free(f"{self.stem}Commands{ending}")
-        self._class(name, [*parents, "Part"], "The commands of a synchronous driver.", [])
-        self._class(f"Async{name}", [*parents, "AsyncPart"], "The commands of an asyncio driver.", [])
-        return name
-
-    @property
-    def _groups_class(self) -> str:
-        return f"{self.stem}Groups"
-
-    def _groups(self) -> None:
-        about = "Groups in the order of the manual; a model has what it has of them."
-        self._class(self._groups_class, [], about, groups_body(groups_of(self.register_map), self.homes))
-        self.public.append(self._groups_class)
 
     def _model(self, model: Model, parents: Sequence[str], commands: str | None) -> None:
         about = [f"{one_line(self.register_map.maker)} {one_line(model.name)}", one_line(model.description)]
@@ -162,7 +150,7 @@ class Classes:
                 f"{INDENT}protocol = _PROTOCOL",
                 *([f"{INDENT}_unused = {self._unused(model)}"] if model.unused else []),
                 *self._identity(model),
-                f"{INDENT}groups = {self._groups_class}",
+                f"{INDENT}groups = {self.stem}Groups",
                 *([f"{INDENT}commands = SubPart({commands}, Async{commands})"] if commands else []),
                 *([f"{INDENT}setpoint_programs = {self._programs(model)}"] if model.programs else []),
             ]

@@ -36,7 +36,8 @@ class Pool:
             self.names[text] = self._free(names)
             self.taken.add(self.names[text])
             self.lines += [f"# {comment}"] if comment and len(comment) + 2 <= WIDTH else []
-            self.lines += _definition(self.names[text] + (f": {type_name}" if type_name else ""), expression)
+            head = f"{self.names[text]}: {type_name} = " if type_name else f"{self.names[text]} = "
+            self.lines += _definition(head, expression)
         return self.names[text]
 
     def maybe(self, expression: Expression, *names: str) -> Expression:
@@ -44,32 +45,27 @@ class Pool:
         return expression if len(flat(expression)) <= SHORT else self.share(expression, *names)
 
     def _free(self, names: Sequence[str]) -> str:
-        wanted = [_constant(name) for name in names]
+        wanted = ["_" + re.sub(r"\W+", "_", name, flags=re.ASCII).strip("_").upper() for name in names]
         numbered = (f"{wanted[-1]}_{count}" for count in range(2, len(self.taken) + 3))
         return next(free for free in (*wanted, *numbered) if free not in self.taken)
 
 
-def _definition(target: str, expression: Expression) -> list[str]:
-    """The lines of an assignment; a text that does not fit behind its name stands in brackets."""
-    lines = lay(expression, head=f"{target} = ")
+def _definition(head: str, expression: Expression) -> list[str]:
+    """The lines of an assignment; a text that does not fit after `head` stands in brackets."""
+    lines = lay(expression, head=head)
     too_long = len(lines) == 1 and width(lines[0]) > WIDTH
     if too_long and len(INDENT) + width(flat(expression)) <= WIDTH:
-        return [f"{target} = (", f"{INDENT}{flat(expression)}", ")"]
+        return [f"{head}(", f"{INDENT}{flat(expression)}", ")"]
     return lines
 
 
 def names_of(register: Register, use: str, model: Model) -> tuple[str, ...]:
-    """What to call a constant for a `use` in a register of a model, the shortest name first.
+    """Names for a constant that a register of a model uses as `use`, the shortest first.
 
-    A rule of the map that says it lends its name; else it is called after the register and the use.
+    They begin with the name of the map's rule that states it, else with that of the register.
     """
     rule = dict(register.rules).get(use, "") or (register.unit_id if use == "unit" else "")
     if rule:
         return rule, f"{rule}_{use}", f"{rule}_{use}_{model.name}"
     path = re.sub(r"\[.*?\]", "", register.path)
     return f"{register.id}_{use}", f"{path}_{use}", f"{path}_{use}_{model.name}"
-
-
-def _constant(name: str) -> str:
-    """The name of a constant, of characters that a name may have."""
-    return "_" + re.sub(r"\W+", "_", name, flags=re.ASCII).strip("_").upper()

@@ -45,35 +45,34 @@ class NamedClasses:
         """Note all classes that the map needs."""
         found = [(one, model.name) for model in self.register_map.models for one in _registers(model.members)]
         for register, model in found:
-            self.collect(register, model)
-        for register, model in found:
-            self.collect_words(register, model)
+            self._collect(register, model)
+        for register, model in found:  # their enums were collected for all models before
+            if register.kind is Kind.FIELDS:
+                self._want(register.id, word_content(register), model, self._word_body(register))
 
     def declare(self, enum: Enum, owner: str) -> None:
-        """Note an enum that stands for itself."""
-        self._know(enum_content(enum), enum_key(enum))
-        about = f"{enum.id.replace('_', ' ').capitalize()}."
-        self._want(enum.id, enum_content(enum), owner, _enum_body(enum, about))
+        """Note an enum of a library, which no register needs to have; without members it is no class."""
+        if enum.members:
+            self._enum(enum, owner, f"{enum.id.replace('_', ' ').capitalize()}.")
 
-    def collect(self, register: Register, model: str) -> None:
-        """Note the classes that a register of a model needs."""
+    def _enum(self, enum: Enum, model: str, about: str) -> None:
+        content = enum_content(enum)
+        self._know(content, enum_key(enum))
+        self._want(enum.id, content, model, _enum_body(enum, about))
+
+    def _collect(self, register: Register, model: str) -> None:
+        """Note the classes that a register of a model needs, but for that of a word of bit fields."""
         for enum in (register.enum, *(part.enum for part in register.fields)):
             if enum:
-                content = enum_content(enum)
-                self._know(content, enum_key(enum))
-                self._want(enum.id, content, model, _enum_body(enum, _about(register)))
+                self._enum(enum, model, _about(register))
         if register.kind in {Kind.FLAGS, Kind.FIELDS}:
-            self._know(word_content(register), self._word_key(register))
+            self._know(word_content(register), word_key(register))
         if register.kind is Kind.FLAGS:
             self._want(register.id, word_content(register), model, _flags_body(register))
         if specials(register):
-            self._know(special_content(register), str(special_content(register)))
-            self._want(f"{register.id}_special", special_content(register), model, _special_body(register))
-
-    def collect_words(self, register: Register, model: str) -> None:
-        """Note the class of a word of bit fields; its enums must have been collected for all models before."""
-        if register.kind is Kind.FIELDS:
-            self._want(register.id, word_content(register), model, self._word_body(register))
+            content = special_content(register)
+            self._know(content, str(content))
+            self._want(f"{register.id}_special", content, model, _special_body(register))
 
     def _know(self, content: Content, key: str) -> None:
         if content in self.keys:
@@ -125,13 +124,6 @@ class NamedClasses:
                 found += ["", "", f"class {self.name(name, content)}({opening}):", *body]
         return found
 
-    def _word_key(self, register: Register) -> str:
-        parts = [
-            (part.id, part.label, part.low, part.high, one_line(part.description), part.enum and enum_key(part.enum))
-            for part in register.fields
-        ]
-        return f"{register.kind} {register.id} {parts}"
-
     def _word_body(self, register: Register) -> list[str]:
         lines = ["Word", *docstring(_about(register), 1), ""]
         for part in register.fields:
@@ -165,10 +157,19 @@ def enum_key(enum: Enum) -> str:
 
 def word_content(register: Register) -> Content:
     """What makes two words the same class."""
-    parts = [
+    parts = tuple(
         (part.id, part.label, part.low, part.high, part.enum and enum_content(part.enum)) for part in register.fields
+    )
+    return ("word", register.id, parts)
+
+
+def word_key(register: Register) -> str:
+    """What makes two words the same class in whichever module: their contents and what is said of each part."""
+    parts = [
+        (part.id, part.label, part.low, part.high, one_line(part.description), part.enum and enum_key(part.enum))
+        for part in register.fields
     ]
-    return ("word", register.id, tuple(parts))
+    return f"{register.kind} {register.id} {parts}"
 
 
 def specials(register: Register) -> list[tuple[Fraction, str, str]]:

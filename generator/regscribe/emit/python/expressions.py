@@ -74,18 +74,19 @@ class Specs:
                 return call(self.pool.helper("within"), self.of(interval.low), self.of(interval.high))
         return call(self.pool.helper("always"), self.of(then))
 
-    def scale(self, register: Register) -> Expression | None:
-        """The cases of a scale; None for the identity."""
-        return self._scale(register, "scale", "value of the stored x")
-
-    def special_scale(self, register: Register) -> Expression | None:
-        """The cases of the decimals of special values; None for the identity."""
-        return self._scale(register, "special_scale", "value of the special code x")
+    def shared(self, register: Register, use: str, fact: object) -> Expression | None:
+        """The constant of a fact of a register; None where the fact is None or empty."""
+        return self._share(register, use, self.of(fact)) if fact else None
 
     def _share(self, register: Register, use: str, expression: Expression, comment: str = "") -> str:
         return self.pool.share(expression, *names_of(register, use, self.model), comment=comment)
 
-    def _scale(self, register: Register, use: str, about: str) -> Expression | None:
+    def maybe(self, register: Register, use: str, expression: Expression) -> Expression:
+        """The expression itself if it is short, else its constant."""
+        return self.pool.maybe(expression, *names_of(register, use, self.model))
+
+    def scale(self, register: Register, use: str, about: str) -> Expression | None:
+        """The cases of `scale` or `special_scale` (`use`), with `about` as their comment; None for the identity."""
         cases: Cases[Conversion] = getattr(register, use)
         if cases == SAME:
             return None
@@ -98,7 +99,7 @@ class Specs:
         if all(isinstance(end, Open) for case in cases for one in case.then.intervals for end in one):
             return None  # nothing could be checked
         if len(cases) == 1 and cases[0].when.always:
-            return self.pool.maybe(self.of(cases), *names_of(register, "range", self.model))
+            return self.maybe(register, "range", self.of(cases))
         words = cases_words(tuple(Case(case.when, range_words(case.then)) for case in cases))
         return self._share(register, "range", self.of(cases), words)
 
@@ -111,9 +112,8 @@ class Specs:
 
     def governs(self, register: Register) -> Expression | None:
         """What a register sets of the line; None if it sets nothing of it."""
-        if register.governs is None:
-            return None
-        return self.pool.maybe(expression(register.governs), *names_of(register, "governs", self.model))
+        governs = register.governs
+        return None if governs is None else self.maybe(register, "governs", expression(governs))
 
     def views(self, register: Register) -> str:
         """The name of the constant that holds a register's view set."""

@@ -1,55 +1,58 @@
-"""The groups of a map as one class: each group has the members that any model has."""
+"""Groups of registers: the class that declares them, and facts that long declarations of one group share."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
-from regscribe.emit.python.formatting import call, lay
+from regscribe.emit.common_values import merge, merged_order
+from regscribe.emit.python.constants import Pool
+from regscribe.emit.python.formatting import Call, Expression, call, lay, mapping
 from regscribe.emit.python.literals import literal
 from regscribe.emit.words import one_line
-from regscribe.model import Group, RegisterMap
+from regscribe.model import Model, Register, RegisterMap
 
-Content = Mapping[str, tuple[str, tuple[str, ...], int | None]]
-"""Title, members and place in the write order of each group by its id.
-
-Members are ids of registers, or of arrays for all that is in them.
-"""
-
-
-def groups_of(register_map: RegisterMap) -> Content:
-    """The groups of all models together, each thing where the model that has it has it."""
-    every = {one.id: one for model in register_map.models for one in model.groups}
-    order = _merged([group.id for group in model.groups] for model in register_map.models)
-    members = {
-        name: _merged(_first_parts(one) for model in register_map.models for one in model.groups if one.id == name)
-        for name in order
-    }
-    return {name: (one_line(every[name].name), tuple(members[name]), every[name].order) for name in order}
+ENOUGH_LINES = 3
+"""A declaration of at most so many lines is left as it is."""
+FEWEST = 2
+"""So many registers must have so many facts in common."""
+Facts = Sequence[tuple[str, Expression]]
 
 
-def _merged(orders: Iterable[Iterable[str]]) -> list[str]:
-    """All names of several orders in one: each new name behind the one that it follows."""
-    merged: dict[str, None] = {}
-    for order in orders:
-        behind: dict[str, list[str]] = {}
-        last = ""
-        for name in order:
-            if name in merged:
-                last = name
-            else:
-                behind.setdefault(last, []).append(name)
-        if behind:
-            merged = dict.fromkeys(new for known in ("", *merged) for new in (known, *behind.get(known, ())) if new)
-    return list(merged)
-
-
-def _first_parts(group: Group) -> dict[str, None]:
-    return dict.fromkeys(path.split("[")[0] for path in group.members)
-
-
-def groups_body(groups: Content, homes: Mapping[str, str]) -> list[str]:
-    """The declarations; `homes` are the classes that declare the members."""
+def groups_body(register_map: RegisterMap, homes: Mapping[str, str]) -> list[str]:
+    """The declarations of groups, each with the members that any model has; `homes` are the classes of the members."""
     body: list[str] = []
-    for name, (title, members, order) in groups.items():
-        place = None if order is None else str(order)
+    for merged in merge(register_map.models, lambda model: model.groups, lambda group: group.id):
+        last = merged.versions[-1][1]
+        members = merged_order([path.split("[")[0] for path in group.members] for _, group in merged.versions)
         declared = (f"{homes[member]}.{member}" for member in members)
-        body += lay(call("Group", literal(title), *declared, order=place), head=f"{name} = ", depth=1)
+        order = None if last.order is None else str(last.order)
+        body += lay(call("Group", literal(one_line(last.name)), *declared, order=order), head=f"{last.id} = ", depth=1)
     return body
+
+
+def with_group_facts(
+    registers: Sequence[Register], calls: Mapping[str, Call], pool: Pool, model: Model
+) -> dict[str, Call]:
+    """The declarations of registers by id; long ones of a group unpack their common facts: `**_CALIBRATION`."""
+    found = dict(calls)
+    for group_id in dict.fromkeys(register.group for register in registers):
+        own = {one.id: calls[one.id] for one in registers if one.group == group_id}
+        lines = {name: len(lay(call, head=f"{name} = ", depth=1)) for name, call in own.items()}
+        long = [own[name] for name, count in lines.items() if count > ENOUGH_LINES]
+        common = _common(long)
+        if min(len(long), len(common)) >= FEWEST:
+            facts = mapping([(literal(key.removesuffix("=")), value) for key, value in common])
+            constant = pool.share(facts, group_id, f"{group_id}_{model.name}", type_name="dict[str, Any]")
+            alike = [name for name, count in lines.items() if count > 1 and set(common) <= set(own[name].items)]
+            found |= {name: _without(own[name], common, constant) for name in alike}
+    return found
+
+
+def _common(calls: Iterable[Call]) -> Facts:
+    """The keyword arguments that all calls have, in the order of the first."""
+    first, *others = [[item for item in call.items if item[0]] for call in calls] or [[]]
+    return [item for item in first if all(item in other for other in others)]
+
+
+def _without(call: Call, facts: Facts, name: str) -> Call:
+    """The call with the facts unpacked from a constant."""
+    own = tuple(item for item in call.items if item not in facts)
+    return Call(call.opening, (*own, ("", f"**{name}")), call.closing)

@@ -1,4 +1,4 @@
-"""The modules of libraries: enums, flags and words that the drivers of several maps have in common."""
+"""Modules of libraries: enums, flags and words that the drivers of several maps have in common."""
 
 from regscribe.emit.python.enum_classes import NamedClasses, Origin
 from regscribe.model import Library, Manual, RegisterMap
@@ -7,11 +7,6 @@ from regscribe.model import Library, Manual, RegisterMap
 def module_path(map_id: str) -> str:
     """Where the module of a map or library stands in the output tree."""
     return f"regscribe_devices/{map_id.replace('-', '_')}.py"
-
-
-def module_name(map_id: str) -> str:
-    """The name under which the module of a map or library is imported."""
-    return module_path(map_id).removesuffix(".py").replace("/", ".")
 
 
 def libraries(register_map: RegisterMap) -> list[tuple[Library, NamedClasses]]:
@@ -23,17 +18,7 @@ def libraries(register_map: RegisterMap) -> list[tuple[Library, NamedClasses]]:
 
 def library_classes(library: Library) -> NamedClasses:
     """The classes of a library: its enums, and those that the registers of its sets need."""
-    named = NamedClasses(_as_map(library))
-    for enum in library.enums:
-        if enum.members:
-            named.declare(enum, library.id)
-    named.collect_all()
-    return named
-
-
-def _as_map(library: Library) -> RegisterMap:
-    """A map whose models are the sets of a library."""
-    return RegisterMap(
+    as_map = RegisterMap(
         id=library.id,
         title=library.title,
         maker="",
@@ -43,11 +28,17 @@ def _as_map(library: Library) -> RegisterMap:
         manual=Manual(""),
         models=library.sets,
     )
+    named = NamedClasses(as_map)
+    for enum in library.enums:
+        named.declare(enum, library.id)
+    named.collect_all()
+    return named
 
 
 def offered(found: list[tuple[Library, NamedClasses]]) -> dict[str, Origin]:
     """The classes that a driver may import from its libraries, by key; the first library that has one counts."""
     every: dict[str, Origin] = {}
     for library, named in found:
-        every = named.offered_by(module_name(library.id)) | every
+        module = module_path(library.id).removesuffix(".py").replace("/", ".")
+        every = named.offered_by(module) | every
     return every

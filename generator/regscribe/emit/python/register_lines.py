@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass
 
-from regscribe.emit.python.constants import Pool, names_of
+from regscribe.emit.python.constants import Pool
 from regscribe.emit.python.enum_classes import NamedClasses, enum_content, special_content, specials, word_content
 from regscribe.emit.python.expressions import Specs, expression
 from regscribe.emit.python.formatting import Call, Expression, call, group, lay, mapping
@@ -33,39 +33,24 @@ class Declarations:
             str(register.at),
             specs.views(register),
             self._kind(register),
-            scale=specs.scale(register),
-            special_scale=specs.special_scale(register),
+            scale=specs.scale(register, "scale", "value of the stored x"),
+            special_scale=specs.scale(register, "special_scale", "value of the special code x"),
             range=specs.range(register),
             default=_default(register),
             unit=specs.unit(register),
             section=literal(register.section) if register.section else None,
-            sentinels=self._sentinels(register),
+            sentinels=specs.shared(register, "sentinels", register.sentinels),
             aliases=group([str(alias) for alias in register.aliases]) if register.aliases else None,
-            writable=self._writable(register),
+            writable=specs.shared(register, "writable", register.writable),
             persistence=literal(register.persistence) if register.persistence else None,
             unlock=literal(register.unlock) if register.unlock else None,
             apply=literal(register.apply) if register.apply else None,
-            danger=self._maybe(register, "danger", literal(one_line(register.danger))) if register.danger else None,
+            danger=specs.maybe(register, "danger", literal(one_line(register.danger))) if register.danger else None,
             stays=literal(register.stays) if register.stays else None,
             governs=specs.governs(register),
             settle=str(register.settle) if register.settle else None,
             rescales=literal(register.rescales) if register.rescales else None,
         )
-
-    def _sentinels(self, register: Register) -> str | None:
-        found = register.sentinels
-        return self._share(register, "sentinels", self.specs.of(found)) if found else None
-
-    def _writable(self, register: Register) -> str | None:
-        if register.writable is None:
-            return None
-        return self._share(register, "writable", self.specs.of(register.writable))
-
-    def _share(self, register: Register, use: str, expression: Expression) -> str:
-        return self.specs.pool.share(expression, *names_of(register, use, self.specs.model))
-
-    def _maybe(self, register: Register, use: str, expression: Expression) -> Expression:
-        return self.specs.pool.maybe(expression, *names_of(register, use, self.specs.model))
 
     def _kind(self, register: Register) -> Expression:
         helper = self.specs.pool.helper
@@ -88,16 +73,13 @@ class Declarations:
             return self.named.name(register.id, word_content(register))
         return ""
 
-    def _special(self, register: Register) -> str:
-        return self.named.name(f"{register.id}_special", special_content(register))
-
     def _numeric(self, register: Register) -> Expression:
         helper = self.specs.pool.helper
         means = [(exact(one.code), exact(one.means)) for one in register.specials if one.means is not None]
         kind = "number" if register.fractional else "integer"
         if not specials(register):
             return call(helper(f"{kind}_with"), mapping(means))
-        special = self._special(register)
+        special = self.named.name(f"{register.id}_special", special_content(register))
         return call(helper(f"{kind}_or"), special, mapping(means)) if means else f"{helper(f'{kind}_or')}({special})"
 
 
@@ -109,32 +91,28 @@ def _default(register: Register) -> str | None:
 
 def declaration_lines(register: Register, declaration: Call) -> list[str]:
     """A declaration and the register's docstring, indented for a class body."""
-    text = about(register)
+    text = _about(register)
     return [*lay(declaration, head=f"{register.id} = ", depth=1), *(docstring(text, 1) if text else [])]
 
 
-def about(register: Register) -> str:
+def _about(register: Register) -> str:
     """The docstring of a register; empty if it says no more than the declaration."""
     name = one_line(register.name)
     symbol = f" ({one_line(register.symbol)})" if register.symbol else ""
     facts = [
-        range_text(register),
+        _range_text(register),
         f"special: {listed([f'{show(one.code)} = {one_line(one.label)}' for one in register.specials])}"
         if register.specials
         else "",
         f"unit {units}" if (units := listed([case.then for case in register.unit if case.then])) else "",
     ]
-    if not any(facts) and _words(name + symbol) == register.id:
+    if not any(facts) and re.sub(r"\W+", "_", (name + symbol).lower()).strip("_") == register.id:
         return ""
     return f"{name}{symbol}: {'; '.join(one_line(fact) for fact in (*facts, register.section) if fact)}."
 
 
-def _words(text: str) -> str:
-    return re.sub(r"\W+", "_", text.lower()).strip("_")
-
-
-def range_text(register: Register) -> str:
-    """The range in words; empty where it depends on others: the constant that holds its cases tells them."""
+def _range_text(register: Register) -> str:
+    """The range in words; empty where it depends on other registers: its cases are a constant with a comment."""
     if len(register.range) > 1 or any(not case.when.always for case in register.range):
         return ""
     return listed([range_words(case.then) for case in register.range])
