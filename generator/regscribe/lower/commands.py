@@ -1,16 +1,15 @@
 """Commands: each step becomes the words of one request; effects are what changes besides."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from regscribe.lower.conditions import condition
-from regscribe.lower.names import identifier, unknown
-from regscribe.lower.node import Value, elements_of, items_of, text_of, truth_of, whole_of, wholes_of
+from regscribe.lower.conditions import condition_of
+from regscribe.lower.node import Value
+from regscribe.lower.register_values import named_value
 from regscribe.lower.rules import NOT_CONSTANT, UNKNOWN_MEMBER, UNKNOWN_VIEW
-from regscribe.lower.scope import Scope, path_of
-from regscribe.lower.special_values import named_value
+from regscribe.lower.scope import Scope
 from regscribe.lower.subject import Subject, code_of_text, subject_of
+from regscribe.lower.texts import identifier, unknown
 from regscribe.model import Command, CommandStep, Effect, Kind, Protocol, Register, Rounding, Space, View
 from regscribe.reference import RefusedError, UnknownValueError, encode
 
@@ -19,7 +18,7 @@ _INSTEAD = "choose another value or view, or give the `words` that the manual pr
 
 @dataclass(frozen=True, slots=True)
 class CommandScope:
-    """What the steps of a command need to know of the model they are for."""
+    """What the steps of a command refer to: the names, registers and protocol of one model."""
 
     scope: Scope
     registers: dict[str, Register]
@@ -28,21 +27,20 @@ class CommandScope:
 
 def commands_of(root: Value, device: CommandScope) -> tuple[Command, ...]:
     """The commands that a model has."""
-    commands = items_of(root, "commands")
-    return tuple(_command(name, node, device) for name, node in commands if device.scope.has(node))
+    return tuple(_command(node, device) for _, node in root.items_of("commands") if device.scope.has(node))
 
 
-def _command(name: str, node: Value, device: CommandScope) -> Command:
-    steps = [_step(step, device) for step in elements_of(node, "steps")]
+def _command(node: Value, device: CommandScope) -> Command:
+    steps = [_step(step, device) for step in node.elements_of("steps")]
     return Command(
-        id=identifier(node, label=name, given=None) if not name.isidentifier() else name,
-        name=text_of(node, "name", name),
+        id=node.key if node.key.isidentifier() else identifier(node, label=node.key, given=None),
+        name=node.text_of("name", node.key),
         steps=tuple(step for step, _ in steps),
         step_registers=tuple(path for _, path in steps),
-        description=text_of(node, "description"),
-        section=text_of(node, "source"),
-        danger=text_of(node, "danger"),
-        effects=tuple(_effect(one, device) for one in elements_of(node, "effects") if device.scope.has(one)),
+        description=node.text_of("description"),
+        section=node.text_of("source"),
+        danger=node.text_of("danger"),
+        effects=tuple(_effect(effect, device) for effect in node.elements_of("effects") if device.scope.has(effect)),
         span=node.key_span,
     )
 
@@ -51,41 +49,41 @@ def _step(node: Value, device: CommandScope) -> tuple[CommandStep, str]:
     """A step, and the path of the register that it names."""
     register = node.child("register")
     if node.child("wait"):
-        return CommandStep(0, 0, (), whole_of(node, "wait")), ""
+        return CommandStep(0, 0, (), node.whole_of("wait")), ""
     if register is None:
-        words = unsigned(wholes_of(node, "words"))
+        words = unsigned(node.wholes_of("words"))
         function = _function(node, len(words), None, device)
-        return CommandStep(function, whole_of(node, "at"), words), ""
+        return CommandStep(function, node.whole_of("at"), words), ""
     entry = device.scope.register(register)
     if entry is None:
         return CommandStep(0, 0, ()), register.text()
     target = device.registers[entry.path]
-    view = view_of(node.child("view"), target) if node.child("view") else _written_view(target)
+    if node.child("view"):
+        view = view_of(node.child("view"), target)
+    else:  # where the base view is for reading alone, the first one that a write may address
+        view = next((each for each in target.views if each.writable), target.base)
     value = node.child("value")
-    words = _words_of_value(value, target, view) if value else unsigned(wholes_of(node, "words"))
+    words = _words_of_value(value, target, view) if value else unsigned(node.wholes_of("words"))
     function = _function(node, len(words), view, device)
     return CommandStep(function, view.address(target.at), words), entry.path
 
 
 def _function(node: Value, count: int, view: View | None, device: CommandScope) -> int:
     if node.child("function"):
-        return whole_of(node, "function")
+        return node.whole_of("function")
     single, several = (Space.COIL if view and view.space is Space.COIL else Space.HOLDING).write_functions
     allowed = [code for code in device.protocol.functions if not view or view.allows(code)]
     return single if count == 1 and single in allowed else several
 
 
-def _written_view(register: Register) -> View:
-    """The base view, or the first one that a write may address where the base view is for reading alone."""
-    return next((view for view in register.views if view.writable), register.base)
-
-
 def view_of(node: Value | None, register: Register) -> View:
     """The view of a register that `node` names, the base view where it is None; RS0323 for an unknown one."""
-    found = [view for view in register.views if node is None or view.name == node.text()]
-    if not found and node is not None:
-        unknown(node, UNKNOWN_VIEW, "view", node.text(), [view.name for view in register.views], of=register.path)
-    return found[0] if found else register.base
+    if node is None:
+        return register.base
+    views = {view.name: view for view in register.views}
+    if node.text() not in views:
+        unknown(node, UNKNOWN_VIEW, "view", node.text(), views, of=register.path)
+    return views.get(node.text(), register.base)
 
 
 def unsigned(words: tuple[int, ...]) -> tuple[int, ...]:
@@ -112,19 +110,14 @@ def _words_of_value(node: Value, register: Register, view: View) -> tuple[int, .
 
 
 def _effect(node: Value, device: CommandScope) -> Effect:
+    scope = device.scope
+    subjects = [(each, subject_of(each, key, scope)) for key, each in node.items_of("set")]
     return Effect(
-        when=condition(node.child("when"), device.scope),
-        sets=tuple(_sets(node, device)),
+        when=condition_of(node, scope),
+        sets=tuple((subject.path, _value(each, subject, device)) for each, subject in subjects if subject),
         defaults=_defaults(node, device),
-        unlatch=truth_of(node, "unlatch"),
+        unlatch=node.truth_of("unlatch"),
     )
-
-
-def _sets(effect: Value, device: CommandScope) -> Iterator[tuple[str, Fraction | str]]:
-    for key, node in items_of(effect, "set"):
-        subject = subject_of(node, key, device.scope)
-        if subject is not None:
-            yield subject.path, _value(node, subject, device)
 
 
 def _value(node: Value, subject: Subject, device: CommandScope) -> Fraction | str:
@@ -139,11 +132,9 @@ def _defaults(effect: Value, device: CommandScope) -> tuple[str, ...]:
     node = effect.child("defaults")
     if node is None:
         return ()
-    kept = _paths(elements_of(effect, "keep"), device.scope)
-    every = [one.path for one in device.registers.values() if one.default is not None and one.access.writable]
-    named = every if node.is_text else _paths(node.elements(), device.scope)
+    kept = [device.scope.path(each) for each in effect.elements_of("keep")]
+    if node.is_text:
+        named = [one.path for one in device.registers.values() if one.default is not None and one.access.writable]
+    else:
+        named = [device.scope.path(each) for each in node.elements()]
     return tuple(path for path in named if path not in kept)
-
-
-def _paths(nodes: list[Value], scope: Scope) -> list[str]:
-    return [path_of(scope.register(node), node.text()) for node in nodes]

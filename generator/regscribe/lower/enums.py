@@ -1,20 +1,24 @@
 """Enums and bit fields, as one model has them."""
 
-from regscribe.lower.interval_text import whole_ends
-from regscribe.lower.names import identifier
-from regscribe.lower.node import Value, text_of, texts_of
+from collections.abc import Callable
+from dataclasses import replace
+
+from regscribe.lower.node import Keyed, Value
 from regscribe.lower.rules import BAD_BITS, UNKNOWN_ENUM
 from regscribe.lower.scope import Scope
+from regscribe.lower.texts import identifier, whole_ends
 from regscribe.lower.tree import TreeNode
-from regscribe.model import BitField, Enum, Member
+from regscribe.model import BitField, Condition, Enum, Member
 from regscribe.model.identifiers import snake
 
 COLUMNS = "columns"
 """The key beside the codes of an enum that names the columns of the manual's table."""
 
 
-def enum_of(node: Value, scope: Scope, *, inline_id: str) -> Enum | None:
-    """The enum that `node` names or spells; None with RS0304 where the name is unknown."""
+def enum_of(node: Value | None, scope: Scope, *, inline_id: str) -> Enum | None:
+    """The enum that `node` names or spells, None for no node; None with RS0304 where the name is unknown."""
+    if node is None:
+        return None
     if not node.is_text:
         return enum_at(node, scope, inline_id)
     table = scope.named(node, "enums", rule=UNKNOWN_ENUM, what="enum")
@@ -29,11 +33,14 @@ def enum_at(table: Value, scope: Scope, name: str) -> Enum:
     invalid = []
     for node in _codes(table):
         here = scope.has(node)
-        if here and _label(node):
-            members.append(_member(node))
-        elif node.child("invalid") and (here or _label(node)):
-            invalid.append((node.key_whole(), text_of(node, "invalid")))
-    columns = texts_of(table, COLUMNS)
+        label = label_of(node)
+        if here and label:
+            name_of_code = identifier_of(node, label).upper()
+            description, cells = node.text_of("description"), node.texts_of("cells")
+            members.append(Member(node.key_whole(), label, name_of_code, description, cells))
+        elif node.child("invalid") and (here or label):
+            invalid.append((node.key_whole(), node.text_of("invalid")))
+    columns = table.texts_of(COLUMNS)
     return Enum(id=name, members=tuple(members), invalid=tuple(invalid), span=table.key_span, columns=columns)
 
 
@@ -42,64 +49,64 @@ def _codes(table: Value) -> list[Value]:
     return [node for key, node in table.items() if key != COLUMNS]
 
 
-def _member(node: Value) -> Member:
-    label = _label(node)
-    name = identifier(node.child("label") or node, label=label, given=node.child("id"), capitals=True)
-    return Member(node.key_whole(), label, name, text_of(node, "description"), texts_of(node, "cells"))
+def label_of(node: Value) -> str:
+    """Label of a code, a bit or a special value; of a code without a label its cells."""
+    return (node.text_of("label") or ", ".join(node.texts_of("cells"))) if node.is_mapping else node.text()
 
 
-def _label(node: Value) -> str:
-    """What a code or a bit is called; a code without a label by its cells."""
-    if not node.is_mapping:
-        return node.text()
-    return text_of(node, "label") or ", ".join(texts_of(node, "cells"))
+def id_of(node: Value) -> str:
+    """Id of a code or a special value: given, or made of its label."""
+    return node.text_of("id") or snake(label_of(node))
 
 
-def code_anywhere(node: Value, text: str) -> int | None:
-    """The code of the member `text` in the enum at `node`, whichever models have it; None if there is none."""
-    for member in _codes(node):
-        label = _label(member)
-        given = text_of(member, "id") if member.is_mapping else ""
-        if label and (given or snake(label)).lower() == text.lower():
-            return member.key_whole()
-    return None
+def identifier_of(node: Value, label: str) -> str:
+    """Python name of a code, a bit or a special value with that label; RS0317 where there is none."""
+    return identifier(node.child("label") or node, label=label, given=node.child("id"))
+
+
+def code_anywhere(table: Value, text: str) -> int | None:
+    """The code of the member `text` in the enum at `table`, whichever models have it; None if there is none."""
+    found = (member for member in _codes(table) if label_of(member) and id_of(member).lower() == text.lower())
+    return next((member.key_whole() for member in found), None)
 
 
 def enum_for(entry: TreeNode, scope: Scope, field: str = "") -> tuple[Value, Enum] | None:
     """The enum of a register (or of one of its bit fields), with the place of its members; None if it has none."""
-    node = entry.settings.get("enum")
-    name = entry.qualified_id
+    owner: Keyed | None = entry.settings
     if field:
-        fields = entry.settings.get("fields")
+        fields = entry.settings.child("fields")
         owner = fields.child(field) if fields else None
-        node = owner.child("enum") if owner else None
-        name = f"{name}_{field}"
-    enum = enum_of(node, scope, inline_id=name) if node else None
+    node = owner.child("enum") if owner else None
+    enum = enum_of(node, scope, inline_id="")
     if node is None or enum is None:
         return None
     table = scope.named(node, "enums", rule=UNKNOWN_ENUM, what="enum") if node.is_text else node
     return (table, enum) if table else None
 
 
-def fields_of(entry: TreeNode, scope: Scope) -> tuple[BitField, ...]:
-    """The flags or fields of a register, those that the model has."""
-    flags, fields = entry.settings.get("flags"), entry.settings.get("fields")
-    found = [_flag(node) for node in (flags.values() if flags else ()) if scope.has(node)]
-    found += [_field(node, scope, entry) for node in (fields.values() if fields else ()) if scope.has(node)]
-    return tuple(found)
+def fields_of(
+    entry: TreeNode, scope: Scope, follow: Callable[[Value, Scope], Condition] | None = None
+) -> tuple[BitField, ...]:
+    """The flags or fields of a register that the model has; `follow` makes the conditions that they follow."""
+    found = [(node, _flag(node)) for _, node in entry.settings.items_of("flags") if scope.has(node)]
+    found += [(node, _field(node, scope, entry)) for _, node in entry.settings.items_of("fields") if scope.has(node)]
+    return tuple(
+        replace(field, follows=follow(when, scope)) if follow and (when := node.child("follows")) else field
+        for node, field in found
+    )
 
 
 def _flag(node: Value) -> BitField:
-    label = _label(node)
+    label = label_of(node)
     bit = _bit(node, node.key_whole(), at_key=True)
-    name = identifier(node.child("label") or node, label=label, given=node.child("id")).lower()
-    return BitField(id=name, label=label, low=bit, high=bit, description=text_of(node, "description"))
+    name = identifier_of(node, label).lower()
+    return BitField(id=name, label=label, low=bit, high=bit, description=node.text_of("description"))
 
 
 def _field(node: Value, scope: Scope, entry: TreeNode) -> BitField:
-    name, enum = node.key, node.child("enum")
+    name = node.key
     bits = node.child("bits") or node.child("bit")
-    low, high = whole_ends(bits) if bits else (0, 0)
+    low, high = whole_ends(bits)
     if bits is None:
         node.report(BAD_BITS, f"the field `{name}` has no bits", remedy="give `bit: 3` or `bits: 0..3`")
     else:
@@ -107,11 +114,11 @@ def _field(node: Value, scope: Scope, entry: TreeNode) -> BitField:
         _bit(bits, high)
     return BitField(
         id=name,
-        label=text_of(node, "label", name.replace("_", " ")),
+        label=node.text_of("label", name.replace("_", " ")),
         low=low,
         high=high,
-        enum=enum_of(enum, scope, inline_id=f"{entry.qualified_id}_{name}") if enum else None,
-        description=text_of(node, "description"),
+        enum=enum_of(node.child("enum"), scope, inline_id=f"{entry.qualified_id}_{name}"),
+        description=node.text_of("description"),
     )
 
 

@@ -4,34 +4,33 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from regscribe.lower.commands import unsigned, view_of
-from regscribe.lower.names import unknown
-from regscribe.lower.node import Value, elements_of, fraction_of, items_of, text_of, truth_of, whole_of, wholes_of
+from regscribe.lower.node import ZERO, Value
+from regscribe.lower.register_values import named_value
 from regscribe.lower.rules import UNKNOWN_COMMAND, UNKNOWN_FLAG, UNKNOWN_MEMBER, UNKNOWN_SENTINEL, WRONG_SORT
 from regscribe.lower.scope import Scope
-from regscribe.lower.special_values import named_value
 from regscribe.lower.subject import Subject, code_of_text, subject_of
+from regscribe.lower.texts import unknown
 from regscribe.lower.variants import named_models
-from regscribe.model import Example, FrameExample, Kind, Outcome, Register, TimingExample, ValueExample
+from regscribe.model import Example, FrameExample, Kind, Model, Outcome, Register, TimingExample, ValueExample
 from regscribe.reference import number_of
 
 
 @dataclass(frozen=True, slots=True)
 class Product:
-    """A model whose registers are known, for examples to refer to."""
+    """A model, and the names in it that examples refer to."""
 
     scope: Scope
-    registers: dict[str, Register]
-    commands: tuple[str, ...]
+    model: Model
 
     def register(self, node: Value, name: str, *, at_key: bool = False) -> Register | None:
         """The register that `node` names; RS0301 or RS0302 where there is none."""
         entry = self.scope.register(node, name, at_key=at_key)
-        return self.registers[entry.path] if entry else None
+        return self.model.register(entry.path) if entry else None
 
 
 def examples_of(root: Value, products: list[Product]) -> tuple[Example, ...]:
     """All examples of a map; nothing if the map has no model."""
-    nodes = elements_of(root, "examples") if products else []
+    nodes = root.elements_of("examples") if products else []
     return tuple(_example(node, products) for node in nodes)
 
 
@@ -43,69 +42,60 @@ def _example(node: Value, products: list[Product]) -> Example:
 
 
 def _product(node: Value, products: list[Product]) -> Product:
-    """The model that the example names, or else the first that has all its registers."""
-    told = node.child("model")
-    if told:
-        named = named_models([told], products[0].scope.models)
+    """The model that the example names, or else the first that has all its registers.
+
+    Else the first model that has the first of them, else the first model.
+    """
+    model = node.child("model")
+    if model:
+        named = named_models([model], products[0].scope.models)
         return next((each for each in products if each.scope.model in named), products[0])
-    names = [text_of(node, "register"), *(key for key, _ in items_of(node, "writes"))]
-    return _with_registers([name for name in names if name], products)
+    names = [name for name in (node.text_of("register"), *(key for key, _ in node.items_of("writes"))) if name]
+    with_all = [each for each in products if all(each.scope.find(name) for name in names)]
+    with_first = [each for each in products if names and each.scope.find(names[0])]
+    return (with_all or with_first or products)[0]
 
 
-def _with_registers(names: list[str], products: list[Product]) -> Product:
-    """The first model that has all of these registers, else the first that has the first of them, else the first."""
-    whole = [each for each in products if all(each.scope.find(name) for name in names)]
-    part = [each for each in products if names and each.scope.find(names[0])]
-    return (whole or part or products)[0]
-
-
-def _state(node: Value, product: Product) -> tuple[tuple[str, Fraction], ...]:
-    pairs = [_fact(key, value, product.scope) for key, value in items_of(node, "with")]
-    return tuple(pair for pair in pairs if pair)
-
-
-def _fact(key: str, value: Value, scope: Scope) -> tuple[str, Fraction] | None:
-    """What a key of `with` is about: a register, a bit field, or a given (whose codes are those of its register)."""
-    givens = scope.map.child("givens")
-    given = givens.child(key) if givens and scope.find(key) is None else None
-    if given and not value.is_text:
-        return key, value.number()
-    entry = scope.find(text_of(given, "register")) if given else None
-    subject = Subject(key, entry) if entry else subject_of(value, key, scope)
-    if subject is None:
-        return None
-    return key, code_of_text(value, subject, scope) if value.is_text else value.number()
+def _state(node: Value, scope: Scope) -> tuple[tuple[str, Fraction], ...]:
+    """Values of other registers, bit fields and givens; those of a given are codes of its register."""
+    state = []
+    for key, value in node.items_of("with"):
+        given = scope.map.mapping_of("givens").child(key) if scope.find(key) is None else None
+        if given and not value.is_text:
+            state.append((key, value.number()))
+            continue
+        entry = scope.find(given.text_of("register")) if given else None
+        subject = Subject(key, entry) if entry else subject_of(value, key, scope)
+        if subject:
+            state.append((key, code_of_text(value, subject, scope) if value.is_text else value.number()))
+    return tuple(state)
 
 
 def _value(node: Value, product: Product) -> ValueExample:
-    name = node.child("register") or node
-    register = product.register(name, name.text()) if name is not node else None
+    name = node.child("register")
+    register = product.register(name, name.text()) if name else None
     fault, stored = node.child("fault"), node.child("stored")
-    view = view_of(node.child("view"), register).name if register else text_of(node, "view", "base")
+    view = view_of(node.child("view"), register).name if register else node.text_of("view", "base")
     value, flags = _reading(node.child("value"), register)
+    outcome = Outcome.SATURATED if node.truth_of("saturated") else Outcome.VALUE
     return ValueExample(
-        source=text_of(node, "source"),
+        source=node.text_of("source"),
         model=product.scope.model,
-        register=register.path if register else text_of(node, "register"),
+        register=register.path if register else node.text_of("register"),
         view=view,
-        words=unsigned(wholes_of(node, "words")),
-        state=_state(node, product),
+        words=unsigned(node.wholes_of("words")),
+        state=_state(node, product.scope),
         stored=stored.number() if stored else None,
         value=_fault(fault, register) if fault else value,
         flags=flags,
-        outcome=_outcome(node),
-        lossy=truth_of(node, "lossy"),
-        span=name.span,
+        outcome=Outcome.FAULT if fault else outcome,
+        lossy=node.truth_of("lossy"),
+        span=(name or node).span,
     )
 
 
-def _outcome(node: Value) -> Outcome:
-    if node.child("fault"):
-        return Outcome.FAULT
-    return Outcome.SATURATED if truth_of(node, "saturated") else Outcome.VALUE
-
-
 def _reading(node: Value | None, register: Register | None) -> tuple[Fraction | str | None, tuple[str, ...] | None]:
+    """The value of an example, or its flags."""
     if node is None or register is None:
         return None, None
     if node.is_list:
@@ -130,67 +120,61 @@ def _fault(node: Value, register: Register | None) -> str:
 
 
 def _frame(node: Value, product: Product) -> FrameExample:
-    frame = _bytes(node)
-    address, count, words = node.child("address"), node.child("count"), node.child("words")
+    printed = node.mapping_of("frame")
+    frame = _bytes(printed)
+    address, count, words, command = (node.child(key) for key in ("address", "count", "words", "command"))
+    known = [each.id for each in product.model.commands]
+    if command and command.text() not in known:
+        unknown(command, UNKNOWN_COMMAND, "command", command.text(), known)
     return FrameExample(
-        source=text_of(node, "source"),
+        source=node.text_of("source"),
         model=product.scope.model,
         frame=frame,
-        crc=truth_of(node, "crc", otherwise=True),
-        answer=truth_of(node, "answer"),
-        unit=whole_of(node, "unit", next(iter(frame), 0)),
-        function=whole_of(node, "function", next(iter(frame[1:]), 0)),
+        crc=node.truth_of("crc", otherwise=True),
+        answer=node.truth_of("answer"),
+        unit=node.whole_of("unit", next(iter(frame), 0)),
+        function=node.whole_of("function", next(iter(frame[1:]), 0)),
         address=address.whole() if address else None,
         count=count.whole() if count else None,
-        words=unsigned(wholes_of(node, "words")) if words else None,
-        writes=tuple(_write(key, value, product) for key, value in items_of(node, "writes")),
-        view=text_of(node, "view"),
-        state=_state(node, product),
-        command=_command(node, product),
-        span=(node.child("frame") or node).span,
+        words=unsigned(node.wholes_of("words")) if words else None,
+        writes=tuple(_write(key, value, product) for key, value in node.items_of("writes")),
+        view=node.text_of("view"),
+        state=_state(node, product.scope),
+        command=command.text() if command else "",
+        span=printed.span,
     )
 
 
 def _bytes(node: Value) -> bytes:
-    frame = node.child("frame")
     try:
-        return bytes.fromhex(frame.text()) if frame else b""
+        return bytes.fromhex(node.text())
     except ValueError:
-        (frame or node).report(
-            WRONG_SORT, "the frame is no hex text", remedy="write two hex digits a byte, as 9C 06 0F A9"
-        )
+        node.report(WRONG_SORT, "the frame is no hex text", remedy="write two hex digits a byte, as 9C 06 0F A9")
         return b""
 
 
 def _write(key: str, node: Value, product: Product) -> tuple[str, Fraction]:
     register = product.register(node, key, at_key=True)
     if register is None:
-        return key, Fraction(0)
+        return key, ZERO
     value = named_value(node, register.kind, register.enum, register.specials, UNKNOWN_MEMBER)
     number = number_of(register, value)
     if number is not None:
         return register.path, number
     node.report(WRONG_SORT, f"`{key}` is a text, not a number", remedy="give the `words` of the frame instead")
-    return register.path, Fraction(0)
-
-
-def _command(node: Value, product: Product) -> str:
-    command = node.child("command")
-    if command and command.text() not in product.commands:
-        unknown(command, UNKNOWN_COMMAND, "command", command.text(), product.commands)
-    return command.text() if command else ""
+    return register.path, ZERO
 
 
 def _timing(node: Value) -> TimingExample:
-    line = node.child("timing") or node
+    line = node.mapping_of("timing")
     return TimingExample(
-        source=text_of(node, "source"),
-        baud=whole_of(line, "baud"),
-        format=text_of(line, "format"),
-        function=whole_of(line, "function"),
-        words=whole_of(line, "words"),
-        gap=fraction_of(node, "gap"),
-        earliest=fraction_of(node, "earliest"),
-        latest=fraction_of(node, "latest"),
+        source=node.text_of("source"),
+        baud=line.whole_of("baud"),
+        format=line.text_of("format"),
+        function=line.whole_of("function"),
+        words=line.whole_of("words"),
+        gap=node.fraction_of("gap"),
+        earliest=node.fraction_of("earliest"),
+        latest=node.fraction_of("latest"),
         span=line.key_span,
     )

@@ -95,7 +95,7 @@ def report_idle(entry: TreeNode, register: Register) -> None:
     for key, node in entry.settings.items():
         if key not in found:
             node.context.taken.add(node.path)
-        elif _is_own(entry, node):
+        elif node.path[: len(entry.node.path)] == entry.node.path:
             message = f"`{entry.id}` has `{key}`, but {found[key].why}"
             node.report(IDLE_KEY, message, remedy=found[key].remedy, at_key=True)
     entry.node.context.taken.update(entry.settings.replaced)
@@ -103,16 +103,11 @@ def report_idle(entry: TreeNode, register: Register) -> None:
         entry.node.context.offered.setdefault(layer.path, layer)
 
 
-def _is_own(entry: TreeNode, node: Value) -> bool:
-    return node.path[: len(entry.node.path)] == entry.node.path
-
-
 def report_untaken(root: Value) -> None:
     """Report each default of a group, an array or a use of a set that has no effect on any register (RS0339)."""
     context = root.context
     for layer in context.offered.values():
-        variants = layer.child("variants")
-        for part in (layer, *(variants.elements() if variants else [])):
+        for part in (layer, *layer.elements_of("variants")):
             for key, node in part.items():
                 idle = key not in {"variants", "models"} and node.value is not None and node.path not in context.taken
                 if idle and node.span.file == context.document.name:

@@ -1,6 +1,5 @@
 """A value of the map together with its place, and the collector of what is wrong with the values."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from decimal import Decimal
 from enum import StrEnum
@@ -12,6 +11,7 @@ from regscribe.model import Diagnostic, Related, Span, exact, parse
 from regscribe.source import Document, Path
 
 Choice = TypeVar("Choice", bound=StrEnum)
+Other = TypeVar("Other")
 
 ZERO = Fraction(0)
 _LONGEST_NUMBER = 100
@@ -26,11 +26,12 @@ def brief(text: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Collector:
-    """The document in work and the diagnostics found in it so far; `sizes` of sets, and how far models have `grown`.
+    """State of lowering one document, and the diagnostics found in it so far.
 
-    `offered` are the defaults for several registers, by the path of where they stand, `taken` the paths of all keys
-    that count for some register. Registers are lowered once for each model and element, so a finding counts once per
-    rule and place.
+    Registers are lowered once for each model and element, so `found` keeps one diagnostic per rule and place.
+    `sizes` are the numbers of registers of each set, `grown` those that sets put into each model. `offered` are the
+    defaults for several registers, by the path of where they stand, `taken` the paths of all keys that count for some
+    register.
     """
 
     document: Document
@@ -40,29 +41,76 @@ class Collector:
     offered: dict[Path, "Value"] = field(default_factory=dict)
     taken: set[Path] = field(default_factory=set)
 
-    def report(
-        self, rule: str, message: str, *, span: Span, remedy: str = "", related: tuple[Related, ...] = ()
-    ) -> None:
-        """Keep a diagnostic, unless the same rule spoke at the same place already."""
-        self.found.setdefault((rule, span), Diagnostic(rule, message, span, help=remedy, related=related))
-
-    def grow(self, model: str, registers: int) -> int:
-        """Count registers that sets put into a model; return how many there are so far."""
-        self.grown[model] = self.grown.get(model, 0) + registers
-        return self.grown[model]
-
-    def spoke(self, rule: str, span: Span) -> bool:
-        """Whether the rule spoke at this place already."""
-        return (rule, span) in self.found
-
     @property
     def diagnostics(self) -> list[Diagnostic]:
         """What was found, in the order of the file."""
         return sorted(self.found.values(), key=lambda diagnostic: (diagnostic.span, diagnostic.rule))
 
 
+class Keyed:
+    """Readers of single keys, for a mapping of the document and for the merged keys of a register alike.
+
+    Each gives what the key holds, or `otherwise` (nothing, for lists) where it is absent.
+    """
+
+    __slots__ = ()
+
+    def child(self, key: str) -> "Value | None":
+        """The value of a key; None where the key is absent or null."""
+        raise NotImplementedError
+
+    def text_of(self, key: str, otherwise: str = "") -> str:
+        """Text of a key without blanks around it."""
+        child = self.child(key)
+        return child.text().strip() if child else otherwise
+
+    def line_of(self, key: str) -> str:
+        """Text of a key on one line."""
+        return " ".join(self.text_of(key).split())
+
+    def whole_of(self, key: str, otherwise: int = 0) -> int:
+        """Whole number of a key."""
+        child = self.child(key)
+        return child.whole() if child else otherwise
+
+    def fraction_of(self, key: str, otherwise: Fraction = ZERO) -> Fraction:
+        """Exact number of a key."""
+        child = self.child(key)
+        return child.number() if child else otherwise
+
+    def choice_of(self, key: str, otherwise: Choice) -> Choice:
+        """Choice of a key, among those of the enumeration that `otherwise` is of."""
+        child = self.child(key)
+        return child.choice(otherwise) if child else otherwise
+
+    def truth_of(self, key: str, *, otherwise: bool = False) -> bool:
+        """Truth value of a key."""
+        child = self.child(key)
+        return child.truth() if child else otherwise
+
+    def wholes_of(self, key: str, otherwise: tuple[int, ...] = ()) -> tuple[int, ...]:
+        """Whole numbers in the list of a key."""
+        child = self.child(key)
+        return tuple(element.whole() for element in child.elements()) if child else otherwise
+
+    def texts_of(self, key: str, otherwise: tuple[str, ...] = ()) -> tuple[str, ...]:
+        """Texts in the list of a key."""
+        child = self.child(key)
+        return tuple(element.text() for element in child.elements()) if child else otherwise
+
+    def elements_of(self, key: str) -> list["Value"]:
+        """Elements of the list of a key."""
+        child = self.child(key)
+        return child.elements() if child else []
+
+    def items_of(self, key: str) -> list[tuple[str, "Value"]]:
+        """Keys and values of the mapping of a key."""
+        child = self.child(key)
+        return child.items() if child else []
+
+
 @dataclass(frozen=True, slots=True)
-class Value:
+class Value(Keyed):
     """One value of the document: `value` as `regscribe.source` gives it, `path` from the top.
 
     The readers (`text`, `number`, ...) are total: where the value is of another sort they report RS0330 and return a
@@ -91,21 +139,28 @@ class Value:
     def report(
         self, rule: str, message: str, *, remedy: str = "", at_key: bool = False, related: tuple[Related, ...] = ()
     ) -> None:
-        """Report a mistake at this value (or at its key)."""
+        """Report a mistake at this value (or at its key), unless the same rule spoke there already."""
         span = self.key_span if at_key else self.span
-        self.context.report(rule, message, span=span, remedy=remedy, related=related)
+        self.context.found.setdefault((rule, span), Diagnostic(rule, message, span, help=remedy, related=related))
 
     def child(self, key: str) -> "Value | None":
         """The value of a key; None where the key is absent or null."""
         value = self.value.get(key) if isinstance(self.value, dict) else None
         return None if value is None else Value(self.context, (*self.path, key), value)
 
-    def items(self) -> Iterator[tuple[str, "Value"]]:
+    def mapping_of(self, key: str) -> "Value":
+        """The value of a key, an empty mapping where the key is absent or null."""
+        return self.child(key) or Value(self.context, (*self.path, key), {})
+
+    def items(self) -> list[tuple[str, "Value"]]:
         """Keys and values of a mapping, without `x-` keys; nothing for any other value."""
-        if isinstance(self.value, dict):
-            for key, value in self.value.items():
-                if not key.startswith("x-"):
-                    yield key, Value(self.context, (*self.path, key), value)
+        if not isinstance(self.value, dict):
+            return []
+        return [
+            (key, Value(self.context, (*self.path, key), value))
+            for key, value in self.value.items()
+            if not key.startswith("x-")
+        ]
 
     def values(self) -> list["Value"]:
         """The values of a mapping, without `x-` keys; nothing for any other value."""
@@ -153,8 +208,8 @@ class Value:
             try:
                 return exact(self.value)
             except ValueError:
-                return self._wrong("a finite number", Fraction(0))
-        return self._wrong("a number", Fraction(0))
+                return self._wrong("a finite number", ZERO)
+        return self._wrong("a number", ZERO)
 
     def whole(self) -> int:
         """The value as a whole number."""
@@ -189,73 +244,11 @@ class Value:
             except ValueError:
                 pass
         self.report(WRONG_SORT, f"the key `{brief(self.key)}` is no number", remedy="write a number", at_key=True)
-        return Fraction(0)
+        return ZERO
 
-    _Other = TypeVar("_Other")
-
-    def _wrong(self, wanted: str, other: _Other) -> _Other:
-        kind = {dict: "a mapping", list: "a list", str: "a text", bool: "a truth value"}.get(
-            type(self.value), "a number"
-        )
+    def _wrong(self, wanted: str, other: Other) -> Other:
+        kinds = {dict: "a mapping", list: "a list", str: "a text", bool: "a truth value"}
+        kind = kinds.get(type(self.value), "a number")
         shown = "" if isinstance(self.value, dict | list) else f" ({brief(str(self.value))})"
         self.report(WRONG_SORT, f"`{self.key}` is {kind}{shown}, not {wanted}", remedy=f"write {wanted}")
         return other
-
-
-def text_of(node: Value, key: str, otherwise: str = "") -> str:
-    """The text of a key, or `otherwise` where it is absent."""
-    child = node.child(key)
-    return child.text().strip() if child else otherwise
-
-
-def line_of(node: Value, key: str) -> str:
-    """The text of a key on one line, empty where it is absent."""
-    return " ".join(text_of(node, key).split())
-
-
-def whole_of(node: Value, key: str, otherwise: int = 0) -> int:
-    """The whole number of a key, or `otherwise` where it is absent."""
-    child = node.child(key)
-    return child.whole() if child else otherwise
-
-
-def fraction_of(node: Value, key: str, otherwise: Fraction = ZERO) -> Fraction:
-    """The exact number of a key, or `otherwise` where it is absent."""
-    child = node.child(key)
-    return child.number() if child else otherwise
-
-
-def choice_of(node: Value, key: str, otherwise: Choice) -> Choice:
-    """The choice of a key, or `otherwise` where it is absent."""
-    child = node.child(key)
-    return child.choice(otherwise) if child else otherwise
-
-
-def truth_of(node: Value, key: str, *, otherwise: bool = False) -> bool:
-    """The truth value of a key, or `otherwise` where it is absent."""
-    child = node.child(key)
-    return child.truth() if child else otherwise
-
-
-def wholes_of(node: Value, key: str, otherwise: tuple[int, ...] = ()) -> tuple[int, ...]:
-    """The list of whole numbers of a key, or `otherwise` where it is absent."""
-    child = node.child(key)
-    return tuple(element.whole() for element in child.elements()) if child else otherwise
-
-
-def texts_of(node: Value, key: str, otherwise: tuple[str, ...] = ()) -> tuple[str, ...]:
-    """The list of texts of a key, or `otherwise` where it is absent."""
-    child = node.child(key)
-    return tuple(element.text() for element in child.elements()) if child else otherwise
-
-
-def elements_of(node: Value | None, key: str) -> list[Value]:
-    """The elements of the list of a key; none where it is absent."""
-    child = node.child(key) if node else None
-    return child.elements() if child else []
-
-
-def items_of(node: Value | None, key: str) -> list[tuple[str, Value]]:
-    """The keys and values of the mapping of a key; none where it is absent."""
-    child = node.child(key) if node else None
-    return list(child.items()) if child else []

@@ -1,12 +1,15 @@
 """Which registers control the process value, and how: the key `process`."""
 
-from regscribe.lower.conditions import condition
-from regscribe.lower.node import Value, elements_of, text_of, whole_of
-from regscribe.lower.register_links import subject_at
+from fractions import Fraction
+
+from regscribe.lower.conditions import condition, condition_of
+from regscribe.lower.node import Value
 from regscribe.lower.scope import Scope
+from regscribe.lower.subject import subject_at
 from regscribe.model import ALWAYS, Alarm, Condition, OnOff, Output, Pid, Process, Ramp, Trip, TripKind
 
 _MINUTE = 60
+_PER_CENT = Fraction(100)
 
 
 def process_of(node: Value | None, scope: Scope) -> Process | None:
@@ -15,28 +18,21 @@ def process_of(node: Value | None, scope: Scope) -> Process | None:
         return None
     ramp = node.child("ramp")
     return Process(
-        value=_role(node, "value", scope),
-        setpoint=_role(node, "setpoint", scope),
-        outputs=tuple(_output(each, scope) for each in _here(node, "outputs", scope)),
-        alarms=tuple(_alarm(each, scope) for each in _here(node, "alarms", scope)),
+        **_roles(node, scope, "value", "setpoint", "highest", "lowest", "fault"),
+        outputs=tuple(_output(each, scope) for each in node.elements_of("outputs") if scope.has(each)),
+        alarms=tuple(_alarm(each, scope) for each in node.elements_of("alarms") if scope.has(each)),
         ramp=_ramp(ramp, scope) if ramp else None,
         off=_maybe(node, "off", scope),
         manual=_maybe(node, "manual", scope),
-        highest=_role(node, "highest", scope),
-        lowest=_role(node, "lowest", scope),
-        fault=_role(node, "fault", scope),
-        assumed=tuple((text_of(each, "what"), text_of(each, "why")) for each in elements_of(node, "inferred")),
-        section=text_of(node, "source"),
+        assumed=tuple((each.text_of("what"), each.text_of("why")) for each in node.elements_of("inferred")),
+        section=node.text_of("source"),
         span=node.key_span,
     )
 
 
-def _here(node: Value, key: str, scope: Scope) -> list[Value]:
-    return [each for each in elements_of(node, key) if scope.has(each)]
-
-
-def _role(node: Value, key: str, scope: Scope) -> str:
-    return subject_at(node.child(key), scope)
+def _roles(node: Value, scope: Scope, *keys: str) -> dict[str, str]:
+    """The registers or bits that keys name."""
+    return {key: subject_at(node.child(key), scope) for key in keys}
 
 
 def _maybe(node: Value, key: str, scope: Scope) -> Condition | None:
@@ -45,19 +41,13 @@ def _maybe(node: Value, key: str, scope: Scope) -> Condition | None:
 
 
 def _output(node: Value, scope: Scope) -> Output:
-    full, pid, on_off = node.child("full"), node.child("pid"), node.child("on_off")
-    given = {} if full is None else {"full": full.number()}
+    pid, on_off = node.child("pid"), node.child("on_off")
     return Output(
-        percent=_role(node, "percent", scope),
+        **_roles(node, scope, "percent", "manual", "failsafe", "low", "high", "active"),
+        full=node.fraction_of("full", _PER_CENT),
         cools=_cools(node.child("cools"), scope),
         pid=_pid(pid, scope) if pid else None,
-        on_off=_on_off(on_off, scope) if on_off else None,
-        manual=_role(node, "manual", scope),
-        failsafe=_role(node, "failsafe", scope),
-        low=_role(node, "low", scope),
-        high=_role(node, "high", scope),
-        active=_role(node, "active", scope),
-        **given,
+        on_off=OnOff(when=condition_of(on_off, scope), **_roles(on_off, scope, "hysteresis")) if on_off else None,
     )
 
 
@@ -68,43 +58,33 @@ def _cools(node: Value | None, scope: Scope) -> Condition | None:
 
 
 def _pid(node: Value, scope: Scope) -> Pid:
-    ends = [subject_at(each, scope) for each in elements_of(node, "span")]
+    ends = [subject_at(each, scope) for each in node.elements_of("span")]
     return Pid(
-        when=condition(node.child("when"), scope),
-        band=_role(node, "band", scope),
-        integral=_role(node, "integral", scope),
-        derivative=_role(node, "derivative", scope),
-        bias=_role(node, "bias", scope),
+        **_roles(node, scope, "band", "integral", "derivative", "bias"),
+        when=condition_of(node, scope),
         ends=(ends[0], ends[1]) if ends else None,
     )
 
 
-def _on_off(node: Value, scope: Scope) -> OnOff:
-    return OnOff(when=condition(node.child("when"), scope), hysteresis=_role(node, "hysteresis", scope))
-
-
 def _ramp(node: Value, scope: Scope) -> Ramp:
     return Ramp(
-        rises=_role(node, "rises", scope),
-        falls=_role(node, "falls", scope),
-        seconds=whole_of(node, "seconds", _MINUTE),
-        shows=_role(node, "shows", scope),
-        when=condition(node.child("when"), scope),
+        **_roles(node, scope, "rises", "falls", "shows"),
+        seconds=node.whole_of("seconds", _MINUTE),
+        when=condition_of(node, scope),
     )
 
 
 def _alarm(node: Value, scope: Scope) -> Alarm:
+    trips = [(each, condition_of(each, scope)) for each in node.elements_of("trips")]
     return Alarm(
-        active=tuple(subject_at(each, scope) for each in elements_of(node, "active")),
-        trips=tuple(trip for each in elements_of(node, "trips") for trip in _trips(each, scope)),
-        when=condition(node.child("when"), scope),
+        **_roles(node, scope, "hysteresis", "delay", "inhibit"),
+        active=tuple(subject_at(each, scope) for each in node.elements_of("active")),
+        trips=tuple(
+            Trip(kind, subject_at(each.child(kind), scope), when)
+            for each, when in trips
+            for kind in TripKind
+            if each.child(kind)
+        ),
+        when=condition_of(node, scope),
         latched=_maybe(node, "latched", scope),
-        hysteresis=_role(node, "hysteresis", scope),
-        delay=_role(node, "delay", scope),
-        inhibit=_role(node, "inhibit", scope),
     )
-
-
-def _trips(node: Value, scope: Scope) -> list[Trip]:
-    when = condition(node.child("when"), scope)
-    return [Trip(kind, _role(node, kind, scope), when) for kind in TripKind if node.child(kind)]

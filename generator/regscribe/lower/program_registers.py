@@ -4,11 +4,11 @@ import re
 from dataclasses import dataclass
 from fractions import Fraction
 
-from regscribe.lower.names import unknown
-from regscribe.lower.node import Value, items_of
+from regscribe.lower.node import ZERO, Value
 from regscribe.lower.rules import UNKNOWN_REGISTER
 from regscribe.lower.scope import Scope
 from regscribe.lower.subject import Subject, code_of_text
+from regscribe.lower.texts import unknown
 from regscribe.model import numbered
 
 _ELEMENT = re.compile(r"\[(\d+)\]")
@@ -16,8 +16,8 @@ _ELEMENT = re.compile(r"\[(\d+)\]")
 
 def numbers_of(node: Value, name: str, scope: Scope) -> list[int]:
     """The indices of an array's elements; RS0301 and none if there is no such array."""
-    found = [path[len(name) :] for path in scope.entries if path.startswith(f"{name}[")]
-    numbers = sorted({int(match[1]) for rest in found if (match := _ELEMENT.match(rest))})
+    elements = [path.removeprefix(name) for path in scope.entries if path.startswith(f"{name}[")]
+    numbers = sorted({int(match[1]) for element in elements if (match := _ELEMENT.match(element))})
     if not numbers:
         known = dict.fromkeys(_ELEMENT.split(path)[0] for path in scope.homes if "[" in path)
         unknown(node, UNKNOWN_REGISTER, "array", node.text(), known)
@@ -45,27 +45,17 @@ class ProgramPlace:
     def found(self, node: Value, name: str, *, at_key: bool = False) -> str:
         """The path of the register of this name; RS0301 or RS0302 at `node` and an empty one if there is none."""
         candidates = [f"{prefix}{name}" for prefix in dict.fromkeys((self.inside, self.prefix, ""))]
+        elements = {path: [numbered(path, number, self.first) for number in self.numbers] for path in candidates}
         for path in candidates:
-            if all(one in self.scope.entries for one in self._concrete(path)):
+            if all(element in self.scope.entries for element in elements[path]):
                 return path
-        self._report(node, name, [one for path in candidates for one in self._concrete(path)], at_key=at_key)
-        return ""
-
-    def _report(self, node: Value, name: str, tried: list[str], *, at_key: bool) -> None:
-        elsewhere = [one for one in tried if one in self.scope.homes]
-        lacking = [one for one in elsewhere if one not in self.scope.entries]
+        elsewhere = [element for path in candidates for element in elements[path] if element in self.scope.homes]
+        lacking = [element for element in elsewhere if element not in self.scope.entries]
         if elsewhere:
             self.scope.missing(node, (lacking or elsewhere)[0], at_key=at_key)
         else:
             unknown(node, UNKNOWN_REGISTER, "register", name, self._known(), at_key=at_key)
-
-    def absent(self, name: str) -> bool:
-        """Whether other models have the register in the segment, and this one does not."""
-        path = numbered(f"{self.inside}{name}", self.numbers[0], self.first)
-        return path in self.scope.homes and path not in self.scope.entries
-
-    def _concrete(self, path: str) -> list[str]:
-        return [numbered(path, number, self.first) for number in self.numbers]
+        return ""
 
     def _known(self) -> list[str]:
         own = [numbered(prefix, self.numbers[0], self.first) for prefix in (self.inside, self.prefix) if prefix]
@@ -78,18 +68,20 @@ class ProgramPlace:
 
     def _value(self, node: Value, path: str) -> Fraction:
         entry = self.scope.entries.get(numbered(path, self.numbers[0], self.first))
-        return code_of_text(node, Subject(path, entry), self.scope) if entry else Fraction(0)
+        return code_of_text(node, Subject(path, entry), self.scope) if entry else ZERO
 
     def values(self, node: Value | None) -> tuple[tuple[str, Fraction], ...]:
         """Paths and codes of a mapping from registers to their values."""
-        found = []
-        for key, value in node.items() if node else ():
-            path = self.found(value, key, at_key=True)
-            if path:
-                found.append((path, value.number() if value.is_number else self._value(value, path)))
-        return tuple(found)
+        found = [(self.found(value, key, at_key=True), value) for key, value in (node.items() if node else ())]
+        return tuple(
+            (path, value.number() if value.is_number else self._value(value, path)) for path, value in found if path
+        )
 
-    def outputs(self, node: Value | None) -> tuple[tuple[str, str], ...]:
+    def outputs(self, node: Value) -> tuple[tuple[str, str], ...]:
         """Names and paths of outputs, without those that only other models have."""
-        named = [(name, one) for name, one in items_of(node, "outputs") if not self.absent(one.text())]
-        return tuple((name, self.found(one, one.text())) for name, one in named)
+        found = []
+        for key, name in node.items_of("outputs"):
+            element = numbered(f"{self.inside}{name.text()}", self.numbers[0], self.first)
+            if element not in self.scope.homes or element in self.scope.entries:
+                found.append((key, self.found(name, name.text())))
+        return tuple(found)

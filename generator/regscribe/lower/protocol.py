@@ -1,140 +1,88 @@
-"""How the device behaves on the line, as the map's `protocol` tells it."""
+"""How the device behaves on the line, as the map's `protocol` tells it; what it does not tell is as in Modbus."""
 
 from dataclasses import replace
 from fractions import Fraction
-from typing import TypedDict
 
-from regscribe.lower.interval_text import ends, whole_ends
-from regscribe.lower.node import (
-    ZERO,
-    Value,
-    choice_of,
-    elements_of,
-    fraction_of,
-    items_of,
-    line_of,
-    text_of,
-    texts_of,
-    truth_of,
-    whole_of,
-    wholes_of,
-)
+from regscribe.lower.node import ZERO, Value
 from regscribe.lower.rules import WRONG_SORT
+from regscribe.lower.texts import ends, whole_ends
 from regscribe.model import SILENCE, ExceptionCode, Faults, Latency, Protocol, ProtocolNotes, SerialDefaults
 
-_LATER = ("later_read", "later_write")
 _CODES = (
     *("function", "address", "value", "read_only", "condition", "quantity"),
     *("misaligned_address", "misaligned_count", "view_function", "unused_write"),
 )
 
 
-def protocol_of(node: Value | None) -> Protocol:
-    """What a driver knows of the device; what the map does not tell is as the Modbus specification has it."""
+def protocol_of(node: Value) -> Protocol:
+    """What a driver knows of the device."""
     plain = Protocol()
-    if node is None:
-        return plain
-    limits = node.child("limits") or node
-    unit_ids = node.child("unit_ids")
+    limits = node.mapping_of("limits")
     return Protocol(
-        functions=wholes_of(node, "functions", plain.functions),
-        unit_ids=whole_ends(unit_ids) if unit_ids else plain.unit_ids,
-        read_words=whole_of(limits, "read_words", plain.read_words),
-        write_words=whole_of(limits, "write_words", plain.write_words),
-        read_bits=whole_of(limits, "read_bits", plain.read_bits),
-        write_bits=whole_of(limits, "write_bits", plain.write_bits),
-        read_holes=truth_of(node, "read_holes"),
-        broadcast=wholes_of(node, "broadcast"),
+        functions=node.wholes_of("functions", plain.functions),
+        unit_ids=whole_ends(node.child("unit_ids"), plain.unit_ids),
+        read_words=limits.whole_of("read_words", plain.read_words),
+        write_words=limits.whole_of("write_words", plain.write_words),
+        read_bits=limits.whole_of("read_bits", plain.read_bits),
+        write_bits=limits.whole_of("write_bits", plain.write_bits),
+        read_holes=node.truth_of("read_holes"),
+        broadcast=node.wholes_of("broadcast"),
         exceptions=tuple(
-            ExceptionCode(each.key_whole(), line_of(each, "name"), line_of(each, "meaning"))
-            for _, each in items_of(node, "exceptions")
+            ExceptionCode(code.key_whole(), code.line_of("name"), code.line_of("meaning"))
+            for _, code in node.items_of("exceptions")
         ),
-        latencies=tuple(_latency(each) for _, each in items_of(node, "latency")),
-        serial=_serial(node.child("serial")),
+        latencies=tuple(_latency(latency) for _, latency in node.items_of("latency")),
+        serial=_serial(node.mapping_of("serial")),
         absent=faults_of(node).address,
-    )
-
-
-class DeviceFacts(TypedDict, total=False):
-    """What the map says of the protocol besides: fields of `RegisterMap`."""
-
-    faults: Faults
-    default_unit: int | None
-    spares_memory: bool
-    alike: tuple[tuple[int, ...], ...]
-    accepts: tuple[tuple[str, int], ...]
-    protocol_notes: ProtocolNotes
-
-
-def device_facts(node: Value | None) -> DeviceFacts:
-    """The keys of `protocol` that no driver needs."""
-    if node is None:
-        return {}
-    return {
-        "faults": faults_of(node),
-        "default_unit": whole_of(node, "default_unit") if node.child("default_unit") else None,
-        "spares_memory": truth_of(node, "spares_memory"),
-        "alike": tuple(tuple(each.whole() for each in one.elements()) for one in elements_of(node, "alike")),
-        "accepts": tuple((key, each.whole()) for key, each in items_of(node, "accepts")),
-        "protocol_notes": _notes(node),
-    }
-
-
-def _notes(node: Value) -> ProtocolNotes:
-    serial = node.child("serial")
-    parts = (node, node.child("limits"), node.child("faults"), serial)
-    return ProtocolNotes(
-        section=text_of(node, "source"),
-        serial=text_of(serial, "description") if serial else "",
-        latencies=tuple((each.key_whole(), text_of(each, "note")) for _, each in items_of(node, "latency")),
-        stated=tuple(sorted({key for part in parts if part for key, _ in part.items()})),
     )
 
 
 def faults_of(protocol: Value) -> Faults:
     """The answers to bad requests."""
-    faults, node = Faults(), protocol.child("faults")
-    if node is None:
-        return faults
+    faults, node = Faults(), protocol.mapping_of("faults")
     answers = {key: each for key, each in node.items() if key in _CODES}
     codes = {key: SILENCE if each.value == "silence" else each.whole() for key, each in answers.items()}
     codes.setdefault("unused_write", codes.get("address", faults.unused_write))
     return replace(
         faults,
         **codes,
-        later_read=choice_of(node, "later_read", faults.later_read),
-        later_write=choice_of(node, "later_write", faults.later_write),
+        later_read=node.choice_of("later_read", faults.later_read),
+        later_write=node.choice_of("later_write", faults.later_write),
+    )
+
+
+def notes_of(protocol: Value) -> ProtocolNotes:
+    """What documents the protocol."""
+    serial = protocol.mapping_of("serial")
+    parts = (protocol, protocol.mapping_of("limits"), protocol.mapping_of("faults"), serial)
+    return ProtocolNotes(
+        section=protocol.text_of("source"),
+        serial=serial.text_of("description"),
+        latencies=tuple((each.key_whole(), each.text_of("note")) for _, each in protocol.items_of("latency")),
+        stated=tuple(sorted({key for part in parts for key, _ in part.items()})),
     )
 
 
 def _latency(node: Value) -> Latency:
-    fixed, each = _times(node.child("fixed")), _times(node.child("per_word"))
-    return Latency(node.key_whole(), *fixed, *each, fraction_of(node, "characters"))
+    fixed, per_word = (ends(times) if (times := node.child(key)) else (ZERO, ZERO) for key in ("fixed", "per_word"))
+    return Latency(node.key_whole(), *fixed, *per_word, node.fraction_of("characters"))
 
 
-def _times(node: Value | None) -> tuple[Fraction, Fraction]:
-    return ends(node) if node else (ZERO, ZERO)
-
-
-def _serial(node: Value | None) -> SerialDefaults:
+def _serial(node: Value) -> SerialDefaults:
     plain = SerialDefaults()
-    if node is None:
-        return plain
-    baud, form = _default(node.child("default"), plain)
+    baud, form = plain.baud, plain.format
+    default = node.child("default")
+    words = default.text().split() if default else []
+    if len(words) == 2 and words[0].isdecimal():  # noqa: PLR2004 - the speed and the format
+        baud, form = int(words[0]), words[1]
+    elif default:
+        message = f"`{default.text()}` is no setting of a serial line"
+        default.report(WRONG_SORT, message, remedy="write the speed and the character format, as 9600 8N1")
     return SerialDefaults(
-        modes=texts_of(node, "modes", plain.modes),
-        bauds=wholes_of(node, "baud"),
-        formats=texts_of(node, "formats"),
+        modes=node.texts_of("modes", plain.modes),
+        bauds=node.wholes_of("baud"),
+        formats=node.texts_of("formats"),
         baud=baud,
         format=form,
-        gap=fraction_of(node, "gap_characters", Fraction(plain.gap)),
+        gap=node.fraction_of("gap_characters", Fraction(plain.gap)),
     )
-
-
-def _default(node: Value | None, plain: SerialDefaults) -> tuple[int, str]:
-    words = node.text().split() if node else []
-    if node is None or (len(words) == 2 and words[0].isdecimal()):  # noqa: PLR2004 - the speed and the format
-        return (int(words[0]), words[1]) if words else (plain.baud, plain.format)
-    message = f"`{node.text()}` is no setting of a serial line"
-    node.report(WRONG_SORT, message, remedy="write the speed and the character format, as 9600 8N1")
-    return plain.baud, plain.format

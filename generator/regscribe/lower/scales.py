@@ -1,13 +1,14 @@
-"""From the stored value to the value of use: constant and conditional scales, decimals rules."""
+"""From a stored number to the value of use: the conversion of a register by case, named scales, decimals and units."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
-from regscribe.lower.conditions import condition
-from regscribe.lower.interval_text import unordered
-from regscribe.lower.node import Value
-from regscribe.lower.rules import NO_ENDS, TWO_SCALES, UNKNOWN_DECIMALS, UNKNOWN_SCALE, WRONG_SORT
-from regscribe.lower.scope import Scope, path_of
+from regscribe.lower.conditions import cases_of, condition_of
+from regscribe.lower.node import Keyed, Value
+from regscribe.lower.rules import NO_ENDS, TWO_SCALES, UNKNOWN_DECIMALS, UNKNOWN_SCALE, UNKNOWN_UNIT, WRONG_SORT
+from regscribe.lower.scope import Scope
+from regscribe.lower.texts import unknown, unordered
 from regscribe.lower.tree import TreeNode
 from regscribe.model import ALWAYS, IDENTITY, SAME, Case, Cases, Condition, Conversion, Decimals, WireType, always, show
 
@@ -16,12 +17,17 @@ _WITH_POINT = "value"
 _MOST_DIGITS = 100
 _LINEAR = frozenset({"multiply", "add"})
 _WAYS = _LINEAR | {"scale", "decimals"}
-_TWO_WAYS = "keep the one that the manual states"
+
+KNOWN_UNITS = (
+    *("°C", "°F", "K", "%", "s", "ms", "min", "h", "d", "V", "mV", "A", "mA", "Ω", "Hz", "kHz", "bar", "mbar", "Pa"),
+    *("kPa", "psi", "m", "mm", "m/s", "rpm", "W", "kW", "Wh", "kWh", "VA", "var", "baud", "0.1 s", "0.01 s", "words"),
+)
+"""Unit symbols that a map may use without declaring them."""
 
 
 @dataclass(frozen=True, slots=True)
 class Scaling:
-    """A conversion under a condition; `ends` are its values at the type's lowest and highest raw code, if told so."""
+    """A conversion under a condition; `ends` are its values at the type's lowest and highest raw code, if given so."""
 
     when: Condition
     conversion: Conversion
@@ -34,25 +40,23 @@ def scale_of(entry: TreeNode, wire: WireType, scope: Scope) -> tuple[Scaling, ..
     given = [key for key in settings if key in _WAYS]
     if len(given) > 1 and not set(given) <= _LINEAR:
         message = f"`{entry.id}` has both `{given[0]}` and `{given[1]}`"
-        settings[given[1]].report(TWO_SCALES, message, remedy=_TWO_WAYS, at_key=True)
-    if "scale" in settings:
-        return _scale(settings["scale"], wire, scope)
-    if "decimals" in settings:
+        settings[given[1]].report(TWO_SCALES, message, remedy="keep the one that the manual states", at_key=True)
+    if "decimals" in settings and "scale" not in settings:
         return tuple(Scaling(case.when, case.then) for case in decimals_of(settings["decimals"], scope))
-    return (Scaling(ALWAYS, _linear(settings.get("multiply"), settings.get("add"))),)
+    node = settings.get("scale")
+    if node is None:
+        return (Scaling(ALWAYS, _linear(settings)),)
+    if node.is_text and ".." in node.text():
+        return (_affine(node, ALWAYS, unordered(node), wire),)
+    table = scope.named(node, "scales", rule=UNKNOWN_SCALE, what="scale")
+    return (scale_at(table, wire, scope) if table else ()) or (Scaling(ALWAYS, IDENTITY),)
 
 
-def _linear(multiply: Value | None, add: Value | None) -> Conversion:
+def _linear(keys: Keyed) -> Conversion:
+    multiply, add = keys.child("multiply"), keys.child("add")
     if multiply is None and add is None:
         return IDENTITY
     return Conversion(multiply.number() if multiply else Fraction(1), add.number() if add else Fraction(0))
-
-
-def _scale(node: Value, wire: WireType, scope: Scope) -> tuple[Scaling, ...]:
-    if node.is_text and ".." in node.text():
-        return (_affine(node, ALWAYS, unordered(node), wire),)
-    found = scope.named(node, "scales", rule=UNKNOWN_SCALE, what="scale")
-    return (scale_at(found, wire, scope) if found else ()) or (Scaling(ALWAYS, IDENTITY),)
 
 
 def scale_at(node: Value, wire: WireType, scope: Scope) -> tuple[Scaling, ...]:
@@ -61,13 +65,11 @@ def scale_at(node: Value, wire: WireType, scope: Scope) -> tuple[Scaling, ...]:
 
 
 def _case(node: Value, wire: WireType, scope: Scope) -> Scaling:
-    when = condition(node.child("when"), scope)
+    when = condition_of(node, scope)
     low, high, digits = node.child("from"), node.child("to"), node.child("decimals")
     if low and high:
         return _affine(node, when, (low.number(), high.number()), wire)
-    if digits:
-        return Scaling(when, Conversion(multiply=_power(digits)))
-    return Scaling(when, _linear(node.child("multiply"), node.child("add")))
+    return Scaling(when, Conversion(multiply=_power(digits)) if digits else _linear(node))
 
 
 def _affine(node: Value, when: Condition, ends: tuple[Fraction, Fraction], wire: WireType) -> Scaling:
@@ -102,18 +104,55 @@ def decimals_rule(node: Value, scope: Scope) -> Cases[Conversion]:
 
 def rule_at(rule: Value, scope: Scope) -> Cases[Conversion]:
     """The cases of the decimals rule that stands at `rule`; where none of its own holds, the identity."""
-    cases = scope.once(rule.path, lambda: tuple(_decimals_case(node, scope) for node in rule.elements()))
+    cases = scope.once(rule.path, lambda: cases_of(rule, scope, lambda node: _decimals(node, scope)))
     return cases if any(case.when.always for case in cases) else (*cases, Case(ALWAYS, IDENTITY))
 
 
-def _decimals_case(node: Value, scope: Scope) -> Case[Conversion]:
-    when = condition(node.child("when"), scope)
-    register, at_most, step, stores = (node.child(key) for key in ("register", "at_most", "step", "stores"))
+def _decimals(node: Value, scope: Scope) -> Conversion:
+    register, at_most, step = (node.child(key) for key in ("register", "at_most", "step"))
     if register is None:
-        return Case(when, IDENTITY)
-    path = path_of(scope.register(register), register.text())
-    decimals = Decimals(path, at_most.whole() if at_most else None)
+        return IDENTITY
+    decimals = Decimals(scope.path(register), at_most.whole() if at_most else None)
     increment = step.number() if step else None
-    if stores is not None and stores.text() == _WITH_POINT:
-        return Case(when, Conversion(step=Fraction(1) if increment is None else increment, places=decimals))
-    return Case(when, Conversion(decimals=decimals, step=increment))
+    if node.text_of("stores") == _WITH_POINT:
+        return Conversion(step=Fraction(1) if increment is None else increment, places=decimals)
+    return Conversion(decimals=decimals, step=increment)
+
+
+def own_units(root: Value) -> tuple[str, ...]:
+    """The plain unit symbols that a map declares."""
+    return tuple(name for name, node in root.items_of("units") if not node.is_list)
+
+
+def unit_of(node: Value | None, scope: Scope) -> tuple[Cases[str], str]:
+    """The unit symbol by case, and the id where the map names a unit with cases; RS0311 for an unknown one."""
+    if node is None:
+        return always(""), ""
+    name, units = node.text(), dict(scope.map.items_of("units"))
+    if name in units and units[name].is_list:
+        return unit_at(units[name], scope), name
+    return always(_symbol(node, scope, [key for key, unit in units.items() if unit.is_list])), ""
+
+
+def unit_at(node: Value, scope: Scope) -> Cases[str]:
+    """The symbols of the unit with cases that stands at `node`."""
+    return scope.once(node.path, lambda: cases_of(node, scope, lambda case: _symbol(case.child("symbol"), scope)))
+
+
+def _symbol(node: Value | None, scope: Scope, by_case: Iterable[str] = ()) -> str:
+    name = node.text() if node else ""
+    if node and name and name not in KNOWN_UNITS:
+        own = own_units(scope.map)
+        if name not in own:
+            unknown(node, UNKNOWN_UNIT, "unit", name, (*by_case, *own, *KNOWN_UNITS))
+    return name
+
+
+def rescaled(node: Value | None, scope: Scope) -> str:
+    """The unit with cases whose registers the device converts; RS0311 where the map has none of that name."""
+    if node is None:
+        return ""
+    by_case = [name for name, unit in scope.map.items_of("units") if unit.is_list]
+    if node.text() not in by_case:
+        unknown(node, UNKNOWN_UNIT, "unit with cases", node.text(), by_case)
+    return node.text()

@@ -4,10 +4,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import TypeVar, cast
 
-from regscribe.lower.names import unknown
 from regscribe.lower.node import Value
-from regscribe.lower.rules import OTHER_MODELS, UNKNOWN_REGISTER
-from regscribe.lower.tree import TreeNode
+from regscribe.lower.rules import OTHER_MODELS, UNKNOWN_COMMAND, UNKNOWN_REGISTER
+from regscribe.lower.texts import unknown
+from regscribe.lower.tree import TreeNode, span_of
 from regscribe.lower.variants import Models, present
 from regscribe.model import Enum, Related
 from regscribe.model.identifiers import opened
@@ -34,7 +34,7 @@ class Scope:
     lenient: bool = False
     folded: bool = False
     enums: dict[str, Enum] = field(default_factory=dict)
-    known: dict[object, object] = field(default_factory=dict)
+    cache: dict[object, object] = field(default_factory=dict)
 
     @property
     def prefixes(self) -> tuple[str, ...]:
@@ -50,11 +50,11 @@ class Scope:
         return self.model in present(node, self.models, self.models)
 
     def once(self, key: object, make: Callable[[], Made]) -> Made:
-        """What `make` gives for `key`; worked out once for all registers that find the same ones by name."""
+        """The result of `make`, computed once per `key` for all registers whose names mean the same registers."""
         seen_from = (key, self.prefixes, self.lenient, self.folded)
-        if seen_from not in self.known:
-            self.known[seen_from] = make()
-        return cast("Made", self.known[seen_from])
+        if seen_from not in self.cache:
+            self.cache[seen_from] = make()
+        return cast("Made", self.cache[seen_from])
 
     def find(self, name: str) -> TreeNode | None:
         """The register of this name on this model, None if there is none."""
@@ -65,12 +65,18 @@ class Scope:
 
     def named(self, node: Value, table: str, *, rule: str, what: str) -> Value | None:
         """The entry of a table of the map that `node` names; reports `rule` and returns None if there is none."""
-        name = node.text()
-        found = self.map.child(table)
-        entry = found.child(name) if found else None
+        entries = self.map.mapping_of(table)
+        entry = entries.child(node.text())
         if entry is None:
-            unknown(node, rule, what, name, [key for key, _ in found.items()] if found else [])
+            unknown(node, rule, what, node.text(), [key for key, _ in entries.items()])
         return entry
+
+    def command(self, node: Value | None) -> str:
+        """The id of the command that `node` names, empty where it is None; RS0313 if there is none."""
+        if node is None:
+            return ""
+        self.named(node, "commands", rule=UNKNOWN_COMMAND, what="command")
+        return node.text()
 
     def register(self, node: Value, name: str | None = None, *, at_key: bool = False) -> TreeNode | None:
         """The register that `node` names; RS0301 if no model has it, RS0302 if only other models have."""
@@ -80,25 +86,24 @@ class Scope:
             self.missing(node, wanted, at_key=at_key)
         return entry
 
+    def path(self, node: Value | None) -> str:
+        """The path of the register that `node` names, or that name as a placeholder; empty where it is None."""
+        if node is None:
+            return ""
+        entry = self.register(node)
+        return entry.path if entry else node.text()
+
     def missing(self, node: Value, name: str, *, at_key: bool = False) -> None:
         """Report that this model has no register of this name."""
         homes = next((self.homes[f"{at}{name}"] for at in (*self.prefixes, "") if f"{at}{name}" in self.homes), ())
         if self.lenient and (homes or any(path.endswith(f".{name}") for path in self.homes)):
             return
-        if homes:
-            self._elsewhere(node, name, homes, at_key=at_key)
-        else:
+        if not homes:
             unknown(node, UNKNOWN_REGISTER, "register", name, self.homes, at_key=at_key)
-
-    def _elsewhere(self, node: Value, name: str, homes: Models, *, at_key: bool) -> None:
+            return
         viewer = self.viewer
         needed = f"where `{viewer.path}` needs it" if viewer else "where it is needed"
         message = f"`{name}` is not on {self.model}, {needed}, only on {', '.join(homes)}"
         remedy = f"keep what refers to it to those models with `models`, or give it a variant for {self.model}"
-        related = (Related(f"needed by `{viewer.path}`", viewer.span),) if viewer else ()
+        related = (Related(f"needed by `{viewer.path}`", span_of(viewer.node)),) if viewer else ()
         node.report(OTHER_MODELS, message, remedy=remedy, at_key=at_key, related=related)
-
-
-def path_of(entry: TreeNode | None, name: str) -> str:
-    """The path of a register, or the name that was not found as a placeholder."""
-    return entry.path if entry else name

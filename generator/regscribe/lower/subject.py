@@ -3,13 +3,12 @@
 from dataclasses import dataclass
 from fractions import Fraction
 
-from regscribe.lower.enums import code_anywhere, enum_for, fields_of
-from regscribe.lower.names import unknown
-from regscribe.lower.node import Value, text_of
+from regscribe.lower.enums import code_anywhere, enum_for, fields_of, id_of
+from regscribe.lower.node import ZERO, Value
 from regscribe.lower.rules import DIVIDED, UNKNOWN_FIELD, UNKNOWN_MEMBER
 from regscribe.lower.scope import Scope
+from regscribe.lower.texts import unknown
 from regscribe.lower.tree import TreeNode
-from regscribe.model.identifiers import snake
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +42,12 @@ def subject_of(node: Value, key: str, scope: Scope) -> Subject | None:
     return Subject(register, owner, field, known.get(field))
 
 
+def subject_at(node: Value | None, scope: Scope) -> str:
+    """The register, or `register.field`, that a value names; empty where it is absent or names none."""
+    subject = subject_of(node, node.text(), scope) if node else None
+    return subject.path if subject else ""
+
+
 def code_of_text(node: Value, subject: Subject, scope: Scope) -> Fraction:
     """The code of an enum member, or what a special value is, by its id; RS0305 where there is none."""
     text = node.text()
@@ -54,28 +59,19 @@ def code_of_text(node: Value, subject: Subject, scope: Scope) -> Fraction:
         if code is not None:
             return Fraction(code)
         known = [member.id.lower() for member in enum.members]
-    specials = subject.entry.settings.get("special")
-    for code_node in specials.values() if specials else ():
-        name = _id(code_node).lower()
+    settings = subject.entry.settings
+    for _, special in settings.items_of("special"):
+        name = id_of(special).lower()
         if name == text.lower() and not subject.field:
-            means = code_node.child("means")
+            means = special.child("means")
             if means is not None:
                 return means.number()
-            _undivided(node, subject.entry, code_node)
-            return code_node.key_number()
+            if "range_decimals" in settings and special.key_number():
+                message = f"`{text}` of `{subject.entry.id}` is divided as the range is, so it is no one number"
+                remedy = "ask for a value, or for the register that holds the decimals as well"
+                node.report(DIVIDED, message, remedy=remedy)
+            return special.key_number()
         known.append(name)
     where = f"{subject.name}.{subject.field}" if subject.field else subject.name
     unknown(node, UNKNOWN_MEMBER, "member or special value", text, known, of=where)
-    return Fraction(0)
-
-
-def _undivided(node: Value, entry: TreeNode, code_node: Value) -> None:
-    """Report a special value that is another number with each number of decimals."""
-    if "range_decimals" in entry.settings and code_node.key_number():
-        message = f"`{node.text()}` of `{entry.id}` is divided as the range is, so it is no one number"
-        node.report(DIVIDED, message, remedy="ask for a value, or for the register that holds the decimals as well")
-
-
-def _id(node: Value) -> str:
-    """The id of a special value."""
-    return (text_of(node, "id") or snake(text_of(node, "label"))) if node.is_mapping else snake(node.text())
+    return ZERO

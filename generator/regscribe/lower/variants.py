@@ -2,9 +2,9 @@
 
 from collections.abc import Iterable
 
-from regscribe.lower.names import unknown
-from regscribe.lower.node import Value, elements_of, texts_of
+from regscribe.lower.node import Keyed, Value
 from regscribe.lower.rules import IDLE_VARIANT, UNKNOWN_MODEL
+from regscribe.lower.texts import unknown
 
 Models = tuple[str, ...]
 
@@ -27,7 +27,7 @@ _RIVALS = (
 _CODES = frozenset({"enum", "flags", "fields", "version"})
 
 
-class Keys(dict[str, Value]):
+class Keys(dict[str, Value], Keyed):
     """The keys that count for one register on one model; each value knows where in the map it stands.
 
     `replaced` are the paths of defaults in whose place the register has something of its own.
@@ -36,6 +36,10 @@ class Keys(dict[str, Value]):
     def __init__(self) -> None:
         super().__init__()
         self.replaced: set[tuple[str | int, ...]] = set()
+
+    def child(self, key: str) -> Value | None:
+        """The value of a key; None where the key is absent."""
+        return self.get(key)
 
     def lay(self, own: dict[str, Value]) -> None:
         """Lay keys over these.
@@ -47,7 +51,7 @@ class Keys(dict[str, Value]):
         for keys, rivals in _RIVALS:
             if keys & given.keys():
                 self._replace(rivals - own.keys())
-        if _makes_no_number(given):
+        if given.keys() & _CODES or any(key in given and given[key].value in _NO_NUMBERS[key] for key in _NO_NUMBERS):
             for key in self.keys() & (_NUMERIC - own.keys()):
                 del self[key]
         self._replace(own.keys())
@@ -58,18 +62,11 @@ class Keys(dict[str, Value]):
         self.replaced |= {self.pop(key).path for key in self.keys() & set(keys)}
 
 
-def _makes_no_number(given: dict[str, Value]) -> bool:
-    """Whether keys make codes, bits or a text of the register."""
-    return bool(given.keys() & _CODES) or any(
-        key in given and given[key].value in values for key, values in _NO_NUMBERS.items()
-    )
-
-
 def present(node: Value, among: Models, every: Models) -> Models:
     """The models of `among` that a register, array, command, member or field is on; RS0314 for names of no model."""
     only = node.child("models")
     listed = named_models(only.elements(), every) if only else among
-    left_out = named_models(elements_of(node, "except"), every)
+    left_out = named_models(node.elements_of("except"), every)
     return tuple(model for model in among if model in listed and model not in left_out)
 
 
@@ -92,18 +89,14 @@ def settings_of(layers: list[Value]) -> Keys:
 def with_variants(layer: Value, model: str, has: Models, every: Models) -> list[Value]:
     """A layer and the variants of it that count on `model`; RS0314 and RS0320 for models that none can be for."""
     chosen = [layer]
-    for variant in elements_of(layer, "variants"):
-        for node in elements_of(variant, "models"):
-            _check(node, has, every)
-        if model in texts_of(variant, "models"):
+    for variant in layer.elements_of("variants"):
+        for node in variant.elements_of("models"):
+            name = node.text()
+            if name not in every:
+                unknown(node, UNKNOWN_MODEL, "model", name, every)
+            elif name not in has:
+                message = f"this variant is for {name}, but the register is not on {name}"
+                node.report(IDLE_VARIANT, message, remedy=f"the register is on: {', '.join(has) or 'no model'}")
+        if model in variant.texts_of("models"):
             chosen.append(variant)
     return chosen
-
-
-def _check(node: Value, has: Models, every: Models) -> None:
-    name = node.text()
-    if name not in every:
-        unknown(node, UNKNOWN_MODEL, "model", name, every)
-    elif name not in has:
-        message = f"this variant is for {name}, but the register is not on {name}"
-        node.report(IDLE_VARIANT, message, remedy=f"the register is on: {', '.join(has) or 'no model'}")

@@ -1,0 +1,154 @@
+"""Which values a register takes: its range, special values, sentinels, default and version pattern.
+
+A range may be a union or differ by case; limits may be registers or open, and have decimals from a register.
+"""
+
+from fractions import Fraction
+
+from regscribe.lower.conditions import both, cases_of, excludes
+from regscribe.lower.enums import identifier_of, label_of
+from regscribe.lower.node import ZERO, Value
+from regscribe.lower.rules import BAD_DEFAULT, BAD_VERSION, REVERSED
+from regscribe.lower.scales import Scaling, decimals_rule
+from regscribe.lower.scope import Scope
+from regscribe.lower.texts import ends, unknown
+from regscribe.lower.tree import TreeNode
+from regscribe.model import (
+    NAN,
+    Case,
+    Cases,
+    Conversion,
+    Enum,
+    Interval,
+    Kind,
+    Limit,
+    Number,
+    Open,
+    Range,
+    Ref,
+    Sentinel,
+    Special,
+    always,
+    show,
+)
+
+_NOT_GIVEN = Open("not given")
+
+
+def range_of(entry: TreeNode, scaling: tuple[Scaling, ...], scope: Scope) -> Cases[Range]:
+    """The range of a register by case; where the map gives none, the ends of its scale."""
+    node = entry.settings.get("range")
+    if node is None:
+        if not any(part.ends for part in scaling):
+            return ()
+        limits = [(part.when, sorted(part.ends) if part.ends else (_NOT_GIVEN, _NOT_GIVEN)) for part in scaling]
+        return tuple(Case(when, Range((Interval(low, high),))) for when, (low, high) in limits)
+    if any(element.child("is") for element in node.elements()):
+        cases = cases_of(node, scope, lambda case: _range(case.child("is") or case, scope))
+    else:
+        cases = always(_range(node, scope))
+    if "range_decimals" not in entry.settings:
+        return cases
+    rules = decimals_rule(entry.settings["range_decimals"], scope)
+    return tuple(part for case in cases for part in _with_decimals(case, rules))
+
+
+def _range(node: Value, scope: Scope) -> Range:
+    return Range(tuple(_interval(element, scope) for element in node.elements()))
+
+
+def _interval(node: Value, scope: Scope) -> Interval:
+    if not node.is_mapping:
+        return Interval(*ends(node))
+    low, high = _limit(node.child("from"), scope), _limit(node.child("to"), scope)
+    if isinstance(low, Number) and isinstance(high, Number) and low > high:
+        message = f"the range is reversed: from {show(low)} is more than to {show(high)}"
+        node.report(REVERSED, message, remedy=f"write from: {show(high)}, to: {show(low)}")
+    return Interval(low, high)
+
+
+def _limit(node: Value | None, scope: Scope) -> Limit:
+    if node is None:
+        return _NOT_GIVEN
+    if node.is_mapping:
+        return Open(node.text_of("open"))
+    return node.number() if node.is_number else Ref(scope.path(node))
+
+
+def _with_decimals(case: Case[Range], rules: Cases[Conversion]) -> Cases[Range]:
+    """A case for each condition of a decimals rule, with its decimals; last the case itself, unless one must hold."""
+    numbers = any(isinstance(limit, Number) for each in case.then.intervals for limit in (each.low, each.high))
+    dividing = max((number for number, rule in enumerate(rules, start=1) if rule.then.decimals), default=0)
+    found: list[Case[Range]] = []
+    for rule in rules[: dividing if numbers else 0]:
+        if excludes(case.when, rule.when):
+            continue
+        scaled = Range(case.then.intervals, rule.then.decimals)
+        if set(rule.when.tests) <= set(case.when.tests):
+            return (*found, Case(case.when, scaled))
+        found.append(Case(both(rule.when, case.when), scaled))
+    return (*found, case)
+
+
+def specials_of(entry: TreeNode) -> tuple[Special, ...]:
+    """The special values of a register."""
+    found = []
+    for _, node in entry.settings.items_of("special"):
+        label, means = label_of(node), node.child("means")
+        name = identifier_of(node, label).upper()
+        found.append(Special(node.key_number(), label, name, means.number() if means else None))
+    return tuple(found)
+
+
+def sentinels_of(entry: TreeNode) -> tuple[Sentinel, ...]:
+    """The stored numbers of a register that are faults."""
+    found = []
+    for key, node in entry.settings.items_of("sentinels"):
+        label = label_of(node)
+        stored = NAN if key == NAN.value else node.key_number()
+        found.append(Sentinel(stored, identifier_of(node, label).upper(), label))
+    return tuple(found)
+
+
+def version_of(node: Value | None) -> tuple[int, int]:
+    """Decimal digits and digits of a group of a version pattern such as nn.nn.nn; RS0329 for any other text."""
+    if node is None:
+        return 0, 0
+    groups = node.text().split(".")
+    if not all(group and group == "n" * len(groups[0]) for group in groups):
+        message = f"`{node.text()}` is no version pattern"
+        node.report(BAD_VERSION, message, remedy="write one n a digit, in groups of equal length, as nn.nn.nn")
+        return 0, 0
+    return len(groups) * len(groups[0]), len(groups[0])
+
+
+def beginning_of(
+    node: Value | None, kind: Kind, enum: Enum | None, specials: tuple[Special, ...]
+) -> Fraction | str | None:
+    """The `default` or `delivered` value as one of use; RS0322 where it names no member or special value.
+
+    Manuals print the code of a special value here, too: it is the number that the code stands for.
+    """
+    if node is None:
+        return None
+    value = named_value(node, kind, enum, specials, BAD_DEFAULT)
+    if value in {special.means for special in specials}:
+        return value
+    return next((special.value for special in specials if special.code == value), value)
+
+
+def named_value(node: Value, kind: Kind, enum: Enum | None, specials: tuple[Special, ...], rule: str) -> Fraction | str:
+    """A value of use as a map spells it: a number, a text or version, or the id of an enum member or special value."""
+    if kind is Kind.STRING:
+        return node.text()
+    if not node.is_text:
+        return node.number()
+    text = node.text()
+    named = {member.id.lower(): Fraction(member.code) for member in (enum.members if enum else ())}
+    named |= {special.id.lower(): special.value for special in specials}
+    if text.lower() in named:
+        return named[text.lower()]
+    if kind is Kind.VERSION:
+        return text
+    unknown(node, rule, "member or special value", text, named)
+    return ZERO

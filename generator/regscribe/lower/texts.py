@@ -1,0 +1,77 @@
+"""Texts of a map with a form of their own: identifiers, names of other things, and ranges `a..b`."""
+
+import re
+from collections.abc import Iterable
+from difflib import get_close_matches
+from fractions import Fraction
+
+from regscribe.lower.node import ZERO, Value, brief
+from regscribe.lower.rules import NO_IDENTIFIER, REVERSED, WRONG_SORT
+from regscribe.model import parse, show
+from regscribe.model.identifiers import snake, unindexed
+
+_LISTED = 12
+_NUMBER = r"([+-]?[0-9]{1,30}(?:\.[0-9]{1,30})?(?:[eE][+-]?[0-9]{1,3})?)"
+_ENDS = re.compile(rf"\s*{_NUMBER}\s*\.\.\s*{_NUMBER}\s*")
+
+
+def identifier(node: Value, *, label: str, given: Value | None, capitals: bool = False) -> str:
+    """The identifier `given` in the map, or else the one derived from `label`; RS0317 where that is none."""
+    name = given.text() if given else snake(unindexed(label))
+    if not name.isidentifier():
+        where = given or node
+        what = f"`{name}` is no identifier" if given else f"no identifier can be derived from `{brief(label)}`"
+        where.report(NO_IDENTIFIER, what, remedy="give an `id` of letters, digits and _ that starts with a letter")
+        return "unnamed"
+    return name.upper() if capitals else name
+
+
+def unknown(
+    node: Value, rule: str, what: str, name: str, known: Iterable[str], *, of: str = "", at_key: bool = False
+) -> None:
+    """Report that there is no `what` of this name (in the thing `of`), with the nearest one and those that exist."""
+    if (rule, node.key_span if at_key else node.span) in node.context.found:
+        return
+    names = list(dict.fromkeys(known))
+    near = get_close_matches(brief(name), names, n=1)
+    place = f" in `{of}`" if of else ""
+    guess = f"did you mean `{near[0]}`? " if near else ""
+    more = f" and {len(names) - _LISTED} more" if len(names) > _LISTED else ""
+    listed = f"there are: {', '.join(map(brief, names[:_LISTED]))}{more}" if names else "there are none"
+    node.report(rule, f"there is no {what} `{brief(name)}`{place}", remedy=f"{guess}{listed}", at_key=at_key)
+
+
+def ends(node: Value) -> tuple[Fraction, Fraction]:
+    """The two ends that `a..b` spells; a plain number stands for both. RS0330 and RS0315 where it does not."""
+    low, high = unordered(node)
+    if low > high:
+        message = f"the range {node.text()} is reversed: {show(low)} is more than {show(high)}"
+        node.report(REVERSED, message, remedy=f"write {show(high)}..{show(low)}")
+        return high, low
+    return low, high
+
+
+def unordered(node: Value) -> tuple[Fraction, Fraction]:
+    """The two ends that `a..b` spells, in whatever order; RS0330 for any other text."""
+    if node.is_number:
+        return node.number(), node.number()
+    match = _ENDS.fullmatch(node.value) if node.is_text else None
+    if match is not None:
+        try:
+            return parse(match[1]), parse(match[2])
+        except ValueError:  # an exponent beyond those of all types
+            pass
+    shown = f"`{brief(node.text())}`" if node.is_text else "this"
+    node.report(WRONG_SORT, f"{shown} is no range", remedy="write two numbers as a..b, for example -10..250.5")
+    return ZERO, ZERO
+
+
+def whole_ends(node: Value | None, otherwise: tuple[int, int] = (0, 0)) -> tuple[int, int]:
+    """The two whole ends that `a..b` spells, `otherwise` where there is no value; RS0330 where one has a fraction."""
+    if node is None:
+        return otherwise
+    low, high = ends(node)
+    if low.denominator != 1 or high.denominator != 1:
+        node.report(WRONG_SORT, f"`{node.text()}` is no range of whole numbers", remedy="write whole numbers, as 1..8")
+        return 0, 0
+    return low.numerator, high.numerator
