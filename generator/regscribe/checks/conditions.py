@@ -1,30 +1,52 @@
 """Conditions and cases: what can never hold, never be reached, or is not covered; givens that nothing needs."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
-from regscribe.checks.probe_states import Verdict, verdict
+from regscribe.checks.probe_states import verdict
 from regscribe.checks.rule import MAP, Finding, RuleScope, Scopes, map_rule
 from regscribe.model import Condition, Identity, Kind, OrderFrom, Register, RegisterMap, Span
 
-Ask = tuple[Condition, ...]
-
 
 @dataclass(slots=True)
-class AskedSubject:
-    """The conditions of one set of cases: who has them first, what they decide, and the verdict over all models.
+class CaseSet:
+    """The conditions of one set of cases, what they decide, the first register that has them, and how they come out.
 
-    `faulty`: whatever has them can report a fault, which needs no scale.
+    What can hold on one model can hold: `possible`, `reached` and `uncovered` are those of all models together.
+    `faulty`: whatever has the cases can report a fault, which needs no scale.
     """
 
+    conditions: tuple[Condition, ...]
+    what: str
     subject: str
     span: Span
-    what: str
-    found: Verdict
+    possible: set[int] = field(default_factory=set)
+    reached: set[int] = field(default_factory=set)
+    uncovered: str = ""
     faulty: bool = True
 
 
-def _cases_of(register: Register) -> Iterator[tuple[str, Ask]]:
+def _case_sets(scopes: Scopes) -> list[CaseSet]:
+    """All sets of cases of the map, each once; kept for all rules."""
+    return scopes[0].once("case sets", lambda: _collected(scopes))
+
+
+def _collected(scopes: Scopes) -> list[CaseSet]:
+    every: dict[tuple[str, tuple[Condition, ...]], CaseSet] = {}
+    for scope in scopes:
+        for register in scope.model.registers:
+            for what, conditions in _conditions(register):
+                found = verdict(conditions, scope)
+                cases = every.setdefault((what, conditions), CaseSet(conditions, what, register.path, register.span))
+                cases.possible |= found.possible
+                cases.reached |= found.reached
+                cases.uncovered = cases.uncovered or found.uncovered
+                cases.faulty &= bool(register.sentinels)
+    return list(every.values())
+
+
+def _conditions(register: Register) -> Iterator[tuple[str, tuple[Condition, ...]]]:
+    """The conditions of each set of cases of a register, with what they decide."""
     for what, cases in (("scale", register.scale), ("range", register.range), ("unit", register.unit)):
         if len(cases) > 1 or (cases and not cases[0].when.always):
             yield what, tuple(case.when for case in cases)
@@ -32,52 +54,22 @@ def _cases_of(register: Register) -> Iterator[tuple[str, Ask]]:
         yield "condition for a write", (register.writable.when,)
 
 
-def _asked(scopes: Scopes) -> list[tuple[Ask, AskedSubject]]:
-    """All sets of conditions of the map, each once: what can hold on one model can hold. Kept for all rules."""
-    return scopes[0].once("asked", lambda: _collected(scopes))
-
-
-def _collected(scopes: Scopes) -> list[tuple[Ask, AskedSubject]]:
-    every: dict[tuple[str, Ask], AskedSubject] = {}
-    for scope in scopes:
-        for register in scope.model.registers:
-            for what, ask in _cases_of(register):
-                now = verdict(ask, scope)
-                asked = every.setdefault((what, ask), AskedSubject(register.path, register.span, what, now))
-                asked.found = _either(asked.found, now)
-                asked.faulty &= bool(register.sentinels)
-    return [(ask, asked) for (_, ask), asked in every.items()]
-
-
-def _either(one: Verdict, other: Verdict) -> Verdict:
-    return Verdict(
-        one.possible | other.possible,
-        one.reached | other.reached,
-        one.uncovered or other.uncovered,
-        known=one.known and other.known,
-    )
-
-
 def _shown(condition: Condition, place: int) -> str:
     return f"`{condition.name}`" if condition.name else f"case {place + 1}"
 
 
-@map_rule(
-    "RS0470",
-    "Condition that can never hold",
-    "It asks for a code, or for codes at once, that the tested registers cannot have on any model.",
-)
+@map_rule("RS0470", "Condition that can never hold")
 def never_holds(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
-    """Try every condition in every state that it tells apart; each condition is reported once."""
+    """It asks for a code, or for codes at once, that the tested registers cannot have on any model."""
     seen: set[Condition] = set()
-    for ask, asked in _asked(scopes):
-        for place, condition in enumerate(ask):
-            if place not in asked.found.possible and condition not in seen:
+    for cases in _case_sets(scopes):
+        for place, condition in enumerate(cases.conditions):
+            if place not in cases.possible and condition not in seen:
                 seen.add(condition)
                 tested = ", ".join(dict.fromkeys(f"`{test.subject}`" for test in condition.tests if test.subject))
-                message = f"`{asked.subject}`: the {asked.what} has {_shown(condition, place)}, which can never hold"
+                message = f"`{cases.subject}`: the {cases.what} has {_shown(condition, place)}, which can never hold"
                 help_text = f"compare the codes with what {tested or 'the givens'} can be, and with one another"
-                yield Finding(asked.subject, asked.span, message, help_text)
+                yield Finding(cases.subject, cases.span, message, help_text)
     yield from _identities(register_map, scopes)
 
 
@@ -93,7 +85,7 @@ def _identities(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
 def _unmet(identity: Identity, scope: RuleScope) -> str:
     """Why a model never shows an identity; empty if it may."""
     asked = (*identity.when.registers, *(path for path, _ in identity.texts))
-    unknown = next(filter(None, (_unknown(scope.registers[path]) for path in asked if path in scope.registers)), "")
+    unknown = next(filter(None, map(_unknown, scope.named(asked))), "")
     if unknown:
         return unknown
     if not verdict((identity.when,), scope).possible:
@@ -108,16 +100,11 @@ def _unknown(register: Register) -> str:
     """Why the value of a register is not known while a device is identified; empty if it is."""
     if not register.access.readable:
         return f"asks for `{register.path}`, which can only be written"
-    if not _tells_alone(register):
-        return f"asks for `{register.path}`, whose value is not known before the model is"
-    return ""
-
-
-def _tells_alone(register: Register) -> bool:
-    """Whether the words of a register have a value without any other register, and without a given."""
     scales = (*register.scale, *(register.special_scale if register.specials else ()))
     fixed = any(not isinstance(view.order, OrderFrom) for view in register.views if view.readable)
-    return fixed and all(case.when.always and not case.then.decimals for case in scales)
+    if not fixed or any(case.then.decimals or not case.when.always for case in scales):
+        return f"asks for `{register.path}`, whose value is not known before the model is"
+    return ""
 
 
 def _never_begins(register: Register, text: str) -> str:
@@ -132,36 +119,33 @@ def _never_begins(register: Register, text: str) -> str:
     return next((why for why, holds in whys.items() if holds), "")
 
 
-@map_rule("RS0471", "Case that is never reached", "The first case that holds counts, and an earlier one always does.")
+@map_rule("RS0471", "Case that is never reached")
 def never_reached(_: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
-    """Find cases that can hold, but never first."""
-    for ask, asked in _asked(scopes):
-        for place in sorted(asked.found.possible - asked.found.reached):
-            message = (
-                f"`{asked.subject}`: the {asked.what} has {_shown(ask[place], place)}, which no state ever reaches"
-            )
-            yield Finding(asked.subject, asked.span, message, "put it before the case that hides it, or remove it")
+    """The first case that holds counts, and an earlier one always does."""
+    for cases in _case_sets(scopes):
+        for place in sorted(cases.possible - cases.reached):
+            case = _shown(cases.conditions[place], place)
+            message = f"`{cases.subject}`: the {cases.what} has {case}, which no state ever reaches"
+            yield Finding(cases.subject, cases.span, message, "put it before the case that hides it, or remove it")
 
 
-@map_rule(
-    "RS0472", "States that no case covers", "In such a state a value can be neither read nor written.", warns=True
-)
+@map_rule("RS0472", "States that no case covers", warns=True)
 def not_covered(_: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
-    """Look for a state in which none of the cases of a scale or a range holds; units may be absent."""
-    seen: set[Ask] = set()
-    for ask, asked in _asked(scopes):
-        excused = asked.what == "scale" and asked.faulty  # in such a state there may be nothing but the fault
-        if asked.what in {"scale", "range"} and asked.found.uncovered and ask not in seen and not excused:
-            seen.add(ask)
-            message = f"`{asked.subject}`: no case of the {asked.what} holds when {asked.found.uncovered}"
+    """In such a state a value can be neither read nor written."""
+    seen: set[tuple[Condition, ...]] = set()
+    for cases in _case_sets(scopes):
+        excused = cases.what == "scale" and cases.faulty  # in such a state there may be nothing but the fault
+        if cases.what in {"scale", "range"} and cases.uncovered and cases.conditions not in seen and not excused:
+            seen.add(cases.conditions)
+            message = f"`{cases.subject}`: no case of the {cases.what} holds when {cases.uncovered}"
             help_text = "end with a case without `when`, or give the tested registers the range or enum they have"
-            yield Finding(asked.subject, asked.span, message, help_text)
+            yield Finding(cases.subject, cases.span, message, help_text)
 
 
-@map_rule("RS0473", "Given that nothing needs", "Users must find out every given; one that decides nothing is in vain.")
+@map_rule("RS0473", "Given that nothing needs")
 def given_unused(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
-    """Collect the givens of all conditions of all models."""
-    used = {test.given for ask, _ in _asked(scopes) for condition in ask for test in condition.tests}
+    """Users must find out every given; one that decides nothing is in vain."""
+    used = {test.given for one in _case_sets(scopes) for condition in one.conditions for test in condition.tests}
     for given in register_map.givens:
         if given.id not in used:
             message = f"given `{given.id}` decides nothing"

@@ -4,7 +4,7 @@ import keyword
 import re
 from collections.abc import Iterator
 
-from regscribe.checks.rule import Finding, RuleScope, model_rule, register_rule
+from regscribe.checks.rule import Finding, Problem, RuleScope, doubled, model_rule, register_rule
 from regscribe.model import Array, Enum, Kind, Model, Register, Related, Span
 
 RUNTIME_NAMES = frozenset(
@@ -56,11 +56,9 @@ def _members(members: tuple[Register | Array, ...], owner: str = "") -> Iterator
             yield from _members(member.members, f"{owner}{member.id} ")
 
 
-@model_rule(
-    "RS0410", "Id is no Python name", "An id becomes an attribute of the driver, so it must be a Python identifier."
-)
+@model_rule("RS0410", "Id is no Python name")
 def not_a_name(scope: RuleScope) -> Iterator[Finding]:
-    """Refuse keywords, and what is no identifier in lower case."""
+    """An id becomes an attribute of the driver, so it must be a Python identifier."""
     for what, name, span in _named(scope):
         if keyword.iskeyword(name) or keyword.issoftkeyword(name):
             yield Finding(name, span, f"{what} `{name}` has the name of a Python keyword", "give it another `id`")
@@ -69,52 +67,39 @@ def not_a_name(scope: RuleScope) -> Iterator[Finding]:
             yield Finding(name, span, message, "give it an `id` of letters, digits and `_` that starts with a letter")
 
 
-@model_rule("RS0411", "Id hides a name of the driver", "A register called `write` would replace the method `write`.")
+@model_rule("RS0411", "Id hides a name of the driver")
 def hides_runtime(scope: RuleScope) -> Iterator[Finding]:
-    """Refuse ids that a driver's class uses itself."""
+    """A register called `write` would replace the method `write`."""
     for what, name, span in _named(scope):
         if name in HIDDEN.get(what, ()):
             message = f"{what} `{name}` would hide the driver's own `{name}`"
             yield Finding(name, span, message, f"give it another `id`, for example `{name}_{what.split()[-1]}`")
 
 
-@model_rule("RS0412", "Id used twice", "Two things of one id cannot both be reached from the driver.")
+@model_rule("RS0412", "Id used twice")
 def id_twice(scope: RuleScope) -> Iterator[Finding]:
-    """Compare ids without `_`, among the registers and arrays of one owner, the groups and the commands."""
+    """Two things of one id cannot both be reached from the driver."""
     named = [(f"{owner}register", one.id, one.span) for owner, one in _members(scope.model.members)]
     named += [("group", group.id, group.span) for group in scope.model.groups]
     named += [("command", command.id, command.span) for command in scope.model.commands]
-    seen: dict[tuple[str, str], tuple[str, Span]] = {}
-    for what, name, span in named:
-        key = (what, normalised(name))
-        if key in seen:
-            first, where = seen[key]
-            related = (Related(f"`{first}` stands here", where),)
-            yield Finding(name, span, f"{what} `{name}` has the id of `{first}`", "give one another `id`", related)
-        seen.setdefault(key, (name, span))
+    for (_, first, place), (what, name, span) in doubled(named, lambda one: [(one[0], normalised(one[1]))]):
+        related = Related(f"`{first}` stands here", place)
+        yield Finding(name, span, f"{what} `{name}` has the id of `{first}`", "give one another `id`", related)
 
 
-@model_rule(
-    "RS0413", "Name used twice", "Readers tell registers apart by their names; equal names mislead them.", warns=True
-)
+@model_rule("RS0413", "Name used twice", warns=True)
 def name_twice(scope: RuleScope) -> Iterator[Finding]:
-    """Compare names, letters and digits only, inside each group and each array."""
-    seen: dict[tuple[str, str, str], Register] = {}
-    for register in scope.model.registers:
-        if any(index > 1 for index in register.index) and register.array:
-            continue
-        key = (register.group, register.array, normalised(register.name))
-        first = seen.setdefault(key, register)
-        if first is not register and first.span != register.span:
+    """Readers tell registers apart by their names; equal names mislead them."""
+    every = [one for one in scope.model.registers if not one.array or all(index <= 1 for index in one.index)]
+    for first, register in doubled(every, lambda one: [(one.group, one.array, normalised(one.name))]):
+        if first.span != register.span:
             related = Related(f"`{first.path}` has this name", first.span)
             yield Finding.at(register, f'is called "{register.name}" like `{first.path}`', "tell them apart", related)
 
 
-@model_rule(
-    "RS0414", "Class name used twice", "Models and enums become classes of one module; each needs its own name."
-)
+@model_rule("RS0414", "Class name used twice")
 def class_twice(scope: RuleScope) -> Iterator[Finding]:
-    """Compare the classes of all models (sync and async) and of the enums of this one."""
+    """Models and enums become classes of one module; each needs its own name."""
     taken: dict[str, tuple[str, Span]] = {}
     before = scope.register_map.models[: scope.register_map.models.index(scope.model)]
     for name, what, _, span in (one for model in before for one in _classes(model)):
@@ -124,7 +109,7 @@ def class_twice(scope: RuleScope) -> Iterator[Finding]:
     for name, what, subject, span in mine:
         other, where = taken.setdefault(name, (what, span))
         if other != what:
-            related = (Related(f"{other} becomes {name}", where),)
+            related = Related(f"{other} becomes {name}", where)
             message = f"{what} becomes class {name}, which {other} is already"
             yield Finding(subject, span, message, "give one another id (a model: `class`)", related)
 
@@ -149,10 +134,8 @@ def enums_of(scope: RuleScope) -> Iterator[tuple[Register, str, Enum]]:
                 yield register, field, enum
 
 
-@register_rule(
-    "RS0415", "Description repeats the name", "A description that says no more than the name wastes a line.", warns=True
-)
-def description_is_name(register: Register, _: RuleScope) -> Iterator[Finding]:
-    """Compare both, letters and digits only."""
+@register_rule("RS0415", "Description repeats the name", warns=True)
+def description_is_name(register: Register, _: RuleScope) -> Iterator[Problem]:
+    """A description that says no more than the name wastes a line."""
     if register.description and normalised(register.description) == normalised(register.name):
-        yield Finding.at(register, "is described by its own name", "say what it does, or remove `description`")
+        yield "is described by its own name", "say what it does, or remove `description`"

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from regscribe.checks.representable import Fit, best_fit
-from regscribe.checks.rule import Finding, RuleScope, register_rule
+from regscribe.checks.rule import Problem, RuleScope, register_rule
 from regscribe.model import Governs, Kind, Register, SerialDefaults, Setting
 from regscribe.reference.states import domain
 from regscribe_runtime.values.serial_line import ADDRESSINGS, DATA_BITS, FORMATS, PARITIES, STOP_BITS
@@ -20,50 +20,43 @@ MOST_BAUD = 10_000_000
 
 
 def _possible(setting: Setting, serial: SerialDefaults) -> tuple[str, ...]:
-    """What the line can be set to, as far as the map says it; empty if it can be anything."""
-    bauds = tuple(str(baud) for baud in serial.bauds)
-    formats = serial.formats or FORMATS
+    """What the line can be set to, as far as the map says it; empty if it can be any speed or address."""
     return {
-        Setting.BAUD: bauds,
+        Setting.BAUD: tuple(map(str, serial.bauds)),
         Setting.PARITY: PARITIES,
         Setting.DATA_BITS: tuple(map(str, DATA_BITS)),
         Setting.STOP_BITS: tuple(map(str, STOP_BITS)),
-        Setting.FORMAT: formats,
+        Setting.FORMAT: serial.formats or FORMATS,
         Setting.ADDRESSING: tuple(ADDRESSINGS),
         Setting.ADDRESS: (),
     }[setting]
 
 
-@register_rule(
-    "RS0474", "Setting that the line cannot have", "The driver follows the device to what the code stands for."
-)
-def impossible_setting(register: Register, scope: RuleScope) -> Iterator[Finding]:
-    """Compare the codes of `governs` with the serial line, and with the values that the register can have."""
+@register_rule("RS0474", "Setting that the line cannot have")
+def impossible_setting(register: Register, scope: RuleScope) -> Iterator[Problem]:
+    """The driver follows the device to what the code stands for."""
     governs = register.governs
     if governs is None:
         return
     kinds = ADDRESSES if governs.setting is Setting.ADDRESS else CODES
     if register.kind not in kinds:
         message = f"governs the {governs.setting} and is of kind {register.kind}"
-        yield Finding.at(register, message, f"possible are: {', '.join(sorted(kinds))}")
+        yield message, f"possible are: {', '.join(sorted(kinds))}"
     elif governs.setting is Setting.ADDRESS and governs.codes:
-        yield Finding.at(register, "governs the address with codes", "remove them: the value itself is the address")
+        yield "governs the address with codes", "remove them: the value itself is the address"
     else:
         yield from _codes(register, governs, _possible(governs.setting, scope.register_map.protocol.serial))
 
 
-def _codes(register: Register, governs: Governs, possible: tuple[str, ...]) -> Iterator[Finding]:
+def _codes(register: Register, governs: Governs, possible: tuple[str, ...]) -> Iterator[Problem]:
     for code, value in governs.codes:
-        if (possible and value not in possible) or (governs.setting is Setting.BAUD and not _is_speed(value)):
+        valid = value in possible if possible else value.isdecimal() and 0 < int(value) <= MOST_BAUD
+        if not valid:
             shown = ", ".join(possible) or f"1 to {MOST_BAUD}"
-            yield Finding.at(register, f"sets {governs.setting} to {value} by code {code}", f"possible are: {shown}")
+            yield f"sets {governs.setting} to {value} by code {code}", f"possible are: {shown}"
         elif not _has_value(register, Fraction(code)):
             message = f"governs by code {code}, which is none of its values"
-            yield Finding.at(register, message, "correct the code (a value of use, as scaled), the range or the type")
-
-
-def _is_speed(text: str) -> bool:
-    return text.isdecimal() and 0 < int(text) <= MOST_BAUD
+            yield message, "correct the code (a value of use, as scaled), the range or the type"
 
 
 def _has_value(register: Register, value: Fraction) -> bool:
@@ -74,28 +67,21 @@ def _has_value(register: Register, value: Fraction) -> bool:
     return any(one.holds(value) for one in domain(register)) and best_fit(register, (value,)) is Fit.EXACT
 
 
-@register_rule(
-    "RS0487",
-    "Setting of the line that would be copied",
-    "A copy of it to another device cuts that device off, or puts two at one address.",
-)
-def copied_setting(register: Register, _: RuleScope) -> Iterator[Finding]:
-    """A register with `governs` needs `stays: address` or `stays: line`."""
+@register_rule("RS0487", "Setting of the line that would be copied")
+def copied_setting(register: Register, _: RuleScope) -> Iterator[Problem]:
+    """A copy of it to another device cuts that device off, or puts two at one address."""
     if register.governs is None:
         return
     wanted = "address" if register.governs.setting is Setting.ADDRESS else "line"
     if register.stays != wanted:
         now = f"`stays: {register.stays}`" if register.stays else "no `stays`"
-        message = f"governs the {register.governs.setting} and has {now}"
-        yield Finding.at(register, message, f"give it `stays: {wanted}`")
+        yield f"governs the {register.governs.setting} and has {now}", f"give it `stays: {wanted}`"
 
 
-@register_rule(
-    "RS0493", "Applied without a command", "What holds from its application on needs the command that applies it."
-)
-def applied_without_command(register: Register, _: RuleScope) -> Iterator[Finding]:
-    """`from: apply` needs `apply`."""
-    governs: Governs | None = register.governs
+@register_rule("RS0493", "Applied without a command")
+def applied_without_command(register: Register, _: RuleScope) -> Iterator[Problem]:
+    """What holds from its application on needs the command that applies it."""
+    governs = register.governs
     if governs is not None and governs.since == "apply" and not register.apply:
         message = f"governs the {governs.setting} from its application on, but has no `apply`"
-        yield Finding.at(register, message, "name the command under `apply`, or correct `from`")
+        yield message, "name the command under `apply`, or correct `from`"

@@ -1,8 +1,9 @@
 """Every state of the device that a set of conditions tells apart: brute force over a few representative values."""
 
-from dataclasses import dataclass
+from collections import defaultdict
 from fractions import Fraction
 from math import prod
+from typing import NamedTuple
 
 from regscribe.checks.rule import RuleScope
 from regscribe.model import Condition, Is, show
@@ -17,17 +18,15 @@ Atom = tuple[str, str]
 World = dict[Atom, Fraction]
 
 
-@dataclass(frozen=True, slots=True)
-class Verdict:
+class Verdict(NamedTuple):
     """Of several conditions in order: which can hold, which is ever the first that holds, and a state that none covers.
 
-    `known` is False where there were too many states to look at.
+    All hold where there are too many states to look at.
     """
 
     possible: frozenset[int]
     reached: frozenset[int]
     uncovered: str
-    known: bool = True
 
 
 def verdict(conditions: tuple[Condition, ...], scope: RuleScope) -> Verdict:
@@ -39,15 +38,13 @@ def _judge(conditions: tuple[Condition, ...], scope: RuleScope) -> Verdict:
     choices = _choices([test for condition in conditions for test in condition.tests], scope)
     everything = frozenset(range(len(conditions)))
     if prod(map(len, choices.values())) > MOST_WORLDS:
-        return Verdict(everything, everything, "", known=False)
+        return Verdict(everything, everything, "")
     possible: set[int] = set()
     reached: set[int] = set()
     uncovered = ""
     for world in combinations(choices):
         held = [
-            place
-            for place, condition in enumerate(conditions)
-            if all(_passes(test, world[_atom(test)]) for test in condition.tests)
+            place for place, condition in enumerate(conditions) if all(_passes(test, world) for test in condition.tests)
         ]
         possible.update(held)
         reached.update(held[:1])
@@ -56,24 +53,22 @@ def _judge(conditions: tuple[Condition, ...], scope: RuleScope) -> Verdict:
     return Verdict(frozenset(possible), frozenset(reached), uncovered)
 
 
-def _atom(test: Is) -> Atom:
-    return (test.subject, test.given)
-
-
 def _choices(tests: list[Is], scope: RuleScope) -> dict[Atom, tuple[Fraction, ...]]:
     """Representative values of every atom: 0 and 1 for a given, else those that the codes tell apart."""
-    choices: dict[Atom, tuple[Fraction, ...]] = {
-        _atom(test): (Fraction(0), Fraction(1)) for test in tests if test.given
-    }
+    atoms: defaultdict[Atom, list[Is]] = defaultdict(list)
     for test in tests:
-        if not test.given and _atom(test) not in choices:
-            codes = [code for other in tests if _atom(other) == _atom(test) for code in other.codes]
-            register = scope.registers.get(test.register)
-            choices[_atom(test)] = representatives(domain(register, test.field) if register else ANYTHING, codes)
+        atoms[test.subject, test.given].append(test)
+    choices: dict[Atom, tuple[Fraction, ...]] = {atom: (Fraction(0), Fraction(1)) for atom in atoms if atom[1]}
+    for atom, (first, *others) in atoms.items():
+        if not first.given:
+            codes = [code for test in (first, *others) for code in test.codes]
+            register = scope.registers.get(first.register)
+            choices[atom] = representatives(domain(register, first.field) if register else ANYTHING, codes)
     return choices
 
 
-def _passes(test: Is, value: Fraction) -> bool:
+def _passes(test: Is, world: World) -> bool:
+    value = world[test.subject, test.given]
     found = bool(value) if test.given else test.lists(value)
     return found is not test.negated
 

@@ -1,10 +1,11 @@
 """Setpoint programs: their registers must be able to hold what a program is made of."""
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 
 from regscribe.checks.held_values import NUMBERS
-from regscribe.checks.rule import Finding, RuleScope, model_rule
+from regscribe.checks.rule import Finding, RuleScope, rule_of_models
 from regscribe.model import Kind, Number, ProgramCounts, Register, Related, SetpointProgram, numbered
 
 WHOLE = frozenset({Kind.INTEGER, Kind.RAW})
@@ -18,7 +19,7 @@ ProgramRole = tuple[str, str, frozenset[Kind]]
 
 
 def _written(program: SetpointProgram) -> Iterator[ProgramRole]:
-    """The registers that hold a program."""
+    """The registers that hold a program, then those that are written to make it run."""
     segments, final = program.segments, program.final
     yield "segments.setpoint", segments.setpoint, NUMBERS
     yield "segments.ramp", segments.ramp, NUMBERS
@@ -32,10 +33,6 @@ def _written(program: SetpointProgram) -> Iterator[ProgramRole]:
     yield "holdback", program.holdback, NUMBERS
     yield "power_failure", program.power_failure, CHOICES
     yield "end", program.end, CHOICES
-
-
-def _acting(program: SetpointProgram) -> Iterator[ProgramRole]:
-    """The registers that are written to make a program run."""
     yield from (("enable", path, ANY) for path, _ in program.enable)
     for name in ("start", "hold", "resume", "reset"):
         yield from ((name, path, ANY) for path, _ in getattr(program, name).writes)
@@ -50,112 +47,97 @@ def _watched(program: SetpointProgram) -> Iterator[ProgramRole]:
     yield from (("setpoint_limits", path, NUMBERS) for path in program.setpoint_limits or ())
 
 
-def _register(path: str, program: SetpointProgram, scope: RuleScope) -> Register | None:
+Lookup = Callable[[str], Register | None]
+ProgramProblems = Iterator[tuple[Register, str, str]]
+"""Each problem of a program: the register concerned, message and help."""
+
+ProgramCheck = Callable[[SetpointProgram, Lookup], ProgramProblems]
+
+
+def program_rule(rule_id: str, title: str) -> Callable[[ProgramCheck], ProgramCheck]:
+    """Declare a rule whose function looks at one program, and looks up the registers that it names."""
+
+    def walk(check: ProgramCheck, scope: RuleScope) -> Iterator[Finding]:
+        for program, notes in zip(scope.model.programs, scope.model.program_notes, strict=True):
+            for register, message, help_text in check(program, partial(_register, program, scope)):
+                related = Related(f"`{register.path}` stands here", register.span)
+                yield Finding(program.id, notes.span, f"program `{program.id}` {message}", help_text, related)
+
+    return rule_of_models(rule_id, title, walk)
+
+
+def _register(program: SetpointProgram, scope: RuleScope, path: str) -> Register | None:
     """The register of the first program and its first segment, which stands for those of all others."""
     return scope.registers.get(numbered(path, program.numbers[0], program.segments.first)) if path else None
 
 
-def _at(program: SetpointProgram, scope: RuleScope, message: str, help_text: str, *related: Related) -> Finding:
-    notes = scope.model.program_notes[scope.model.programs.index(program)]
-    return Finding(program.id, notes.span, f"program `{program.id}` {message}", help_text, related)
+@program_rule("RS0408", "Program in registers that cannot be written")
+def not_writable(program: SetpointProgram, look_up: Lookup) -> ProgramProblems:
+    """A program is written, and read back to be verified."""
+    for role, path, _ in _written(program):
+        register = look_up(path)
+        if register and not (register.access.writable and register.access.readable):
+            message = f"has `{role}` in `{register.path}`, which has access {register.access}"
+            yield register, message, "name a register with access rw, or correct its access"
+    for role, path, _ in _watched(program):
+        register = look_up(path)
+        if register and not register.access.readable:
+            message = f"has `{role}` in `{register.path}`, which can only be written"
+            yield register, message, "name a register that can be read"
 
 
-def _here(register: Register) -> Related:
-    return Related(f"`{register.path}` stands here", register.span)
+@program_rule("RS0409", "Program in registers of the wrong kind")
+def wrong_kind(program: SetpointProgram, look_up: Lookup) -> ProgramProblems:
+    """A setpoint is a number, and a state is one of some codes."""
+    for role, path, kinds in (*_written(program), *_watched(program)):
+        register = look_up(path)
+        if register and register.kind not in kinds:
+            message = f"has `{role}` in `{register.path}`, which is of kind {register.kind}"
+            yield register, message, f"name a register of kind {' or '.join(sorted(kinds))}"
 
 
-@model_rule(
-    "RS0408", "Program in registers that cannot be written", "A program is written, and read back to be verified."
-)
-def not_writable(scope: RuleScope) -> Iterator[Finding]:
-    """Look at the access of all registers that a program names."""
-    for program in scope.model.programs:
-        for role, path, _ in (*_written(program), *_acting(program)):
-            register = _register(path, program, scope)
-            if register and not (register.access.writable and register.access.readable):
-                message = f"has `{role}` in `{register.path}`, which has access {register.access}"
-                yield _at(
-                    program, scope, message, "name a register with access rw, or correct its access", _here(register)
-                )
-        for role, path, _ in _watched(program):
-            register = _register(path, program, scope)
-            if register and not register.access.readable:
-                message = f"has `{role}` in `{register.path}`, which can only be written"
-                yield _at(program, scope, message, "name a register that can be read", _here(register))
+@program_rule("RS0416", "State of a program not told apart")
+def states(program: SetpointProgram, look_up: Lookup) -> ProgramProblems:
+    """In every state a program runs, is held or does neither."""
+    status = program.status
+    register = look_up(status.register) if status else None
+    if status is None or register is None or register.enum is None:
+        return
+    listed = Counter((*status.running, *status.held, *status.ended))
+    labels = {member.code: member.label for member in register.enum.members}
+    for code, label in labels.items():
+        if listed[code] != 1:
+            how = "in no state" if not listed[code] else "in two states"
+            message = f"has {code} ({label}) of `{register.path}` {how}"
+            yield register, message, "list it under one of `running`, `held` and `ended`"
 
 
-@model_rule(
-    "RS0409", "Program in registers of the wrong kind", "A setpoint is a number, and a state is one of some codes."
-)
-def wrong_kind(scope: RuleScope) -> Iterator[Finding]:
-    """Compare the kind of each register with what it is in the program."""
-    for program in scope.model.programs:
-        for role, path, kinds in (*_written(program), *_acting(program), *_watched(program)):
-            register = _register(path, program, scope)
-            if register and register.kind not in kinds:
-                message = f"has `{role}` in `{register.path}`, which is of kind {register.kind}"
-                wanted = " or ".join(sorted(kinds))
-                yield _at(program, scope, message, f"name a register of kind {wanted}", _here(register))
-
-
-@model_rule("RS0416", "State of a program not told apart", "In every state a program runs, is held or does neither.")
-def states(scope: RuleScope) -> Iterator[Finding]:
-    """Compare the codes of the states with the members of the register that tells them."""
-    for program in scope.model.programs:
-        status = program.status
-        register = _register(status.register, program, scope) if status else None
-        if status is None or register is None or register.enum is None:
-            continue
-        told = Counter((*status.running, *status.held, *status.ended))
-        labels = {member.code: member.label for member in register.enum.members}
-        for code, label in labels.items():
-            if told[code] != 1:
-                how = "in no state" if not told[code] else "in two states"
-                message = f"has {code} ({label}) of `{register.path}` {how}"
-                yield _at(
-                    program, scope, message, "list it under one of `running`, `held` and `ended`", _here(register)
-                )
-
-
-@model_rule("RS0417", "Times of a program without a unit", "Thirty seconds and thirty hours are not the same program.")
-def times(scope: RuleScope) -> Iterator[Finding]:
-    """Look for the unit of each time: its own, or one for every member of the register that sets it."""
-    for program in scope.model.programs:
-        yield from _without_code(program, scope) if program.time_unit else _without_unit(program, scope)
-
-
-def _without_code(program: SetpointProgram, scope: RuleScope) -> Iterator[Finding]:
-    """Members of the register that sets the unit of time, of which the program does not say what they stand for."""
+@program_rule("RS0417", "Times of a program without a unit")
+def times(program: SetpointProgram, look_up: Lookup) -> ProgramProblems:
+    """Thirty seconds and thirty hours are not the same program."""
     unit = program.time_unit
-    register = _register(unit.register, program, scope) if unit else None
+    register = look_up(unit.register) if unit else None
     if unit and register and register.enum:
         lacking = [one.label for one in register.enum.members if one.code not in dict(unit.codes)]
         if lacking:
             message = f"has no unit of time for {', '.join(lacking)} of `{register.path}`"
-            yield _at(program, scope, message, "list every member under `time_unit.codes`", _here(register))
-
-
-def _without_unit(program: SetpointProgram, scope: RuleScope) -> Iterator[Finding]:
-    for path in (program.segments.ramp, program.segments.soak):
-        time = _register(path, program, scope)
+            yield register, message, "list every member under `time_unit.codes`"
+    for path in () if unit else (program.segments.ramp, program.segments.soak):
+        time = look_up(path)
         if time and not all(case.then in UNITS for case in time.unit):
             message = f"has times in `{time.path}`, which has no unit of time"
-            advice = f"give the register a `unit` of {', '.join(UNITS)}, or the program a `time_unit`"
-            yield _at(program, scope, message, advice, _here(time))
+            yield time, message, f"give the register a `unit` of {', '.join(UNITS)}, or the program a `time_unit`"
 
 
-@model_rule(
-    "RS0418", "More segments than there are", "A number of segments beyond the last one was misread, or the array."
-)
-def too_many(scope: RuleScope) -> Iterator[Finding]:
-    """Compare the range of the number of segments with the array."""
-    for program in scope.model.programs:
-        register = _register(program.number_of_segments, program, scope)
-        if register is None:
-            continue
-        ends = (one.high for case in register.range for one in case.then.intervals)
-        most = max((int(end) for end in ends if isinstance(end, Number)), default=0)
-        room = program.segments.many - (program.counts is ProgramCounts.AFTER_FIRST)
-        if most > room:
-            message = f"may have {most} segments by the range of `{register.path}`, but there are {room}"
-            yield _at(program, scope, message, "correct the range, or `repeat` of the array", _here(register))
+@program_rule("RS0418", "More segments than there are")
+def too_many(program: SetpointProgram, look_up: Lookup) -> ProgramProblems:
+    """A number of segments beyond the last one was misread, or the array."""
+    register = look_up(program.number_of_segments)
+    if register is None:
+        return
+    ends = (one.high for case in register.range for one in case.then.intervals)
+    most = max((int(end) for end in ends if isinstance(end, Number)), default=0)
+    room = program.segments.many - (program.counts is ProgramCounts.AFTER_FIRST)
+    if most > room:
+        message = f"may have {most} segments by the range of `{register.path}`, but there are {room}"
+        yield register, message, "correct the range, or `repeat` of the array"

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import fields
 
-from regscribe.checks.rule import MAP, Finding, Scopes, map_rule
+from regscribe.checks.rule import Problem, header_rule
 from regscribe.model import SILENCE, RegisterMap
 
 READS = frozenset({1, 2, 3, 4, 7, 11, 12, 17, 20, 24})
@@ -11,112 +11,92 @@ READS = frozenset({1, 2, 3, 4, 7, 11, 12, 17, 20, 24})
 
 ASCII = "ascii"
 
-LAST_FUNCTION, LAST_UNIT = 127, 255
-MOST = {"read_words": 125, "write_words": 123, "read_bits": 2000, "write_bits": 1968}
-"""What fits a Modbus frame of 256 bytes (application protocol V1.1b3, 6.1 to 6.16)."""
+LAST_UNIT = 255
 
 
-@map_rule(
-    "RS0486",
-    "Fault without a meaning",
-    "An exception reaches the user with the device's own meaning of it.",
-    warns=True,
-)
-def fault_without_meaning(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
-    """Compare the codes of the faults with the exceptions, if the map lists any."""
+@header_rule("RS0486", "Fault without a meaning", warns=True)
+def fault_without_meaning(register_map: RegisterMap) -> Iterator[Problem]:
+    """An exception reaches the user with the device's own meaning of it."""
     protocol = register_map.protocol
     known = {exception.code for exception in protocol.exceptions} | {SILENCE}
     for fault in fields(register_map.faults) if protocol.exceptions else ():
         code = getattr(register_map.faults, fault.name)
         if isinstance(code, int) and code not in known:
             message = f"fault `{fault.name}` is answered by exception {code:02d}, which `protocol.exceptions` lacks"
-            yield Finding(MAP, register_map.span, message, "list the code with its name, or correct the fault")
+            yield message, "list the code with its name, or correct the fault"
 
 
-@map_rule("RS0690", "Accepted limit that is no more than the limit", "What a device accepts beyond its limits is more.")
-def accepts(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
-    """Compare `protocol.accepts` with `protocol.limits`."""
+@header_rule("RS0690", "Accepted limit that is no more than the limit")
+def accepts(register_map: RegisterMap) -> Iterator[Problem]:
+    """What a device accepts beyond its limits is more."""
     protocol = register_map.protocol
     for limit, most in register_map.accepts:
         if most <= getattr(protocol, limit):
             message = f"`protocol.accepts` has {most} {limit}, and the limit is {getattr(protocol, limit)} already"
-            yield Finding(MAP, register_map.span, message, "leave it out, or lower the limit that a driver keeps to")
+            yield message, "leave it out, or lower the limit that a driver keeps to"
 
 
-@map_rule("RS0488", "Unit ids that cannot be", "A unit id is 1 to 255 (0 broadcasts); the default is one of them.")
-def unit_ids(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
-    """Look at both ends and at the default."""
-    protocol = register_map.protocol
-    low, high = protocol.unit_ids
+@header_rule("RS0488", "Unit ids that cannot be")
+def unit_ids(register_map: RegisterMap) -> Iterator[Problem]:
+    """A unit id is 1 to 255 (0 broadcasts); the default is one of them."""
+    low, high = register_map.protocol.unit_ids
     if not 0 < low <= high <= LAST_UNIT:
-        message = f"unit ids {low}..{high} are not within 1..{LAST_UNIT}"
-        yield Finding(MAP, register_map.span, message, "correct `protocol.unit_ids`")
+        yield f"unit ids {low}..{high} are not within 1..{LAST_UNIT}", "correct `protocol.unit_ids`"
     elif register_map.default_unit is not None and not low <= register_map.default_unit <= high:
         message = f"the default unit id {register_map.default_unit} is outside {low}..{high}"
-        yield Finding(MAP, register_map.span, message, "correct `protocol.default_unit` or `unit_ids`")
+        yield message, "correct `protocol.default_unit` or `unit_ids`"
 
 
-@map_rule("RS0489", "Latency that cannot be", "A latency belongs to a function that the device has, and is a time.")
-def latency(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
-    """Look at the function and the ends of every latency."""
+@header_rule("RS0489", "Latency that cannot be")
+def latency(register_map: RegisterMap) -> Iterator[Problem]:
+    """A latency belongs to a function that the device has, and is a time."""
     protocol = register_map.protocol
     for one in protocol.latencies:
         pairs = ((one.minimum, one.maximum), (one.minimum_per_word, one.maximum_per_word))
         if one.function not in protocol.functions:
-            message = f"latency of function {one.function:02d}, which `protocol.functions` lacks"
-            yield Finding(MAP, register_map.span, message, "correct one of them")
+            yield f"latency of function {one.function:02d}, which `protocol.functions` lacks", "correct one of them"
         elif any(low < 0 or low > high for low, high in pairs):
             message = f"latency of function {one.function:02d} is no time: an end is negative or the ends are swapped"
-            yield Finding(MAP, register_map.span, message, "write the shorter time first")
+            yield message, "write the shorter time first"
 
 
-@map_rule("RS0490", "Function that cannot be broadcast", "Nobody answers a broadcast, so it can only be a write.")
-def broadcast(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
-    """Compare the broadcast functions with the supported ones and with those that need an answer."""
+@header_rule("RS0490", "Function that cannot be broadcast")
+def broadcast(register_map: RegisterMap) -> Iterator[Problem]:
+    """Nobody answers a broadcast, so it can only be a write."""
     protocol = register_map.protocol
     for code in protocol.broadcast:
         if code in READS or code not in protocol.functions:
             why = "it reads" if code in READS else "`protocol.functions` lacks it"
-            message = f"function {code:02d} is listed under `broadcast`, but {why}"
-            yield Finding(MAP, register_map.span, message, "correct `protocol.broadcast`")
+            yield f"function {code:02d} is listed under `broadcast`, but {why}", "correct `protocol.broadcast`"
 
 
-@map_rule(
-    "RS0492", "Functions alike that cannot be", "Each function of the device does one thing, alone or like others."
-)
-def alike(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
-    """Look for functions that the device lacks, and for those that stand in two lists."""
+@header_rule("RS0492", "Functions alike that cannot be")
+def alike(register_map: RegisterMap) -> Iterator[Problem]:
+    """Each function of the device does one thing, alone or like others."""
     protocol = register_map.protocol
     every = [code for codes in register_map.alike for code in codes]
     for code in dict.fromkeys(every):
         if code not in protocol.functions or every.count(code) > 1:
             why = "stands in two lists" if every.count(code) > 1 else "is not among `protocol.functions`"
-            message = f"function {code:02d} of `protocol.alike` {why}"
-            yield Finding(MAP, register_map.span, message, "correct `protocol.alike`")
+            yield f"function {code:02d} of `protocol.alike` {why}", "correct `protocol.alike`"
 
 
-@map_rule("RS0491", "Default of the serial line is not offered", "The default is one of the speeds and formats listed.")
-def serial_default(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
-    """Compare the default speed and format with the lists."""
-    protocol = register_map.protocol
-    line = protocol.serial
+@header_rule("RS0491", "Default of the serial line is not offered")
+def serial_default(register_map: RegisterMap) -> Iterator[Problem]:
+    """The default is one of the speeds and formats listed."""
+    line = register_map.protocol.serial
     pairs = (("baud", line.baud, line.bauds), ("format", line.format, line.formats))
     for what, default, offered in pairs if "default" in register_map.protocol_notes.stated else ():
         if offered and default not in offered:
             message = f"the default {what} {default} is not among {', '.join(map(str, offered))}"
-            yield Finding(MAP, register_map.span, message, f"correct `serial.default`, or list the {what}")
+            yield message, f"correct `serial.default`, or list the {what}"
 
 
-@map_rule(
-    "RS0661",
-    "Character format too short for RTU",
-    "RTU sends bytes of 8 bits; 7 carry ASCII alone (Modbus over serial line V1.02, 2.5.1).",
-)
-def too_short_for_rtu(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
-    """Look for formats of 7 data bits where the line has no other mode than RTU."""
-    protocol = register_map.protocol
-    line = protocol.serial
+@header_rule("RS0661", "Character format too short for RTU")
+def too_short_for_rtu(register_map: RegisterMap) -> Iterator[Problem]:
+    """RTU sends bytes of 8 bits; 7 carry ASCII alone (Modbus over serial line V1.02, 2.5.1)."""
+    line = register_map.protocol.serial
     short = dict.fromkeys(one for one in (*line.formats, line.format) if one.startswith("7"))
     if short and ASCII not in line.modes:
         message = f"the serial line has {', '.join(short)} and the modes {', '.join(line.modes)}: RTU needs 8 data bits"
-        yield Finding(MAP, register_map.span, message, "correct `serial.formats`, or list `ascii` under `serial.modes`")
+        yield message, "correct `serial.formats`, or list `ascii` under `serial.modes`"

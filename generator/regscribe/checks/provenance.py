@@ -1,23 +1,17 @@
 """Where facts come from: sections, manual, errata; how models are told apart."""
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
-from regscribe.checks.rule import MAP, Finding, RuleScope, Scopes, map_rule, register_rule
-from regscribe.model import Identity, IdentityRule, Register, RegisterMap
-
-
-@map_rule("RS0494", "Models not told apart", "`identify` says for every model, once, how it answers.")
-def identification(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
-    """Count models and conditions of the identification, if the map has one."""
-    for message, help_text in (*_twice(register_map.identity), *_left_out(register_map)):
-        yield Finding(MAP, register_map.span, message, help_text)
+from regscribe.checks.rule import MAP, Finding, Problem, RuleScope, Scopes, header_rule, map_rule, register_rule
+from regscribe.model import Identity, Register, RegisterMap
 
 
-def _twice(rules: Iterable[IdentityRule]) -> Iterator[tuple[str, str]]:
-    """Models and conditions that `identify` has more than once."""
+@header_rule("RS0494", "Models not told apart")
+def identification(register_map: RegisterMap) -> Iterator[Problem]:
+    """`identify` says for every model, once, how it answers."""
     known: set[Identity] = set()
-    for rule in rules:
+    for rule in register_map.identity:
         twice = [name for name, count in Counter(rule.models).items() if count > 1]
         if twice:
             yield f"`identify` lists {', '.join(twice)} twice at once", "remove one"
@@ -25,41 +19,30 @@ def _twice(rules: Iterable[IdentityRule]) -> Iterator[tuple[str, str]]:
             message = f"`identify` has two entries of one condition (the second for {', '.join(rule.models)})"
             yield message, "list the models in one entry"
         known.add(rule.identity)
-
-
-def _left_out(register_map: RegisterMap) -> Iterator[tuple[str, str]]:
-    """Models that `identify` says nothing of, if it says something of others."""
     listed = {name for rule in register_map.identity for name in rule.models}
     missing = [model.name for model in register_map.models if listed and model.name not in listed]
     if missing:
         yield f"`identify` does not say how to tell {', '.join(missing)}", "add them"
 
 
-@register_rule(
-    "RS0495", "Register without section", "A reader must be able to look every value up in the manual.", warns=True
-)
-def no_section(register: Register, _: RuleScope) -> Iterator[Finding]:
-    """Look at the section, inherited from the group or its own."""
+@register_rule("RS0495", "Register without section", warns=True)
+def no_section(register: Register, _: RuleScope) -> Iterator[Problem]:
+    """A reader must be able to look every value up in the manual."""
     if not register.section:
-        yield Finding.at(register, "does not say where the manual describes it", "add `source` here or at its group")
+        yield "does not say where the manual describes it", "add `source` here or at its group"
 
 
-@map_rule(
-    "RS0496",
-    "Manual not identified",
-    "Makers reissue manuals: number or date tells which one was transcribed.",
-    warns=True,
-)
-def manual_not_identified(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
-    """Look for the number or the date."""
+@header_rule("RS0496", "Manual not identified", warns=True)
+def manual_not_identified(register_map: RegisterMap) -> Iterator[Problem]:
+    """Makers reissue manuals: number or date tells which one was transcribed."""
     if not (register_map.manual.number.strip() or register_map.manual.date.strip()):
         message = f'the manual "{register_map.manual.title}" has neither number nor date'
-        yield Finding(MAP, register_map.span, message, "add `manual.number` or `manual.date`")
+        yield message, "add `manual.number` or `manual.date`"
 
 
-@map_rule("RS0498", "Erratum or given that does not say enough", "A blank reason cannot be judged by a reviewer.")
+@map_rule("RS0498", "Erratum or given that does not say enough")
 def blank_reasons(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
-    """Look for blank texts."""
+    """A blank reason cannot be judged by a reviewer."""
     for erratum in register_map.errata:
         texts = {"where": erratum.where, "printed": erratum.printed, "read": erratum.read, "why": erratum.why}
         blank = [key for key, text in texts.items() if not text.strip()]

@@ -3,10 +3,9 @@
 from collections.abc import Iterator
 from fractions import Fraction
 
-from regscribe.checks.assumed_values import count_registers
 from regscribe.checks.held_values import NUMBERS
-from regscribe.checks.rule import Finding, RuleScope, model_rule, register_rule
-from regscribe.model import Kind, Order, OrderFrom, Ref, Register, Related, registers_of, show
+from regscribe.checks.rule import Finding, Problem, RuleScope, model_rule, register_rule
+from regscribe.model import Kind, Order, OrderFrom, Ref, Register, Related, View, registers_of, show
 from regscribe.reference.states import domain
 
 WHOLE = {Kind.INTEGER, Kind.RAW, Kind.ENUM, Kind.BOOLEAN}
@@ -41,41 +40,38 @@ def _limits(register: Register) -> Iterator[str]:
             yield from (end.register for end in (interval.low, interval.high) if isinstance(end, Ref))
 
 
-@register_rule(
-    "RS0461",
-    "Word order from an unsuitable register",
-    "It is read before the first long value, so it must be one whole word of an order that does not depend on it.",
-)
-def order_register(register: Register, scope: RuleScope) -> Iterator[Finding]:
-    """The register must be a whole number or an enum with a single integer view."""
-    for view in register.views:
-        other = scope.registers.get(view.order.register) if isinstance(view.order, OrderFrom) else None
-        if other is None:
-            continue
+@register_rule("RS0461", "Word order from an unsuitable register")
+def order_register(register: Register, scope: RuleScope) -> Iterator[Problem]:
+    """It is read before the first long value, so it must be one whole word of an order that does not depend on it."""
+    for view, _, other in _ordering(register, scope):
         fixed = len(other.views) == 1 and other.base.type.is_integer and isinstance(other.base.order, Order)
         if other.kind not in WHOLE or not fixed:
             message = f"has the word order of view {view.name} from `{other.path}`, which is no plain whole number"
             related = Related(f"`{other.path}` is of kind {other.kind}, type {other.base.type}", other.span)
-            yield Finding.at(register, message, "name a register with an enum or a whole number and one view", related)
+            yield message, "name a register with an enum or a whole number and one view", related
 
 
-@model_rule("RS0462", "Registers need each other", "A value that needs itself to be decoded can never be read.")
+def _ordering(register: Register, scope: RuleScope) -> Iterator[tuple[View, OrderFrom, Register]]:
+    """The views whose word order another register tells, with the order and that register."""
+    for view in register.views:
+        if isinstance(view.order, OrderFrom) and view.order.register in scope.registers:
+            yield view, view.order, scope.registers[view.order.register]
+
+
+@model_rule("RS0462", "Registers need each other")
 def circle(scope: RuleScope) -> Iterator[Finding]:
-    """Walk what registers need to be read (scale, decimals, word order); each circle is reported once."""
+    """A value that needs itself to be decoded can never be read."""
     done: set[str] = set()
     for start in scope.registers:
-        yield from (_circular(ring, scope) for ring in _rings(start, done, scope))
-
-
-def _circular(ring: list[str], scope: RuleScope) -> Finding:
-    register = min((scope.registers[name] for name in ring), key=lambda one: one.span)
-    place = ring.index(register.path)
-    chain = " needs ".join(f"`{name}`" for name in (*ring[place:], *ring[:place], register.path))
-    return Finding(register.path, register.span, chain, "make one of them independent of the others")
+        for ring in _rings(start, done, scope):
+            register = min((scope.registers[name] for name in ring), key=lambda one: one.span)
+            place = ring.index(register.path)
+            chain = " needs ".join(f"`{name}`" for name in (*ring[place:], *ring[:place], register.path))
+            yield Finding(register.path, register.span, chain, "make one of them independent of the others")
 
 
 def _rings(start: str, done: set[str], scope: RuleScope) -> Iterator[list[str]]:
-    """Circles that are met on the way from `start`: depth first, on a stack of our own (chains may be long)."""
+    """Circles on the way from `start`, depth first, without recursion since chains may be long."""
     if start in done:
         return
     path, open_names, turns = [start], {start}, [_others(start, scope)]
@@ -97,58 +93,50 @@ def _others(name: str, scope: RuleScope) -> Iterator[str]:
     return iter(dict.fromkeys(path for path, _ in needed(scope.registers[name])))
 
 
-@register_rule(
-    "RS0463", "Needed register cannot be read", "A value that decides must be readable, or it is never known."
-)
-def unreadable(register: Register, scope: RuleScope) -> Iterator[Finding]:
-    """Look at the access of every register that this one needs."""
+@register_rule("RS0463", "Needed register cannot be read")
+def unreadable(register: Register, scope: RuleScope) -> Iterator[Problem]:
+    """A value that decides must be readable, or it is never known."""
     for path, why in dict.fromkeys((*needed(register), *limiting(register))):
         other = scope.registers.get(path)
         if other and not other.access.readable:
             related = Related(f"`{path}` has access {other.access}", other.span)
-            yield Finding.at(register, f"needs `{path}` ({why} it), which can only be written", "correct one", related)
+            yield f"needs `{path}` ({why} it), which can only be written", "correct one", related
 
 
-@register_rule("RS0464", "Decimals from a register that is no whole number", "A number of decimals is 0, 1, 2 ...")
-def decimals_register(register: Register, scope: RuleScope) -> Iterator[Finding]:
-    """The register must be of a whole kind, and not below 0."""
-    for path in dict.fromkeys(count_registers(register)):
-        other = scope.registers.get(path)
-        if other is None:
-            continue
+@register_rule("RS0464", "Decimals from a register that is no whole number")
+def decimals_register(register: Register, scope: RuleScope) -> Iterator[Problem]:
+    """A number of decimals is 0, 1, 2 ..."""
+    counts = [case.then.decimals for case in register.scale]
+    counts += [case.then.places for case in register.scale]
+    counts += [case.then.decimals for case in register.range]
+    for other in scope.named(one.register for one in counts if one):
         lowest = min((stretch.low for stretch in domain(other)), default=Fraction(0))
         if other.kind not in WHOLE or (other.range and lowest < 0):
-            message = f"has its decimals from `{path}`, which is of kind {other.kind} and starts at {show(lowest)}"
-            related = Related(f"`{path}` stands here", other.span)
-            yield Finding.at(register, message, "name a register of whole numbers from 0", related)
+            what = f"of kind {other.kind} and starts at {show(lowest)}"
+            message = f"has its decimals from `{other.path}`, which is {what}"
+            related = Related(f"`{other.path}` stands here", other.span)
+            yield message, "name a register of whole numbers from 0", related
 
 
-@register_rule("RS0465", "Limit from a register that is no number", "A code or a text has no size to compare with.")
-def limit_register(register: Register, scope: RuleScope) -> Iterator[Finding]:
-    """The registers that limits name must be numbers."""
-    for path in dict.fromkeys(_limits(register)):
-        other = scope.registers.get(path)
-        if other and (path == register.path or other.kind not in NUMBERS):
-            what = "itself" if path == register.path else f"`{path}`, which is of kind {other.kind}"
-            yield Finding.at(register, f"has a limit that is {what}", "name a register that holds a number")
+@register_rule("RS0465", "Limit from a register that is no number")
+def limit_register(register: Register, scope: RuleScope) -> Iterator[Problem]:
+    """A code or a text has no size to compare with."""
+    for other in scope.named(_limits(register)):
+        if other is register or other.kind not in NUMBERS:
+            what = "itself" if other is register else f"`{other.path}`, which is of kind {other.kind}"
+            yield f"has a limit that is {what}", "name a register that holds a number"
 
 
-@register_rule(
-    "RS0466", "Word order not stated for a code", "With that code set, no long value could be read or written."
-)
-def order_codes(register: Register, scope: RuleScope) -> Iterator[Finding]:
-    """Compare the codes of a word order with the members or the range of the register it comes from."""
-    for view in register.views:
-        if not isinstance(view.order, OrderFrom):
-            continue
-        other = scope.registers.get(view.order.register)
-        stretches = domain(other) if other else ()
-        told = {code for code, _ in view.order.codes}
-        lacking = [code for stretch in stretches for code in _codes(stretch.low, stretch.high) if code not in told]
-        if other and lacking:
-            codes = ", ".join(map(str, lacking))
-            message = f"has view {view.name} without a word order for {codes} of `{other.path}`"
-            yield Finding.at(register, message, "list the order of every code under `codes`")
+@register_rule("RS0466", "Word order not stated for a code")
+def order_codes(register: Register, scope: RuleScope) -> Iterator[Problem]:
+    """With that code set, no long value could be read or written."""
+    for view, order, other in _ordering(register, scope):
+        stated = {code for code, _ in order.codes}
+        codes = [code for stretch in domain(other) for code in _codes(stretch.low, stretch.high)]
+        lacking = ", ".join(str(code) for code in codes if code not in stated)
+        if lacking:
+            message = f"has view {view.name} without a word order for {lacking} of `{other.path}`"
+            yield message, "list the order of every code under `codes`"
 
 
 def _codes(low: Fraction, high: Fraction) -> range:

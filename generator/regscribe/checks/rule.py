@@ -1,16 +1,17 @@
 """How a rule is written: a small pure function under a decorator that names the rule and what the function looks at."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Hashable, Iterable, Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import partial
 from typing import TypeVar, cast
 
-from regscribe.checks.assumed_values import Beginning, all_defaults
+from regscribe.checks.assumed_values import default_values, with_fields
 from regscribe.model import Model, Register, RegisterMap, Related, Rule, Severity, Span
-from regscribe.reference import RefusedError, Surroundings, UnknownValueError, choose, limits
+from regscribe.reference import Surroundings
 
 Made = TypeVar("Made")
+Item = TypeVar("Item")
 
 MAP = "map"
 """The subject of findings about the map as a whole."""
@@ -18,70 +19,74 @@ MAP = "map"
 
 @dataclass(frozen=True, slots=True)
 class RuleScope:
-    """One model under examination: its map, its registers by path, and the state in which all stand at their defaults.
+    """One model under examination: its map, its registers and the defaults that are numbers, both by path.
 
-    `memo` keeps costly answers about this model.
+    `at_defaults` is the state in which all registers stand at their defaults; `memo` keeps costly answers.
     """
 
     register_map: RegisterMap
     model: Model
     registers: dict[str, Register]
-    beginning: Beginning
-    defaults: Surroundings
+    defaults: dict[str, Fraction]
+    at_defaults: Surroundings
     memo: dict[object, object] = field(default_factory=dict)
 
     @classmethod
     def of(cls, register_map: RegisterMap, model: Model) -> "RuleScope":
         """The scope of one model of a map."""
         by_path = {register.path: register for register in model.registers}
-        beginning = Beginning.of(model)
-        return cls(register_map, model, by_path, beginning, all_defaults(model, beginning))
+        defaults = default_values(model)
+        return cls(register_map, model, by_path, defaults, Surroundings(with_fields(model, defaults)))
 
     def once(self, key: object, make: Callable[[], Made]) -> Made:
-        """What `make` gives; worked out once for the model."""
+        """The result of `make`, which is called once for the model."""
         if key not in self.memo:
             self.memo[key] = make()
         return cast("Made", self.memo[key])
 
-    def ends_at_defaults(self, register: Register) -> tuple[tuple[Fraction | None, Fraction | None], ...]:
-        """The ends of a register's range with all other registers at their defaults; none where they are not known."""
-        try:
-            now = choose(register.range, self.defaults)
-            return limits(now, self.defaults) if now else ()
-        except (UnknownValueError, RefusedError):
-            return ()
+    def named(self, paths: Iterable[str]) -> Iterator[Register]:
+        """The registers of these paths, each once, as far as the model has them."""
+        return (self.registers[path] for path in dict.fromkeys(paths) if path in self.registers)
 
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """Something wrong with `subject`: a register's path, the id of a group or command, or `map`."""
+    """Something wrong with `subject`: a register's path, the id of a group or command, or `map`.
+
+    `related` is the place of another party.
+    """
 
     subject: str
     span: Span
     message: str
-    help: str = ""
-    related: tuple[Related, ...] = ()
+    help: str
+    related: Related | None = None
 
     @classmethod
-    def at(cls, register: Register, message: str, help: str = "", *related: Related) -> "Finding":  # noqa: A002 (named as in Diagnostic)
+    def at(cls, register: Register, message: str, help_text: str, related: Related | None = None) -> "Finding":
         """A finding about a register: the message starts with its path."""
-        return cls(register.path, register.span, f"`{register.path}` {message}", help, related)
+        return cls(register.path, register.span, f"`{register.path}` {message}", help_text, related)
 
 
 Scopes = tuple[RuleScope, ...]
 """The scopes of all models of a map."""
 
-RegisterCheck = Callable[[Register, RuleScope], Iterable[Finding]]
-ModelCheck = Callable[[RuleScope], Iterable[Finding]]
-MapCheck = Callable[[RegisterMap, Scopes], Iterable[Finding]]
-Check = TypeVar("Check")
+Problem = tuple[str, str] | tuple[str, str, Related]
+"""What is wrong with the subject that a rule looks at: message, help, and perhaps the place of another party."""
+
 Findings = Iterator[tuple[str, Finding]]
-"""What a rule finds: the findings of each model by its name, those of the map under an empty name."""
+"""Findings, each with the name of its model; those of the map as a whole with an empty name."""
+
+RegisterCheck = Callable[[Register, RuleScope], Iterable[Problem]]
+ModelCheck = Callable[[RuleScope], Iterable[Finding]]
+HeaderCheck = Callable[[RegisterMap], Iterable[Problem]]
+MapCheck = Callable[[RegisterMap, Scopes], Iterable[Finding]]
+Check = TypeVar("Check", bound=Callable[..., object])
 
 
 @dataclass(frozen=True, slots=True)
 class RuleEntry:
-    """A rule and what finds all that is against it, in the scopes of all models."""
+    """A rule, and the function that finds all violations of it in the scopes of all models."""
 
     rule: Rule
     run: Callable[[Scopes], Findings]
@@ -95,48 +100,72 @@ def entries() -> tuple[RuleEntry, ...]:
     return tuple(sorted(_ENTRIES, key=lambda entry: entry.rule.id))
 
 
-def register_rule(
-    rule_id: str, title: str, why: str, *, warns: bool = False
-) -> Callable[[RegisterCheck], RegisterCheck]:
-    """Declare a rule whose function looks at one register of one model at a time; one that `warns` stops nothing."""
-    return _declare(warning(rule_id, title, why) if warns else Rule(rule_id, title, why), _of_registers)
+def register_rule(rule_id: str, title: str, *, warns: bool = False) -> Callable[[RegisterCheck], RegisterCheck]:
+    """Declare a rule whose function looks at one register of one model at a time; findings stand at the register."""
+
+    def walk(check: RegisterCheck, scope: RuleScope) -> Iterator[Finding]:
+        for register in scope.model.registers:
+            for problem in check(register, scope):
+                yield Finding.at(register, *problem)
+
+    return rule_of_models(rule_id, title, walk, warns=warns)
 
 
-def model_rule(rule_id: str, title: str, why: str, *, warns: bool = False) -> Callable[[ModelCheck], ModelCheck]:
+def model_rule(rule_id: str, title: str, *, warns: bool = False) -> Callable[[ModelCheck], ModelCheck]:
     """Declare a rule whose function looks at one model at a time."""
-    return _declare(warning(rule_id, title, why) if warns else Rule(rule_id, title, why), _of_models)
+    return rule_of_models(rule_id, title, lambda check, scope: check(scope), warns=warns)
 
 
-def map_rule(rule_id: str, title: str, why: str, *, warns: bool = False) -> Callable[[MapCheck], MapCheck]:
+def header_rule(rule_id: str, title: str, *, warns: bool = False) -> Callable[[HeaderCheck], HeaderCheck]:
+    """Declare a rule whose function looks at what all models share; findings stand at the map."""
+
+    def walk(check: HeaderCheck, scopes: Scopes) -> Findings:
+        register_map = scopes[0].register_map
+        yield from (("", Finding(MAP, register_map.span, *problem)) for problem in check(register_map))
+
+    return _declare(rule_id, title, walk, warns=warns)
+
+
+def map_rule(rule_id: str, title: str, *, warns: bool = False) -> Callable[[MapCheck], MapCheck]:
     """Declare a rule whose function looks at the whole map, and at the scopes of all its models."""
-    return _declare(warning(rule_id, title, why) if warns else Rule(rule_id, title, why), _of_map)
+
+    def walk(check: MapCheck, scopes: Scopes) -> Findings:
+        yield from (("", finding) for finding in check(scopes[0].register_map, scopes))
+
+    return _declare(rule_id, title, walk, warns=warns)
 
 
-def warning(rule_id: str, title: str, why: str) -> Rule:
-    """A rule whose findings do not stop the pipeline."""
-    return Rule(rule_id, title, why, Severity.WARNING)
+def rule_of_models(
+    rule_id: str, title: str, walk: Callable[[Check, RuleScope], Iterable[Finding]], *, warns: bool = False
+) -> Callable[[Check], Check]:
+    """Declare a rule whose function `walk` calls for each subject in one model."""
+
+    def walk_all(check: Check, scopes: Scopes) -> Findings:
+        for scope in scopes:
+            yield from ((scope.model.name, finding) for finding in walk(check, scope))
+
+    return _declare(rule_id, title, walk_all, warns=warns)
 
 
-def _declare(rule: Rule, findings: Callable[[Check, Scopes], Findings]) -> Callable[[Check], Check]:
+def _declare(
+    rule_id: str, title: str, walk: Callable[[Check, Scopes], Findings], *, warns: bool
+) -> Callable[[Check], Check]:
+    """Declare a rule; the docstring of its function is the reason for it, which `regscribe explain` shows."""
+
     def declare(check: Check) -> Check:
-        _ENTRIES.append(RuleEntry(rule, partial(findings, check)))
+        severity = Severity.WARNING if warns else Severity.ERROR
+        _ENTRIES.append(RuleEntry(Rule(rule_id, title, check.__doc__ or "", severity), partial(walk, check)))
         return check
 
     return declare
 
 
-def _of_registers(check: RegisterCheck, scopes: Scopes) -> Findings:
-    for scope in scopes:
-        for register in scope.model.registers:
-            for finding in check(register, scope):
-                yield scope.model.name, finding
-
-
-def _of_models(check: ModelCheck, scopes: Scopes) -> Findings:
-    for scope in scopes:
-        for finding in check(scope):
-            yield scope.model.name, finding
-
-
-def _of_map(check: MapCheck, scopes: Scopes) -> Findings:
-    yield from (("", finding) for finding in check(scopes[0].register_map, scopes))
+def doubled(items: Iterable[Item], keys: Callable[[Item], Iterable[Hashable]]) -> Iterator[tuple[Item, Item]]:
+    """Items of which a key belongs to an earlier one already: the earlier one, and the item."""
+    owners: dict[Hashable, Item] = {}
+    for item in items:
+        for key in keys(item):
+            owner = owners.setdefault(key, item)
+            if owner is not item:
+                yield owner, item
+                break

@@ -1,16 +1,26 @@
-"""Run all rules over a map: findings, less what is waived, each place once, in the order of the file."""
+"""Run all rules over a map: findings, less what the map waives, each place once, in the order of the file."""
 
+import re
 from collections import defaultdict
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
-from regscribe.checks import waivers
 from regscribe.checks.rule import Finding, RuleEntry, RuleScope
 from regscribe.model import Diagnostic, RegisterMap, Rule, Severity, Span, Waiver
 
+NOTHING_WAIVED = Rule(
+    "RS0467", "Waiver that waives nothing", "What it excused is gone; it would hide the next one.", Severity.WARNING
+)
+UNKNOWN_RULE = Rule(
+    "RS0468", "Waiver of a rule that cannot be waived", "Only findings of a map's meaning can be excused."
+)
+NO_REASON = Rule("RS0469", "Waiver without a reason", "Whoever reads the map must be able to judge the exception.")
+WAIVER_RULES = (NOTHING_WAIVED, UNKNOWN_RULE, NO_REASON)
 
-@dataclass(frozen=True, slots=True)
-class LocatedFinding:
+INDEX = re.compile(r"\[\d+\]")
+
+
+class LocatedFinding(NamedTuple):
     """A finding with its rule and the model it was made on (empty: the map)."""
 
     rule: Rule
@@ -18,28 +28,41 @@ class LocatedFinding:
     finding: Finding
 
 
-def run(register_map: RegisterMap, entries: Iterable[RuleEntry]) -> list[Diagnostic]:
+def run(register_map: RegisterMap, rules: Sequence[RuleEntry]) -> list[Diagnostic]:
     """All diagnostics of a map, sorted by place and rule."""
-    rules = tuple(entries)
     scopes = tuple(RuleScope.of(register_map, model) for model in register_map.models)
-    found = (
-        [LocatedFinding(entry.rule, model, one) for entry in rules for model, one in entry.run(scopes)]
-        if scopes
-        else []
-    )
+    found = [LocatedFinding(entry.rule, *each) for entry in rules for each in entry.run(scopes)] if scopes else []
     used: set[Waiver] = set()
     kept = [one for one in found if not _waived(one, register_map, used)]
     waivable = frozenset(entry.rule.id for entry in rules)
-    kept += [LocatedFinding(rule, "", finding) for rule, finding in waivers.useless(register_map, used, waivable)]
+    kept += [LocatedFinding(rule, "", finding) for rule, finding in _useless(register_map, used, waivable)]
     merged = _merge(kept, len(register_map.models))
     return sorted(merged, key=lambda diagnostic: (diagnostic.span, diagnostic.rule))
 
 
 def _waived(found: LocatedFinding, register_map: RegisterMap, used: set[Waiver]) -> bool:
-    matching = [w for w in register_map.waivers if waivers.covers(w, found.rule.id, found.finding.subject)]
+    """Whether a waiver with a reason names the subject of a finding; a path may lack its indexes."""
+    subject = found.finding.subject
+    subjects = {subject, INDEX.sub("", subject)}
+    matching = [one for one in register_map.waivers if one.rule == found.rule.id and one.at in subjects]
     valid = [waiver for waiver in matching if waiver.reason.strip()]
     used.update(valid)
     return bool(valid)
+
+
+def _useless(register_map: RegisterMap, used: set[Waiver], waivable: frozenset[str]) -> Iterator[tuple[Rule, Finding]]:
+    """What is wrong with the waivers themselves; `used` have removed a finding, `waivable` are the ids of all rules."""
+    for waiver in register_map.waivers:
+        if waiver.rule not in waivable:
+            message = f"the waiver at `{waiver.at}` names {waiver.rule}, which is no rule that can be waived"
+            help_text = "correct the id; `regscribe explain` knows all"
+            yield UNKNOWN_RULE, Finding(waiver.at, waiver.span, message, help_text)
+        elif not waiver.reason.strip():
+            message = f"the waiver of {waiver.rule} at `{waiver.at}` gives no reason"
+            yield NO_REASON, Finding(waiver.at, waiver.span, message, "say why the map is right nevertheless")
+        elif waiver not in used:
+            message = f"nothing at `{waiver.at}` is against {waiver.rule}"
+            yield NOTHING_WAIVED, Finding(waiver.at, waiver.span, message, "remove the waiver, or correct `at`")
 
 
 def _merge(found: list[LocatedFinding], models: int) -> Iterator[Diagnostic]:
@@ -48,11 +71,10 @@ def _merge(found: list[LocatedFinding], models: int) -> Iterator[Diagnostic]:
     for one in found:
         places[one.rule.id, one.finding.span].append(one)
     for together in places.values():
-        first = together[0]
-        severity = Severity(first.rule.severity)
-        message = first.finding.message + _others(together) + _models(together, models)
-        finding = first.finding
-        yield Diagnostic(first.rule.id, message, finding.span, finding.help, severity, finding.related)
+        rule, _, first = together[0]
+        message = first.message + _others(together) + _models(together, models)
+        related = (first.related,) if first.related else ()
+        yield Diagnostic(rule.id, message, first.span, first.help, rule.severity, related)
 
 
 def _others(together: list[LocatedFinding]) -> str:

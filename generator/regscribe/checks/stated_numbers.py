@@ -5,7 +5,7 @@ from fractions import Fraction
 
 from regscribe.checks.held_values import is_fault, outside_type, shown, wrong_sort
 from regscribe.checks.representable import HELP_TYPE, Fit, best_fit, ends_of, tells_apart, values_of
-from regscribe.checks.rule import Finding, RuleScope, register_rule
+from regscribe.checks.rule import Problem, RuleScope, register_rule
 from regscribe.model import IDENTITY, Kind, NotANumber, Order, Register, Sentinel, Space, View, WireType, show
 from regscribe.reference import number_of, sentinel_number
 
@@ -13,44 +13,36 @@ WORDS_OF_BITS = {Kind.FLAGS, Kind.FIELDS}
 UNSCALED = {Kind.ENUM, Kind.FLAGS, Kind.FIELDS, Kind.STRING, Kind.VERSION, Kind.BOOLEAN}
 
 
-@register_rule(
-    "RS0420", "Default outside the type", "A default that the words cannot carry was misread, or the type was."
-)
-def default_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
-    """Try the default in every view under every scale."""
+@register_rule("RS0420", "Default outside the type")
+def default_outside_type(register: Register, _: RuleScope) -> Iterator[Problem]:
+    """A default that the words cannot carry was misread, or the type was."""
     for what, value in register.beginnings:
         if not wrong_sort(register, value) and outside_type(register, value):
-            yield Finding.at(register, f"has {what} {shown(value)}, outside {ends_of(register)}", HELP_TYPE)
+            yield f"has {what} {shown(value)}, outside {ends_of(register)}", HELP_TYPE
 
 
-@register_rule("RS0421", "Special value outside the type", "A special value that no word can spell can never be met.")
-def special_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
-    """Try each special value as the ranges count it."""
+@register_rule("RS0421", "Special value outside the type")
+def special_outside_type(register: Register, _: RuleScope) -> Iterator[Problem]:
+    """A special value that no word can spell can never be met."""
     for special in register.specials:
         values = values_of(register, special)
         fit = best_fit(register, values)
-        if fit is Fit.EXACT and not any(tells_apart(register, value) for value in values):
-            fit = Fit.TOO_FINE
-        if fit is not Fit.EXACT:
-            shown = f'has special value {show(special.code)} ("{special.label}")'
-            message = {
-                Fit.TOO_LARGE: f"{shown}, outside {ends_of(register)}",
-                Fit.TOO_FINE: f"{shown}, which its words cannot spell exactly",
-            }[fit]
-            yield Finding.at(register, message, HELP_TYPE)
+        shown = f'has special value {show(special.code)} ("{special.label}")'
+        if fit is Fit.TOO_LARGE:
+            yield f"{shown}, outside {ends_of(register)}", HELP_TYPE
+        elif fit is Fit.TOO_FINE or not any(tells_apart(register, value) for value in values):
+            yield f"{shown}, which its words cannot spell exactly", HELP_TYPE
 
 
-@register_rule(
-    "RS0422", "Sentinel outside the type", "A view that cannot spell a fault would show a number in its place."
-)
-def sentinel_outside_type(register: Register, _: RuleScope) -> Iterator[Finding]:
-    """Try each sentinel, a stored number, in every view; one that saturates shows its end, which is no value either."""
+@register_rule("RS0422", "Sentinel outside the type")
+def sentinel_outside_type(register: Register, _: RuleScope) -> Iterator[Problem]:
+    """A view that cannot spell a fault would show a number in its place."""
     for sentinel in register.sentinels:
         lacking = [view for view in register.views if not _reports(view, sentinel)]
         if lacking:
             where = f"view {lacking[0].name} ({lacking[0].type})" if len(register.views) > 1 else ends_of(register)
             message = f'has sentinel {sentinel.spelled} ("{sentinel.label}"), outside {where}'
-            yield Finding.at(register, message, "correct the sentinel or the type")
+            yield message, "correct the sentinel or the type"
 
 
 def _reports(view: View, sentinel: Sentinel) -> bool:
@@ -61,24 +53,21 @@ def _reports(view: View, sentinel: Sentinel) -> bool:
     return clipped or sentinel_number(view, sentinel) is not None
 
 
-@register_rule("RS0601", "Sentinel that is a value too", "One code cannot be both a setting and the report of a fault.")
-def sentinel_is_code(register: Register, _: RuleScope) -> Iterator[Finding]:
-    """Compare sentinels with the default, the codes of an enum, true and false; a text and a bit have none to spare."""
+@register_rule("RS0601", "Sentinel that is a value too")
+def sentinel_is_code(register: Register, _: RuleScope) -> Iterator[Problem]:
+    """One code cannot be both a setting and the report of a fault."""
     if register.sentinels and (register.kind is Kind.STRING or register.base.space.is_bits):
-        message = (
-            f"is of kind {register.kind} in {register.base.space} and has sentinels, which none of its values can be"
-        )
-        yield Finding.at(register, message, "remove the sentinels")
+        what = f"is of kind {register.kind} in {register.base.space}"
+        yield f"{what} and has sentinels, which none of its values can be", "remove the sentinels"
         return
     codes = _labels(register)
     for sentinel in register.sentinels:
         if sentinel.stored in codes:
             message = f'has {sentinel.spelled} as "{codes[sentinel.stored]}" and as the fault "{sentinel.label}"'
-            yield Finding.at(register, message, "remove one of them")
+            yield message, "remove one of them"
     for what, value in register.beginnings if register.sentinels else ():
         if number_of(register, value) not in codes and is_fault(register, value):
-            message = f"has {what} {shown(value)}, by which it reports a fault"
-            yield Finding.at(register, message, f"correct the {what} or the sentinels")
+            yield f"has {what} {shown(value)}, by which it reports a fault", f"correct the {what} or the sentinels"
 
 
 def _labels(register: Register) -> dict[object, str]:
@@ -93,33 +82,27 @@ _OF_SPACE = {WireType.BIT: BITS, WireType.UINT8: STATUS}
 """The types that do not stand in words, and where they stand."""
 
 
-@register_rule(
-    "RS0602",
-    "Type that the space cannot hold",
-    "A coil or discrete input is one bit, function 07 gives one byte, all other addresses hold words of 16 bits.",
-)
-def type_and_space(register: Register, _: RuleScope) -> Iterator[Finding]:
-    """Compare the type of each view with its space, and its orders where there is nothing to order."""
+@register_rule("RS0602", "Type that the space cannot hold")
+def type_and_space(register: Register, _: RuleScope) -> Iterator[Problem]:
+    """A coil or discrete input is one bit, function 07 gives one byte, all other addresses hold words of 16 bits."""
     for view in register.views:
         spaces = _OF_SPACE.get(view.type, {Space.HOLDING, Space.INPUT})
         if view.space not in spaces:
-            message = (
-                f"has view {view.name} of type {view.type} in {view.space}, which is in {' or '.join(sorted(spaces))}"
-            )
+            what = f"has view {view.name} of type {view.type} in {view.space}"
             help_ = "a flag in a word is `flags: {0: ...}` or `kind: boolean`, a number of words is in holding or input"
-            yield Finding.at(register, message, f"correct `type` or `space`; {help_}")
+            yield f"{what}, which is in {' or '.join(sorted(spaces))}", f"correct `type` or `space`; {help_}"
         elif spaces in (BITS, STATUS) and (view.order, view.byte_order) != (Order.BIG, Order.BIG):
             message = f"has an order of words or bytes in {view.space}, where a value has no words"
-            yield Finding.at(register, message, "remove `word_order` and `byte_order`")
+            yield message, "remove `word_order` and `byte_order`"
 
 
-@register_rule("RS0426", "Kind does not fit the type", "An enum in a float or a number in a text cannot be decoded.")
-def kind_and_type(register: Register, _: RuleScope) -> Iterator[Finding]:
-    """Compare the kind with the types of all views, and an enum or fields with the kind."""
+@register_rule("RS0426", "Kind does not fit the type")
+def kind_and_type(register: Register, _: RuleScope) -> Iterator[Problem]:
+    """An enum in a float or a number in a text cannot be decoded."""
     for view in register.views:
         problem, help_text = _of_view(register.kind, view)
         if problem:
-            yield Finding.at(register, f"is of kind {register.kind}{problem}", help_text)
+            yield f"is of kind {register.kind}{problem}", help_text
             return
     yield from _of_parts(register)
 
@@ -139,62 +122,51 @@ def _of_view(kind: Kind, view: View) -> tuple[str, str]:
     return "", ""
 
 
-def _of_parts(register: Register) -> Iterator[Finding]:
+def _of_parts(register: Register) -> Iterator[Problem]:
     """What does not fit the kind among enum, bits, digits and special values."""
     if (register.enum is not None) != (register.kind is Kind.ENUM):
         has = "an" if register.enum else "no"
-        yield Finding.at(register, f"is of kind {register.kind} but has {has} enum", "correct `kind` or the enum")
+        yield f"is of kind {register.kind} but has {has} enum", "correct `kind` or the enum"
     elif bool(register.fields) != (register.kind in WORDS_OF_BITS):
-        yield Finding.at(
-            register, f"is of kind {register.kind} but its bits say otherwise", "correct `kind` or the bits"
-        )
+        yield f"is of kind {register.kind} but its bits say otherwise", "correct `kind` or the bits"
     elif register.kind is Kind.VERSION and not register.version_digits:
-        yield Finding.at(register, "is of kind version, but has no digits", "give them under `version`, as nn.nn")
+        yield "is of kind version, but has no digits", "give them under `version`, as nn.nn"
     elif not register.fractional:
         yield from _parts_of_wholes(register)
 
 
-def _parts_of_wholes(register: Register) -> Iterator[Finding]:
+def _parts_of_wholes(register: Register) -> Iterator[Problem]:
     for special in register.specials:
         for number in (special.code, special.means):
             if number is not None and number.denominator != 1:
-                message = (
-                    f'is of kind {register.kind}, so whole, but its special value "{special.label}" is {show(number)}'
-                )
-                yield Finding.at(register, message, "correct the special value, or remove `kind`")
+                what = f"is of kind {register.kind}, so whole"
+                message = f'{what}, but its special value "{special.label}" is {show(number)}'
+                yield message, "correct the special value, or remove `kind`"
 
 
-@register_rule(
-    "RS0427", "Scale on a value that is no number", "Codes, bits and texts are not multiplied; one of them is wrong."
-)
-def scaled_codes(register: Register, _: RuleScope) -> Iterator[Finding]:
-    """Allow nothing but the identity, and factor 1, for codes, bits, texts and versions."""
+@register_rule("RS0427", "Scale on a value that is no number")
+def scaled_codes(register: Register, _: RuleScope) -> Iterator[Problem]:
+    """Codes, bits and texts are not multiplied; one of them is wrong."""
     if register.kind not in UNSCALED:
         return
     if any(case.then != IDENTITY for case in register.scale) or any(view.factor != 1 for view in register.views):
-        yield Finding.at(register, f"is of kind {register.kind} but has a scale", "remove the scale, or correct `kind`")
+        yield f"is of kind {register.kind} but has a scale", "remove the scale, or correct `kind`"
 
 
-@register_rule(
-    "RS0428",
-    "Default of the wrong sort",
-    "A text for a number, or one that the words or the pattern cannot spell, is never read and cannot be written.",
-)
-def default_of_wrong_sort(register: Register, _: RuleScope) -> Iterator[Finding]:
-    """Compare the default with the kind; a text with the words it has, a version with its pattern."""
+@register_rule("RS0428", "Default of the wrong sort")
+def default_of_wrong_sort(register: Register, _: RuleScope) -> Iterator[Problem]:
+    """A text for a number, or one that the words or the pattern cannot spell, is never read and cannot be written."""
     for what, value in register.beginnings:
         problem = wrong_sort(register, value)
         if problem:
             message = f"is of kind {register.kind} and has {what} {shown(value)}, {problem}"
-            yield Finding.at(register, message, f"correct the {what}, or the kind and its keys")
+            yield message, f"correct the {what}, or the kind and its keys"
 
 
-@register_rule(
-    "RS0429", "Version longer than its type", "The type cannot hold the largest version of so many digits.", warns=True
-)
-def version_too_long(register: Register, _: RuleScope) -> Iterator[Finding]:
-    """Compare the largest number of the digits with the type."""
+@register_rule("RS0429", "Version longer than its type", warns=True)
+def version_too_long(register: Register, _: RuleScope) -> Iterator[Problem]:
+    """The type cannot hold the largest version of so many digits."""
     largest = 10**register.version_digits - 1
     if register.kind is Kind.VERSION and register.base.type.is_integer and largest > register.base.type.maximum:
         message = f"packs {register.version_digits} digits (up to {largest}) into {ends_of(register)}"
-        yield Finding.at(register, message, "correct `version` or `type`, or waive this with what the manual says")
+        yield message, "correct `version` or `type`, or waive this with what the manual says"

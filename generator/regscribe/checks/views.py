@@ -4,8 +4,11 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from regscribe.checks.addresses import stretches
-from regscribe.checks.rule import Finding, RuleScope, Scopes, map_rule, model_rule, register_rule
+from regscribe.checks.rule import Finding, Problem, RuleScope, Scopes, map_rule, model_rule, register_rule
 from regscribe.model import Register, RegisterMap, Related, Space
+
+FURTHER_FUNCTIONS = {Space.HOLDING: (22, 23)}
+"""Functions of a space besides those that drivers use: mask write, and write and read."""
 
 Region = tuple[Space, str, int, int]
 """Where the views of one name stand: their space, their name, the first and the last address."""
@@ -32,20 +35,20 @@ def regions(scope: RuleScope) -> dict[Region, Register]:
     return found
 
 
-@register_rule("RS0455", "View outside its region", "The manual gives each kind of view its own addresses.")
-def outside_region(register: Register, _: RuleScope) -> Iterator[Finding]:
-    """Compare the first and the last address of each view, and of the aliases of the base view, with its region."""
+@register_rule("RS0455", "View outside its region")
+def outside_region(register: Register, _: RuleScope) -> Iterator[Problem]:
+    """The manual gives each kind of view its own addresses."""
     for stretch in stretches(register):
         region = stretch.view.region
         if region and not region[0] <= stretch.first <= stretch.last <= region[1]:
             where = f"{stretch.by or f'view {stretch.view.name}'} at {stretch.first}..{stretch.last}"
             message = f"has {where}, outside its region {region[0]}..{region[1]}"
-            yield Finding.at(register, message, "correct `at`, the alias, or the view's offset, stride or region")
+            yield message, "correct `at`, the alias, or the view's offset, stride or region"
 
 
-@model_rule("RS0660", "Register in the region of a view", "Nothing else stands where a view has addresses of its own.")
+@model_rule("RS0660", "Register in the region of a view")
 def in_a_region(scope: RuleScope) -> Iterator[Finding]:
-    """Compare what has no region of its own with all regions; RS0455 and RS0457 keep those that have one apart."""
+    """Nothing else stands where a view has addresses of its own."""
     every = regions(scope)
     for register in scope.model.registers:
         for stretch in stretches(register):
@@ -56,19 +59,19 @@ def in_a_region(scope: RuleScope) -> Iterator[Finding]:
                     yield Finding.at(register, message, "correct `at`, the alias, or `region` of the view", related)
 
 
-@register_rule("RS0456", "Misaligned view", "The device refuses an address or a number of words that splits a value.")
-def misaligned(register: Register, _: RuleScope) -> Iterator[Finding]:
-    """Divide the address and the words of each view by its alignment."""
+@register_rule("RS0456", "Misaligned view")
+def misaligned(register: Register, _: RuleScope) -> Iterator[Problem]:
+    """The device refuses an address or a number of words that splits a value."""
     for view in register.views:
         where = view.address(register.at)
         if view.align > 1 and (where % view.align or view.words % view.align):
             message = f"has view {view.name} at {where} with {view.words} words, not multiples of {view.align}"
-            yield Finding.at(register, message, "correct `at`, the view's offset and stride, or `align`")
+            yield message, "correct `at`, the view's offset and stride, or `align`"
 
 
-@model_rule("RS0457", "View regions overlap", "An address in two regions would have two meanings.")
+@model_rule("RS0457", "View regions overlap")
 def regions_overlap(scope: RuleScope) -> Iterator[Finding]:
-    """Compare all regions of the model in pairs."""
+    """An address in two regions would have two meanings."""
     for (one, register), (other, owner) in combinations(regions(scope).items(), 2):
         (space, name, low, high), (other_space, other_name, first, last) = one, other
         if space == other_space and low <= last and first <= high:
@@ -77,58 +80,46 @@ def regions_overlap(scope: RuleScope) -> Iterator[Finding]:
             yield Finding.at(register, message, "correct `region` of one view", related)
 
 
-@register_rule(
-    "RS0458", "Value longer than a request", "A value that does not fit one request can never be read whole."
-)
-def longer_than_request(register: Register, scope: RuleScope) -> Iterator[Finding]:
-    """Compare the words of each view with the limits of the protocol."""
-    protocol = scope.register_map.protocol
+@register_rule("RS0458", "Value longer than a request")
+def longer_than_request(register: Register, scope: RuleScope) -> Iterator[Problem]:
+    """A value that does not fit one request can never be read whole."""
+    protocol, access = scope.register_map.protocol, register.access
+    limits = (("read", access.readable, protocol.read_words), ("write", access.writable, protocol.write_words))
     for view in register.views:
-        if view.space.is_bits:
-            continue
-        if register.access.readable and view.words > protocol.read_words:
-            message = f"has view {view.name} of {view.words} words; a read request takes {protocol.read_words} at most"
-            yield Finding.at(register, message, "correct the type, `length` or `protocol.limits.read_words`")
-        elif register.access.writable and view.words > protocol.write_words:
-            message = (
-                f"has view {view.name} of {view.words} words; a write request takes {protocol.write_words} at most"
-            )
-            yield Finding.at(register, message, "correct the type, `length` or `protocol.limits.write_words`")
+        for way, allowed, most in limits:
+            if view.words > most and allowed and not view.space.is_bits:
+                message = f"has view {view.name} of {view.words} words; a {way} request takes {most} at most"
+                yield message, f"correct the type, `length` or `protocol.limits.{way}_words`"
+                break
 
 
-@register_rule(
-    "RS0459", "View by a function that the device lacks", "Only a function that the device supports can reach it."
-)
-def unsupported_function(register: Register, scope: RuleScope) -> Iterator[Finding]:
-    """Compare the functions of each view with the protocol's."""
+@register_rule("RS0459", "View by a function that the device lacks")
+def unsupported_function(register: Register, scope: RuleScope) -> Iterator[Problem]:
+    """Only a function that the device supports can reach it."""
     has = scope.register_map.protocol.functions
     for view in register.views:
         lacking = [code for code in view.functions if code not in has]
         if lacking:
             codes = ", ".join(f"{code:02d}" for code in lacking)
             message = f"has view {view.name} by function {codes}, which `protocol.functions` {list(has)} lacks"
-            yield Finding.at(register, message, "correct one of the two lists")
+            yield message, "correct one of the two lists"
 
 
-_OTHERS = {Space.HOLDING: (22, 23)}
-"""Functions of a space besides those that drivers use: mask write, and write and read."""
-
-
-@register_rule("RS0635", "View by a function of another space", "A function code reads or writes in one space only.")
-def function_of_another_space(register: Register, _: RuleScope) -> Iterator[Finding]:
-    """Compare the functions of each view with those of its space."""
+@register_rule("RS0635", "View by a function of another space")
+def function_of_another_space(register: Register, _: RuleScope) -> Iterator[Problem]:
+    """A function code reads or writes in one space only."""
     for view in register.views:
-        known = (view.space.read_function, *view.space.write_functions, *_OTHERS.get(view.space, ()))
+        known = (view.space.read_function, *view.space.write_functions, *FURTHER_FUNCTIONS.get(view.space, ()))
         strange = [code for code in view.functions if code not in known]
         if strange:
             codes = ", ".join(f"{code:02d}" for code in strange)
             message = f"has view {view.name} by function {codes}, which does not reach space {view.space}"
-            yield Finding.at(register, message, f"correct `functions` (of this space: {list(known)}) or `space`")
+            yield message, f"correct `functions` (of this space: {list(known)}) or `space`"
 
 
-@map_rule("RS0460", "More than one preferred view", "A driver uses one view unless told otherwise.")
+@map_rule("RS0460", "More than one preferred view")
 def preferred_twice(_: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
-    """Count the preferred views of each view set, once."""
+    """A driver uses one view unless told otherwise."""
     for register in view_sets(scopes):
         names = [view.name for view in register.views if view.preferred]
         if len(names) > 1:

@@ -5,9 +5,8 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 
-from regscribe.checks.assumed_values import in_example
 from regscribe.checks.rule import MAP, Finding, RuleScope, Scopes, map_rule
-from regscribe.checks.worked_values import compare, hexadecimal, judged, printed
+from regscribe.checks.worked_values import compare, hexadecimal, in_example, judged, printed
 from regscribe.model import FrameExample, Register, RegisterMap, Space, View
 from regscribe.reference import Surroundings
 from regscribe_runtime.wire.pdu import (
@@ -15,18 +14,19 @@ from regscribe_runtime.wire.pdu import (
     OFF,
     ON,
     MalformedError,
-    decode_reply,
     decode_request,
     expect_bytes,
+    unpack_words,
 )
 from regscribe_runtime.wire.requests import (
     BIT_READS,
     BLOCK_WRITES,
+    BYTES_IN_WORD,
     READ_HOLDING,
+    SPACES,
     WORD_READS,
     WRITE_COIL,
     WRITES,
-    Request,
 )
 
 CRC_LENGTH = 2
@@ -65,35 +65,31 @@ def parse(data: bytes, *, answer: bool) -> FrameFields:
 
 def _answer(head: FrameFields, pdu: bytes) -> FrameFields:
     if head.function in WORD_READS:
-        words = _words_read(pdu)
+        size = pdu[1] if len(pdu) > 1 else 0
+        expect_bytes(pdu[1:], 1 + size)
+        if size % BYTES_IN_WORD:
+            message = f"{size} bytes are no whole number of words"
+            raise MalformedError(message)
+        words = unpack_words(pdu[2:])
         return replace(head, count=len(words), words=words, carried=words)
     if head.function in BLOCK_WRITES:  # address and count, as a read asks for them
-        told = decode_request(bytes([READ_HOLDING]) + pdu[1:])
-        return replace(head, address=told.address, count=told.quantity)
+        request = decode_request(bytes([READ_HOLDING]) + pdu[1:])
+        return replace(head, address=request.address, count=request.quantity)
     return _request(head, pdu) if head.function in WRITES else head
-
-
-def _words_read(pdu: bytes) -> tuple[int, ...]:
-    expected = pdu[1] if len(pdu) > 1 else 0
-    expect_bytes(pdu[1:], 1 + expected)
-    if expected % 2:
-        message = f"{expected} bytes are no whole number of words"
-        raise MalformedError(message)
-    return decode_reply(Request(pdu[0], 0), pdu).words
 
 
 def _request(head: FrameFields, pdu: bytes) -> FrameFields:
     if head.function not in COMPARED:
         return head
-    told = decode_request(pdu)
-    head = replace(head, address=told.address, count=told.quantity)
-    if told.reads:
+    request = decode_request(pdu)
+    head = replace(head, address=request.address, count=request.quantity)
+    if request.reads:
         return head
-    if not told.quantity:
+    if not request.quantity:
         message = "it writes nothing"
         raise MalformedError(message)
-    words = tuple(ON if bit else OFF for bit in told.words) if head.function == WRITE_COIL else told.words
-    return replace(head, words=words, carried=told.words)
+    words = tuple(ON if bit else OFF for bit in request.words) if head.function == WRITE_COIL else request.words
+    return replace(head, words=words, carried=request.words)
 
 
 Alike = tuple[tuple[int, ...], ...]
@@ -110,11 +106,9 @@ def _body(example: FrameExample) -> bytes:
     return example.frame[:-CRC_LENGTH] if example.crc else example.frame
 
 
-@map_rule(
-    "RS0447", "Frame of a worked example is not what the map says of it", "A frame proves addresses and functions."
-)
+@map_rule("RS0447", "Frame of a worked example is not what the map says of it")
 def frame_fields(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
-    """Check the CRC, read the frame, compare its fields with those that the map states."""
+    """A frame proves addresses and functions."""
     for example in _frames(register_map):
         for problem in _problems(example):
             message = f"{printed('the frame', example)}: {problem}"
@@ -151,11 +145,9 @@ def _wrong_crc(frame: bytes) -> str:
     return f"its CRC is {told}, computed {computed}" if told != computed else ""
 
 
-@map_rule(
-    "RS0448", "Values of a worked frame are not reproduced", "The printed words prove scales, types and commands."
-)
+@map_rule("RS0448", "Values of a worked frame are not reproduced")
 def frame_values(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
-    """Decode the words of a frame as the registers they go to, and compare commands with their steps."""
+    """The printed words prove scales, types and commands."""
     by_name = {scope.model.name: scope for scope in scopes}
     for example in _frames(register_map):
         scope = by_name.get(example.model, scopes[0])
@@ -169,8 +161,7 @@ def frame_values(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]
 
 
 def _values(example: FrameExample, frame: FrameFields, scope: RuleScope) -> Iterator[str]:
-    said = (*example.state, *example.writes)
-    known = in_example(scope.register_map, scope.model, scope.beginning, said)
+    known = in_example(scope, (*example.state, *example.writes))
     for path, value in example.writes:
         register = scope.registers.get(path)
         if register is None:
@@ -212,8 +203,7 @@ def _unaddressed(view: View, function: int, alike: Alike) -> str:
 def _spaces(function: int, alike: Alike) -> set[Space]:
     """The spaces that a function, or another that does the same, reads or writes."""
     same = {function, *(code for codes in alike if function in codes for code in codes)}
-    reads = {space for space in Space if space.read_function in same}
-    return reads | {space for space in Space if same & set(space.write_functions)}
+    return {SPACES[code] for code in same if code in SPACES}
 
 
 def _places(register: Register, name: str) -> Iterator[tuple[View, int]]:

@@ -1,12 +1,13 @@
 """Worked examples of values and of times: the map must give what the manual prints."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
 
-from regscribe.checks.assumed_values import in_example
+from regscribe.checks.assumed_values import with_fields
 from regscribe.checks.rule import MAP, Finding, RuleScope, Scopes, map_rule
 from regscribe.model import (
     FrameExample,
+    GivenKind,
     Kind,
     Outcome,
     Protocol,
@@ -27,6 +28,7 @@ from regscribe.reference import (
     encode,
     transmit,
 )
+from regscribe_runtime.values.serial_line import SerialLine
 
 HALF_A_CENT = Fraction(1, 200)
 """Manuals print milliseconds to two decimals."""
@@ -44,9 +46,9 @@ def printed(what: str, example: ValueExample | FrameExample | TimingExample) -> 
     return f"{what} of {example.source}" if example.source else what
 
 
-def shown(value: Fraction | str | None) -> str:
+def shown(value: Fraction | str) -> str:
     """A value for a message."""
-    return show(value) if isinstance(value, Fraction) else f'"{value}"' if value is not None else "no value"
+    return show(value) if isinstance(value, Fraction) else f'"{value}"'
 
 
 def described(reading: Reading) -> str:
@@ -56,13 +58,26 @@ def described(reading: Reading) -> str:
     return shown(reading.value) if reading.value is not None else str(reading.meaning).replace("_", " ")
 
 
-@map_rule(
-    "RS0446",
-    "Worked example of a value is not reproduced",
-    "The manual's own figures prove the transcription: where they disagree, the map or the manual is wrong.",
-)
+def in_example(scope: RuleScope, state: Iterable[tuple[str, Fraction]]) -> Surroundings:
+    """The state of a worked example: what it says, else the defaults.
+
+    An example may name a given: then it holds that one code (a boolean given: true unless 0). A given that is not
+    named holds no code and is not true.
+    """
+    values = scope.defaults | dict(state)
+    givens = scope.register_map.givens
+    codes = {
+        given.id: frozenset({values.pop(given.id)} if given.id in values else ())
+        for given in givens
+        if given.kind is GivenKind.CODES
+    }
+    facts = {given.id: bool(values.pop(given.id, 0)) for given in givens if given.kind is GivenKind.BOOLEAN}
+    return Surroundings(with_fields(scope.model, values), codes, facts)
+
+
+@map_rule("RS0446", "Worked example of a value is not reproduced")
 def value_examples(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
-    """Evaluate every value example by the reference codec."""
+    """The manual's own figures prove the transcription: where they disagree, the map or the manual is wrong."""
     by_name = {scope.model.name: scope for scope in scopes}
     for example in register_map.examples:
         if not isinstance(example, ValueExample) or example.model not in by_name:
@@ -70,9 +85,8 @@ def value_examples(register_map: RegisterMap, scopes: Scopes) -> Iterator[Findin
         problem = _judge(example, by_name[example.model])
         if problem:
             message = f"{printed('the example', example)} for `{example.register}`: {problem}"
-            yield Finding(
-                example.register, example.span, message, "correct the map; if the manual errs, tell in `errata`"
-            )
+            help_text = "correct the map; if the manual errs, tell in `errata`"
+            yield Finding(example.register, example.span, message, help_text)
 
 
 def _judge(example: ValueExample, scope: RuleScope) -> str:
@@ -82,7 +96,7 @@ def _judge(example: ValueExample, scope: RuleScope) -> str:
         return f"model {example.model} has no view {example.view} of it"
     if len(example.words) != view.words:
         return f"{len(example.words)} words, but view {view.name} has {view.words}"
-    known = in_example(scope.register_map, scope.model, scope.beginning, example.state)
+    known = in_example(scope, example.state)
     return judged(lambda: _sent(example, view, known) or _read(example, register, view, known))
 
 
@@ -160,11 +174,9 @@ def _number(register: Register, value: Fraction | str) -> Fraction | str:
     return value
 
 
-@map_rule(
-    "RS0449", "Worked example of a time is not reproduced", "Gap and latency decide timeouts, so they must agree."
-)
+@map_rule("RS0449", "Worked example of a time is not reproduced")
 def timing_examples(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
-    """Compute gap, earliest and latest start of the answer from the protocol, and compare to two decimals."""
+    """Gap and latency decide timeouts, so they must agree."""
     for example in register_map.examples:
         if isinstance(example, TimingExample):
             for problem in _times(example, register_map.protocol):
@@ -173,7 +185,7 @@ def timing_examples(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
 
 
 def _times(example: TimingExample, protocol: Protocol) -> Iterator[str]:
-    character = Fraction(bits_per_character(example.format) * 1000, example.baud)
+    character = Fraction(SerialLine.of("", example.baud, example.format).bits * 1000, example.baud)
     gap = protocol.serial.gap * character
     latency = protocol.latency(example.function)
     if latency is None:
@@ -188,8 +200,3 @@ def _times(example: TimingExample, protocol: Protocol) -> Iterator[str]:
     for name, (mine, printed) in computed.items():
         if abs(mine - printed) > HALF_A_CENT:
             yield f"{name} is {float(mine):.2f} ms, the manual says {show(printed)} ms"
-
-
-def bits_per_character(line_format: str) -> int:
-    """Bits of one character on the line: start, data, parity if any, stop (`8N1`: 10, `8E1`: 11)."""
-    return 1 + int(line_format[0]) + (line_format[1] != "N") + int(line_format[2])

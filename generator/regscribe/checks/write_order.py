@@ -4,32 +4,23 @@ from collections import defaultdict
 from collections.abc import Iterator
 
 from regscribe.checks.commands import requests, touched
-from regscribe.checks.rule import Finding, RuleScope, Scopes, map_rule, model_rule, register_rule
-from regscribe.model import Command, Group, Register, RegisterMap, Related
+from regscribe.checks.rule import Finding, Problem, RuleScope, Scopes, doubled, map_rule, model_rule, register_rule
+from regscribe.model import Group, Register, RegisterMap, Related
 
 
-@model_rule("RS0475", "Place in the write order used twice", "Two groups cannot both be written second.")
+@model_rule("RS0475", "Place in the write order used twice")
 def order_twice(scope: RuleScope) -> Iterator[Finding]:
-    """Compare the places of all groups that have one."""
-    taken: dict[int, Group] = {}
-    for group in scope.model.groups:
-        if group.order is None:
-            continue
-        first = taken.setdefault(group.order, group)
-        if first is not group:
-            related = (Related(f"group `{first.id}` has it", first.span),)
-            message = f"group `{group.id}` has place {group.order} of the write order, which `{first.id}` has"
-            yield Finding(group.id, group.span, message, "give one of them another `order`", related)
+    """Two groups cannot both be written second."""
+    groups = [group for group in scope.model.groups if group.order is not None]
+    for first, group in doubled(groups, lambda one: [one.order]):
+        related = Related(f"group `{first.id}` has it", first.span)
+        message = f"group `{group.id}` has place {group.order} of the write order, which `{first.id}` has"
+        yield Finding(group.id, group.span, message, "give one of them another `order`", related)
 
 
-@model_rule(
-    "RS0476",
-    "Written before what rescales it",
-    "Writing the unit of measure converts values that were written before: the unit must come first.",
-    warns=True,
-)
+@model_rule("RS0476", "Written before what rescales it", warns=True)
 def rescaled_after(scope: RuleScope) -> Iterator[Finding]:
-    """Compare the place of a register that rescales a unit with those of the groups that hold values of that unit."""
+    """Writing the unit of measure converts values that were written before: the unit must come first."""
     places = {group.id: group.order for group in scope.model.groups}
     earliest: dict[str, tuple[int, Register]] = {}
     for other in scope.model.registers:
@@ -47,9 +38,9 @@ def rescaled_after(scope: RuleScope) -> Iterator[Finding]:
             yield Finding.at(register, message, f"write it before `{other.group}`: give it a lower `order`", related)
 
 
-@map_rule("RS0477", "Group without members", "A group that no model has a register of is a heading of nothing.")
+@map_rule("RS0477", "Group without members")
 def empty_group(_: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
-    """Find groups that are empty on every model."""
+    """A group that no model has a register of is a heading of nothing."""
     groups: defaultdict[str, list[Group]] = defaultdict(list)
     for scope in scopes:
         for group in scope.model.groups:
@@ -59,43 +50,36 @@ def empty_group(_: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
             yield Finding(name, on_models[0].span, f"group `{name}` has no members", "give it registers, or remove it")
 
 
-@model_rule("RS0482", "Unlocking needs itself", "A command that is needed before its own write can never be sent.")
+@model_rule("RS0482", "Unlocking needs itself")
 def unlock_circle(scope: RuleScope) -> Iterator[Finding]:
-    """Find commands that write a register which needs that command before or after it."""
+    """A command that is needed before its own write can never be sent."""
     for command in scope.model.commands:
         for register in {one.path: one for one in _written(command.id, scope)}.values():
             if command.id in (register.unlock, register.apply):
-                yield _circle(command, register)
+                how = "unlock" if register.unlock == command.id else "apply"
+                related = Related(f"`{register.path}` has {how}: {command.id}", register.span)
+                message = f"command `{command.id}` writes `{register.path}`, which needs `{command.id}` to {how} it"
+                help_text = f"remove `{how}` from the register, or the step"
+                yield Finding(command.id, command.span, message, help_text, related)
 
 
-def _circle(command: Command, register: Register) -> Finding:
-    how = "unlock" if register.unlock == command.id else "apply"
-    related = (Related(f"`{register.path}` has {how}: {command.id}", register.span),)
-    message = f"command `{command.id}` writes `{register.path}`, which needs `{command.id}` to {how} it"
-    return Finding(command.id, command.span, message, f"remove `{how}` from the register, or the step", related)
-
-
-@register_rule(
-    "RS0630",
-    "Unlocked in another element",
-    "A command writes the same registers whichever element of an array it is run for.",
-)
-def unlocked_elsewhere(register: Register, scope: RuleScope) -> Iterator[Finding]:
-    """Find commands before or after a write in an array that write to another element of it."""
+@register_rule("RS0630", "Unlocked in another element")
+def unlocked_elsewhere(register: Register, scope: RuleScope) -> Iterator[Problem]:
+    """A command writes the same registers whichever element of an array it is run for."""
     for how, name in (("unlock", register.unlock), ("apply", register.apply)):
         for other in _written(name, scope) if name and register.index else ():
             if _another_element(register, other):
                 message = f"has {how}: {name}, which writes `{other.path}`, in another element"
                 help_text = f"leave out `{how}` and say in its `description` what must be written: programs do it"
                 related = Related(f"`{name}` writes `{other.path}`, whatever the element", other.span)
-                yield Finding.at(register, message, help_text, related)
+                yield message, help_text, related
                 break
 
 
 def _written(command: str, scope: RuleScope) -> list[Register]:
-    """The registers that the steps of a command write; worked out once for a model."""
+    """The registers that the steps of a command write, once for each step."""
     sent = (one for one in requests(scope) if one.command.id == command)
-    stretches = (stretch for one in sent for stretch in touched(one.step, one.space, scope))
+    stretches = (stretch for one in sent for stretch in touched(one, scope))
     return scope.once(("written", command), lambda: [stretch.register for stretch in stretches])
 
 
@@ -110,11 +94,9 @@ def _another_element(register: Register, other: Register) -> bool:
     return False
 
 
-@register_rule(
-    "RS0483", "Facts about writing a read-only register", "A register that cannot be written needs no permission."
-)
-def write_facts_of_read_only(register: Register, _: RuleScope) -> Iterator[Finding]:
-    """Look for keys that speak of writing."""
+@register_rule("RS0483", "Facts about writing a read-only register")
+def write_facts_of_read_only(register: Register, _: RuleScope) -> Iterator[Problem]:
+    """A register that cannot be written needs no permission."""
     if register.access.writable:
         return
     told = {
@@ -130,28 +112,24 @@ def write_facts_of_read_only(register: Register, _: RuleScope) -> Iterator[Findi
     keys = [key for key, is_told in told.items() if is_told]
     if keys:
         message = f"has access {register.access} but {', '.join(keys)}"
-        yield Finding.at(register, message, "correct `access`, or remove what speaks of writing")
+        yield message, "correct `access`, or remove what speaks of writing"
 
 
-@register_rule("RS0484", "Endurance that is no number of writes", "Endurance counts the writes that a memory survives.")
-def endurance(register: Register, _: RuleScope) -> Iterator[Finding]:
-    """Endurance must be positive, and does not belong to RAM."""
+@register_rule("RS0484", "Endurance that is no number of writes")
+def endurance(register: Register, _: RuleScope) -> Iterator[Problem]:
+    """Endurance counts the writes that a memory survives."""
     if register.endurance is None:
         return
     if register.endurance <= 0:
-        yield Finding.at(register, f"has an endurance of {register.endurance} writes", "give the number of writes")
+        yield f"has an endurance of {register.endurance} writes", "give the number of writes"
     elif register.persistence == "ram":
         message = f"has an endurance of {register.endurance} writes, but its persistence is ram"
-        yield Finding.at(register, message, "correct `persistence`, or remove `endurance`")
+        yield message, "correct `persistence`, or remove `endurance`"
 
 
-@register_rule(
-    "RS0640",
-    "Conversion that never happens",
-    "Values are converted when the unit that they are in changes; if none depends on the register, nothing does.",
-)
-def idle_conversion(register: Register, scope: RuleScope) -> Iterator[Finding]:
-    """What `rescales` names must be the unit of some register, and follow the register that names it."""
+@register_rule("RS0640", "Conversion that never happens")
+def idle_conversion(register: Register, scope: RuleScope) -> Iterator[Problem]:
+    """Values are converted when the unit that they are in changes; if none depends on the register, nothing does."""
     if not register.rescales:
         return
     units = [one.unit for one in scope.model.registers if one.unit_id == register.rescales]
@@ -159,16 +137,12 @@ def idle_conversion(register: Register, scope: RuleScope) -> Iterator[Finding]:
         message = f"rescales {register.rescales}, " + (
             "whose cases do not ask for it" if units else "in which no register counts"
         )
-        yield Finding.at(register, message, "remove `rescales`, or let the cases of the unit ask for the register")
+        yield message, "remove `rescales`, or let the cases of the unit ask for the register"
 
 
-@register_rule(
-    "RS0641",
-    "Distance in a unit that nothing converts",
-    "Only where the device converts values does it matter that a distance has no zero point.",
-)
-def idle_difference(register: Register, scope: RuleScope) -> Iterator[Finding]:
-    """A register with `difference` counts in a unit that another register rescales."""
+@register_rule("RS0641", "Distance in a unit that nothing converts")
+def idle_difference(register: Register, scope: RuleScope) -> Iterator[Problem]:
+    """Only where the device converts values does it matter that a distance has no zero point."""
     if register.difference and not any(one.rescales == register.unit_id for one in scope.model.registers):
         message = f"is a difference in {register.unit_id}, which no register rescales"
-        yield Finding.at(register, message, "remove `difference`, or give `rescales` to what makes the device convert")
+        yield message, "remove `difference`, or give `rescales` to what makes the device convert"

@@ -5,7 +5,6 @@ from collections.abc import Callable
 import pytest
 
 from regscribe.checks.worked_frames import FrameFields, parse
-from regscribe.checks.worked_values import bits_per_character
 from regscribe.model import Diagnostic
 from regscribe_runtime.wire.pdu import MalformedError
 
@@ -80,11 +79,6 @@ def test_the_crc_of_a_printed_frame_is_computed(
 ) -> None:
     found = diagnose(small("at: 4009, name: Word", tail=f"examples: [{{frame: {frame}}}]\n"))
     assert [one.message for one in found if one.rule == "RS0447"] == ([said] if said else [])
-
-
-@pytest.mark.parametrize(("line", "bits"), [("8N1", 10), ("8E1", 11), ("8O1", 11), ("7E2", 11)])
-def test_a_character_has_start_data_parity_and_stop_bits(line: str, bits: int) -> None:
-    assert bits_per_character(line) == bits
 
 
 PLACES = (
