@@ -15,7 +15,7 @@ import pytest
 
 from regscribe.model import Latency, RegisterMap, SerialDefaults
 from regscribe.simulate import Running, SerialLine, SimulatedDevice, SimulatorError, find_map, simulate
-from regscribe.simulate.line.response_delay import Pace, factor_of
+from regscribe.simulate.line.server_context import ServerContext, factor_of
 from regscribe_runtime.wire.framing import Frame, build
 
 READ_ONE = struct.pack(">BHH", 3, 2, 1)
@@ -29,7 +29,7 @@ def timed(found: RegisterMap, *latencies: Latency, gap: Fraction = Fraction(7, 2
 
 def thought(found: RegisterMap, pdu: bytes, line: SerialLine = SLOW, *, factor: float = 1.0, seed: int = 0) -> float:
     device = SimulatedDevice(found, "16C", seed=seed)
-    return Pace([device], line, factor=factor).seconds(Frame(1, pdu))
+    return ServerContext([device], line=line, factor=factor).delay(Frame(1, pdu))
 
 
 def fixed(**parts: int) -> Latency:
@@ -59,8 +59,8 @@ def test_a_factor_scales_and_functions_without_latency_take_none(controller: Reg
 def test_latencies_lie_between_the_limits_and_a_seed_repeats_them(controller: RegisterMap) -> None:
     found = timed(controller, Latency(3, minimum=Fraction(5), maximum=Fraction(100)))
     devices = [SimulatedDevice(found, "16C", seed=seed) for seed in (1, 1, 2)]
-    paces = [Pace([device], SLOW, factor=1.0) for device in devices]
-    series = [[pace.seconds(Frame(1, READ_ONE)) for _ in range(20)] for pace in paces]
+    contexts = [ServerContext([device], line=SLOW, factor=1.0) for device in devices]
+    series = [[context.delay(Frame(1, READ_ONE)) for _ in range(20)] for context in contexts]
     assert series[0] == series[1] != series[2]
     assert all(0.005 <= seconds <= 0.1 for seconds in series[0])
     assert len(set(series[0])) > 1
@@ -68,9 +68,9 @@ def test_latencies_lie_between_the_limits_and_a_seed_repeats_them(controller: Re
 
 def test_a_device_under_another_address_takes_as_long() -> None:
     device = SimulatedDevice(find_map("athena/series-c"), "16C")
-    pace = Pace([device], SLOW, factor=1.0)
+    context = ServerContext([device], line=SLOW, factor=1.0)
     device.handle(struct.pack(">BHH", 6, 4081, 5))
-    assert (pace.seconds(Frame(5, READ_ONE)) >= 0.005, pace.seconds(Frame(1, READ_ONE))) == (True, 0)
+    assert (context.delay(Frame(5, READ_ONE)) >= 0.005, context.delay(Frame(1, READ_ONE))) == (True, 0)
 
 
 @pytest.mark.parametrize(("given", "factor"), [("off", 0), ("real", 1), (0.5, 0.5), ("0.25", 0.25), (0, 0)])

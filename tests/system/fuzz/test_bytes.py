@@ -410,7 +410,6 @@ pieces = st.one_of(
 
 
 def names() -> Iterator[Callable[[str], Any]]:
-    yield link_names.parse
     yield link_names.split
     yield target.parse
 

@@ -14,7 +14,7 @@ from regscribe.cli.shared.target_options import CONFIG, JSON, PACKAGE, quiet
 from regscribe.tools.live import catalogue
 from regscribe.tools.live import scan as scanning
 from regscribe.tools.live.link_names import LinkName
-from regscribe.tools.live.scan import FoundDevice, Probe
+from regscribe.tools.live.scan import Probe
 from regscribe.tools.live.target import named
 from regscribe_runtime import LinkLost
 
@@ -68,7 +68,7 @@ def command(  # noqa: PLR0913 - the options of the command
 
 
 def _run(probes: Iterator[Probe], links: Sequence[LinkName], asked: Sequence[int], *, as_json: bool) -> int:
-    found: list[FoundDevice] = []
+    found: list[Probe] = []
     noise: dict[str, str] = {}
     ended = ""
     code = 0
@@ -77,7 +77,7 @@ def _run(probes: Iterator[Probe], links: Sequence[LinkName], asked: Sequence[int
     try:
         with progress(len(links) * len(asked), "scanning") as advance:
             for probe in probes:
-                found += [probe.found] if probe.found else []
+                found += [probe] if probe.answer else []
                 noise |= {str(probe.link): probe.noise} if probe.noise else {}
                 advance(f"unit {probe.unit} on {probe.link}, {len(found)} found")
     except KeyboardInterrupt:
@@ -89,7 +89,7 @@ def _run(probes: Iterator[Probe], links: Sequence[LinkName], asked: Sequence[int
     return code or (0 if found else REFUSED)
 
 
-def _show(found: Sequence[FoundDevice], noise: Mapping[str, str], ended: str, *, as_json: bool) -> None:
+def _show(found: Sequence[Probe], noise: Mapping[str, str], ended: str, *, as_json: bool) -> None:
     if as_json:
         plain = [
             {"unit_id": one.unit, "link": str(one.link), "answer": one.answer, "models": list(one.models)}

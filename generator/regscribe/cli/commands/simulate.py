@@ -30,7 +30,7 @@ from regscribe.simulate import (
     Transport,
     serve,
 )
-from regscribe.simulate.line.response_delay import factor_of
+from regscribe.simulate.line.server_context import factor_of
 from regscribe.simulate.line.service import line_of
 from regscribe.visible import safe
 from regscribe_runtime.values.serial_line import ADDRESSINGS

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from regscribe.cli.shared.chart import empty_figure
 from regscribe.cli.shared.output import show_table, tell
-from regscribe.tools.programs.profile import Profile, profile, steps_of, time_scale
+from regscribe.tools.programs.profile import Profile, profile, round_step, time_scale
 from regscribe.tools.programs.program import RAW, SECONDS, Program
 from regscribe.tools.programs.program_file import plain
 
@@ -51,9 +51,9 @@ def curve(found: Profile) -> None:
     seconds = Fraction(SECONDS.get(unit, 1))
     columns = shutil.get_terminal_size().columns if sys.stdout.isatty() else PIPED
     wide = max((columns - MARGIN) // COLUMNS, 2)
-    across = steps_of(found.total / seconds, most=wide)
+    across = round_step(found.total / seconds, most=wide)
     low, high = min(found.levels), max(found.levels)
-    up = steps_of(max(high - low, Fraction(1)), most=ROWS - 2)
+    up = round_step(max(high - low, Fraction(1)), most=ROWS - 2)
     bottom = low // up * up
     marks, rows = -(-found.total // (across * seconds)), -((bottom - high) // up) + 1
     figure = empty_figure(max(marks, 1) * COLUMNS, max(rows, 2), digits=6)

@@ -149,7 +149,7 @@ class Connection(asyncio.Protocol):
     def _take(self, requests: list[Frame]) -> None:
         if not requests:
             return
-        if self._station.pace is None and self._policy.delivery is None:
+        if not self._station.factor and self._policy.delivery is None:
             frames = [self._exchange(request).frame for request in requests]
             self._write(b"".join(frames))
             return
@@ -187,9 +187,9 @@ class Connection(asyncio.Protocol):
             self._writer.close()
 
     async def _deliver(self, exchange: Exchange) -> None:
-        pace, delivery = self._station.pace, self._policy.delivery
-        if pace is not None and exchange.answer is not None:
-            await asyncio.sleep(pace.seconds(exchange.request))
+        delivery = self._policy.delivery
+        if self._station.factor and exchange.answer is not None:
+            await asyncio.sleep(self._station.delay(exchange.request))
         sent = exchange.frame if delivery is None else await delivery(exchange)
         for chunk in (Chunk(sent),) if isinstance(sent, bytes) else sent:
             if chunk.pause:

@@ -147,22 +147,21 @@ class LineFaults:
         if fault in CUTS:
             frame = exchange.frame
             return CUTS[fault](self, frame, self._random.randrange(len(frame)) if at is None else at)
-        if fault is LineFault.FLIPPED:
-            return self._flipped(exchange, at)
-        return self._stale(exchange) if fault is LineFault.STALE else self._rewritten(fault, exchange, at)
+        if fault is LineFault.STALE:
+            return self._stale(exchange)
+        if fault is not LineFault.FLIPPED:
+            return self._rewritten(fault, exchange, at)
+        flipped = bytearray(exchange.frame)
+        checked = len(flipped)
+        if self._framing == TCP:  # TCP has a check of its own: only what this protocol compares flips here
+            checked = MBAP_HEAD.size + len(_compared(exchange.answer or b""))
+        bit = self._random.randrange(8 * checked) if at is None else at % (8 * checked)
+        flipped[bit // 8] ^= 1 << bit % 8
+        return (Chunk(bytes(flipped)),)
 
     def noise(self) -> bytes:
         """Some bytes."""
         return self._random.randbytes(self._random.randint(1, MOST_NOISE))
-
-    def _flipped(self, exchange: Exchange, at: int | None) -> Sequence[Chunk] | None:
-        frame = bytearray(exchange.frame)
-        checked = len(frame)
-        if self._framing == TCP:  # TCP has a check of its own: only what this protocol compares flips here
-            checked = MBAP_HEAD.size + len(_compared(exchange.answer or b""))
-        bit = self._random.randrange(8 * checked) if at is None else at % (8 * checked)
-        frame[bit // 8] ^= 1 << bit % 8
-        return (Chunk(bytes(frame)),)
 
     def _stale(self, exchange: Exchange) -> Sequence[Chunk] | None:
         """An earlier answer in place of this one, or before it."""

@@ -11,9 +11,8 @@ from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.simulate.errors import SimulatorError
 from regscribe.simulate.line.connection import ConnectionPolicy, Patience
 from regscribe.simulate.line.paced_line import PacedLineServer
-from regscribe.simulate.line.response_delay import Pace, factor_of
 from regscribe.simulate.line.serial_ports import open_pseudo_terminal, open_serial
-from regscribe.simulate.line.server_context import Foreign, ServerContext
+from regscribe.simulate.line.server_context import Foreign, ServerContext, factor_of
 from regscribe.simulate.line.servers import LineServer, Server, TcpServer
 from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.wire.framing import ASCII, RTU, TCP
@@ -84,8 +83,7 @@ async def start(devices: Sequence[SimulatedDevice], service: Service) -> Server:
     transport, speed = Transport(service.transport), _checked_speed(service.speed)
     usual = Foreign.GATEWAY if transport is Transport.TCP else Foreign.SILENCE
     line, factor = service.line or line_of(devices), factor_of(service.latency)
-    pace = Pace(devices, line, factor=factor) if factor else None
-    station = ServerContext(devices, foreign=service.foreign or usual, pace=pace)
+    station = ServerContext(devices, foreign=service.foreign or usual, line=line, factor=factor)
     if service.paced and transport is not Transport.PTY:
         message = f"only a pty can be paced, not {transport}: a serial device has its own speed, TCP has none"
         raise SimulatorError(message)

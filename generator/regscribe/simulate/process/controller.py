@@ -80,10 +80,9 @@ class Controller:
         setpoint = self._ramped(self._settings.number(self._process.setpoint))
         for loop in self._loops:
             self._run(loop, value, setpoint)
-        for watch in self._watches:
-            if value is not None:
-                watch.look(value, setpoint, self.seconds)
         if value is not None:
+            for watch in self._watches:
+                watch.look(value, setpoint, self.seconds)
             self._keep_extremes(value)
         self._show_bits()
 

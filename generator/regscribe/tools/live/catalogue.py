@@ -37,7 +37,7 @@ def find(name: str, packages: Sequence[str] = ()) -> Known:
     """
     known = models(tuple(packages))
     wanted = name.casefold()
-    found = [one for one in known if wanted in _names(one)]
+    found = [one for one in known if wanted in map(str.casefold, (one.model, full_name(one), one.driver.__name__))]
     if not found:
         names = [text for one in known for text in (one.model, full_name(one))]
         raise TargetError(unknown("model", name, names, where="among the drivers") + "; `regscribe devices` lists all")
@@ -53,13 +53,9 @@ def full_name(known: Known) -> str:
 
 
 def title(known: Known) -> str:
-    """What the model is, in the words of its driver: `Athena Controls 16C: Compact panel controller`."""
+    """The title of a model in its driver: `Athena Controls 16C: Compact panel controller`."""
     first = (known.driver.__doc__ or "").split("\n\n", 1)[0]
     return " ".join(first.split()).removesuffix(".").removesuffix("(synchronous driver)").strip()
-
-
-def _names(known: Known) -> set[str]:
-    return {text.casefold() for text in (known.model, full_name(known), known.driver.__name__)}
 
 
 def package(name: str) -> ModuleType:

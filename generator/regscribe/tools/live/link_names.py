@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
-from regscribe.tools.live.errors import TargetError, meant, unknown
+from regscribe.tools.live.errors import TargetError, meant
 from regscribe_runtime.link.links import MODBUS_TCP_PORT
 from regscribe_runtime.values.serial_line import ADDRESSINGS, DATA_BITS, FRAMINGS, MODBUS, PARITIES, STOP_BITS
 
@@ -48,11 +48,6 @@ class LinkName:
     def serial(self) -> bool:
         """Whether it is a serial line."""
         return not self.host
-
-    @property
-    def place(self) -> str:
-        """The line or gateway that it leads to, without any setting."""
-        return self.device if self.serial else f"{self.host}:{self.port}"
 
     def settings(self) -> dict[str, Any]:
         """The keyword arguments of a driver's `tcp` or `rtu`, and of the links of the runtime, besides the timeout."""
@@ -103,15 +98,6 @@ def _query(text: str, query: str) -> dict[str, str]:
         message = f"{text}: write `?key=value&key=value`, each key once"
         raise TargetError(message)
     return given
-
-
-def parse(text: str) -> LinkName:
-    """The link that a text names; TargetError if it names none, or more than a link."""
-    link, more = split(text)
-    if more:
-        message = f"{text}: {unknown('setting', next(iter(more)), KEYS, where='of a link')}"
-        raise TargetError(message)
-    return link
 
 
 def with_settings(link: LinkName, given: Mapping[str, str]) -> LinkName:

@@ -1,6 +1,6 @@
 """Reads several registers in few requests, as plain values with the present unit of each."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from regscribe.tools.live.value_text import Plain, is_number, show, text_of
@@ -33,7 +33,7 @@ def readings(registers: Sequence[Register[Any]]) -> Task[tuple[RegisterReading, 
     """Read registers in few requests, each in the unit that it stands in now."""
 
     def task(session: Session) -> Operation[tuple[RegisterReading, ...]]:
-        snapshot = yield from with_units(registers)(session)
+        snapshot = yield from read_with(registers, unit_needs)(session)
         found = []
         for register in registers:
             path, unit = register.path, unit_of(register, snapshot.valid, session.givens)
@@ -48,14 +48,14 @@ def readings(registers: Sequence[Register[Any]]) -> Task[tuple[RegisterReading, 
     return task
 
 
-def with_units(registers: Sequence[Register[Any]]) -> Task[Snapshot]:
-    """Read registers in few requests, and with them those that decide their units."""
-    needs = [path for register in registers for path in unit_needs(register)]
+def read_with(registers: Iterable[Register[Any]], needs: Callable[[Register[Any]], Iterable[str]]) -> Task[Snapshot]:
+    """Read registers in few requests, and with each those that it `needs`."""
+    wanted = {register.path: register for register in registers}
+    needed = sorted({path for register in wanted.values() for path in needs(register)})
 
     def task(session: Session) -> Operation[Snapshot]:
-        wanted = {register.path: register for register in registers}
-        wanted.update((path, session.registers[path]) for path in needs)
-        return (yield from tasks.read_many(list(wanted.values()))(session))
+        others = {path: session.registers[path] for path in needed}
+        return (yield from tasks.read_many(list((wanted | others).values()))(session))
 
     return task
 

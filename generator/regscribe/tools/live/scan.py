@@ -28,21 +28,16 @@ _SPAN = re.compile(r"([0-9]{1,3})(?:-([0-9]{1,3}))?")
 _FORMAT = re.compile(r"([78])([NEO])([12])")
 
 
-class FoundDevice(NamedTuple):
-    """A unit that answers: on which link, what it answered, and the models that it may be."""
-
-    link: LinkName
-    unit: int
-    answer: str
-    models: tuple[str, ...]
-
-
 class Probe(NamedTuple):
-    """One request of a scan: its link and unit, and the device found; `noise` is what came and is no answer."""
+    """One request of a scan: its link and unit, the answer ("" if none came), and the models that the unit may be.
+
+    `noise` is what came and is no answer.
+    """
 
     link: LinkName
     unit: int
-    found: FoundDevice | None
+    answer: str = ""
+    models: tuple[str, ...] = ()
     noise: str = ""
 
 
@@ -109,9 +104,9 @@ def scan(
             link.open()
             for unit in asked:
                 probe = _probe(link, name, unit, address)
-                if probe.found and names:
-                    probe = probe._replace(found=probe.found._replace(models=_models(link, unit, target)))
-                any_found = any_found or probe.found is not None
+                if probe.answer and names:
+                    probe = probe._replace(models=_models(link, unit, target))
+                any_found = any_found or bool(probe.answer)
                 yield probe
                 if probe.noise and not name.serial:
                     break  # whoever listens there does not speak Modbus, whatever unit is asked
@@ -131,15 +126,14 @@ def _probe(link: Link, name: LinkName, unit: int, address: int) -> Probe:
     try:
         reply = link.call(unit, Request(READ_HOLDING, address))
     except NoAnswer:
-        return Probe(name, unit, None)
+        return Probe(name, unit)
     except LinkLost:
         raise
     except RegscribeError as error:
-        return Probe(name, unit, None, str(error))
+        return Probe(name, unit, noise=str(error))
     if reply.exception in GATEWAY:
-        return Probe(name, unit, None)
-    answer = f"exception {reply.exception:02d}" if reply.exception is not None else "a value"
-    return Probe(name, unit, FoundDevice(name, unit, answer, ()))
+        return Probe(name, unit)
+    return Probe(name, unit, f"exception {reply.exception:02d}" if reply.exception is not None else "a value")
 
 
 def _models(link: Link, unit: int, target: Target) -> tuple[str, ...]:

@@ -1,7 +1,6 @@
-"""The settings of a program by register, and the settings that a device has no register for; without I/O."""
+"""Assigns the settings of a program to registers, and finds those that a device has no register for; without I/O."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from decimal import Decimal
 from typing import Any, NamedTuple
 
@@ -17,7 +16,7 @@ Where = tuple[str | int, ...]
 
 
 class Problem(NamedTuple):
-    """Why a program cannot be written: where (as in a file), and what; `label` names the place as the device does."""
+    """A mistake in a program: where (as in a file), and what; `label` names the place as the device does."""
 
     where: Where
     label: str
@@ -27,17 +26,8 @@ class Problem(NamedTuple):
         return f"{self.label}: {self.message}" if self.label else self.message
 
 
-def label(place: ProgramSlot, where: Where) -> str:
-    """A place in a program in words, with the device's own number of the segment."""
-    if len(where) > 1 and where[0] == "segments":
-        rest = ".".join(map(str, where[2:]))
-        number = place.spec.segments.first + int(where[1])
-        return f"segment {number}{f', {rest}' if rest else ''}"
-    return ".".join(map(str, where))
-
-
 class ProgramAssignment(NamedTuple):
-    """A register and its setting, before the device is asked what that means."""
+    """A register and its setting, before it is converted with what the device holds."""
 
     part: str
     register: Register[Any]
@@ -47,50 +37,48 @@ class ProgramAssignment(NamedTuple):
     limited: bool = False
 
 
-def wanted(place: ProgramSlot, program: Program) -> tuple[list[ProgramAssignment], list[Problem]]:
-    """The registers of a program with their settings, and what is wrong with its structure; no device is asked."""
-    made = _Structure(place, program)
-    made.look()
-    return made.asked, made.problems
+class Assignments:
+    """The registers of a program with their settings, and problems with its structure; no device is asked."""
 
-
-@dataclass(slots=True)
-class _Structure:
-    place: ProgramSlot
-    program: Program
-    asked: list[ProgramAssignment] = field(default_factory=list)
-    problems: list[Problem] = field(default_factory=list)
-
-    def look(self) -> None:
+    def __init__(self, place: ProgramSlot, program: Program) -> None:
+        self.place, self.program = place, program
+        self.assignments: list[ProgramAssignment] = []
+        self.problems: list[Problem] = []
         self._time_unit()
-        self._named("power_failure", self.program.power_failure, self.place.spec.power_failure)
-        self._named("end", self.program.end, self.place.spec.end)
-        self._named("holdback", self.program.holdback, self.place.spec.holdback)
+        self._optional("power_failure", self.program.power_failure, self.place.spec.power_failure)
+        self._optional("end", self.program.end, self.place.spec.end)
+        self._optional("holdback", self.program.holdback, self.place.spec.holdback)
         self._cycles()
         self._segments()
         self._final()
         self._count()
         for path, code in self.place.spec.enable:
-            self._ask("enable", path, _amount(code), ("enable", path))
+            self._assign("enable", path, _amount(code), ("enable", path))
 
-    def _wrong(self, where: Where, message: str) -> None:
-        self.problems.append(Problem(where, label(self.place, where), message))
+    def report(self, where: Where, message: str) -> None:
+        """Add a problem, labelled with the device's own number of the segment."""
+        label = ".".join(map(str, where))
+        if len(where) > 1 and where[0] == "segments":
+            rest = ".".join(map(str, where[2:]))
+            number = self.place.spec.segments.first + int(where[1])
+            label = f"segment {number}{f', {rest}' if rest else ''}"
+        self.problems.append(Problem(where, label, message))
 
-    def _ask(
+    def _assign(
         self, part: str, path: str, setting: Setting, where: Where, segment: int = 0, *, time: bool = False
     ) -> None:
         limited = self.place.spec.setpoint_limits is not None and where[-1] == "to"
         found = self.place.register(path, segment)
-        self.asked.append(ProgramAssignment(part, found, setting, where, time, limited))  # pyright: ignore[reportArgumentType] # a register is a descriptor, but no attribute of this tuple
+        self.assignments.append(ProgramAssignment(part, found, setting, where, time, limited))  # pyright: ignore[reportArgumentType] # a register is a descriptor, but no attribute of this tuple
 
     def _lacks(self, key: str) -> None:
-        self._wrong((key,), f"the {self.place.model} has no such setting: remove `{key}`")
+        self.report((key,), f"the {self.place.model} has no such setting: remove `{key}`")
 
-    def _named(self, key: str, setting: Setting | None, path: str) -> None:
+    def _optional(self, key: str, setting: Setting | None, path: str) -> None:
         if setting is None:
             return
         if path:
-            self._ask(key, path, setting, (key,))
+            self._assign(key, path, setting, (key,))
         else:
             self._lacks(key)
 
@@ -100,11 +88,11 @@ class _Structure:
             return  # its times have a unit of their own, so the key says nothing about the device
         codes = {symbol: code for code, symbol in spec.codes}
         if unit is None:
-            self._wrong(("time_unit",), f"it is missing: say in what the times count, one of {', '.join(codes)}")
+            self.report(("time_unit",), f"it is missing: say in what the times count, one of {', '.join(codes)}")
         elif unit not in codes:
-            self._wrong(("time_unit",), unknown("unit of time", unit, codes, where=f"in the {self.place.model}"))
+            self.report(("time_unit",), unknown("unit of time", unit, codes, where=f"in the {self.place.model}"))
         else:
-            self._ask("time_unit", spec.register, _amount(codes[unit]), ("time_unit",))
+            self._assign("time_unit", spec.register, _amount(codes[unit]), ("time_unit",))
 
     def _cycles(self) -> None:
         cycles, spec = self.program.cycles, self.place.spec
@@ -113,21 +101,21 @@ class _Structure:
         if not spec.cycles:
             self._lacks("cycles")
         elif cycles == FOREVER and spec.forever is None:
-            self._wrong(("cycles",), f"the {self.place.model} has no program without end: give a number")
+            self.report(("cycles",), f"the {self.place.model} has no program without end: give a number")
         elif cycles == FOREVER:
-            self._ask("cycles", spec.cycles, _amount(spec.forever or 0), ("cycles",))
+            self._assign("cycles", spec.cycles, _amount(spec.forever or 0), ("cycles",))
         elif cycles == spec.forever:
-            self._wrong(("cycles",), f"{cycles} stands for a program without end: write `{FOREVER}` if that is meant")
+            self.report(("cycles",), f"{cycles} stands for a program without end: write `{FOREVER}` if that is meant")
         else:
-            self._ask("cycles", spec.cycles, _amount(cycles), ("cycles",))
+            self._assign("cycles", spec.cycles, _amount(cycles), ("cycles",))
 
     def _segments(self) -> None:
         segments, given = self.place.spec.segments, self.program.segments
         if not given:
-            self._wrong(("segments",), "there are none: a program has at least one")
+            self.report(("segments",), "there are none: a program has at least one")
         if len(given) > segments.many:
             message = f"{len(given)} segments, but the {self.place.model} has {segments.many}: leave some out"
-            self._wrong(("segments",), f"{message} ({segments.first} to {self.place.last})")
+            self.report(("segments",), f"{message} ({segments.first} to {self.place.last})")
         for place, segment in enumerate(given[: segments.many]):
             self._segment(place, segment)
         if segments.idle:
@@ -137,14 +125,14 @@ class _Structure:
     def _segment(self, index: int, segment: Segment) -> None:
         spec, where = self.place.spec.segments, ("segments", index)
         number = spec.first + index
-        self._ask("segments", spec.setpoint, segment.to, (*where, "to"), number)
-        self._ask("segments", spec.ramp, segment.ramp, (*where, "ramp"), number, time=True)
+        self._assign("segments", spec.setpoint, segment.to, (*where, "to"), number)
+        self._assign("segments", spec.ramp, segment.ramp, (*where, "ramp"), number, time=True)
         if spec.soak:
             soak = _amount(0, "s") if segment.soak is None else segment.soak
-            self._ask("segments", spec.soak, soak, (*where, "soak"), number, time=True)
+            self._assign("segments", spec.soak, soak, (*where, "soak"), number, time=True)
         elif segment.soak is not None:
             advice = "a further segment to the same setpoint keeps it"
-            self._wrong(
+            self.report(
                 (*where, "soak"), f"the segments of the {self.place.model} have no time of their own to stay: {advice}"
             )
         self._outputs("segments", dict(spec.outputs), segment.outputs, (*where, "outputs"), number)
@@ -153,11 +141,11 @@ class _Structure:
         """Make a segment that is behind the last one do nothing."""
         spec, where = self.place.spec.segments, ("segments", number - self.place.spec.segments.first)
         for path in spec.idle:
-            self._ask("segments", path, _amount(0, "s"), where, number, time=True)
+            self._assign("segments", path, _amount(0, "s"), where, number, time=True)
         for name, path in spec.outputs:
-            state = _usual(self.place.register(path, number))
+            state = _default(self.place.register(path, number))
             if state:
-                self._ask("segments", path, state, (*where, "outputs", name), number)
+                self._assign("segments", path, state, (*where, "outputs", name), number)
 
     def _outputs(
         self, part: str, paths: Mapping[str, str], given: Mapping[str, str], where: Where, segment: int = 0
@@ -165,15 +153,15 @@ class _Structure:
         for name in given:
             if name not in paths:
                 message = unknown("output", name, paths, where=f"in the {self.place.model}")
-                self._wrong((*where, name), message)
+                self.report((*where, name), message)
         for name, path in paths.items():
             register = self.place.register(path, segment)
-            state = given.get(name) or _usual(register)
+            state = given.get(name) or _default(register)
             if state:
-                self._ask(part, path, state, (*where, name), segment)
+                self._assign(part, path, state, (*where, name), segment)
             else:
                 states = ", ".join(choices(register))
-                self._wrong(where, f"`{name}` is missing, and the manual has no default: give one of {states}")
+                self.report(where, f"`{name}` is missing, and the manual has no default: give one of {states}")
 
     def _final(self) -> None:
         spec, final = self.place.spec.final, self.program.final
@@ -181,9 +169,9 @@ class _Structure:
             if final is not None:
                 self._lacks("final")
         elif final is None:
-            self._wrong(("final",), "it is missing: say what setpoint and outputs stay behind the last segment")
+            self.report(("final",), "it is missing: say what setpoint and outputs stay behind the last segment")
         else:
-            self._ask("final", spec.setpoint, final.to, ("final", "to"))
+            self._assign("final", spec.setpoint, final.to, ("final", "to"))
             self._outputs("final", dict(spec.outputs), final.outputs, ("final", "outputs"))
 
     def _count(self) -> None:
@@ -194,13 +182,13 @@ class _Structure:
             return
         counted = have if spec.counts is ProgramCounts.ALL else have - 1
         if spec.counts is ProgramCounts.NOT_STATED and given != counted:
-            self._wrong(("number_of_segments",), self._open_count(given, have))
+            self.report(("number_of_segments",), self._open_count(given, have))
         elif given is not None and given != counted:
-            self._wrong(
+            self.report(
                 ("number_of_segments",), f"{given}, but {have} segments are {counted} as the device counts them"
             )
         elif counted > 0 and have <= spec.segments.many:
-            self._ask("count", spec.number_of_segments, _amount(counted), ("number_of_segments",))
+            self._assign("count", spec.number_of_segments, _amount(counted), ("number_of_segments",))
 
     def _open_count(self, given: int | None, have: int) -> str:
         first = self.place.spec.segments.first
@@ -215,6 +203,6 @@ def _amount(number: object, unit: str = "") -> Amount:
     return Amount(Decimal(str(number)), unit)
 
 
-def _usual(register: Register[Any]) -> str:
+def _default(register: Register[Any]) -> str:
     """The default of an output as a name; empty if the manual gives none."""
     return "" if register.default is None else text_of(register.default)

@@ -1,8 +1,8 @@
-"""A program held against a device: every mistake at once, each with its place, its numbers and what to do."""
+"""Checks a program against a device: every mistake at once, each with its place, its numbers and what to do."""
 
 from typing import Any, NamedTuple
 
-from regscribe.tools.programs.assignments import Problem, Where, label, wanted
+from regscribe.tools.programs.assignments import Assignments, Problem, Where
 from regscribe.tools.programs.program import Program
 from regscribe.tools.programs.settings import SettingConverter, needs
 from regscribe.tools.programs.slot import ProgramSlot
@@ -12,7 +12,7 @@ from regscribe_runtime.operations.session import Operation, Session, Task
 
 
 class PlannedProgram(NamedTuple):
-    """A register of a program and the value that it is to have; `part` says when it is written."""
+    """A register of a program and the value to write; `part` says when it is written."""
 
     part: str
     register: Register[Any]
@@ -21,7 +21,7 @@ class PlannedProgram(NamedTuple):
 
 
 class Checked(NamedTuple):
-    """What is to be written, in the order of writing, and what is wrong: with a problem nothing is written."""
+    """The registers to write, in order, and the problems: with one of them nothing is written."""
 
     planned: tuple[PlannedProgram, ...]
     problems: tuple[Problem, ...]
@@ -40,45 +40,41 @@ def check(place: ProgramSlot, program: Program, *, beyond_limits: bool = False) 
     """Hold a program against a device as it is configured now; with `beyond_limits` inferred limits do not count."""
 
     def task(session: Session) -> Operation[Checked]:
-        asked, problems = wanted(place, program)
-        paths = {path for one in asked for path in needs(one.register)} | set(place.spec.setpoint_limits or ())
-        snapshot = yield from tasks.read_many([session.registers[path] for path in sorted(paths)])(session)
-        converter = SettingConverter(place, snapshot.valid, session.givens, program.time_unit or "")
+        made = Assignments(place, program)
         planned = []
-        for one in asked:
-            if one.time and not _countable(place, program):
+        paths = {path for one in made.assignments for path in needs(one.register)}
+        paths.update(place.spec.setpoint_limits or ())
+        snapshot = yield from tasks.read_many([session.registers[path] for path in sorted(paths)])(session)
+        converter = SettingConverter(snapshot.valid, session.givens, program.time_unit or "")
+        time_unit = place.spec.time_unit
+        countable = time_unit is None or program.time_unit in dict(time_unit.codes).values()
+        for one in made.assignments:
+            if one.time and not countable:
                 continue  # what the times count in is wrong already, so nothing can be said of them
             try:
                 value = converter.value(one.register, one.setting, time=one.time)
                 if one.limited and not beyond_limits:
                     _within(place, converter, one.register, value)
-                converter.words(one.register, value)
+                one.register.encode(value, state=converter.state, givens=converter.givens)
             except ValueRefused as error:
-                problems.append(Problem(one.where, label(place, one.where), error.reason))
+                made.report(one.where, error.reason)
             except RegscribeError as error:
-                problems.append(Problem(one.where, label(place, one.where), str(error)))
+                made.report(one.where, str(error))
             else:
-                made = PlannedProgram(one.part, one.register, value, one.where)  # pyright: ignore[reportArgumentType] # a register is a descriptor, but no attribute of this tuple
-                planned.append(made)
+                planned.append(PlannedProgram(one.part, one.register, value, one.where))  # pyright: ignore[reportArgumentType] # a register is a descriptor, but no attribute of this tuple
         order: dict[str, int] = {part: number for number, part in enumerate(place.spec.order)}
-        return Checked(tuple(sorted(planned, key=lambda one: order[one.part])), tuple(_sorted(problems)))
+        planned.sort(key=lambda one: order[one.part])
+        made.problems.sort(key=lambda one: (PLACES.get(one.where[0], 0), [_rank(part) for part in one.where]))
+        return Checked(tuple(planned), tuple(made.problems))
 
     return task
 
 
-def _countable(place: ProgramSlot, program: Program) -> bool:
-    units = dict(place.spec.time_unit.codes).values() if place.spec.time_unit else ()
-    return place.spec.time_unit is None or program.time_unit in units
-
-
 PLACES: dict[str | int, int] = {"segments": 1, "final": 2}
+"""Order of problems: those of the whole program, of the segments one after the other, of the final one."""
+
 ORDER = ("to", "ramp", "soak", "outputs")
-"""Where mistakes are told, and the keys of a segment as people write them."""
-
-
-def _sorted(problems: list[Problem]) -> list[Problem]:
-    """First what concerns the whole program, then the segments one after the other, the final one last."""
-    return sorted(problems, key=lambda one: (PLACES.get(one.where[0], 0), [_rank(part) for part in one.where]))
+"""The keys of a segment as people write them."""
 
 
 def _rank(part: str | int) -> tuple[int, str]:

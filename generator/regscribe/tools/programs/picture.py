@@ -144,15 +144,12 @@ def _numbers(canvas: Canvas, frame: PlotArea, found: Profile) -> None:
     for own in _by_segment(found):
         number = own[0].segment
         left, right = frame.x(own[0].start), frame.x(own[-1].end)
-        tip = f"segment {number}: " + ", ".join(_leg(found, leg) for leg in own)
+        legs = (f"{leg.kind} {_level(found, leg.to)} in {_duration(found, leg.end - leg.start)}" for leg in own)
+        tip = f"segment {number}: {', '.join(legs)}"
         canvas.add(Box(left, frame.top - 10 - BAND, max(right - left, THIN), BAND, "empty", tip, radius=2))
         if right - left > width(str(number), PLAIN, bold=True):
             middle, base = (left + right) / 2, frame.top - 10 - BAND / 2 + 4
             canvas.text(Text(middle, base, str(number), PLAIN, "middle", "ink mark", bold=True), right - left)
-
-
-def _leg(found: Profile, leg: Leg) -> str:
-    return f"{leg.kind} {_level(found, leg.to)} in {_duration(found, leg.end - leg.start)}"
 
 
 def _curve(canvas: Canvas, frame: PlotArea, found: Profile) -> None:
@@ -196,7 +193,6 @@ def _colours(program: Program) -> dict[str, str]:
 
 
 def _by_segment(found: Profile) -> Iterator[list[Leg]]:
-    """The legs of each segment."""
     return (list(legs) for _, legs in groupby(found.legs, key=lambda leg: leg.segment))
 
 

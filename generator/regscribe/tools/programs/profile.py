@@ -1,4 +1,4 @@
-"""What a program looks like over time: its legs, each a ramp or a stay, and round numbers along the axes."""
+"""A program over time: its legs, each a ramp or a soak, and round numbers for the axes."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -96,9 +96,8 @@ def _number(setting: Setting) -> Fraction:
 
 
 def _time(setting: Setting) -> Fraction:
-    if not isinstance(setting, Amount):
-        return NOUGHT
-    return Fraction(setting.number) * Fraction(SECONDS.get(setting.unit, 1))
+    unit = setting.unit if isinstance(setting, Amount) else ""
+    return _number(setting) * Fraction(SECONDS.get(unit, 1))
 
 
 class AxisScale(NamedTuple):
@@ -123,19 +122,15 @@ def level_scale(low: Fraction, high: Fraction, *, most: int) -> AxisScale:
 def time_scale(total: Fraction, *, most: int, raw: bool) -> AxisScale:
     """Marks from 0 to `total`, which is in seconds, or a count without a scale."""
     if raw:
-        return AxisScale(_within(total, _step(total, STEPS, most), Fraction(1)), "")
+        return AxisScale(_within(total, round_step(total, most=most), Fraction(1)), "")
     unit = next((name for name in ("d", "h", "min") if total >= FEW * Fraction(SECONDS[name])), "s")
     seconds = Fraction(SECONDS[unit])
-    step = _step(total / seconds, [Fraction(one) for one in TIME_STEPS[unit]], most)
+    step = round_step(total / seconds, most=most, steps=[Fraction(one) for one in TIME_STEPS[unit]])
     return AxisScale(_within(total, step * seconds, seconds), unit)
 
 
-def steps_of(total: Fraction, *, most: int) -> Fraction:
-    """The smallest round step of which at most `most` reach `total`."""
-    return _step(total, STEPS, most)
-
-
-def _step(total: Fraction, steps: Sequence[Fraction], most: int) -> Fraction:
+def round_step(total: Fraction, *, most: int, steps: Sequence[Fraction] = STEPS) -> Fraction:
+    """The smallest of the round steps of which at most `most` reach `total`."""
     return next((one for one in steps if total / one <= most), steps[-1] * max(1, round(total / steps[-1] / most)))
 
 

@@ -33,7 +33,7 @@ class Amount:
 
 
 Setting = Amount | str
-"""What a register of a program is given: an amount, or the name of a special value (`OFF`)."""
+"""The value for a register of a program: an amount, or the name of a special value (`OFF`)."""
 
 Outputs = Mapping[str, str]
 """The states of outputs and events by the names that the map gives them: names of members."""
@@ -87,19 +87,15 @@ def plain(number: Decimal) -> str:
 
 
 def setting(text: str) -> Setting:
-    """What a text says: `250 °C`, `1 h 30 min`, `30 raw`, else a name. ValueError for an empty one."""
+    """The setting of a text: `250 °C`, `1 h 30 min`, `30 raw`, else a name. ValueError for an empty one."""
     text = " ".join(text.split())
     if not text:
         message = "there is no value"
         raise ValueError(message)
     if _TIMES.fullmatch(text):
-        return _sum(_TIME.findall(text))
+        parts = _TIME.findall(text)
+        unit = min((unit for _, unit in parts), key=SECONDS.__getitem__)  # the smallest
+        seconds = sum((Decimal(number) * SECONDS[own] for number, own in parts), Decimal(0))
+        return Amount(seconds / SECONDS[unit], unit)
     found = _AMOUNT.fullmatch(text)
     return Amount(Decimal(found[1]), found[2] or "") if found else text
-
-
-def _sum(parts: list[tuple[str, str]]) -> Amount:
-    """Several times as one, in the smallest of their units."""
-    unit = min((unit for _, unit in parts), key=lambda unit: SECONDS[unit])
-    seconds = sum((Decimal(number) * SECONDS[own] for number, own in parts), Decimal(0))
-    return Amount(seconds / SECONDS[unit], unit)

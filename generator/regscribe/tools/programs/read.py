@@ -3,8 +3,9 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from regscribe.tools.live.reading import read_with
 from regscribe.tools.programs.program import FOREVER, Final, Program, Segment, Setting
-from regscribe.tools.programs.settings import SettingConverter, read_with_needs
+from regscribe.tools.programs.settings import SettingConverter, needs
 from regscribe.tools.programs.slot import ProgramSlot
 from regscribe_runtime import Register, Snapshot
 from regscribe_runtime.operations.session import Operation, Session, Task
@@ -15,9 +16,12 @@ def read(place: ProgramSlot) -> Task[Program]:
     """Read a program: the segments that are in use, or that may be where the manual leaves their number open."""
 
     def task(session: Session) -> Operation[Program]:
-        snapshot = yield from read_with_needs(_registers(place))(session)
-        unit = _time_unit(place, snapshot)
-        return _Reader(place, snapshot, SettingConverter(place, snapshot.valid, session.givens, unit)).program()
+        snapshot = yield from read_with(_registers(place), needs)(session)
+        unit = ""
+        if place.spec.time_unit:
+            path, units = place.spec.time_unit
+            unit = dict(units).get(int(snapshot[place.register(path).path]), "")
+        return _Reader(place, snapshot, SettingConverter(snapshot.valid, session.givens, unit)).program()
 
     return task
 
@@ -34,32 +38,25 @@ def _registers(place: ProgramSlot) -> Iterator[Register[Any]]:
         yield from (place.register(path, number) for path in paths if path)
 
 
-def _time_unit(place: ProgramSlot, snapshot: Snapshot) -> str:
-    if place.spec.time_unit is None:
-        return ""
-    path, units = place.spec.time_unit
-    return dict(units).get(int(snapshot[place.register(path).path]), "")
-
-
 class _Reader:
-    """A program out of what was read."""
+    """Makes a program of the registers that were read."""
 
     def __init__(self, place: ProgramSlot, snapshot: Snapshot, converter: SettingConverter) -> None:
         self.place, self.snapshot, self.converter = place, snapshot, converter
 
     def program(self) -> Program:
-        spec = self.place.spec
+        spec, final = self.place.spec, None
         count = self._value(spec.number_of_segments)
+        if spec.final:
+            final = Final(to=self._setting(spec.final.setpoint), outputs=self._outputs(spec.final.outputs))
         return Program(
             name=self.place.name,
             segments=tuple(self._segment(number) for number in self._used(count)),
-            final=Final(to=self._setting(spec.final.setpoint), outputs=self._outputs(spec.final.outputs))
-            if spec.final
-            else None,
+            final=final,
             number_of_segments=int(count) if spec.counts is ProgramCounts.NOT_STATED and count is not None else None,
             cycles=self._cycles(),
             time_unit=self.converter.time_unit or None,
-            holdback=self._maybe(spec.holdback),
+            holdback=self._setting(spec.holdback) if spec.holdback else None,
             power_failure=self._name(spec.power_failure),
             end=self._name(spec.end),
             map_id=self.place.map_id,
@@ -73,9 +70,6 @@ class _Reader:
     def _setting(self, path: str, segment: int = 0, *, time: bool = False) -> Setting:
         register = self.place.register(path, segment)
         return self.converter.setting(register, self.snapshot[register.path], time=time)
-
-    def _maybe(self, path: str) -> Setting | None:
-        return self._setting(path) if path else None
 
     def _name(self, path: str) -> str | None:
         return str(self._setting(path)) if path else None

@@ -1,10 +1,11 @@
-"""Running a program: its state, and start, hold, resume and reset by the ways that the map tells."""
+"""Runs a program: its state, and start, hold, resume and reset by the registers or commands of the map."""
 
 from dataclasses import dataclass
 from typing import Literal
 
+from regscribe.tools.live.reading import read_with
 from regscribe.tools.programs.program import Setting
-from regscribe.tools.programs.settings import SettingConverter, read_with_needs
+from regscribe.tools.programs.settings import SettingConverter, needs
 from regscribe.tools.programs.slot import ProgramSlot
 from regscribe_runtime import ProgramAction, RegscribeError, ValueRefused
 from regscribe_runtime.operations import tasks
@@ -18,9 +19,9 @@ MEANINGFUL = {"start": ("ended",), "hold": ("running",), "resume": ("held",), "r
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ProgramState:
-    """What a device does: `running`, `held`, `ended`, or `unknown`; `detail` is its own word (`RAMPING`).
+    """State of a device: `running`, `held`, `ended`, or `unknown`; `detail` is its own word (`RAMPING`).
 
-    `program` and `segment` are the numbers of what runs, `setpoint` what the program asks for; None: it does not tell.
+    `program` and `segment` are the numbers of what runs, `setpoint` is that of the program; None: not readable.
     """
 
     state: str
@@ -35,15 +36,15 @@ class NotNow(RegscribeError):  # noqa: N818 (as the errors of drivers)
 
 
 def status(place: ProgramSlot) -> Task[ProgramState]:
-    """Read what the device does."""
+    """Read the state of the device."""
 
     def task(session: Session) -> Operation[ProgramState]:
         spec = place.spec
         told = (spec.status.register if spec.status else "", spec.program_now, spec.segment_now, spec.setpoint_now)
         registers = {path: place.register(path) for path in told if path}
-        snapshot = yield from read_with_needs(registers.values())(session)
+        snapshot = yield from read_with(registers.values(), needs)(session)
         found = snapshot.valid
-        converter = SettingConverter(place, found, session.givens)
+        converter = SettingConverter(found, session.givens)
         values = {path: found.get(one.path) for path, one in registers.items()}
         code = values.get(spec.status.register) if spec.status else None
         setpoint = values.get(spec.setpoint_now)
@@ -84,11 +85,10 @@ def act(place: ProgramSlot, what: Act, *, confirm: bool = False) -> Task[Program
             raise NotNow(message)
         now = yield from status(place)(session)
         if now.state != "unknown" and now.state not in MEANINGFUL[what]:
-            doing = f"it is {now.state} ({now.detail})"
-            message = f"{place.name}: there is nothing to {what}: {doing}"
+            message = f"{place.name}: there is nothing to {what}: it is {now.state} ({now.detail})"
             raise NotNow(message)
         if what == "start":
-            yield from _ready(place)(session)
+            yield from _check_ready(session, place)
         if action.command:
             yield from tasks.run(session.commands[action.command], confirm=confirm)(session)
         for path, code in action.writes:
@@ -99,27 +99,22 @@ def act(place: ProgramSlot, what: Act, *, confirm: bool = False) -> Task[Program
     return task
 
 
-def _ready(place: ProgramSlot) -> Task[None]:
-    """Look at what must be set before a start; ValueRefused with what is set instead."""
-
-    def task(session: Session) -> Operation[None]:
-        for path, code in place.spec.enable:
-            register = place.register(path)
-            held = yield from tasks.read(register, None)(session)
-            if held != int(code):
-                wanted = register.value_type.make(int(code))
-                advice = f"set it to {_shown(wanted)}, or write the program"
-                raise ValueRefused(register.path, f"it is {_shown(held)}, so the program does not run: {advice}")
-        if place.spec.requires:
-            when, reason = place.spec.requires
-            paths = when.registers
-            snapshot = yield from tasks.read_many([session.registers[path] for path in paths])(session)
-            state = snapshot.valid
-            if not when.holds(state, session.givens):
-                now = ", ".join(f"{path} is {_shown(state[path])}" for path in paths)
-                raise ValueRefused(place.name, f"{reason}; now {now}")
-
-    return task
+def _check_ready(session: Session, place: ProgramSlot) -> Operation[None]:
+    """ValueRefused if a register that must be set before a start is not, with what it holds instead."""
+    for path, code in place.spec.enable:
+        register = place.register(path)
+        held = yield from tasks.read(register, None)(session)
+        if held != int(code):
+            wanted = register.value_type.make(int(code))
+            advice = f"set it to {_shown(wanted)}, or write the program"
+            raise ValueRefused(register.path, f"it is {_shown(held)}, so the program does not run: {advice}")
+    if place.spec.requires:
+        when, reason = place.spec.requires
+        snapshot = yield from tasks.read_many([session.registers[path] for path in when.registers])(session)
+        state = snapshot.valid
+        if not when.holds(state, session.givens):
+            now = ", ".join(f"{path} is {_shown(state[path])}" for path in when.registers)
+            raise ValueRefused(place.name, f"{reason}; now {now}")
 
 
 def _shown(value: object) -> str:

@@ -5,7 +5,7 @@ from datetime import UTC, datetime
 from typing import Any
 
 from regscribe.tools.live.names import Driver, groups_of, readable
-from regscribe.tools.live.reading import reason, unit_of, with_units
+from regscribe.tools.live.reading import read_with, reason, unit_needs, unit_of
 from regscribe.tools.live.value_text import is_number, show
 from regscribe.tools.settings.backup import NO_GROUP, Backup, BackupOrigin, Saved
 from regscribe_runtime import Register, RegscribeError, Snapshot
@@ -61,7 +61,7 @@ def saved(registers: Sequence[Register[Any]]) -> Task[dict[str, Saved]]:
     """Read registers, and with them those that decide their units; plain values, units and words by path."""
 
     def task(session: Session) -> Operation[dict[str, Saved]]:
-        snapshot = yield from with_units(registers)(session)
+        snapshot = yield from read_with(registers, unit_needs)(session)
         state = snapshot.valid
         return {register.path: _saved(register, snapshot, state, session.givens) for register in registers}
 

@@ -12,9 +12,9 @@ from regscribe.tools.live import link_names, scan
 from regscribe.tools.live.errors import TargetError
 
 
-def found(link: str, units: str, **more: Any) -> list[scan.FoundDevice]:
-    probes = scan.scan(scan.settings(link_names.parse(link), (), ()), scan.units(units), **more)
-    return [probe.found for probe in probes if probe.found]
+def found(link: str, units: str, **more: Any) -> list[scan.Probe]:
+    probes = scan.scan(scan.settings(link_names.split(link)[0], (), ()), scan.units(units), **more)
+    return [probe for probe in probes if probe.answer]
 
 
 @given(st.sets(st.integers(1, 247), min_size=1))
@@ -33,7 +33,7 @@ def test_units_that_are_none_are_refused(text: str) -> None:
 
 
 def test_a_line_is_tried_with_every_speed_and_format() -> None:
-    tried = scan.settings(link_names.parse("rtu:/dev/x?timeout=0.2"), (9600, 19200), ("8N1", "8e1"))
+    tried = scan.settings(link_names.split("rtu:/dev/x?timeout=0.2")[0], (9600, 19200), ("8N1", "8e1"))
     assert [(one.baud, one.parity, one.timeout) for one in tried] == [
         (9600, "N", 0.2),
         (9600, "E", 0.2),
@@ -43,18 +43,18 @@ def test_a_line_is_tried_with_every_speed_and_format() -> None:
 
 
 def test_what_the_name_of_a_line_says_is_not_varied() -> None:
-    (only,) = scan.settings(link_names.parse("rtu:/dev/x?baud=4800&parity=O"), (), ())
+    (only,) = scan.settings(link_names.split("rtu:/dev/x?baud=4800&parity=O")[0], (), ())
     assert (only.baud, only.parity, only.data_bits) == (4800, "O", 8)
 
 
 @pytest.mark.parametrize(("link", "bauds", "formats"), [("tcp:h", (9600,), ()), ("rtu:/dev/x", (), ("9X3",))])
 def test_settings_that_a_link_cannot_have_are_refused(link: str, bauds: Any, formats: Any) -> None:
     with pytest.raises(TargetError):
-        scan.settings(link_names.parse(link), bauds, formats)
+        scan.settings(link_names.split(link)[0], bauds, formats)
 
 
 def test_a_scan_is_bounded() -> None:
-    tried = scan.settings(link_names.parse("rtu:/dev/x?timeout=0.2"), (9600, 19200), ("8N1",))
+    tried = scan.settings(link_names.split("rtu:/dev/x?timeout=0.2")[0], (9600, 19200), ("8N1",))
     assert scan.longest(tried, range(1, 11)) == pytest.approx(10 * (2 * 0.2 + 165 / 9600 + 165 / 19200))
 
 
@@ -77,7 +77,7 @@ def test_a_unit_on_a_line_is_found_among_silent_ones(serve: Callable[..., Any]) 
 
 def test_other_speeds_are_not_tried_once_units_answered(serve: Callable[..., Any]) -> None:
     with serve(transport="pty", unit=2) as running:
-        tried = scan.settings(link_names.parse(f"rtu:{running.path}?timeout=0.05"), (9600, 19200), ("8N1",))
+        tried = scan.settings(link_names.split(f"rtu:{running.path}?timeout=0.05")[0], (9600, 19200), ("8N1",))
         once = [probe.link.baud for probe in scan.scan(tried, (2,), names=False)]
         every = [probe.link.baud for probe in scan.scan(tried, (2,), names=False, every=True)]
     assert (once, every) == ([9600], [9600, 19200])
@@ -85,18 +85,18 @@ def test_other_speeds_are_not_tried_once_units_answered(serve: Callable[..., Any
 
 def test_who_does_not_speak_modbus_is_no_unit(serve: Callable[..., Any]) -> None:
     with serve(transport="ascii-tcp") as running:
-        link = link_names.parse(f"tcp:{running.host}:{running.port}?framing=rtu&timeout=0.1")
-        assert [probe.found for probe in scan.scan((link,), (1, 2))] == [None, None]
+        link, _ = link_names.split(f"tcp:{running.host}:{running.port}?framing=rtu&timeout=0.1")
+        assert [probe.answer for probe in scan.scan((link,), (1, 2))] == ["", ""]
 
 
 def test_a_server_of_another_kind_is_asked_once() -> None:
     with socket.create_server(("127.0.0.1", 0)) as server:
         answering = threading.Thread(target=_greet, args=(server,), daemon=True)
         answering.start()
-        link = link_names.parse(f"tcp:127.0.0.1:{server.getsockname()[1]}?timeout=1")
+        link, _ = link_names.split(f"tcp:127.0.0.1:{server.getsockname()[1]}?timeout=1")
         (probe,) = scan.scan((link,), (1, 2, 3))
         answering.join()
-    assert (probe.found, "is no header of Modbus TCP" in probe.noise) == (None, True)
+    assert (probe.answer, "is no header of Modbus TCP" in probe.noise) == ("", True)
 
 
 def _greet(server: socket.socket) -> None:

@@ -53,6 +53,7 @@ def test_a_given_that_is_missing_is_named() -> None:
     [
         ("ovne", "did you mean `oven`?"),
         ("tcp:h?unti=3", "did you mean `unit`?"),
+        ("rtu:/dev/x?buad=9600", "did you mean `baud`?"),
         ("tcp:h?unit=256", "a unit id is 0 to 255"),
         ("tcp:h?unit=-1", "a unit id is 0 to 255"),
     ],
