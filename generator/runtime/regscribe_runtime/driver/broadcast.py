@@ -6,7 +6,7 @@ from typing import Any
 from regscribe_runtime.driver.device import AsyncBareDevice, BareDevice
 from regscribe_runtime.errors import ValueRefused
 from regscribe_runtime.link.timing import broadcast_seconds
-from regscribe_runtime.operations.write_request import condition_needs, confirmed, permitted
+from regscribe_runtime.operations.write_request import check_condition, check_confirmation, condition_needs
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.serial_line import SerialLine
@@ -40,13 +40,13 @@ def request_for(
         raise ValueRefused(register.path, f"each unit has to answer the command {command} with it: write unit by unit")
     if register.governs is not None:
         raise ValueRefused(register.path, "it changes how units talk, or their ids: write unit by unit")
-    confirmed(register, confirm=confirm)
+    check_confirmation(register, confirm=confirm)
     needs = (*register.needs(chosen), *register.limit_needs, *condition_needs(register))
     missing = [path for path in dict.fromkeys(needs) if path not in state]
     if missing:
         reason = f"it depends on {', '.join(missing)}, which may differ from unit to unit: pass state={{...}}"
         raise ValueRefused(register.path, reason)
-    permitted(register, state, givens)
+    check_condition(register, state, givens)
     words = register.encode(value, view=view, state=state, givens=givens)
     address = chosen.address(register.at)
     function = _function(register, chosen, len(words), [driver.protocol for driver in drivers.values()])

@@ -1,4 +1,4 @@
-"""Writing several values as one operation: checked before the first is sent, in the map's order, verified, undone."""
+"""Several values written as one operation: checked before the first is sent, in the map's order, verified, undone."""
 
 from __future__ import annotations
 
@@ -15,21 +15,29 @@ from regscribe_runtime.errors import (
     ValueRefused,
 )
 from regscribe_runtime.operations.line_change import follow
+from regscribe_runtime.operations.read_back import RegisterWrite
 from regscribe_runtime.operations.session import Operation, Pause, Session, Task
 from regscribe_runtime.operations.transaction import Transaction
 from regscribe_runtime.operations.write_order import batches
-from regscribe_runtime.operations.write_plan import Assignment, Present, intend, look, wanted, words_of_wanted
+from regscribe_runtime.operations.write_plan import (
+    Assignment,
+    Present,
+    assignments,
+    encoded,
+    plan_changes,
+    read_present,
+)
 from regscribe_runtime.operations.write_request import EEPROM
-from regscribe_runtime.report import Change, Fate, Sent, Teller, WriteReport
+from regscribe_runtime.report import Fate, Sent, Teller, WriteReport
 
 
 class ConfigureOptions(TypedDict, total=False):
-    """How to configure.
+    """Options of `configure`.
 
-    `verify` (default True) reads back what the device keeps. `undo` (default True) gives back what was written if the
-    operation breaks off; without it, what was written stays. `confirm` is needed if a write is dangerous. `rounded`
-    allows values finer than the device can hold. `dry_run` writes nothing: the report says what would be written.
-    `tell` is called before each request; an exception that it raises breaks the operation off.
+    `verify` (default True) reads back what the device keeps. `undo` (default True) writes the old values back after an
+    error. `confirm` is needed if a write is dangerous. `rounded` allows values finer than the device can hold.
+    `dry_run` writes nothing: the report says what would be written. `tell` is called before each request; an exception
+    that it raises ends the operation.
     """
 
     verify: bool
@@ -53,138 +61,115 @@ def configure(
     """Bring several registers (by path, declaration or attribute) to their values; see `BareDevice.configure`."""
 
     def task(session: Session) -> Operation[WriteReport]:
-        targets = wanted(session, values)
+        chosen = assignments(session, values)
         work = Transaction(session, tell)
-        sight = yield from look(session, targets)
-        state = dict(sight.state)
-        changes = intend(session, targets, sight, rounded=rounded, confirm=confirm)
+        present = yield from read_present(session, chosen)
+        work.state = dict(present.state)
+        changes = plan_changes(session, chosen, present, rounded=rounded, confirm=confirm)
+        pieces = work.plan(changes)  # for the report, whatever happens
         if dry_run:
-            _foresee(session, work, changes)
+            _add_planned_requests(work, pieces)
             return work.report(dry_run=True)
-        work.plan(changes)  # all of it is known, whatever comes of it
-        steps = _Steps(session, work, targets, rounded=rounded, verify=verify)
         try:
             try:
-                yield from steps.all(sight._replace(state=state))
+                yield from _write(work, chosen, present._replace(state=work.state), rounded=rounded, verify=verify)
             except GeneratorExit:
                 raise
             except BaseException as error:  # noqa: BLE001 (raised again, with what became of everything)
-                yield from _broken(work, error, undo=undo)
+                yield from _fail(work, error, undo=undo)
         except GeneratorExit:  # cancelled, or Ctrl-C while a request was under way: nothing can be sent any more
             session.broken_off = work.report()
             raise
         finally:
             session.forget()
-        _spare(session, work)
+        for path in work.paths(Fate.EQUAL):
+            if work.register(path).persistence in EEPROM:
+                session.wear.add(path, spared=1)
         return work.report()
 
     return task
 
 
-class _Steps:
-    """The writes of a `configure`, phase by phase: a unit of measure that changes ends a phase."""
-
-    def __init__(
-        self, session: Session, work: Transaction, targets: Sequence[Assignment], *, rounded: bool, verify: bool
-    ) -> None:
-        self.session, self.work, self.rounded, self.verify = session, work, rounded, verify
-        self.left = [one for one in targets if not one.register.governs]
-        self.line = [one for one in targets if one.register.governs]
-
-    def all(self, sight: Present) -> Operation[None]:
-        """Write, apply, verify; then what governs the line."""
-        self.work.state = sight.state
-        while self.left:
-            phase = self._phase(sight)
-            changes = intend(self.session, phase, sight, rounded=self.rounded)
-            yield from self.work.write(self.work.plan(changes))
-            self.left = self.left[len(phase) :]
-            if self.left:
-                yield Pause(max(one.register.settle for one in phase) / 1000)
-                sight = yield from look(self.session, self.left)
-                self.work.state = {**self.work.state, **sight.state}
-                sight = sight._replace(state=self.work.state)
-        for command in applies(self.work):
-            yield from self.work.command(command)
-        if self.verify:
-            yield from self._verified()
-        yield from self._govern()
-
-    def _phase(self, sight: Present) -> list[Assignment]:
-        """What is left up to the first unit of measure that really changes, that one included."""
-        found: list[Assignment] = []
-        for one in self.left:
-            found.append(one)
-            if one.register.rescales and self._changes(one, sight):
-                break
-        return found
-
-    def _changes(self, one: Assignment, sight: Present) -> bool:
-        words = words_of_wanted(self.session, one, sight, rounded=self.rounded)
-        return sight.words.get(one.register.path) != words
-
-    def _verified(self) -> Operation[None]:
-        if wrong := (yield from self.work.verify()):
-            shown = "; ".join(self.work.shown(path) for path in wrong)
-            message = f"the device changed or ignored values: {shown}"
-            raise RegscribeError(message)
-
-    def _govern(self) -> Operation[None]:
-        for one in self.line:
-            sight = yield from look(self.session, [one])
-            (change,) = intend(self.session, [one], sight, rounded=self.rounded)
-            self.work.plan([change])
-            if change.fate is Fate.EQUAL:
-                continue
-            try:
-                yield from follow(self.session, (one.register, one.view), change.sent, sight.state)
-            except GeneratorExit:
-                self.work.mark(change.register, Fate.UNKNOWN)
-                raise
-            except RegscribeError as error:
-                self.work.mark(change.register, _fate(error))
-                raise
-            self.work.mark(change.register, Fate.WRITTEN)
+def _write(
+    work: Transaction, chosen: Sequence[Assignment], present: Present, *, rounded: bool, verify: bool
+) -> Operation[None]:
+    """Write in phases, apply, verify; then write what governs the line."""
+    session = work.session
+    left = [one for one in chosen if not one.register.governs]
+    while left:
+        phase = _phase(session, left, present, rounded=rounded)
+        yield from work.write(work.plan(plan_changes(session, phase, present, rounded=rounded)))
+        left = left[len(phase) :]
+        if left:
+            yield Pause(max(one.register.settle for one in phase) / 1000)
+            present = yield from read_present(session, left)
+            work.state = {**work.state, **present.state}
+            present = present._replace(state=work.state)
+    for command in _apply_commands(work):
+        yield from work.command(command)
+    if verify and (wrong := (yield from work.verify())):
+        message = f"the device changed or ignored values: {'; '.join(map(work.shown, wrong))}"
+        raise RegscribeError(message)
+    for one in chosen:
+        if one.register.governs:
+            yield from _write_line(work, one, rounded=rounded)
 
 
-def _fate(error: RegscribeError) -> Fate:
-    """What an error of `follow` says of the register."""
-    if isinstance(error, (NotWritten, ValueRefused, ExceptionAnswer)):
-        return Fate.NOT_WRITTEN
-    return Fate.DIFFERS if isinstance(error, ReadBackDiffers) else Fate.UNKNOWN
+def _phase(session: Session, left: Sequence[Assignment], present: Present, *, rounded: bool) -> Sequence[Assignment]:
+    """What is left up to the first unit of measure that changes: the device converts other registers then."""
+    for number, one in enumerate(left, start=1):
+        if one.register.rescales:
+            words = encoded(session, one, present, rounded=rounded)
+            if present.words.get(one.register.path) != words:
+                return left[:number]
+    return left
 
 
-def applies(work: Transaction) -> list[str]:
+def _write_line(work: Transaction, one: Assignment, *, rounded: bool) -> Operation[None]:
+    """Write a register that governs the line, unless the device holds the value."""
+    register, session = one.register, work.session
+    present = yield from read_present(session, [one])
+    (change,) = plan_changes(session, [one], present, rounded=rounded)
+    work.plan([change])
+    if change.fate is Fate.EQUAL or register.governs is None:
+        return
+    fate = Fate.UNKNOWN
+    try:
+        yield from follow(session, RegisterWrite(register, one.view, change.sent, present.state), register.governs)
+        fate = Fate.WRITTEN
+    except (NotWritten, ValueRefused, ExceptionAnswer):
+        fate = Fate.NOT_WRITTEN
+        raise
+    except ReadBackDiffers:
+        fate = Fate.DIFFERS
+        raise
+    finally:
+        work.mark(register.path, fate)
+
+
+def _apply_commands(work: Transaction) -> list[str]:
     """The commands that make what was written take effect, each once."""
-    written = work.paths(Fate.WRITTEN, Fate.DIFFERS, Fate.UNKNOWN)
-    names = (work.register(path).apply for path in written if not work.register(path).governs)
-    return [name for name in dict.fromkeys(names) if name]
+    written = map(work.register, work.paths(Fate.WRITTEN, Fate.DIFFERS, Fate.UNKNOWN))
+    return list(dict.fromkeys(one.apply for one in written if one.apply and not one.governs))
 
 
-def _foresee(session: Session, work: Transaction, changes: Sequence[Change]) -> None:
-    """The requests and commands of a dry run."""
-    pieces = work.plan(changes)
-    for batch in batches(session, pieces):
-        unlock = batch.pieces[0].register.unlock
+def _add_planned_requests(work: Transaction, pieces: Sequence[RegisterWrite]) -> None:
+    """Add the requests and commands of a dry run."""
+    for request, batch in batches(work.session, pieces):
+        unlock = batch[0].register.unlock
         if unlock and unlock not in work.unlocked:
             work.unlocked.add(unlock)
             work.requests.append(Sent(0, 0, (), (), unlock))
-        request, paths = batch.request, tuple(piece.path for piece in batch.pieces)
+        paths = tuple(piece.path for piece in batch)
         work.requests.append(Sent(request.function, request.address, request.words, paths))
     names = dict.fromkeys(piece.register.apply for piece in pieces)
     work.requests += [Sent(0, 0, (), (), name) for name in names if name]
 
 
-def _broken(work: Transaction, error: BaseException, *, undo: bool) -> Operation[None]:
-    """Undo what was written, if that is wanted, and say what became of everything."""
+def _fail(work: Transaction, error: BaseException, *, undo: bool) -> Operation[None]:
+    """Undo what was written, if `undo`, and raise NotConfigured with the report."""
     ran = {name for name, fate in work.report().commands.items() if fate is not Fate.NOT_WRITTEN}
-    applied = [name for name in applies(work) if name in ran]
-    if undo and not isinstance(error, LeftAt):  # nobody is there to undo anything
+    applied = [name for name in _apply_commands(work) if name in ran]
+    if undo and not isinstance(error, LeftAt):  # no device is there to be written
         yield from work.undo(applied)
     raise NotConfigured(str(error) or type(error).__name__, work.report()) from error
-
-
-def _spare(session: Session, work: Transaction) -> None:
-    for path in work.paths(Fate.EQUAL):
-        if work.register(path).persistence in EEPROM:
-            session.wear.add(path, spared=1)

@@ -1,4 +1,4 @@
-"""Writing a register that sets the line itself: the driver follows the device, and says where it was left otherwise.
+"""Writes of registers that set the line itself: the driver follows the device, or says where it was left.
 
 The device may answer in the old setting, in the new one or not at all, and may change at once or later. So after the
 write it is looked for in the new setting, then in the old one, by reading the register back.
@@ -6,17 +6,14 @@ write it is looked for in the new setting, then in the old one, by reading the r
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import Any
 
 from regscribe_runtime.errors import LeftAt, NotWritten, RegscribeError, ValueRefused, lost
 from regscribe_runtime.operations.read import read_request
-from regscribe_runtime.operations.read_back import Target, differs, is_lost, meaning, same, words_of
+from regscribe_runtime.operations.read_back import RegisterWrite, is_lost, words_of
 from regscribe_runtime.operations.session import Operation, Pause, Session
-from regscribe_runtime.operations.write_request import applied, called, send
-from regscribe_runtime.registers.register import Register
+from regscribe_runtime.operations.write_request import apply, send, value_text
 from regscribe_runtime.report import Words
-from regscribe_runtime.values.conditions import State
 from regscribe_runtime.values.facts import Governs, Setting
 from regscribe_runtime.values.kinds import Kind
 from regscribe_runtime.values.numbers import brief
@@ -24,7 +21,7 @@ from regscribe_runtime.values.serial_line import ADDRESSINGS, PARITIES, LineChan
 from regscribe_runtime.wire.requests import verify
 
 MARKS = frozenset({Kind.STRING, Kind.VERSION})
-"""Kinds of registers whose words tell a device: they do not change, and no neighbour holds the same."""
+"""Kinds of registers whose words identify a device: they do not change, and no neighbour holds the same."""
 
 LATER = "restart"
 
@@ -32,92 +29,69 @@ FIRST_UNIT = 1
 """Unit 0 is the broadcast, which nobody answers."""
 
 
-class _Move(NamedTuple):
-    """A change of the line: how to talk before and after, and the words by which the device is known again."""
-
-    register: Register[Any]
-    target: Target
-    sent: Words
-    state: State
-    old: LineChange
-    marks: dict[str, Words]
-
-
-def allowed(session: Session, target: Target, words: Words, state: State) -> None:
-    """Refuse a unit id at which no such device can be reached: ValueRefused, before anything is sent."""
-    register, view = target
-    if not register.governs or register.governs.setting is not Setting.ADDRESS:
+def check_unit(session: Session, one: RegisterWrite) -> None:
+    """ValueRefused for a write of a unit id at which no such device can be reached."""
+    if not one.register.governs or one.register.governs.setting is not Setting.ADDRESS:
         return
-    value = meaning(register, view, words, state, session, named=False)
+    value = one.value(session, named=False)
     low, high = session.protocol.unit_ids
     low = max(low, FIRST_UNIT)
     if not low <= value <= high or value != int(value):
-        raise ValueRefused(register.path, f"{brief(value)} is no unit id of this device: they are {low} to {high}")
+        raise ValueRefused(one.path, f"{brief(value)} is no unit id of this device: they are {low} to {high}")
 
 
-def follow(session: Session, target: Target, words: Words, state: State) -> Operation[None]:
-    """Write a register that governs the line, apply it, and talk on in the new setting.
+def follow(session: Session, one: RegisterWrite, governs: Governs) -> Operation[None]:
+    """Write a register that governs the line, apply it, and go on in the new setting.
 
     ValueRefused if the new unit id is taken; NotWritten, WriteUnknown or LeftAt say where the device was left.
     """
-    register, _ = target
-    old = _present(session)
-    governs: Governs = register.governs  # type: ignore[assignment] # that is why we are here
-    value = meaning(register, target[1], words, state, session)
-    new = list(_meant(governs, value)) or list(_guesses(session, governs))
+    line, old = session.line, LineChange(session.unit, addressing=session.addressing)
+    if line is not None:
+        old = LineChange(session.unit, line.baud, line.data_bits, line.parity, line.stop_bits, session.addressing)
+    value = one.value(session)
+    new = _settings(session, governs, value)
     session.home = old
-    yield from _free(session, target, governs, words, old)
-    marks = (yield from _marks(session)) if governs.setting is Setting.ADDRESSING else {}
-    cause = yield from _told(session, target, words, governs)
-    move = _Move(register, target, words, state, old, marks)  # pyright: ignore[reportArgumentType] # a register is a descriptor, but no attribute of this tuple
-    yield from _found(session, move, [] if governs.since == LATER else new, cause, called(value))
+    if governs.setting is Setting.ADDRESS:
+        yield from _check_free(session, one, int(value), old)
+    marks: dict[str, Words] = {}
+    if governs.setting is Setting.ADDRESSING:
+        known = [other for other in session.registers.values() if other.kind in MARKS and other.access.readable]
+        marks = yield from words_of(session, [(other, other.read_view()) for other in known])
+    cause = yield from _send(session, one, governs)
+    yield from _find(session, one, old, [] if governs.since == LATER else new, marks, cause)
     session.home = None
 
 
-def _present(session: Session) -> LineChange:
-    line = session.line
-    if line is None:
-        return LineChange(session.unit, addressing=session.addressing)
-    return LineChange(session.unit, line.baud, line.data_bits, line.parity, line.stop_bits, session.addressing)
+def _settings(session: Session, governs: Governs, value: Any) -> list[LineChange]:
+    """What a value of the register sets; all that the setting may become where the manual does not print its codes."""
+    setting, protocol = governs.setting, session.protocol
+    if setting is Setting.ADDRESS:
+        return [LineChange(unit=int(value))]
+    if (text := governs.value(value)) is not None:
+        return [_line_change(setting, text)]
+    possible = {
+        Setting.BAUD: tuple(map(str, protocol.serial.bauds)),
+        Setting.PARITY: PARITIES,
+        Setting.FORMAT: protocol.serial.formats,
+        Setting.ADDRESSING: tuple(ADDRESSINGS),
+    }
+    if session.line is None and setting is not Setting.ADDRESSING:
+        return []
+    return [_line_change(setting, text) for text in possible.get(setting, ())]
 
 
-def _meant(governs: Governs, code: Any) -> Iterator[LineChange]:
-    """What a code of the register, a value of use, sets; nothing where the manual does not print it."""
-    if governs.setting is Setting.ADDRESS:
-        yield LineChange(unit=int(code))
-    elif (text := governs.value(code)) is not None:
-        yield _tuned(governs.setting, text)
-
-
-def _tuned(setting: Setting, text: str) -> LineChange:
+def _line_change(setting: Setting, text: str) -> LineChange:
     if setting is Setting.FORMAT:
         return LineChange(data_bits=int(text[0]), parity=text[1], stop_bits=int(text[2]))
     value: Any = text if setting in {Setting.PARITY, Setting.ADDRESSING} else int(text)
     return LineChange(**{setting: value})
 
 
-def _guesses(session: Session, governs: Governs) -> Iterator[LineChange]:
-    """All that a setting may become where the manual does not print its codes."""
-    protocol = session.protocol
-    others = {
-        Setting.BAUD: tuple(map(str, protocol.serial.bauds)),
-        Setting.PARITY: PARITIES,
-        Setting.FORMAT: protocol.serial.formats,
-        Setting.ADDRESSING: tuple(ADDRESSINGS),
-    }
-    if session.line is not None or governs.setting is Setting.ADDRESSING:
-        yield from (_tuned(governs.setting, text) for text in others.get(governs.setting, ()))
-
-
-def _free(session: Session, target: Target, governs: Governs, words: Words, old: LineChange) -> Operation[None]:
+def _check_free(session: Session, one: RegisterWrite, unit: int, old: LineChange) -> Operation[None]:
     """Refuse a unit id at which another device answers: two at one id garble each other."""
-    register, _ = target
-    if governs.setting is not Setting.ADDRESS:
-        return
-    unit = int(meaning(*target, words, {}, session))
     if unit == session.unit:
         return
-    request = read_request(register, register.seen_in(target[1]))
+    request = read_request(one.register, one.register.seen_in(one.view))
     yield LineChange(unit=unit)
     try:
         reply = yield request  # once: nobody is expected there
@@ -125,88 +99,83 @@ def _free(session: Session, target: Target, governs: Governs, words: Words, old:
     except RegscribeError:
         found = ()  # nobody there, or nobody that knows this register
     yield old
-    if found and same(*target, found, words, {}, session):
-        raise ValueRefused(register.path, f"unit {unit} answers already: two units of one id would garble each other")
+    if found and one.matches(found, session):
+        raise ValueRefused(one.path, f"unit {unit} answers already: two units of one id would garble each other")
 
 
-def _marks(session: Session) -> Operation[dict[str, Words]]:
-    registers = [one for one in session.registers.values() if one.kind in MARKS and one.access.readable]
-    return (yield from words_of(session, [(one, one.read_view()) for one in registers]))
-
-
-def _told(session: Session, target: Target, words: Words, governs: Governs) -> Operation[RegscribeError | None]:
-    """Send the write, and the command that applies it; what happened to the answer, None if it came."""
-    register, view = target
-    cause: RegscribeError | None = None
+def _send(session: Session, one: RegisterWrite, governs: Governs) -> Operation[RegscribeError | None]:
+    """Send the write, and the command that applies it; the error in place of an answer, None if it came."""
     try:
-        yield from send(session, register, view, words)
+        yield from send(session, one)
     except RegscribeError as error:
         if not is_lost(error):
             raise
-        cause = error
-    if register.apply and cause is None:
-        try:
-            yield from applied(session, register)
-        except RegscribeError as error:
-            if governs.since != "apply":
-                raise
-            cause = error
-    return cause
+        return error
+    try:
+        yield from apply(session, one.register)
+    except RegscribeError as error:
+        if governs.since != "apply":
+            raise
+        return error
+    return None
 
 
-def _found(
-    session: Session, move: _Move, new: list[LineChange], cause: RegscribeError | None, value: str
+def _find(
+    session: Session,
+    one: RegisterWrite,
+    old: LineChange,
+    new: list[LineChange],
+    marks: dict[str, Words],
+    cause: RegscribeError | None,
 ) -> Operation[None]:
-    register = move.register
-    if register.settle:
-        yield Pause(register.settle / 1000)
+    """Find the device in one of the new settings or in the old one; raises if it did not take the write."""
+    if one.register.settle:
+        yield Pause(one.register.settle / 1000)
     for change in new:
         yield change
-        if _took(session, move, (yield from _read(session, move))):
+        read = yield from _read(session, one, marks)
+        if read is not None and one.matches(read, session):
             return
-        yield move.old
-    read = yield from _read(session, move)
+        yield old
+    read = yield from _read(session, one, marks)
+    value = value_text(one.value(session))
     if read is None:
-        raise _left(move, new, cause, value)
-    if _took(session, move, read):
+        raise _left(one.path, value, old, new, cause)
+    if one.matches(read, session):
         return  # it holds the value and talks as before: it will change later
     if cause is None:
-        raise differs(session, move.target, move.sent, read, move.state)
-    reason = f"the device still talks as before ({shown(move.old)}) and does not hold {value}"
-    raise lost(NotWritten, register.path, reason, cause) from cause
+        raise one.differs(read, session)
+    reason = f"the device still talks as before ({line_text(old)}) and does not hold {value}"
+    raise lost(NotWritten, one.path, reason, cause) from cause
 
 
-def _took(session: Session, move: _Move, read: Words | None) -> bool:
-    return read is not None and same(*move.target, read, move.sent, move.state, session)
-
-
-def _read(session: Session, move: _Move) -> Operation[Words | None]:
-    """The words of the register as one now talks to the device; None if it does not answer, or is another one."""
-    known = [(session.registers[path], session.registers[path].read_view()) for path in move.marks]
+def _read(session: Session, one: RegisterWrite, marks: dict[str, Words]) -> Operation[Words | None]:
+    """The words of the register in the present setting; None if no device answers, or another one."""
+    known = [(session.registers[path], session.registers[path].read_view()) for path in marks]
     try:
-        found = yield from words_of(session, [move.target, *known])
+        found = yield from words_of(session, [one.target, *known])
     except RegscribeError:
         return None
-    if any(found[path] != words for path, words in move.marks.items()):
+    if any(found[path] != words for path, words in marks.items()):
         return None  # addresses counted otherwise: what was read are other registers
-    return found[move.register.path]
+    return found[one.path]
 
 
-def _left(move: _Move, new: list[LineChange], cause: RegscribeError | None, value: str) -> LeftAt:
-    told = f"its answer to the write was lost ({cause})" if cause else "it answered the write"
+def _left(path: str, value: str, old: LineChange, new: list[LineChange], cause: RegscribeError | None) -> LeftAt:
+    answer = f"its answer to the write was lost ({cause})" if cause else "it answered the write"
     if new:
         places = "in either setting" if len(new) == 1 else f"in any of {len(new)} settings"
-        reason = f"{told}, and now it is not found {places}; this driver talks as before"
+        reason = f"{answer}, and now it is not found {places}; this driver talks as before"
     else:
-        reason = f"{told}, and now it does not answer as before. The manual does not say what {value} sets"
-    asked = "; ".join(shown(one) for one in new) or value
-    error = LeftAt(move.register.path, before=shown(move.old), asked=asked, reason=reason)
+        reason = f"{answer}, and now it does not answer as before. The manual does not say what {value} sets"
+    asked = "; ".join(map(line_text, new)) or value
+    error = LeftAt(path, before=line_text(old), asked=asked, reason=reason)
     error.__cause__ = cause
     return error
 
 
-def shown(change: LineChange) -> str:
-    """How a device talks, in words."""
+def line_text(change: LineChange) -> str:
+    """A line change in words."""
     character = f"{change.data_bits or ''}{change.parity or ''}{change.stop_bits or ''}"
     parts = (
         "" if change.unit is None else f"unit {change.unit}",

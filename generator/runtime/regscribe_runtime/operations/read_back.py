@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from typing import Any
 
 from regscribe_runtime.errors import (
@@ -29,12 +29,64 @@ from regscribe_runtime.values.kinds import Access
 from regscribe_runtime.values.views import View
 
 Target = tuple["Register[Any]", "View"]
+"""A register and the view in which it is written."""
 
 LOOKS = (0.0, 1.0)
-"""Seconds before each attempt to read back: the link may need a moment to be there again."""
+"""Seconds before each attempt to read back: a lost link may need a moment."""
 
 UNDECIDED = frozenset({4, 5, 11})
 """Exceptions after which a write may have been carried out: failed midway, taken but not done, and a gateway's."""
+
+
+class RegisterWrite:
+    """One value to write: register, view, words, and the state of the device that gives the words their meaning."""
+
+    __slots__ = ("register", "state", "view", "words")
+
+    def __init__(self, register: Register[Any], view: View, words: Words, state: State) -> None:
+        self.register, self.view, self.words, self.state = register, view, words, state
+
+    @property
+    def path(self) -> str:
+        """The register's path."""
+        return self.register.path
+
+    @property
+    def target(self) -> Target:
+        """The register and its view."""
+        return self.register, self.view
+
+    @property
+    def address(self) -> int:
+        """The wire address of the first word."""
+        return self.view.address(self.register.at)
+
+    def value(self, session: Session, *, named: bool = True) -> Any:
+        """The value of the words; None if they have none."""
+        return meaning(self.register, self.view, self.words, self.state, session, named=named)
+
+    def held(self, read: Words | None, session: Session) -> Any:
+        """The value of words that were read back; None if they have none, or are None."""
+        return meaning(self.register, self.register.seen_in(self.view), read, self.state, session)
+
+    def matches(self, read: Words, session: Session) -> bool:
+        """Whether words that were read back mean what was written: equal words, or an equal value (-0.0 and 0.0).
+
+        A view that cannot be read is compared in the view that is read instead, with the precision of that.
+        """
+        seen = self.register.seen_in(self.view)
+        expected = self.words
+        if seen is not self.view:
+            expected = codec.carried_over(self.register, self.view, seen, self.words, self.state)
+        if read == expected:
+            return True
+        held = self.held(read, session)
+        return held is not None and held == self.held(expected, session)
+
+    def differs(self, read: Words, session: Session) -> ReadBackDiffers:
+        """The error for a register that holds something else than was sent."""
+        value, held = self.value(session), self.held(read, session)
+        return ReadBackDiffers(self.path, sent=self.words, read=read, value=value, held=held)
 
 
 def is_lost(error: Exception) -> bool:
@@ -45,13 +97,14 @@ def is_lost(error: Exception) -> bool:
 
 
 def read_back_needs(register: Register[Any], view: View) -> tuple[str, ...]:
-    """What must be known to tell what was written in a view from what another one shows, where it cannot be read."""
-    seen = view.readable or not register.access.readable
-    return () if seen else (*view.needs(), *register.needs(register.read_view()))
+    """Dependencies for comparing what was written in a view that cannot be read with another one."""
+    if view.readable or not register.access.readable:
+        return ()
+    return (*view.needs(), *register.needs(register.read_view()))
 
 
 def in_view(target: Target, read: Words, state: State) -> Words | None:
-    """What was read back of a register as the words that write it; None where the view read shows less than all."""
+    """What was read back of a register as the words that write it; None where the view read is less precise."""
     register, view = target
     seen = register.seen_in(view)
     if seen is view:
@@ -60,7 +113,7 @@ def in_view(target: Target, read: Words, state: State) -> Words | None:
 
 
 def words_of(session: Session, targets: Iterable[Target]) -> Operation[dict[str, Words]]:
-    """The present words of registers by path, in few requests: in these views, or in those read in their place."""
+    """The present words of registers by path, in few requests; of views that cannot be read those read instead."""
     chosen = [(register, register.seen_in(view)) for register, view in targets]
     if len(chosen) == 1:
         register, view = chosen[0]
@@ -71,9 +124,9 @@ def words_of(session: Session, targets: Iterable[Target]) -> Operation[dict[str,
 
 
 def look_back(session: Session, targets: Iterable[Target], after: Exception) -> Operation[dict[str, Words] | None]:
-    """The present words after a write that ended in the error `after`; None if nobody answers any more."""
+    """The present words by path after a write that ended in the error `after`; None without an answer."""
     wanted = list(targets)
-    yield Pause(rest(session, wanted, after))
+    yield Pause(settling_seconds(session, wanted, after))
     for seconds in LOOKS:
         if seconds:
             yield Pause(seconds)
@@ -84,35 +137,21 @@ def look_back(session: Session, targets: Iterable[Target], after: Exception) -> 
     return None
 
 
-def rest(session: Session, targets: Iterable[Target], after: Exception | None = None) -> float:
-    """Seconds until reading back says something: the map's, and the device's latency where no timeout waited for it."""
-    registers = [register for register, _ in targets]
-    seconds = max((register.settle for register in registers), default=0) / 1000
+def settling_seconds(session: Session, targets: Iterable[Target], after: Exception | None = None) -> float:
+    """Seconds until reading back is reliable: the map's, and the device's latency if a lost link ended the wait."""
+    chosen = list(targets)
+    seconds = max((register.settle for register, _ in chosen), default=0) / 1000
     if isinstance(after, LinkLost):
-        words = sum(view.words for _, view in targets)
-        latencies = [session.protocol.latency(code) for code in (6, 16)]
-        needed = [float(one.longest(words)) for one in latencies if one]
-        seconds = max([seconds, *(milliseconds / 1000 for milliseconds in needed)])
+        words = sum(view.words for _, view in chosen)
+        latencies = filter(None, map(session.protocol.latency, (6, 16)))
+        seconds = max([seconds, *(float(one.longest(words)) / 1000 for one in latencies)])
     return seconds
-
-
-def same(register: Register[Any], view: View, read: Words, written: Words, state: State, session: Session) -> bool:
-    """Whether words that were read back mean what was written: equal words, or others of an equal value (-0.0 and 0.0).
-
-    Of a view that cannot be read, what another one shows of it is compared, as finely as that one can tell.
-    """
-    seen = register.seen_in(view)
-    expected = written if seen is view else codec.carried_over(register, view, seen, written, state)
-    if read == expected:
-        return True
-    mine, its = (meaning(register, seen, words, state, session) for words in (read, expected))
-    return mine is not None and mine == its
 
 
 def meaning(
     register: Register[Any], view: View, words: Words | None, state: State, session: Session, *, named: bool = True
 ) -> Any:
-    """The value of words, special values as in `codec.reader`; None if they mean nothing, or are not known."""
+    """The value of words, special values as in `codec.reader`; None if they have none, or are None."""
     if words is None:
         return None
     try:
@@ -121,65 +160,39 @@ def meaning(
         return None
 
 
-def fate_of_lost(
-    session: Session, target: Target, sent: Words, state: State, cause: RegscribeError
-) -> Operation[WriteFailed | None]:
-    """What became of a write of one register whose answer was lost: None if it was carried out, else the error."""
-    register, view = target
-    open_still = "the answer leaves it open" if isinstance(cause, ExceptionAnswer) else "the answer was lost"
+def fate_of_lost(session: Session, write: RegisterWrite, cause: RegscribeError) -> Operation[WriteFailed | None]:
+    """The error for a write whose answer was lost, after reading back; None if it was carried out."""
+    register, kind = write.register, WriteUnknown
+    reason = "the answer leaves it open" if isinstance(cause, ExceptionAnswer) else "the answer was lost"
+    reason = f"{reason} ({cause})"
     if register.access is not Access.READ_WRITE:
-        return lost(WriteUnknown, register.path, f"{open_still} ({cause}), and it cannot be read back", cause)
-    found = yield from look_back(session, [target], cause)
+        return lost(kind, write.path, f"{reason}, and it cannot be read back", cause)
+    found = yield from look_back(session, [write.target], cause)
     if found is None:
-        return lost(WriteUnknown, register.path, f"{open_still} ({cause}), and reading back fails too", cause)
-    read = found[register.path]
-    if same(register, view, read, sent, state, session):
+        return lost(kind, write.path, f"{reason}, and reading back fails too", cause)
+    read = found[write.path]
+    if write.matches(read, session):
         return None
-    held = _spelled(meaning(register, register.seen_in(view), read, state, session))
-    asked = _spelled(meaning(register, view, sent, state, session))
-    if steady(register):
-        return lost(NotWritten, register.path, f"{open_still} ({cause}); it holds {held}, not {asked}", cause)
-    return lost(
-        WriteUnknown,
-        register.path,
-        f"{open_still} ({cause}); it holds {held}, and the device changes it by itself",
-        cause,
-    )
+    values = write.held(read, session), write.value(session)
+    held, wanted = (getattr(value, "name", None) or repr(value) for value in values)
+    if keeps(register):
+        return lost(NotWritten, write.path, f"{reason}; it holds {held}, not {wanted}", cause)
+    return lost(kind, write.path, f"{reason}; it holds {held}, and the device changes it by itself", cause)
 
 
-def _spelled(value: object) -> str:
-    """A value for a message; members of enums by name."""
-    return getattr(value, "name", None) or repr(value)
-
-
-def steady(register: Register[Any]) -> bool:
-    """Whether the device keeps what is written, so that reading another value back says something."""
+def keeps(register: Register[Any]) -> bool:
+    """Whether the device keeps what is written, so that another value read back is an error."""
     return register.is_configuration or register.persistence == "ram"
 
 
-def verified(session: Session, target: Target, sent: Words, state: State) -> Operation[None]:
+def verify_write(session: Session, write: RegisterWrite) -> Operation[None]:
     """Read a register back; ReadBackDiffers if it holds something else, WriteUnknown if it cannot be read."""
-    register, view = target
-    if register.settle:
-        yield Pause(register.settle / 1000)
+    if write.register.settle:
+        yield Pause(write.register.settle / 1000)
     try:
-        read = (yield from words_of(session, [target]))[register.path]
+        read = (yield from words_of(session, [write.target]))[write.path]
     except RegscribeError as error:
-        raise lost(
-            WriteUnknown, register.path, f"the device took it, but reading back fails ({error})", error
-        ) from error
-    if not same(register, view, read, sent, state, session):
-        raise differs(session, target, sent, read, state)
-
-
-def differs(session: Session, target: Target, sent: Words, read: Words, state: State) -> ReadBackDiffers:
-    """The error for a register that holds something else than was sent."""
-    register, view = target
-    value = meaning(register, view, sent, state, session)
-    held = meaning(register, register.seen_in(view), read, state, session)
-    return ReadBackDiffers(register.path, sent=sent, read=read, value=value, held=held)
-
-
-def readable(targets: Mapping[str, Target]) -> dict[str, Target]:
-    """The targets that can be read."""
-    return {path: target for path, target in targets.items() if target[0].access is Access.READ_WRITE}
+        reason = f"the device took it, but reading back fails ({error})"
+        raise lost(WriteUnknown, write.path, reason, error) from error
+    if not write.matches(read, session):
+        raise write.differs(read, session)

@@ -1,4 +1,4 @@
-"""One write on its way: its request, what must hold before it, and the commands around it."""
+"""Steps of a write: its request, checks before it, commands around it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from regscribe_runtime.errors import (
     WriteUnknown,
 )
 from regscribe_runtime.errors import lost as failed
-from regscribe_runtime.operations.read_back import is_lost
+from regscribe_runtime.operations.read_back import RegisterWrite, is_lost
 from regscribe_runtime.operations.session import Operation, Pause, Session, Task
 from regscribe_runtime.registers.enums import Choice, SpecialNumber
 from regscribe_runtime.registers.register import Register
@@ -25,7 +25,7 @@ from regscribe_runtime.wire.requests import Request
 
 
 class Sendable(Protocol):
-    """What is sent of a command."""
+    """A command as it is sent."""
 
     id: str
     danger: str
@@ -33,7 +33,7 @@ class Sendable(Protocol):
 
 
 EEPROM = frozenset({"eeprom", "both"})
-"""Where a write wears the memory out."""
+"""Persistence of registers whose writes wear a memory out."""
 
 
 def write_request(session: Session, view: View, address: int, words: Words) -> Request:
@@ -44,68 +44,68 @@ def write_request(session: Session, view: View, address: int, words: Words) -> R
     return Request(function, address, len(words), words)
 
 
-def send(session: Session, register: Register[Any], view: View, words: Words) -> Operation[None]:
-    """Send one write; whatever its end, what was remembered of the register is forgotten."""
+def send(session: Session, one: RegisterWrite) -> Operation[None]:
+    """Send one write; afterwards, also after an error, the remembered value of the register is forgotten."""
     try:
-        yield from session.exchange(write_request(session, view, view.address(register.at), words))
+        yield from session.exchange(write_request(session, one.view, one.address, one.words))
     finally:
-        session.forget([register.path])
-        if register.persistence in EEPROM:
-            session.wear.add(register.path, written=1)
+        session.forget([one.path])
+        if one.register.persistence in EEPROM:
+            session.wear.add(one.path, written=1)
 
 
-def confirmed(register: Register[Any], *, confirm: bool) -> None:
+def check_confirmation(register: Register[Any], *, confirm: bool) -> None:
     """Refuse a dangerous write that is not confirmed."""
     if register.danger and not confirm:
         raise ValueRefused(register.path, f"writing it is dangerous ({register.danger}): pass confirm=True")
 
 
-def permitted(register: Register[Any], state: State, givens: Givens) -> None:
+def check_condition(register: Register[Any], state: State, givens: Givens) -> None:
     """Refuse a write whose condition does not hold in `state`."""
     if register.writable is None:
         return
     when, reason = register.writable
     if not when.holds(state, givens):
-        present = dict(_present(test, state) for test in when.tests if test.register)
+        present = dict(_tested_value(test, state) for test in when.tests if test.register)
         raise ConditionNotMet(register.path, reason, present)
 
 
-def _present(test: Is, state: State) -> tuple[str, str]:
-    """A register (or bit field) that a test asks for, and its value as it is called."""
+def _tested_value(test: Is, state: State) -> tuple[str, str]:
+    """The register (or bit field) of a test, and its value in words."""
     value = state[test.register]
     for name in getattr(value, "parts", ()) if test.bits else ():
         part = vars(type(value))[name]
         if (part.low, part.high) == test.bits:
-            return f"{test.register}.{name}", called(getattr(value, name))
-    return test.register, called(value)
+            return f"{test.register}.{name}", value_text(getattr(value, name))
+    return test.register, value_text(value)
 
 
-def called(value: Any) -> str:
-    """A value in words: the name of an enum member, else as Python shows it."""
+def value_text(value: Any) -> str:
+    """A value in words: the name of an enum member, else its repr."""
     return str(value.name) if isinstance(value, Choice | SpecialNumber) else repr(value)
 
 
 def condition_needs(register: Register[Any]) -> tuple[str, ...]:
-    """The registers that decide whether it can be written."""
+    """The registers that decide whether a register can be written."""
     return register.writable.when.registers if register.writable else ()
 
 
 def run(command: Sendable, *, confirm: bool) -> Task[None]:
-    """Send the steps of a command; afterwards nothing remembered counts."""
+    """Send the steps of a command; afterwards everything remembered is forgotten."""
 
     def task(session: Session) -> Operation[None]:
         if command.danger and not confirm:
             raise ValueRefused(command.id, f"this command is dangerous ({command.danger}): pass confirm=True")
         try:
             for number, step in enumerate(command.steps, start=1):
-                yield from _step(session, command, number, step)
+                yield from _send_step(session, command, number, step)
         finally:
             session.forget()
 
     return task
 
 
-def _step(session: Session, command: Sendable, number: int, step: CommandStep) -> Operation[None]:
+def _send_step(session: Session, command: Sendable, number: int, step: CommandStep) -> Operation[None]:
     if not step.words:
         yield Pause(step.wait / 1000)
         return
@@ -119,7 +119,7 @@ def _step(session: Session, command: Sendable, number: int, step: CommandStep) -
         raise failed(WriteUnknown, command.id, reason, error) from error
 
 
-def unlocked(session: Session, register: Register[Any]) -> Operation[None]:
+def unlock(session: Session, register: Register[Any]) -> Operation[None]:
     """Run the command that must come before a write, if there is one."""
     if not register.unlock:
         return
@@ -129,7 +129,7 @@ def unlocked(session: Session, register: Register[Any]) -> Operation[None]:
         raise failed(NotWritten, register.path, f"nothing was sent, because {error}", _cause(error)) from error
 
 
-def applied(session: Session, register: Register[Any]) -> Operation[None]:
+def apply(session: Session, register: Register[Any]) -> Operation[None]:
     """Run the command that makes a write take effect, if there is one; NotApplied if that fails."""
     if not register.apply:
         return
