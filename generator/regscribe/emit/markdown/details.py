@@ -9,7 +9,7 @@ from regscribe.emit.markdown.page_values import Titled, table
 from regscribe.emit.markdown.register_facts import view_type
 from regscribe.emit.outline import Leaf, formula
 from regscribe.emit.words import bits_words, conversion_words, one_line, range_words, when_words
-from regscribe.model import Enum, Kind, Member, Model, Register
+from regscribe.model import Enum, Kind, Model, Register
 
 Rows = tuple[tuple[Md, ...], ...]
 
@@ -36,47 +36,32 @@ def _view_rows(context: PageContext, leaf: Leaf, register: Register) -> Rows:
 
 def by_condition(context: PageContext, leaf: Leaf) -> tuple[Titled, ...]:
     """Return scale and range by condition: in one table where they depend on the same."""
-    shared = leaf.register
-    both = shared.states(lambda model, register: _both_rows(context, model, register))
-    scales = shared.states(lambda model, register: _scale_rows(context, model, register))
-    ranges = shared.states(lambda model, register: _range_rows(context, model, register))
+    versions = ((model, _condition_rows(context, model, register)) for model, register in leaf.register.versions)
+    shared = Merged(leaf.register.key, tuple(versions))
+
+    def tables(title: str, headers: tuple[str, ...]) -> tuple[Titled, ...]:
+        return titled(title, headers, shared.states(lambda _, rows: rows.get(title, ())))
+
     return (
-        *titled("Scale and range", ("When", "Value from the stored number x", "Range"), both),
-        *titled("Scale", ("When", "Value from the stored number x"), scales),
-        *titled("Range", ("When", "Range"), ranges),
+        *tables("Scale and range", ("When", "Value from the stored number x", "Range")),
+        *tables("Scale", ("When", "Value from the stored number x")),
+        *tables("Range", ("When", "Range")),
     )
 
 
-def _together(register: Register) -> bool:
-    scale, limits = ([case.when for case in cases] for cases in (register.scale, register.range))
-    return scale == limits and len(scale) > 1
-
-
-def _both_rows(context: PageContext, model: Model, register: Register) -> Rows:
-    if not _together(register):
-        return ()
-    pairs = zip(_scale(context, model, register), _limits(context, model, register), strict=True)
-    return tuple((when, words, limits) for (when, words), (_, limits) in pairs)
-
-
-def _scale_rows(context: PageContext, model: Model, register: Register) -> Rows:
-    alone = len(register.scale) == 1 or _together(register)
-    return () if alone else _scale(context, model, register)
-
-
-def _range_rows(context: PageContext, model: Model, register: Register) -> Rows:
-    plain = len(register.range) == 1 and register.range[0].when.always
-    return () if plain or _together(register) else _limits(context, model, register)
-
-
-def _scale(context: PageContext, model: Model, register: Register) -> Rows:
+def _condition_rows(context: PageContext, model: Model, register: Register) -> dict[str, Rows]:
+    """Return the rows of each table by its title."""
     wording = context.wording(model)
-    return tuple((Md(when_words(case.when, wording)), code(conversion_words(case.then))) for case in register.scale)
-
-
-def _limits(context: PageContext, model: Model, register: Register) -> Rows:
-    wording = context.wording(model)
-    return tuple((Md(when_words(case.when, wording)), Md(range_words(case.then, wording))) for case in register.range)
+    scale, limits = register.scale, register.range
+    scales: Rows = ()
+    if len(scale) > 1:
+        scales = tuple((Md(when_words(case.when, wording)), code(conversion_words(case.then))) for case in scale)
+    ranges: Rows = ()
+    if len(limits) != 1 or not limits[0].when.always:
+        ranges = tuple((Md(when_words(case.when, wording)), Md(range_words(case.then, wording))) for case in limits)
+    if scales and [case.when for case in scale] == [case.when for case in limits]:
+        return {"Scale and range": tuple((*row, words) for row, (_, words) in zip(scales, ranges, strict=True))}
+    return {"Scale": scales, "Range": ranges}
 
 
 def values(leaf: Leaf) -> tuple[Titled, ...]:
@@ -91,22 +76,16 @@ def values(leaf: Leaf) -> tuple[Titled, ...]:
 
 
 def _enum_rows(enum: Enum | None, columns: int) -> Rows:
-    if enum is None:
-        return ()
-    rows = [(member.code, _member_row(member, columns)) for member in enum.members]
-    rows += [
-        (number, (escape(str(number)), md("invalid"), Md(), *[Md()] * columns, prose(why)))
-        for number, why in enum.invalid
-    ]
-    return tuple(row for _, row in sorted(rows, key=lambda row: row[0]))
-
-
-def _member_row(member: Member, columns: int) -> tuple[Md, ...]:
     """A label that only repeats the cells is left out: they stand beside it."""
-    cells = [escape(one_line(cell)) for cell in member.cells]
-    label = "" if member.label == ", ".join(member.cells) else one_line(member.label)
-    filled = (cells + [Md()] * columns)[:columns]
-    return (escape(str(member.code)), escape(label), code(member.id), *filled, prose(member.description))
+    rows: list[tuple[Md, ...]] = []
+    for member in enum.members if enum else ():
+        cells = [escape(one_line(cell)) for cell in member.cells] + [Md()] * columns
+        label = "" if member.label == ", ".join(member.cells) else one_line(member.label)
+        number = escape(str(member.code))
+        rows.append((number, escape(label), code(member.id), *cells[:columns], prose(member.description)))
+    for invalid, why in enum.invalid if enum else ():
+        rows.append((escape(str(invalid)), md("invalid"), Md(), *[Md()] * columns, prose(why)))
+    return tuple(rows)
 
 
 def bits(leaf: Leaf) -> tuple[Titled, ...]:
@@ -118,20 +97,14 @@ def bits(leaf: Leaf) -> tuple[Titled, ...]:
 
 
 def _bit_rows(register: Register) -> Rows:
-    return tuple(
-        (
-            escape(bits_words(field)),
-            escape(one_line(field.label)),
-            code(field.id.upper() if register.kind is Kind.FLAGS else field.id),  # a flag is an enum's member
-            escape(_codes(field.enum)),
-            prose(field.description),
-        )
-        for field in register.fields
-    )
-
-
-def _codes(enum: Enum | None) -> str:
-    return ", ".join(f"{member.code} = {one_line(member.label)}" for member in enum.members) if enum else ""
+    rows: list[tuple[Md, ...]] = []
+    for field in register.fields:
+        name = field.id.upper() if register.kind is Kind.FLAGS else field.id  # a flag is an enum's member
+        members = field.enum.members if field.enum else ()
+        codes = ", ".join(f"{member.code} = {one_line(member.label)}" for member in members)
+        label = escape(one_line(field.label))
+        rows.append((escape(bits_words(field)), label, code(name), escape(codes), prose(field.description)))
+    return tuple(rows)
 
 
 def _by_model(shared: Merged[Register], rows: Callable[[Register], Rows]) -> list[tuple[Md, ...]]:
@@ -156,13 +129,10 @@ def elements(context: PageContext, leaf: Leaf) -> tuple[Titled, ...]:
     """Return every address of a register in an array, folded."""
     if not leaf.arrays:
         return ()
-    facts = leaf.register.states(lambda model, _: _element_rows(context, model, leaf))
+
+    def rows(model: Model, _: Register) -> Rows:
+        items = context.elements[model.name, leaf.register.key]
+        return tuple((code(item.path), *(escape(str(view.address(item.at))) for view in item.views)) for item in items)
+
     headers = ("Element", *(view.name for view in leaf.register.first.views))
-    return titled("Address of every element", headers, facts, folded=True)
-
-
-def _element_rows(context: PageContext, model: Model, leaf: Leaf) -> Rows:
-    return tuple(
-        (code(item.path), *(escape(str(view.address(item.at))) for view in item.views))
-        for item in context.elements[model.name, leaf.register.key]
-    )
+    return titled("Address of every element", headers, leaf.register.states(rows), folded=True)
