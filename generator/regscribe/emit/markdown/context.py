@@ -1,21 +1,13 @@
-"""What the parts of a page share: anchors, named conditions, notations of addresses, words with links."""
+"""Context of a page: anchors, named conditions, notations of addresses, words with links."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
-from regscribe.emit.common_values import Merged, Stated, T
+from regscribe.emit.common_values import Merged, T
 from regscribe.emit.markdown.escape import Md, code, escape, lines, link, md, slug
 from regscribe.emit.outline import Node, leaves, outline, pattern
 from regscribe.emit.words import Wording, condition_words, one_line, spelled
-from regscribe.model import (
-    Condition,
-    Inferred,
-    Model,
-    Register,
-    RegisterMap,
-    Space,
-    Units,
-)
+from regscribe.model import Condition, Inferred, Model, Register, RegisterMap, Space, Units
 
 SPACES = {
     Space.HOLDING: "Holding registers",
@@ -83,13 +75,37 @@ class PageContext:
 def context(register_map: RegisterMap) -> PageContext:
     """Merge the models and name the anchors."""
     nodes = outline(register_map.models)
+    versions = [version for leaf in leaves(nodes) for version in leaf.register.versions]
     conditions: dict[str, tuple[Model, Condition]] = {}
-    for model, condition in _conditions(register_map, nodes):
+    for model, condition in _conditions(register_map, versions):
         if condition.name:
             conditions.setdefault(condition.name, (model, condition))
-    units = _units(nodes)
+    units: dict[str, tuple[Model, Units]] = {}
+    for model, register in versions:
+        if register.unit_id and len(register.unit) > 1:
+            units.setdefault(register.unit_id, (model, register.unit))
+    elements: dict[tuple[str, str], list[Register]] = {}
+    for model in register_map.models:
+        for register in model.registers:
+            if register.index:
+                elements.setdefault((model.name, pattern(register.path)), []).append(register)
     anchors = _anchors(_keys(register_map, nodes, conditions, units))
-    return PageContext(register_map, nodes, anchors, conditions, _elements(register_map), units)
+    return PageContext(register_map, nodes, anchors, conditions, elements, units)
+
+
+def _conditions(
+    register_map: RegisterMap, versions: Iterable[tuple[Model, Register]]
+) -> Iterator[tuple[Model, Condition]]:
+    """Yield every condition that a fact of a register or of an identification depends on."""
+    for model, register in versions:
+        for cases in (register.scale, register.unit, register.range):
+            yield from ((model, case.when) for case in cases)
+        if register.writable:
+            yield model, register.writable.when
+        yield from ((model, case.when) for case in register.follows)
+        yield from ((model, field.follows) for field in register.fields if field.follows is not None)
+    for identity in register_map.identity:
+        yield register_map.models[0], identity.identity.when
 
 
 def _keys(
@@ -105,30 +121,6 @@ def _keys(
     yield from (f"unit {name}" for name in units)
 
 
-def _units(nodes: Iterable[Node]) -> dict[str, tuple[Model, Units]]:
-    found: dict[str, tuple[Model, Units]] = {}
-    for model, register in _versions(nodes):
-        if register.unit_id and len(register.unit) > 1:
-            found.setdefault(register.unit_id, (model, register.unit))
-    return found
-
-
-def _versions(nodes: Iterable[Node]) -> Iterator[tuple[Model, Register]]:
-    """Yield all registers of all models, those of arrays once for all elements."""
-    for leaf in leaves(nodes):
-        yield from leaf.register.versions
-
-
-def _elements(register_map: RegisterMap) -> dict[tuple[str, str], list[Register]]:
-    """Return the registers of arrays by model and path without indices."""
-    found: dict[tuple[str, str], list[Register]] = {}
-    for model in register_map.models:
-        for register in model.registers:
-            if register.index:
-                found.setdefault((model.name, pattern(register.path)), []).append(register)
-    return found
-
-
 def _anchors(keys: Iterable[str]) -> dict[str, str]:
     anchors: dict[str, str] = {}
     taken: set[str] = set()
@@ -142,52 +134,30 @@ def _anchors(keys: Iterable[str]) -> dict[str, str]:
     return anchors
 
 
-def _conditions(register_map: RegisterMap, nodes: Iterable[Node]) -> Iterator[tuple[Model, Condition]]:
-    for model, register in _versions(nodes):
-        yield from ((model, condition) for condition in _conditions_of(register))
-    for identity in register_map.identity:
-        yield register_map.models[0], identity.identity.when
-
-
-def _conditions_of(register: Register) -> Iterator[Condition]:
-    """Yield every condition that a register's facts depend on."""
-    for cases in (register.scale, register.unit, register.range):
-        yield from (case.when for case in cases)
-    if register.writable:
-        yield register.writable.when
-    yield from (case.when for case in register.follows)
-    yield from (field.follows for field in register.fields if field.follows is not None)
-
-
-def stated(facts: Iterable[Stated[Md]]) -> Md:
-    """Return a fact on one line for each set of models that share it; models of which nothing is said are left out."""
+def by_model(shared: Merged[T], fact: Callable[[Model, T], Md]) -> Md:
+    """Return a fact on one line for each set of models that share it; models for which it is empty are left out."""
+    if len(shared.versions) == 1:
+        return fact(*shared.versions[0])
     return lines(
         *(
             md(Md("**"), ", ".join(item.models), Md(":** "), item.value) if item.models else item.value
-            for item in facts
+            for item in shared.states(fact)
             if item.value
         )
     )
 
 
-def by_model(shared: Merged[T], fact: Callable[[Model, T], Md]) -> Md:
-    """Return a fact of something shared, once or by model."""
-    if len(shared.versions) == 1:
-        return fact(*shared.versions[0])
-    return stated(shared.states(fact))
-
-
 def source(section: str) -> Md:
-    """Return where the manual has something; nothing if the map does not say."""
+    """Return the section of the manual; empty if the map does not say."""
     return md("section ", one_line(section)) if section else Md()
 
 
 def only(context: PageContext, models: Iterable[str]) -> Md:
-    """Return which models alone have something; nothing if all have it."""
+    """Return `only` with the models that have something; empty if all have it."""
     names = context.covers(models)
     return md("only ", names) if names else Md()
 
 
 def conclusions(found: Iterable[Inferred]) -> tuple[Md, ...]:
-    """Return what was concluded and not read in the manual, each once."""
+    """Return remarks on what was inferred, not read in the manual, each once."""
     return tuple(md("Inferred: ", item.what, " (", item.why, ")") for item in dict.fromkeys(found))

@@ -1,6 +1,6 @@
 """Registers, arrays and commands with their details, in groups."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
 from regscribe.emit.common_values import Merged, merge
 from regscribe.emit.markdown.alt_text import bit_fields, structure
@@ -27,15 +27,16 @@ def sections(context: PageContext) -> tuple[PageSection, ...]:
     for node in context.nodes:
         nodes.setdefault(node.group, []).append(node)
     groups = merge(context.map.models, lambda model: model.groups, lambda group: group.id)
-    seen: dict[PageTable, Leaf] = {}
-    found = [_section(context, group, nodes.pop(group.key, []), seen) for group in groups]
+    shown: dict[PageTable, Leaf] = {}
+    found = [_section(context, group, _entries(context, nodes.pop(group.key, []), shown, HEADING)) for group in groups]
     rest = [node for members in nodes.values() for node in members]
-    return (*found, _rest(context, rest, seen)) if rest else tuple(found)
+    if rest:
+        entries = _entries(context, rest, shown, HEADING)
+        found.append(PageSection(anchor="other-registers", name="Other registers", summary=Md(), entries=entries))
+    return tuple(found)
 
 
-def _section(
-    context: PageContext, group: Merged[Group], nodes: Sequence[Node], seen: dict[PageTable, Leaf]
-) -> PageSection:
+def _section(context: PageContext, group: Merged[Group], entries: tuple[RegisterEntry, ...]) -> PageSection:
     order = f"number {group.first.order} in the order of writing" if group.first.order is not None else ""
     parts = (code(group.key), source(group.first.section), md(order), context.covers(group.models))
     return PageSection(
@@ -43,32 +44,27 @@ def _section(
         name=one_line(group.first.name),
         summary=join(DOT, parts),
         paragraphs=_paragraphs(by_model(group, lambda _, item: prose(item.description))),
-        entries=_entries(context, nodes, seen, HEADING),
+        entries=entries,
     )
 
 
-def _rest(context: PageContext, nodes: Sequence[Node], seen: dict[PageTable, Leaf]) -> PageSection:
-    entries = _entries(context, nodes, seen, HEADING)
-    return PageSection(anchor="other-registers", name="Other registers", summary=Md(), paragraphs=(), entries=entries)
-
-
 def _entries(
-    context: PageContext, nodes: Iterable[Node], seen: dict[PageTable, Leaf], marks: str
+    context: PageContext, nodes: Iterable[Node], shown: dict[PageTable, Leaf], marks: str
 ) -> tuple[RegisterEntry, ...]:
     found: list[RegisterEntry] = []
     for node in nodes:
         if isinstance(node, Leaf):
-            found.append(_register(context, node, seen, marks))
+            found.append(_register(context, node, shown, marks))
         else:
             found.append(_array(context, node, marks))
-            found += _entries(context, node.children, seen, marks + "#" if len(marks) < len("######") else marks)
+            found += _entries(context, node.children, shown, marks + "#" if len(marks) < len("######") else marks)
     return tuple(found)
 
 
-def _register(context: PageContext, leaf: Leaf, seen: dict[PageTable, Leaf], marks: str) -> RegisterEntry:
+def _register(context: PageContext, leaf: Leaf, shown: dict[PageTable, Leaf], marks: str) -> RegisterEntry:
     shared = leaf.register
     first = shared.first
-    known, reference = _values(context, leaf, seen)
+    known, reference = _values(context, leaf, shown)
     return RegisterEntry(
         marks=Md(marks),
         anchor=context.anchor("register", shared.key),
@@ -108,18 +104,16 @@ def _symbol(register: Register) -> str:
     return f"{symbol} (printed {printed})" if symbol else f"printed {printed}"
 
 
-def _values(context: PageContext, leaf: Leaf, seen: dict[PageTable, Leaf]) -> tuple[tuple[Titled, ...], Md]:
+def _values(context: PageContext, leaf: Leaf, shown: dict[PageTable, Leaf]) -> tuple[tuple[Titled, ...], Md]:
     """Return the table of values, or where a long one was shown before."""
     found = values(leaf)
     if not found or len(found[0].table.rows) <= LONG:
         return found, Md()
-    earlier = seen.setdefault(found[0].table, leaf)
+    earlier = shown.setdefault(found[0].table, leaf)
     if earlier is leaf:
         return found, Md()
-    first = earlier.register
-    return (), md(
-        "Values: the same as of ", link(one_line(first.first.name), context.anchor("register", first.key)), "."
-    )
+    name, anchor = one_line(earlier.register.first.name), context.anchor("register", earlier.register.key)
+    return (), md("Values: the same as of ", link(name, anchor), ".")
 
 
 def _array(context: PageContext, branch: Branch, marks: str) -> RegisterEntry:
@@ -165,12 +159,12 @@ def _command(context: PageContext, shared: Merged[Command]) -> RegisterEntry:
             by_model(shared, lambda model, item: effects(context, model, item.effects)),
         ),
         danger=_paragraphs(by_model(shared, lambda _, item: prose(item.danger))),
-        tables=titled("Steps", STEPS, shared.states(lambda _, command: _steps(context, command.named_steps))),
+        tables=titled("Steps", STEPS, shared.states(lambda _, command: _steps(context, command))),
     )
 
 
-def _steps(context: PageContext, steps: Sequence[tuple[CommandStep, str]]) -> Rows:
-    return tuple(_step(context, number, *each) for number, each in enumerate(steps, start=1))
+def _steps(context: PageContext, command: Command) -> Rows:
+    return tuple(_step(context, number, *each) for number, each in enumerate(command.named_steps, start=1))
 
 
 def _step(context: PageContext, number: int, step: CommandStep, path: str) -> tuple[Md, ...]:

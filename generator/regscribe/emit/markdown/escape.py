@@ -11,7 +11,7 @@ INLINE = re.compile(r"[\\`*\[\]#~|$]|(?<![A-Za-z0-9])_|_(?![A-Za-z0-9])")
 """Punctuation that CommonMark, tables, strike-through or mathematics could take for mark-up."""
 
 ENTITIES = {"<": "&lt;", ">": "&gt;"}
-BLOCK_START = re.compile(r"^( ?)(?:([-+])(?=[ -]|$)|(=)(?==* ?$)|(\d{1,9})([.)])(?= |$))")
+BLOCK_START = re.compile(r" ?(?:[-+](?=[ -]|$)|=(?==* ?$)|\d{1,9}[.)](?= |$))")
 """A list marker, a rule or the underline of a heading at the start of a line."""
 
 ADDRESS = re.compile(r"(?:https?|ftp)://[^\s`|<>]*|\bwww\.[^\s`|<>]*|[\w.+-]{1,64}@[\w.-]+", re.IGNORECASE)
@@ -47,17 +47,14 @@ def escape(text: str) -> Md:
     for found in ADDRESS.finditer(text):
         parts += [_escape_plain(text[end : found.start()]), f"`{found[0]}`"]
         end = found.end()
-    return Md(BLOCK_START.sub(_escape_start, "".join([*parts, _escape_plain(text[end:])])))
+    line = "".join([*parts, _escape_plain(text[end:])])
+    start = BLOCK_START.match(line)
+    return Md(line if start is None else f"{line[: start.end() - 1]}\\{line[start.end() - 1 :]}")
 
 
 def _escape_plain(text: str) -> str:
     text = re.sub(r"&(?=[#A-Za-z])", "&amp;", INLINE.sub(lambda found: f"\\{found[0]}", text))
     return re.sub("[<>]", lambda found: ENTITIES[found[0]], text)
-
-
-def _escape_start(found: re.Match[str]) -> str:
-    blank, sign, rule, digits, point = found.groups()
-    return f"{blank}{digits}\\{point}" if digits else f"{blank}\\{sign or rule}"
 
 
 def md(*parts: str) -> Md:

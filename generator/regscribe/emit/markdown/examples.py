@@ -4,11 +4,11 @@ from collections.abc import Iterable
 from fractions import Fraction
 
 from regscribe.emit.markdown.context import PageContext
-from regscribe.emit.markdown.escape import Md, code, escape, join, md
+from regscribe.emit.markdown.escape import Md, code, escape, lines, md
 from regscribe.emit.markdown.page_values import Titled, table
 from regscribe.emit.markdown.protocol import BIT_FUNCTIONS
 from regscribe.emit.words import labels_of, listed, one_line
-from regscribe.model import FrameExample, Model, Outcome, RegisterMap, TimingExample, ValueExample, show
+from regscribe.model import FrameExample, Outcome, TimingExample, ValueExample, show
 
 WRITE_COIL = 5
 """The function that sets one bit: FF00 is on, 0000 off."""
@@ -39,7 +39,7 @@ def _value(context: PageContext, item: ValueExample) -> tuple[str, ...]:
         _state(context, item.model, item.state),
         show(item.stored) if item.stored is not None else "",
         " ".join(map(str, item.words)),
-        _hex(item.words),
+        " ".join(f"{word & 0xFFFF:04X}" for word in item.words),
         _reading(item),
         "the words carry only part of it" if item.lossy else "",
     )
@@ -54,28 +54,18 @@ def _reading(item: ValueExample) -> str:
     return f"fault {value}" if item.outcome is Outcome.FAULT else value
 
 
-def _hex(words: Iterable[int]) -> str:
-    return " ".join(f"{word & 0xFFFF:04X}" for word in words)
-
-
 def _state(context: PageContext, model: str, state: Iterable[tuple[str, Fraction]]) -> Md:
-    parts = (md(context.register(path), f" = {_labelled(context.map, model, path, value)}") for path, value in state)
-    return join("<br>", parts)
-
-
-def _labelled(register_map: RegisterMap, model: str, path: str, value: Fraction) -> str:
-    """Return a value with the label that the model's enum gives it."""
-    owner = _model(register_map, model)
-    try:
-        enum = owner.register(path).enum
-    except KeyError:
-        return show(value)
-    label = labels_of(enum).get(int(value))
-    return f"{show(value)} ({one_line(label)})" if label else show(value)
-
-
-def _model(register_map: RegisterMap, name: str) -> Model:
-    return register_map.model(name) if register_map.has(name) else register_map.models[0]
+    """Return the values of registers, each with the label that the model's enum gives it."""
+    owner = context.map.model(model) if context.map.has(model) else context.map.models[0]
+    parts: list[Md] = []
+    for path, value in state:
+        try:
+            label = labels_of(owner.register(path).enum).get(int(value))
+        except KeyError:
+            label = None
+        words = f"{show(value)} ({one_line(label)})" if label else show(value)
+        parts.append(md(context.register(path), f" = {words}"))
+    return lines(*parts)
 
 
 def _frame(context: PageContext, item: FrameExample) -> tuple[str, ...]:
@@ -93,17 +83,14 @@ def _meaning(context: PageContext, item: FrameExample) -> Md:
     facts = [f"unit {item.unit}", f"function {item.function:02d}"]
     facts += [f"address {item.address}"] if item.address is not None else []
     facts += [f"{item.count} {'bits' if item.function in BIT_FUNCTIONS else 'words'}"] if item.count is not None else []
-    words = _words(item.function, item.words) if item.words is not None else ""
+    words = ""
+    if item.words is not None and item.function == WRITE_COIL:
+        words = f"bit {listed(['on' if word else 'off' for word in item.words], last='and')}"
+    elif item.words is not None:
+        words = f"words {listed([str(word) for word in item.words], last='and')}"
     writes = _state(context, item.model, item.writes)
     command = context.command(item.command) if item.command else Md()
-    return join("<br>", (escape(", ".join(facts)), escape(words) if not writes else Md(), writes, command))
-
-
-def _words(function: int, words: tuple[int, ...]) -> str:
-    """Return the words of a frame; of function 05 they are the state of a bit."""
-    if function == WRITE_COIL:
-        return f"bit {listed(['on' if word else 'off' for word in words], last='and')}"
-    return f"words {listed([str(word) for word in words], last='and')}"
+    return lines(escape(", ".join(facts)), escape(words) if not writes else Md(), writes, command)
 
 
 def _timing(item: TimingExample) -> tuple[str, ...]:

@@ -1,10 +1,9 @@
-"""What a map took from elsewhere and changed, and what its manual lists without using it."""
+"""The map that a map extends, and what it overrides there."""
 
-from regscribe.emit.common_values import models_by
-from regscribe.emit.markdown.context import SPACES, PageContext
+from regscribe.emit.markdown.context import PageContext
 from regscribe.emit.markdown.escape import Md, code, escape, join, lines, link, md, prose
 from regscribe.emit.markdown.page_values import PageTable, table
-from regscribe.emit.words import one_line, span_words
+from regscribe.emit.words import one_line
 from regscribe.model import Override
 
 PLURALS = frozenset({"errata", "examples", "notes", "waivers"})
@@ -39,20 +38,9 @@ def _subject(context: PageContext, item: Override) -> Md:
 
 
 def _change(item: Override) -> Md:
-    if item.changed:
-        return lines(*(_words(one_line(change)) for change in item.changed))
-    return md("not taken over" if item.what in PLURALS else "is not there")
-
-
-def _words(change: str) -> Md:
-    key, _, values = change.partition(": ")
-    return escape(f"other {key}" if key.rpartition(".")[2] == WORDS else f"{key}: {values}")
-
-
-def unused(context: PageContext) -> PageTable:
-    """Return the addresses that the manual lists as unused, with the models where not all agree."""
-    found = models_by((model.name, stretch) for model in context.map.models for stretch in model.unused)
-    rows = (
-        (SPACES[space], span_words(low, high), context.covers(models)) for (space, low, high), models in found.items()
+    if not item.changed:
+        return md("not taken over" if item.what in PLURALS else "is not there")
+    changes = (one_line(change).partition(": ") for change in item.changed)
+    return lines(
+        *(md(f"other {key}" if key.rpartition(".")[2] == WORDS else f"{key}: {values}") for key, _, values in changes)
     )
-    return table(("Space", "Wire addresses", "Models"), rows)

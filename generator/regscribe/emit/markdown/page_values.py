@@ -1,4 +1,4 @@
-"""What the templates see: frozen values with nothing left to decide; a `str` is escaped on output, a `Md` is not."""
+"""Values of the templates, frozen, with nothing left to decide; a `str` is escaped on output, a `Md` is not."""
 
 import html
 from collections.abc import Iterable, Sequence
@@ -14,11 +14,6 @@ class PageTable:
 
     headers: tuple[str, ...] = ()
     rows: tuple[tuple[str, ...], ...] = ()
-
-    @property
-    def rules(self) -> tuple[Md, ...]:
-        """Return the cells of the line below the headers."""
-        return (Md("---"),) * len(self.headers)
 
 
 def table(headers: Sequence[str], rows: Iterable[Sequence[str]]) -> PageTable:
@@ -68,5 +63,5 @@ class PageSection:
     anchor: str
     name: str
     summary: Md
-    paragraphs: tuple[Md, ...]
     entries: tuple[RegisterEntry, ...]
+    paragraphs: tuple[Md, ...] = ()

@@ -1,10 +1,10 @@
-"""What a device does by itself: followers, shadows, effects of commands, and the process that it controls."""
+"""What a device changes by itself: followers, shadows, effects of commands, and the process that it controls."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from regscribe.emit.common_values import models_by
 from regscribe.emit.markdown.context import PageContext
-from regscribe.emit.markdown.escape import Md, code, escape, join, lines, md
+from regscribe.emit.markdown.escape import Md, code, join, lines, md
 from regscribe.emit.markdown.page_values import PageTable, table
 from regscribe.emit.words import one_line
 from regscribe.model import Alarm, Condition, Effect, Model, Output, Process, Register, TripKind, show
@@ -34,20 +34,17 @@ def follows(context: PageContext, model: Model, register: Register) -> Md:
 
 def effects(context: PageContext, model: Model, found: tuple[Effect, ...]) -> Md:
     """Return what a command changes, in a sentence; nothing if the map does not say."""
-    parts = [
-        md(part, _when(context, effect.when, model)) for effect in found for part in _effect(context, model, effect)
-    ]
+    parts: list[Md] = []
+    for effect in found:
+        when = _when(context, effect.when, model)
+        for path, value in effect.sets:
+            text = value if isinstance(value, str) else show(value)
+            parts.append(md(_subject(context, model, path), " to ", code(text), when))
+        if effect.defaults:
+            parts.append(md(f"{len(effect.defaults)} registers to their defaults", when))
+        if effect.unlatch:
+            parts.append(md("latched alarms are released", when))
     return md("It changes: ", join("; ", parts), ".") if parts else Md()
-
-
-def _effect(context: PageContext, model: Model, effect: Effect) -> Iterator[Md]:
-    for path, value in effect.sets:
-        text = value if isinstance(value, str) else show(value)
-        yield md(_subject(context, model, path), " to ", code(text))
-    if effect.defaults:
-        yield md(f"{len(effect.defaults)} registers to their defaults")
-    if effect.unlatch:
-        yield md("latched alarms are released")
 
 
 def process(context: PageContext) -> PageTable:
@@ -58,34 +55,27 @@ def process(context: PageContext) -> PageTable:
         if model.process
         for row in _roles(context, model, model.process)
     )
-    shown = [(role, md(text), context.covers(models)) for (role, text), models in rows.items()]
-    headers = ("Role", "Register", "Models")
-    return table(headers, shown) if any(row[2] for row in shown) else table(headers[:2], [row[:2] for row in shown])
+    shown = ((role, md(text), context.covers(models)) for (role, text), models in rows.items())
+    return table(("Role", "Register", "Models"), shown)
 
 
 def assumptions(context: PageContext) -> tuple[Md, ...]:
     """Return what a simulator assumes of the process, and why, each once."""
     found = dict.fromkeys(pair for model in context.map.models if model.process for pair in model.process.assumed)
-    return tuple(md(escape(one_line(what)), " (", escape(one_line(why)), ")") for what, why in found)
+    return tuple(md(one_line(what), " (", one_line(why), ")") for what, why in found)
 
 
 def _roles(context: PageContext, model: Model, found: Process) -> Iterator[Row]:
     yield "process value", _subject(context, model, found.value)
     yield "setpoint", _subject(context, model, found.setpoint)
     if found.ramp:
-        parts = (("up ", found.ramp.rises), ("down ", found.ramp.falls), ("shown by ", found.ramp.shows))
-        words = tuple(md(word, _subject(context, model, path)) for word, path in parts if path)
-        yield "ramp of the setpoint", md(join(", ", words), f", per {found.ramp.seconds} s")
+        parts = {"up ": found.ramp.rises, "down ": found.ramp.falls, "shown by ": found.ramp.shows}
+        yield "ramp of the setpoint", md(join(", ", _named(context, model, parts)), f", per {found.ramp.seconds} s")
     for role, condition in (("manual mode", found.manual), ("outputs off", found.off)):
         if condition is not None:
             yield role, md("when ", context.condition(condition, model))
-    for role, path in (
-        ("highest value", found.highest),
-        ("lowest value", found.lowest),
-        ("broken sensor", found.fault),
-    ):
-        if path:
-            yield role, _subject(context, model, path)
+    ends = {"highest value": found.highest, "lowest value": found.lowest, "broken sensor": found.fault}
+    yield from ((role, _subject(context, model, path)) for role, path in ends.items() if path)
     for number, output in enumerate(found.outputs, start=1):
         yield f"output {number}", _output(context, model, output)
     for alarm in found.alarms:
@@ -94,21 +84,20 @@ def _roles(context: PageContext, model: Model, found: Process) -> Iterator[Row]:
 
 def _output(context: PageContext, model: Model, output: Output) -> Md:
     pid, on_off = output.pid, output.on_off
-    named = (
-        ("band ", pid.band if pid else ""),
-        ("integral ", pid.integral if pid else ""),
-        ("derivative ", pid.derivative if pid else ""),
-        ("bias ", pid.bias if pid else ""),
-        ("hysteresis ", on_off.hysteresis if on_off else ""),
-        ("by hand ", output.manual),
-        ("with a broken sensor ", output.failsafe),
-        ("at least ", output.low),
-        ("at most ", output.high),
-        ("told by ", output.active),
-    )
-    parts = tuple(md(word, _subject(context, model, path)) for word, path in named if path)
+    named = {
+        "band ": pid.band if pid else "",
+        "integral ": pid.integral if pid else "",
+        "derivative ": pid.derivative if pid else "",
+        "bias ": pid.bias if pid else "",
+        "hysteresis ": on_off.hysteresis if on_off else "",
+        "by hand ": output.manual,
+        "with a broken sensor ": output.failsafe,
+        "at least ": output.low,
+        "at most ": output.high,
+        "told by ": output.active,
+    }
     cools = md("cools", _when(context, output.cools, model)) if output.cools is not None else Md()
-    return lines(_subject(context, model, output.percent), *parts, cools)
+    return lines(_subject(context, model, output.percent), *_named(context, model, named), cools)
 
 
 def _alarm(context: PageContext, model: Model, alarm: Alarm) -> Md:
@@ -117,10 +106,14 @@ def _alarm(context: PageContext, model: Model, alarm: Alarm) -> Md:
         md(TRIPS[trip.kind], " ", _subject(context, model, trip.limit), _when(context, trip.when, model))
         for trip in alarm.trips
     )
-    named = (("hysteresis ", alarm.hysteresis), ("delay ", alarm.delay), ("not in the first seconds ", alarm.inhibit))
-    parts = (md(word, _subject(context, model, path)) for word, path in named if path)
+    named = {"hysteresis ": alarm.hysteresis, "delay ": alarm.delay, "not in the first seconds ": alarm.inhibit}
     latched = md("latched", _when(context, alarm.latched, model)) if alarm.latched is not None else Md()
-    return lines(bits, *trips, *parts, latched)
+    return lines(bits, *trips, *_named(context, model, named), latched)
+
+
+def _named(context: PageContext, model: Model, paths: Mapping[str, str]) -> Iterator[Md]:
+    """Yield each register that there is behind its word."""
+    return (md(word, _subject(context, model, path)) for word, path in paths.items() if path)
 
 
 def _when(context: PageContext, condition: Condition, model: Model) -> Md:

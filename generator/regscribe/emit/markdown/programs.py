@@ -14,9 +14,7 @@ from regscribe.model import (
     Model,
     ProgramAction,
     ProgramCounts,
-    ProgramNotes,
     ProgramPart,
-    Register,
     SetpointProgram,
     WhileRunning,
     numbered,
@@ -43,29 +41,23 @@ def programs(context: PageContext) -> tuple[RegisterEntry, ...]:
 
 
 def _entry(context: PageContext, shared: Merged[SetpointProgram]) -> RegisterEntry:
-    first, notes = shared.first, [_notes(model, program) for model, program in shared.versions]
+    first = shared.first
+    notes = [model.program_notes[model.programs.index(program)] for model, program in shared.versions]
+    rows = ((label, by_model(shared, partial(_fact, context, words))) for label, words in FACTS.items())
+    facts = table(("Part", "Where and what"), [row for row in rows if row[1]])
     return RegisterEntry(
         marks=Md("###"),
         anchor=context.anchor("program", shared.key),
         name=one_line(first.name),
         summary=join(" · ", (code(first.id), source(first.section), only(context, shared.models))),
         paragraphs=(prose(notes[0].description),) if notes[0].description else (),
-        tables=(Titled("What makes it", table(("Part", "Where and what"), _facts(context, shared))),),
+        tables=(Titled("What makes it", facts),),
         remarks=conclusions(item for one in notes for item in one.inferred),
     )
 
 
-def _facts(context: PageContext, shared: Merged[SetpointProgram]) -> list[tuple[str, Md]]:
-    rows = ((label, by_model(shared, partial(_fact, context, words))) for label, words in FACTS.items())
-    return [row for row in rows if row[1]]
-
-
 def _fact(context: PageContext, words: Callable[["_Words"], Md], model: Model, program: SetpointProgram) -> Md:
     return words(_Words(context, model, program))
-
-
-def _notes(model: Model, program: SetpointProgram) -> ProgramNotes:
-    return model.program_notes[model.programs.index(program)]
 
 
 class _Words:
@@ -79,27 +71,26 @@ class _Words:
         if not path:
             return Md()
         numbers = self.program.numbers
+        paths = [self._first(path)]
         if len(numbers) > 1 and PROGRAM in path.replace(f"[{PROGRAM}]", ""):  # a register of its own for each program
-            return md(self._link(self._first(path)), " to ", self._link(numbered(path, numbers[-1])))
-        return self._link(self._first(path))
-
-    def _link(self, path: str) -> Md:
-        return link(code(lettered(path)), self.context.anchor("register", pattern(path)))
+            paths.append(numbered(path, numbers[-1]))
+        anchors = [self.context.anchor("register", pattern(one)) for one in paths]
+        return join(" to ", [link(code(lettered(one)), anchor) for one, anchor in zip(paths, anchors, strict=True)])
 
     def label(self, path: str, number: int | Fraction) -> Md:
         """A code of a register with its label."""
-        found = self._found(path)
+        found = next((one for one in self.model.registers if one.path == self._first(path)), None)
         names = labels_of(found.enum) if found else {}
         special = next((one.label for one in found.specials if one.value == number), "") if found else ""
         label = names.get(int(number), special)
         return md(show(Fraction(number)), " (", one_line(label), ")") if label else md(show(Fraction(number)))
 
     def labels(self, path: str, numbers: Iterable[int]) -> Md:
-        """Several of them."""
+        """Several codes of a register with their labels."""
         return Md(", ".join(self.label(path, number) for number in numbers))
 
     def values(self, values: Iterable[tuple[str, int | Fraction]]) -> Md:
-        """What registers are given."""
+        """Registers with the values that are written to them."""
         return join(", ", [md(self.register(path), " = ", self.label(path, number)) for path, number in values])
 
     def outputs(self, outputs: Iterable[tuple[str, str]]) -> Md:
@@ -108,9 +99,6 @@ class _Words:
 
     def _first(self, path: str) -> str:
         return numbered(path, self.program.numbers[0], self.program.segments.first)
-
-    def _found(self, path: str) -> Register | None:
-        return next((one for one in self.model.registers if one.path == self._first(path)), None)
 
 
 def _numbers(words: _Words) -> Md:
@@ -172,15 +160,15 @@ def _status(words: _Words) -> Md:
     status = words.program.status
     if status is None:
         return Md()
-    told = {"runs": status.running, "is held": status.held, "does not run": status.ended}
-    states = [md(name, ": ", words.labels(status.register, codes)) for name, codes in told.items() if codes]
+    codes = {"runs": status.running, "is held": status.held, "does not run": status.ended}
+    states = [md(name, ": ", words.labels(status.register, numbers)) for name, numbers in codes.items() if numbers]
     return lines(words.register(status.register), *states)
 
 
 def _now(words: _Words) -> Md:
     one = words.program
-    told = {"program": one.program_now, "segment": one.segment_now, "setpoint": one.setpoint_now}
-    return lines(*(md(name, ": ", words.register(path)) for name, path in told.items() if path))
+    paths = {"program": one.program_now, "segment": one.segment_now, "setpoint": one.setpoint_now}
+    return lines(*(md(name, ": ", words.register(path)) for name, path in paths.items() if path))
 
 
 def _action(words: _Words, action: ProgramAction) -> Md:
@@ -189,9 +177,10 @@ def _action(words: _Words, action: ProgramAction) -> Md:
     return words.values(action.writes) or Md("no way is told")
 
 
-def _order(program: SetpointProgram) -> Iterable[ProgramPart]:
+def _order(words: _Words) -> Md:
     fields = {ProgramPart.COUNT: "number_of_segments"}
-    return (part for part in program.order if getattr(program, fields.get(part, part.value)))
+    parts = [part for part in words.program.order if getattr(words.program, fields.get(part, part.value))]
+    return escape(", ".join(part.value.replace("_", " ") for part in parts))
 
 
 FACTS: dict[str, Callable[[_Words], Md]] = {
@@ -215,6 +204,6 @@ FACTS: dict[str, Callable[[_Words], Md]] = {
     "Resume": lambda words: _action(words, words.program.resume),
     "Reset": lambda words: _action(words, words.program.reset),
     "Written while it runs": lambda words: escape(RUNNING[words.program.while_running]),
-    "Order of writing": lambda words: escape(", ".join(part.value.replace("_", " ") for part in _order(words.program))),
+    "Order of writing": _order,
 }
 """The rows of the table; one that is empty for every model is left out."""

@@ -1,14 +1,12 @@
 """How to talk to the device: functions, limits, serial line, latency, and its answers to bad requests."""
 
-from collections.abc import Callable, Iterable
-from fractions import Fraction
+from collections.abc import Iterable
 
 from regscribe.emit.markdown.context import PageContext
-from regscribe.emit.markdown.escape import Md, escape, join, md, prose
+from regscribe.emit.markdown.escape import Md, escape, md, prose
 from regscribe.emit.markdown.page_values import PageTable, table
 from regscribe.emit.words import listed, one_line
-from regscribe.model import SILENCE, Latency, Later, Register, RegisterMap, View, show
-from regscribe_runtime.values.numbers import Number
+from regscribe.model import SILENCE, Latency, Later, RegisterMap, show
 
 FUNCTIONS = {
     1: "read coils",
@@ -53,24 +51,18 @@ def line(context: PageContext) -> PageTable:
 def _requests(register_map: RegisterMap) -> Iterable[tuple[str, Md]]:
     protocol = register_map.protocol
     yield "Functions", md(_functions(protocol.functions))
-    yield (
-        "Functions that do the same",
-        md("; ".join(listed([f"{code:02d}" for code in same], last="and") for same in register_map.alike)),
-    )
+    alike = (listed([f"{code:02d}" for code in same], last="and") for same in register_map.alike)
+    yield "Functions that do the same", md("; ".join(alike))
     unsupported = "not supported" if "broadcast" in register_map.protocol_notes.stated else "not stated"
     yield "Broadcast (unit 0)", md(_functions(protocol.broadcast) or unsupported)
-    yield "Unit ids", _unit_ids(register_map)
+    first, last = protocol.unit_ids
+    default = f", {register_map.default_unit} unless set" if register_map.default_unit is not None else ""
+    yield "Unit ids", md(f"{first} to {last}{_usual(register_map, 'unit_ids')}{default}")
     yield "Most words in a request", md(_most(register_map, "words"))
     if BIT_FUNCTIONS & set(protocol.functions):
         yield "Most bits in a request", md(_most(register_map, "bits"))
     yield "Reading over unused addresses", md("allowed" if protocol.read_holes else "not relied upon")
     yield "Writing what is there already", md("spares the lasting memory" if register_map.spares_memory else "")
-
-
-def _unit_ids(register_map: RegisterMap) -> Md:
-    first, last = register_map.protocol.unit_ids
-    default = f", {register_map.default_unit} unless set" if register_map.default_unit is not None else ""
-    return md(f"{first} to {last}{_usual(register_map, 'unit_ids')}{default}")
 
 
 def _most(register_map: RegisterMap, what: str) -> str:
@@ -103,12 +95,8 @@ def _serial(register_map: RegisterMap) -> Iterable[tuple[str, Md]]:
     yield "Character formats", md(", ".join(map(one_line, serial.formats)))
     yield "Default", md(f"{serial.baud} baud, {serial.format}" if "default" in notes.stated else "")
     usual = _usual(register_map, "gap_characters")
-    yield "Silence between messages", md(f"{_shown(serial.gap)} characters{usual}")
+    yield "Silence between messages", md(f"{show(serial.gap)} characters{usual}")
     yield "Remark", prose(notes.serial)
-
-
-def _shown(number: Number) -> str:
-    return show(Fraction(number))
 
 
 def latency(context: PageContext) -> PageTable:
@@ -119,19 +107,30 @@ def latency(context: PageContext) -> PageTable:
 
 
 def _latency(item: Latency, note: str) -> tuple[str, ...]:
-    fixed = _span(item.minimum, item.maximum)
-    words = _span(item.minimum_per_word, item.maximum_per_word)
-    characters = _shown(item.characters) if item.characters else ""
+    spans = ((item.minimum, item.maximum), (item.minimum_per_word, item.maximum_per_word))
+    fixed, words = (f"{show(low)} to {show(high)} ms" if high else "" for low, high in spans)
+    characters = show(item.characters) if item.characters else ""
     return (_function(item.function), fixed, words, characters, prose(note))
-
-
-def _span(low: Number, high: Number) -> str:
-    return f"{_shown(low)} to {_shown(high)} ms" if high else ""
 
 
 def faults(context: PageContext) -> PageTable:
     """Return the device's answer to each kind of bad request that it can get."""
-    rows = [(words, _fault(context, key)) for words, key, can_be in BAD_REQUESTS if can_be(context.map)]
+    registers = [register for model in context.map.models for register in model.registers]
+    views = [view for register in registers for view in register.views]
+    aligned = any(view.align > 1 for view in views)
+    bad_requests = (
+        ("function code that the device does not have", "function", True),
+        ("address of no register", "address", True),
+        ("value outside its range", "value", True),
+        ("write to a read-only register", "read_only", True),
+        ("write under a condition that forbids it", "condition", any(register.writable for register in registers)),
+        ("write to an address listed as unused", "unused_write", any(model.unused for model in context.map.models)),
+        ("more words than a request may have", "quantity", True),
+        ("first address between two values of several words", "misaligned_address", aligned),
+        ("number of words that ends inside a value", "misaligned_count", aligned),
+        ("function that the view does not allow", "view_function", any(view.functions for view in views)),
+    )
+    rows = [(words, _fault(context, key)) for words, key, possible in bad_requests if possible]
     return table(("Bad request", "Answer"), [*rows, *_later(context)])
 
 
@@ -141,53 +140,11 @@ def _fault(context: PageContext, key: str) -> Md:
     return md(_answer(context, getattr(context.map.faults, key)), _usual(context.map, key))
 
 
-def _always(_: RegisterMap) -> bool:
-    return True
-
-
-def _registers(register_map: RegisterMap) -> Iterable[Register]:
-    return (register for model in register_map.models for register in model.registers)
-
-
-def _views(register_map: RegisterMap) -> Iterable[View]:
-    return (view for register in _registers(register_map) for view in register.views)
-
-
-def _has_aligned_views(register_map: RegisterMap) -> bool:
-    return any(view.align > 1 for view in _views(register_map))
-
-
-BAD_REQUESTS: tuple[tuple[str, str, Callable[[RegisterMap], bool]], ...] = (
-    ("function code that the device does not have", "function", _always),
-    ("address of no register", "address", _always),
-    ("value outside its range", "value", _always),
-    ("write to a read-only register", "read_only", _always),
-    (
-        "write under a condition that forbids it",
-        "condition",
-        lambda found: any(register.writable for register in _registers(found)),
-    ),
-    ("write to an address listed as unused", "unused_write", lambda found: any(model.unused for model in found.models)),
-    ("more words than a request may have", "quantity", _always),
-    ("first address between two values of several words", "misaligned_address", _has_aligned_views),
-    ("number of words that ends inside a value", "misaligned_count", _has_aligned_views),
-    (
-        "function that the view does not allow",
-        "view_function",
-        lambda found: any(view.functions for view in _views(found)),
-    ),
-)
-"""Kinds of bad requests, the fault of the protocol that says the answer, and whether a map can have such requests."""
-
-
 def _later(context: PageContext) -> Iterable[tuple[str, Md]]:
     register_map, found = context.map, context.map.faults
     refused = md("refused as a whole: ", _answer(context, found.address))
-    read = LATER_READ[found.later_read]
-    yield (
-        "read that starts well and runs onto an address of no register",
-        join("", (md(read) if read else refused, md(_usual(register_map, "later_read")))),
-    )
+    read = md(LATER_READ[found.later_read] or refused, _usual(register_map, "later_read"))
+    yield "read that starts well and runs onto an address of no register", read
     write = LATER_WRITE.get(found.later_write, LATER_WRITE[Later.EXCEPTION])
     yield "write of several words with a bad one after good ones", md(write, _usual(register_map, "later_write"))
 
@@ -196,7 +153,7 @@ def _answer(context: PageContext, code: int) -> Md:
     if code == SILENCE:
         return Md("**no answer**")
     name = context.map.protocol.exception(code).name
-    return join(" ", (md(f"exception {code:02d}"), md(f"({name})" if name else "")))
+    return md(f"exception {code:02d}", f" ({name})" if name else "")
 
 
 def exceptions(context: PageContext) -> PageTable:

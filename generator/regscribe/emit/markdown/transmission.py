@@ -1,14 +1,16 @@
-"""How values are transmitted: views with their address formulas, named conditions, givens, identification."""
+"""How values are transmitted: views with formulas, named conditions, givens, identification, addresses not in use."""
 
+from collections import Counter
 from fractions import Fraction
 
+from regscribe.emit.common_values import models_by
 from regscribe.emit.markdown.context import SPACES, PageContext
 from regscribe.emit.markdown.escape import Md, code, escape, md, prose
 from regscribe.emit.markdown.page_values import PageTable, Titled, table
 from regscribe.emit.markdown.register_facts import transmission, view_type
 from regscribe.emit.outline import leaves
-from regscribe.emit.words import Wording, condition_words, listed, one_line, span_words, when_words
-from regscribe.model import GivenKind, IdentityRule, Kind, Register, View, show
+from regscribe.emit.words import condition_words, listed, one_line, span_words, when_words
+from regscribe.model import GivenKind, Kind, Register, View, show
 
 Shape = tuple[tuple[str, View], ...]
 """Address formula in n (the base view's address) and the rest of each view, its address left out."""
@@ -16,35 +18,28 @@ Shape = tuple[tuple[str, View], ...]
 
 def plain(context: PageContext) -> tuple[Md, ...]:
     """Return how the registers with one view are transmitted, and what cannot be scaled."""
-    counts: dict[str, int] = {}
-    raw = 0
-    for leaf in leaves(context.nodes):
-        register = leaf.register.first
-        raw += register.kind is Kind.RAW
-        if len(register.views) == 1:
-            counts[view_type(register.base)] = counts.get(view_type(register.base), 0) + 1
-    found = [md(f"Registers with one view: {_counted(counts)}.")] if counts else []
+    registers = [leaf.register.first for leaf in leaves(context.nodes)]
+    counts = Counter(view_type(register.base) for register in registers if len(register.views) == 1)
+    raw = sum(register.kind is Kind.RAW for register in registers)
+    counted = listed([f"{count} as {name}" for name, count in counts.items()], last="and")
+    found = [md(f"Registers with one view: {counted}.")] if counts else []
     if raw:
         found.append(md(f"Of {raw} registers the manual does not state the scale; they are read and written raw."))
     return tuple(found)
 
 
-def _counted(counts: dict[str, int]) -> str:
-    return listed([f"{count} as {name}" for name, count in counts.items()], last="and")
-
-
 def views(context: PageContext) -> tuple[Titled, ...]:
     """Return each set of views that registers share, with the address of each view from the base address n."""
-    found: dict[Shape, int] = {}
+    found: Counter[Shape] = Counter()
     for leaf in leaves(context.nodes):
-        shapes = dict.fromkeys(_shape(register) for _, register in leaf.register.versions if len(register.views) > 1)
-        for shape in shapes:
-            found[shape] = found.get(shape, 0) + 1
-    return tuple(Titled(_title(shape, count), _table(context, shape)) for shape, count in found.items())
-
-
-def _title(shape: Shape, count: int) -> str:
-    return f"{count} registers in {len(shape)} views (n is the wire address in the first)"
+        found.update(dict.fromkeys(_shape(one) for _, one in leaf.register.versions if len(one.views) > 1).keys())
+    return tuple(
+        Titled(
+            f"{count} registers in {len(shape)} views (n is the wire address in the first)",
+            _table(context, shape),
+        )
+        for shape, count in found.items()
+    )
 
 
 def _shape(register: Register) -> Shape:
@@ -83,7 +78,7 @@ def conditions(context: PageContext) -> PageTable:
     """Return the named conditions with their meaning; each name is an anchor."""
     rows = (
         (
-            _named(context.anchor("condition", name), name.replace("_", " ")),
+            _target(context.anchor("condition", name), name.replace("_", " ")),
             Md(condition_words(item, model, context.wording(model))),
         )
         for name, (model, item) in context.conditions.items()
@@ -91,7 +86,7 @@ def conditions(context: PageContext) -> PageTable:
     return table(("Condition", "Holds if"), rows)
 
 
-def _named(anchor: str, name: str) -> Md:
+def _target(anchor: str, name: str) -> Md:
     return md(Md(f'<a id="{anchor}"></a>'), name)
 
 
@@ -99,7 +94,7 @@ def units(context: PageContext) -> PageTable:
     """Return the units that depend on a condition; each name is an anchor."""
     rows = (
         (
-            _named(context.anchor("unit", name), name) if index == 0 else Md(),
+            _target(context.anchor("unit", name), name) if index == 0 else Md(),
             Md(when_words(case.when, context.wording(model))),
             escape(one_line(case.then)),
         )
@@ -126,22 +121,26 @@ def givens(context: PageContext) -> PageTable:
 
 def identity(context: PageContext) -> PageTable:
     """Return which models answer how."""
-    first = context.map.models[0]
-    rows = (
-        (_identity_words(item, context.wording(first)), listed([one_line(name) for name in item.models]))
-        for item in context.map.identity
-    )
-    return table(("If", "The device is"), ((Md(when), names) for when, names in rows))
-
-
-def _identity_words(rule: IdentityRule, wording: Wording) -> str:
-    item = rule.identity
-    texts = [f"{wording.register(path)} begins with {wording.text(text)}" for path, text in item.texts]
-    asked = [] if item.when.always and texts else [when_words(item.when, wording)]
-    return " and ".join([*asked, *texts])
+    wording = context.wording(context.map.models[0])
+    rows: list[tuple[str, str]] = []
+    for rule in context.map.identity:
+        when, texts = rule.identity
+        tests = [] if when.always and texts else [when_words(when, wording)]
+        tests += [f"{wording.register(path)} begins with {wording.text(text)}" for path, text in texts]
+        rows.append((Md(" and ".join(tests)), listed([one_line(name) for name in rule.models])))
+    return table(("If", "The device is"), rows)
 
 
 def reserved(context: PageContext) -> PageTable:
     """Return the addresses that the manual reserves."""
     rows = ((SPACES[space], span_words(low, high)) for space, low, high in context.map.reserved)
     return table(("Space", "Wire addresses"), rows)
+
+
+def unused(context: PageContext) -> PageTable:
+    """Return the addresses that the manual lists as unused, with the models where not all agree."""
+    found = models_by((model.name, stretch) for model in context.map.models for stretch in model.unused)
+    rows = (
+        (SPACES[space], span_words(low, high), context.covers(models)) for (space, low, high), models in found.items()
+    )
+    return table(("Space", "Wire addresses", "Models"), rows)
