@@ -1,4 +1,4 @@
-"""What the pictures of a map show in words, for those who do not see them."""
+"""Pictures of a map in words, for those who do not see them."""
 
 from collections.abc import Sequence
 
@@ -16,18 +16,14 @@ MANY = 12
 def addresses(register_map: RegisterMap) -> str:
     """Return which spaces the address map shows, from the lowest address to the highest."""
     found: dict[Space, list[int]] = {}
-    for register in (register for model in register_map.models for register in model.registers):
-        for view in register.views:
-            found.setdefault(view.space, []).extend((view.address(register.at), view.last(register.at)))
-        found[register.base.space].extend(register.aliases)
-    spans = [
-        f"{SPACES[space].lower()} {span_words(min(found[space]), max(found[space]))}"
-        for space in Space
-        if space in found
-    ]
-    return (
-        f"Address map of {one_line(register_map.title)}: {listed(spans, last='and')}, in the colours of their groups."
-    )
+    for model in register_map.models:
+        for register in model.registers:
+            for view in register.views:
+                found.setdefault(view.space, []).extend((view.address(register.at), view.last(register.at)))
+            found[register.base.space].extend(register.aliases)
+    spaces = {space: (min(found[space]), max(found[space])) for space in Space if space in found}
+    spans = listed([f"{SPACES[space].lower()} {span_words(*ends)}" for space, ends in spaces.items()], last="and")
+    return f"Address map of {one_line(register_map.title)}: {spans}, in the colours of their groups."
 
 
 def bits(leaf: Leaf) -> str:
@@ -42,11 +38,8 @@ def bits(leaf: Leaf) -> str:
 
 def array(branch: Branch) -> str:
     """Return where each member of an array stands."""
-    parts = [
-        f"{lettered(first.path)} at {formula(first.base, first.at, leaf.arrays)}"
-        for leaf in leaves((branch,))
-        for first in [leaf.register.first]
-    ]
+    registers = [(leaf.register.first, leaf.arrays) for leaf in leaves((branch,))]
+    parts = [f"{lettered(one.path)} at {formula(one.base, one.at, arrays)}" for one, arrays in registers]
     return f"Structure of {one_line(branch.array.first.name)}: {'; '.join(_few(parts))}."
 
 
@@ -54,24 +47,23 @@ def _few(parts: Sequence[str]) -> Sequence[str]:
     return parts if len(parts) <= MANY else [*parts[:MANY], f"and {len(parts) - MANY} more"]
 
 
-def picture(context: PageContext, name: str, words: str) -> Md:
-    """Return a picture of the map with the words that stand for it."""
-    return md(Md("!["), words, Md(f"]({picture_paths.link(context.map.id, name)})"))
-
-
 def address_map(context: PageContext) -> Md:
     """Return the picture of the address spaces; nothing if no model has a register."""
     drawn = any(model.registers for model in context.map.models)
-    return picture(context, picture_paths.addresses(), addresses(context.map)) if drawn else Md()
+    return _picture(context, picture_paths.addresses(), addresses(context.map)) if drawn else Md()
 
 
 def bit_fields(context: PageContext, leaf: Leaf) -> tuple[Md, ...]:
     """Return the picture of a register's bits; nothing if it has no fields."""
     drawn = any(register.fields for _, register in leaf.register.versions)
-    return (picture(context, picture_paths.bits(leaf.register.key), bits(leaf)),) if drawn else ()
+    return (_picture(context, picture_paths.bits(leaf.register.key), bits(leaf)),) if drawn else ()
 
 
 def structure(context: PageContext, branch: Branch) -> tuple[Md, ...]:
     """Return the picture of an array; nothing for one inside another, which the outer one's picture shows."""
-    drawn = not branch.arrays
-    return (picture(context, picture_paths.array(branch.array.first.id), array(branch)),) if drawn else ()
+    name = picture_paths.array(branch.array.first.id)
+    return () if branch.arrays else (_picture(context, name, array(branch)),)
+
+
+def _picture(context: PageContext, name: str, words: str) -> Md:
+    return md(Md("!["), words, Md(f"]({picture_paths.link(context.map.id, name)})"))

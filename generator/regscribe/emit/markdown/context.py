@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from regscribe.emit.common_values import Merged, T
 from regscribe.emit.markdown.escape import Md, code, escape, lines, link, md, slug
+from regscribe.emit.markdown.page_values import PageTable, table
 from regscribe.emit.outline import Node, leaves, outline, pattern
 from regscribe.emit.words import Wording, condition_words, one_line, spelled
 from regscribe.model import Condition, Inferred, Model, Register, RegisterMap, Space, Units
@@ -145,6 +146,18 @@ def by_model(shared: Merged[T], fact: Callable[[Model, T], Md]) -> Md:
             if item.value
         )
     )
+
+
+def fact_table(
+    headers: tuple[str, str], shared: Merged[T], facts: Callable[[Model, T], Iterable[tuple[str, Md]]]
+) -> PageTable:
+    """Return the table of facts by label, each once or by model; one that is empty for every model is left out."""
+    found = Merged(shared.key, tuple((model, dict(facts(model, item))) for model, item in shared.versions))
+
+    def row(label: str) -> tuple[str, Md]:
+        return label, by_model(found, lambda _, version: version[label])
+
+    return table(headers, [one for one in map(row, found.first) if one[1]])
 
 
 def source(section: str) -> Md:

@@ -1,7 +1,6 @@
 """The overview: one line for each register, ordered by address, in a table for each address space."""
 
 from collections.abc import Callable, Sequence
-from functools import partial
 
 from regscribe.emit.markdown.context import SPACES, PageContext, by_model
 from regscribe.emit.markdown.escape import Md, code, escape, join, link, md
@@ -37,16 +36,23 @@ HEADERS = ("Name", "Id", "Access", "Range", "Default", "Unit", "Models")
 
 def _row(context: PageContext, leaf: Leaf, offsets: Sequence[int], names: Sequence[str]) -> tuple[Md, ...]:
     shared = leaf.register
+    owners = [f"{one_line(array.name)} {array.first} to {array.first + array.count - 1}: " for array in leaf.arrays]
 
     def cell(fact: Callable[[Model, Register], Md]) -> Md:
         return by_model(shared, fact)
 
+    def notation(offset: int) -> Md:
+        return cell(lambda _, register: _span(leaf, register.base, register, offset))
+
+    def other_view(name: str) -> Md:
+        return cell(lambda _, register: _other_view(leaf, name, register))
+
     return (
-        cell(lambda _, register: _span(leaf, register.base, register)),
-        *(cell(partial(_notation, leaf, offset)) for offset in offsets),
-        *(cell(partial(_view, leaf, name)) for name in names),
+        notation(0),
+        *map(notation, offsets),
+        *map(other_view, names),
         cell(lambda _, register: join(", ", (_span(leaf, alias, register) for alias in aliases(register)))),
-        link(_name(leaf), context.anchor("register", shared.key)),
+        link(md(*owners, one_line(shared.first.name)), context.anchor("register", shared.key)),
         code(lettered(shared.first.path)),
         cell(lambda _, register: escape(ACCESS[register.access])),
         cell(lambda model, register: _range(context, model, register)),
@@ -62,33 +68,19 @@ def _span(leaf: Leaf, view: View, register: Register, offset: int = 0) -> Md:
     return escape(span_words(first, last))
 
 
-def _notation(leaf: Leaf, offset: int, _model: Model, register: Register) -> Md:
-    return _span(leaf, register.base, register, offset)
-
-
-def _view(leaf: Leaf, name: str, _model: Model, register: Register) -> Md:
+def _other_view(leaf: Leaf, name: str, register: Register) -> Md:
     return next((_span(leaf, view, register) for view in register.views[1:] if view.name == name), Md())
-
-
-def _name(leaf: Leaf) -> Md:
-    owners = [f"{one_line(array.name)} {array.first} to {array.first + array.count - 1}: " for array in leaf.arrays]
-    return md(*owners, one_line(leaf.register.first.name))
 
 
 def _range(context: PageContext, model: Model, register: Register) -> Md:
     if register.kind in {Kind.FLAGS, Kind.FIELDS}:
         return md("bits")
     if register.enum is not None:
-        return _codes(register)
+        codes = [(member.code, member.code) for member in register.enum.members]
+        words = codes_words(codes, last="and")
+        return md(words if words.count(",") < MANY else f"{len(codes)} codes")
     if len(register.range) > 1:
         return md("by condition")
     wording = context.wording(model)
     limits = [range_words(case.then, wording) for case in register.range]
     return Md("; ".join([*limits, *(special_words(special, wording) for special in register.specials)]))
-
-
-def _codes(register: Register) -> Md:
-    members = register.enum.members if register.enum else ()
-    codes = [(member.code, member.code) for member in members]
-    words = codes_words(codes, last="and")
-    return md(words) if words.count(",") < MANY else md(f"{len(codes)} codes")

@@ -1,25 +1,15 @@
 """Setpoint programs: which registers make one, what its states are, and how it is run."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
-from functools import partial
 
 from regscribe.emit.common_values import Merged, merge
-from regscribe.emit.markdown.context import PageContext, by_model, conclusions, only, source
+from regscribe.emit.markdown.context import PageContext, conclusions, fact_table, only, source
 from regscribe.emit.markdown.escape import Md, code, escape, join, lines, link, md, prose
-from regscribe.emit.markdown.page_values import RegisterEntry, Titled, table
+from regscribe.emit.markdown.page_values import RegisterEntry, Titled
 from regscribe.emit.outline import lettered, pattern
 from regscribe.emit.words import labels_of, one_line
-from regscribe.model import (
-    Model,
-    ProgramAction,
-    ProgramCounts,
-    ProgramPart,
-    SetpointProgram,
-    WhileRunning,
-    numbered,
-    show,
-)
+from regscribe.model import Model, ProgramCounts, ProgramPart, SetpointProgram, WhileRunning, numbered, show
 from regscribe_runtime.values.programs import PROGRAM
 
 COUNTS = {
@@ -43,8 +33,9 @@ def programs(context: PageContext) -> tuple[RegisterEntry, ...]:
 def _entry(context: PageContext, shared: Merged[SetpointProgram]) -> RegisterEntry:
     first = shared.first
     notes = [model.program_notes[model.programs.index(program)] for model, program in shared.versions]
-    rows = ((label, by_model(shared, partial(_fact, context, words))) for label, words in FACTS.items())
-    facts = table(("Part", "Where and what"), [row for row in rows if row[1]])
+    facts = fact_table(
+        ("Part", "Where and what"), shared, lambda model, program: _facts(_Words(context, model, program))
+    )
     return RegisterEntry(
         marks=Md("###"),
         anchor=context.anchor("program", shared.key),
@@ -54,10 +45,6 @@ def _entry(context: PageContext, shared: Merged[SetpointProgram]) -> RegisterEnt
         tables=(Titled("What makes it", facts),),
         remarks=conclusions(item for one in notes for item in one.inferred),
     )
-
-
-def _fact(context: PageContext, words: Callable[["_Words"], Md], model: Model, program: SetpointProgram) -> Md:
-    return words(_Words(context, model, program))
 
 
 class _Words:
@@ -101,109 +88,63 @@ class _Words:
         return numbered(path, self.program.numbers[0], self.program.segments.first)
 
 
-def _numbers(words: _Words) -> Md:
-    one = words.program
-    return escape(f"{one.programs}, numbered from {one.first}") if one.programs else Md()
-
-
-def _segments(words: _Words) -> Md:
-    one = words.program.segments
-    return lines(
-        escape(f"{one.first} to {one.first + one.many - 1}"),
-        md("setpoint: ", words.register(one.setpoint)),
-        md("time of the ramp: ", words.register(one.ramp)),
-        md("time of the soak: ", words.register(one.soak)) if one.soak else Md(),
-    )
-
-
-def _idle(words: _Words) -> Md:
-    idle = words.program.segments.idle
-    return md(Md(" and ".join(words.register(path) for path in idle)), " are 0") if idle else Md()
-
-
-def _final(words: _Words) -> Md:
-    final = words.program.final
-    return lines(md("setpoint: ", words.register(final.setpoint)), words.outputs(final.outputs)) if final else Md()
-
-
-def _count(words: _Words) -> Md:
-    one = words.program
-    return md(words.register(one.number_of_segments), "; ", COUNTS[one.counts]) if one.number_of_segments else Md()
-
-
-def _cycles(words: _Words) -> Md:
-    one = words.program
-    endless = md("; ", words.label(one.cycles, one.forever), " is without end") if one.forever is not None else Md()
-    return md(words.register(one.cycles), endless) if one.cycles else Md()
-
-
-def _time_unit(words: _Words) -> Md:
-    unit = words.program.time_unit
-    if unit is None:
-        return Md()
-    codes = ", ".join(md(words.label(unit.register, code_of), ": ", symbol) for code_of, symbol in unit.codes)
-    return md(words.register(unit.register), "; ", Md(codes))
-
-
-def _limits(words: _Words) -> Md:
-    limits = words.program.setpoint_limits
-    return md(words.register(limits[0]), " to ", words.register(limits[1])) if limits else Md()
-
-
-def _enable(words: _Words) -> Md:
-    needed = words.program.requires
-    condition = words.context.condition(needed.when, words.model) if needed else Md()
-    return lines(words.values(words.program.enable), md(condition, " (", needed.reason, ")") if needed else Md())
-
-
-def _status(words: _Words) -> Md:
-    status = words.program.status
-    if status is None:
-        return Md()
-    codes = {"runs": status.running, "is held": status.held, "does not run": status.ended}
-    states = [md(name, ": ", words.labels(status.register, numbers)) for name, numbers in codes.items() if numbers]
-    return lines(words.register(status.register), *states)
-
-
-def _now(words: _Words) -> Md:
-    one = words.program
-    paths = {"program": one.program_now, "segment": one.segment_now, "setpoint": one.setpoint_now}
-    return lines(*(md(name, ": ", words.register(path)) for name, path in paths.items() if path))
-
-
-def _action(words: _Words, action: ProgramAction) -> Md:
-    if action.command:
-        return words.context.command(action.command)
-    return words.values(action.writes) or Md("no way is told")
-
-
-def _order(words: _Words) -> Md:
+def _facts(words: _Words) -> Iterator[tuple[str, Md]]:
+    program = words.program
+    yield from _segments(words)
+    yield from _settings(words)
+    yield from _states(words)
+    actions = {"Start": program.start, "Hold": program.hold, "Resume": program.resume, "Reset": program.reset}
+    for label, action in actions.items():
+        command = words.context.command(action.command) if action.command else Md()
+        yield label, command or words.values(action.writes) or md("no way is told")
+    yield "Written while it runs", escape(RUNNING[program.while_running])
     fields = {ProgramPart.COUNT: "number_of_segments"}
-    parts = [part for part in words.program.order if getattr(words.program, fields.get(part, part.value))]
-    return escape(", ".join(part.value.replace("_", " ") for part in parts))
+    parts = [part for part in program.order if getattr(program, fields.get(part, part.value))]
+    yield "Order of writing", escape(", ".join(part.value.replace("_", " ") for part in parts))
 
 
-FACTS: dict[str, Callable[[_Words], Md]] = {
-    "Programs": _numbers,
-    "Segments": _segments,
-    "Outputs of a segment": lambda words: words.outputs(words.program.segments.outputs),
-    "Segment not in use": _idle,
-    "Final segment": _final,
-    "Number of segments": _count,
-    "Cycles": _cycles,
-    "Times count in": _time_unit,
-    "Holdback": lambda words: words.register(words.program.holdback),
-    "After a power failure": lambda words: words.register(words.program.power_failure),
-    "At the end": lambda words: words.register(words.program.end),
-    "Setpoints lie between": _limits,
-    "Runs only if": _enable,
-    "State": _status,
-    "What runs": _now,
-    "Start": lambda words: _action(words, words.program.start),
-    "Hold": lambda words: _action(words, words.program.hold),
-    "Resume": lambda words: _action(words, words.program.resume),
-    "Reset": lambda words: _action(words, words.program.reset),
-    "Written while it runs": lambda words: escape(RUNNING[words.program.while_running]),
-    "Order of writing": _order,
-}
-"""The rows of the table; one that is empty for every model is left out."""
+def _segments(words: _Words) -> Iterator[tuple[str, Md]]:
+    program, segments, final = words.program, words.program.segments, words.program.final
+    yield "Programs", escape(f"{program.programs}, numbered from {program.first}" if program.programs else "")
+    yield (
+        "Segments",
+        lines(
+            escape(f"{segments.first} to {segments.first + segments.many - 1}"),
+            md("setpoint: ", words.register(segments.setpoint)),
+            md("time of the ramp: ", words.register(segments.ramp)),
+            md("time of the soak: ", words.register(segments.soak)) if segments.soak else Md(),
+        ),
+    )
+    yield "Outputs of a segment", words.outputs(segments.outputs)
+    idle = join(" and ", map(words.register, segments.idle))
+    yield "Segment not in use", md(idle, " are 0") if idle else Md()
+    outputs = words.outputs(final.outputs) if final else Md()
+    yield "Final segment", lines(md("setpoint: ", words.register(final.setpoint)), outputs) if final else Md()
+    count = words.register(program.number_of_segments)
+    yield "Number of segments", md(count, "; ", COUNTS[program.counts]) if count else Md()
+
+
+def _settings(words: _Words) -> Iterator[tuple[str, Md]]:
+    program, unit, needed = words.program, words.program.time_unit, words.program.requires
+    cycles, endless = words.register(program.cycles), program.forever
+    forever = md("; ", words.label(program.cycles, endless), " is without end") if endless is not None else Md()
+    yield "Cycles", md(cycles, forever) if cycles else Md()
+    codes = [md(words.label(unit.register, number), ": ", symbol) for number, symbol in unit.codes] if unit else []
+    yield "Times count in", md(words.register(unit.register), "; ", join(", ", codes)) if unit else Md()
+    yield "Holdback", words.register(program.holdback)
+    yield "After a power failure", words.register(program.power_failure)
+    yield "At the end", words.register(program.end)
+    yield "Setpoints lie between", join(" to ", map(words.register, program.setpoint_limits or ()))
+    condition = md(words.context.condition(needed.when, words.model), " (", needed.reason, ")") if needed else Md()
+    yield "Runs only if", lines(words.values(program.enable), condition)
+
+
+def _states(words: _Words) -> Iterator[tuple[str, Md]]:
+    program, status = words.program, words.program.status
+    states: list[Md] = []
+    if status:
+        codes = {"runs": status.running, "is held": status.held, "does not run": status.ended}
+        states = [md(name, ": ", words.labels(status.register, numbers)) for name, numbers in codes.items() if numbers]
+    yield "State", lines(words.register(status.register), *states) if status else Md()
+    now = {"program": program.program_now, "segment": program.segment_now, "setpoint": program.setpoint_now}
+    yield "What runs", lines(*(md(name, ": ", words.register(path)) for name, path in now.items() if path))

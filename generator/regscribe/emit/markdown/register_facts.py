@@ -1,17 +1,17 @@
 """The facts of one register that fit on a line each, as a table of two columns."""
 
-from collections.abc import Callable, Sequence
-from functools import partial
+from collections.abc import Iterator, Sequence
 
-from regscribe.emit.markdown.context import PageContext, by_model
+from regscribe.emit.markdown.context import PageContext, fact_table
 from regscribe.emit.markdown.escape import Md, code, escape, join, lines, link, md, prose
-from regscribe.emit.markdown.page_values import PageTable, table
+from regscribe.emit.markdown.page_values import PageTable
 from regscribe.emit.markdown.process import follows
 from regscribe.emit.outline import Leaf, aliases, formula
 from regscribe.emit.words import (
     ACCESS,
     LETTERS,
     ROUNDING,
+    Wording,
     cases_words,
     conversion_words,
     map_cases,
@@ -62,33 +62,60 @@ STAYS = {
 DIFFERENCE = "a difference: its unit is converted without the zero point"
 PERSISTENCE = {"ram": "RAM", "eeprom": "EEPROM", "both": "RAM and EEPROM"}
 
-Fact = Callable[[PageContext, Model, Register], Md]
-
 
 def facts(context: PageContext, leaf: Leaf) -> PageTable:
     """Return the facts of a register that are known, each once or by model."""
-    rows = [("Wire address", by_model(leaf.register, lambda _, register: address(context, leaf, register)))]
-    rows += [(label, by_model(leaf.register, partial(fact, context))) for label, fact in FACTS.items()]
-    return table(("Property", "Value"), [row for row in rows if row[1]])
+    headers = ("Property", "Value")
+    return fact_table(headers, leaf.register, lambda model, register: _facts(context, leaf, model, register))
 
 
-def address(context: PageContext, leaf: Leaf, register: Register) -> Md:
-    """Return where the only view stands (several have a table of their own), with aliases."""
-    space, at = register.base.space, register.at
-    if len(register.views) > 1:
-        first = Md()
-    elif leaf.arrays:
-        first = md(code(formula(register.base, at, leaf.arrays)), ", ", indices(leaf.arrays))
+def _facts(context: PageContext, leaf: Leaf, model: Model, register: Register) -> Iterator[tuple[str, Md]]:
+    yield "Wire address", _address(context, leaf, register)
+    yield from _value_facts(context, model, register)
+    yield "Kept in", _persistence(register)
+    shadowed = md("takes the value of ", context.register(register.shadows)) if register.shadows else Md()
+    yield "When power comes", shadowed
+    yield "Follows", follows(context, model, register)
+    rescaled = link(register.rescales, context.anchor("unit", register.rescales))
+    yield "Changing it", md("the device converts every value whose unit is ", rescaled) if register.rescales else Md()
+    yield "Before a write", md("run ", context.command(register.unlock), " first") if register.unlock else Md()
+    yield "After a write", md("takes effect with ", context.command(register.apply)) if register.apply else Md()
+    yield "Governs", _governs(register)
+    yield "Read back", md(f"{register.settle} ms after the write at the earliest" if register.settle else "")
+    yield "Not for another device", md(STAYS.get(register.stays, ""))
+
+
+def _value_facts(context: PageContext, model: Model, register: Register) -> Iterator[tuple[str, Md]]:
+    """Yield how the value is transmitted, and what it may be; what depends on conditions has a table of its own."""
+    wording, limits, scale = context.wording(model), register.range, register.scale
+    single = len(register.views) == 1
+    sent = (md(view_type(register.base)), transmission(context, register.base)) if single else ()
+    yield "Transmitted as", join("; ", sent)
+    yield "Access", _access(context, model, register)
+    yield "Value", _kind(register)
+    plain = len(limits) == 1 and limits[0].when.always
+    yield "Range", Md(range_words(limits[0].then, wording) if plain else "")
+    yield "Special values", _specials(register, wording)
+    faults = [Md(sentinel_words(sentinel, wording)) for sentinel in register.sentinels]
+    yield "Faults instead of a value", lines(*faults)
+    yield "Default", Md(value_words(register, register.default, wording))
+    yield "As delivered", Md(value_words(register, register.delivered, wording))
+    yield "Unit", _unit(context, register, wording)
+    scaled = len(scale) == 1 and scale[0].then != IDENTITY
+    yield "Scale", md(code(conversion_words(scale[0].then)), ", x being the stored number") if scaled else Md()
+    yield "Counts", md(DIFFERENCE if register.difference else "")
+
+
+def _address(context: PageContext, leaf: Leaf, register: Register) -> Md:
+    """Return the address of the only view (several have a table of their own), with aliases."""
+    base = register.base
+    if leaf.arrays:
+        first = md(code(formula(base, register.at, leaf.arrays)), ", ", indices(leaf.arrays))
+        others = [code(formula(alias, register.at, leaf.arrays)) for alias in aliases(register)]
     else:
-        first = context.address(space, register.address)
-    others = (
-        code(formula(alias, register.at, leaf.arrays))
-        if leaf.arrays
-        else context.address(space, alias.address(register.at))
-        for alias in aliases(register)
-    )
-    also = join(", ", others)
-    return lines(first, md("also at ", also) if also else Md())
+        first = context.address(base.space, register.address)
+        others = [context.address(base.space, alias.address(register.at)) for alias in aliases(register)]
+    return lines(first if len(register.views) == 1 else Md(), md("also at ", join(", ", others)) if others else Md())
 
 
 def indices(arrays: Sequence[Array]) -> Md:
@@ -102,11 +129,15 @@ def indices(arrays: Sequence[Array]) -> Md:
 
 def transmission(context: PageContext, view: View) -> Md:
     """Return what a view does to the stored value: factor, rounding, saturation, order, functions, alignment."""
+    order = view.order
+    words = Md()  # for the usual order, and for a single word in a fixed order
+    if order is not Order.BIG and (view.words > 1 or not isinstance(order, Order)):
+        words = md("word order: ", Md(order_words(order, context.wording(context.map.models[0]))))
     parts = (
         f"stored value times {show(view.factor)}" if view.factor != 1 else "",
         ROUNDING[view.rounding],
         f"stops at {view.type.minimum} and {view.type.maximum}" if view.saturates else "",
-        _word_order(context, view),
+        words,
         "least significant byte first" if view.byte_order is Order.LITTLE else "",
         "read as the shortest decimal of its bits" if view.type.is_float else "",
         f"functions {', '.join(map(str, view.functions))} only" if view.functions else "",
@@ -115,25 +146,9 @@ def transmission(context: PageContext, view: View) -> Md:
     return join("; ", map(md, parts))
 
 
-def _word_order(context: PageContext, view: View) -> Md:
-    """Return the order of the words; nothing for the usual one, and for a single word in a fixed order."""
-    order = view.order
-    if order is Order.BIG or (isinstance(order, Order) and view.words == 1):
-        return Md()
-    return md("word order: ", Md(order_words(order, context.wording(context.map.models[0]))))
-
-
 def view_type(view: View) -> str:
     """Return the type of a view, with its words where they are several."""
     return f"{view.type.value}, {view.words} words" if view.words > 1 else view.type.value
-
-
-def _transmitted(context: PageContext, _model: Model, register: Register) -> Md:
-    return (
-        Md()
-        if len(register.views) > 1
-        else join("; ", (md(view_type(register.base)), transmission(context, register.base)))
-    )
 
 
 def _access(context: PageContext, model: Model, register: Register) -> Md:
@@ -145,7 +160,7 @@ def _access(context: PageContext, model: Model, register: Register) -> Md:
     return md(words, "; writable when ", when, reason)
 
 
-def _kind(_context: PageContext, _model: Model, register: Register) -> Md:
+def _kind(register: Register) -> Md:
     if register.kind is Kind.STRING:
         return md(f"text of {2 * register.base.words} characters")
     if register.kind is Kind.VERSION and register.version_group:
@@ -154,30 +169,17 @@ def _kind(_context: PageContext, _model: Model, register: Register) -> Md:
     return md(KINDS[register.kind])
 
 
-def _range(context: PageContext, model: Model, register: Register) -> Md:
-    if len(register.range) != 1 or not register.range[0].when.always:
-        return Md()
-    return Md(range_words(register.range[0].then, context.wording(model)))
-
-
-def _scale(_context: PageContext, _model: Model, register: Register) -> Md:
-    if len(register.scale) != 1 or register.scale[0].then == IDENTITY:
-        return Md()
-    return md(code(conversion_words(register.scale[0].then)), ", x being the stored number")
-
-
-def _specials(context: PageContext, model: Model, register: Register) -> Md:
-    wording = context.wording(model)
+def _specials(register: Register, wording: Wording) -> Md:
     divided = any(case.then.decimals for case in register.special_scale)
-    told = [md("these codes are divided as the limits of the range are")] if divided else []
-    return lines(*(Md(special_words(special, wording)) for special in register.specials), *told)
+    remark = md("these codes are divided as the limits of the range are" if divided else "")
+    return lines(*(Md(special_words(special, wording)) for special in register.specials), remark)
 
 
-def _unit(context: PageContext, model: Model, register: Register) -> Md:
+def _unit(context: PageContext, register: Register, wording: Wording) -> Md:
     anchor = context.anchor("unit", register.unit_id) if len(register.unit) > 1 else ""
     if anchor:
         return md(symbols(register), " (", link(register.unit_id, anchor), ")")
-    return Md(cases_words(map_cases(register.unit, escape), context.wording(model)))
+    return Md(cases_words(map_cases(register.unit, escape), wording))
 
 
 def symbols(register: Register) -> str:
@@ -185,22 +187,13 @@ def symbols(register: Register) -> str:
     return " / ".join(dict.fromkeys(one_line(case.then) for case in register.unit if case.then))
 
 
-def _persistence(_context: PageContext, _model: Model, register: Register) -> Md:
+def _persistence(register: Register) -> Md:
     where = PERSISTENCE.get(register.persistence, one_line(register.persistence))
     writes = f"good for {register.endurance:,} writes" if register.endurance is not None else ""
     return join("; ", (md(where), md(writes)))
 
 
-def _rescales(context: PageContext, _model: Model, register: Register) -> Md:
-    if not register.rescales:
-        return Md()
-    return md(
-        "the device converts every value whose unit is ",
-        link(register.rescales, context.anchor("unit", register.rescales)),
-    )
-
-
-def _governs(_context: PageContext, _model: Model, register: Register) -> Md:
+def _governs(register: Register) -> Md:
     found = register.governs
     if found is None:
         return Md()
@@ -208,34 +201,3 @@ def _governs(_context: PageContext, _model: Model, register: Register) -> Md:
     if not codes and found.setting is not Setting.ADDRESS:
         codes = "the codes are not in this manual"
     return join("; ", (md(SETTINGS[found.setting], " of the line"), escape(codes), md(SINCE[found.since])))
-
-
-FACTS: dict[str, Fact] = {
-    "Transmitted as": _transmitted,
-    "Access": _access,
-    "Value": _kind,
-    "Range": _range,
-    "Special values": _specials,
-    "Faults instead of a value": lambda context, model, one: lines(
-        *(Md(sentinel_words(sentinel, context.wording(model))) for sentinel in one.sentinels)
-    ),
-    "Default": lambda context, model, one: Md(value_words(one, one.default, context.wording(model))),
-    "As delivered": lambda context, model, one: Md(value_words(one, one.delivered, context.wording(model))),
-    "Unit": _unit,
-    "Scale": _scale,
-    "Counts": lambda _, __, one: md(DIFFERENCE if one.difference else ""),
-    "Kept in": _persistence,
-    "When power comes": lambda context, _, one: (
-        md("takes the value of ", context.register(one.shadows)) if one.shadows else Md()
-    ),
-    "Follows": follows,
-    "Changing it": _rescales,
-    "Before a write": lambda context, _, one: md("run ", context.command(one.unlock), " first") if one.unlock else Md(),
-    "After a write": lambda context, _, one: (
-        md("takes effect with ", context.command(one.apply)) if one.apply else Md()
-    ),
-    "Governs": _governs,
-    "Read back": lambda _, __, one: md(f"{one.settle} ms after the write at the earliest") if one.settle else Md(),
-    "Not for another device": lambda _, __, one: md(STAYS.get(one.stays, "")),
-}
-"""The properties in the order of the table; one that is empty for every model is left out."""
