@@ -3,7 +3,7 @@
 from copy import deepcopy
 from typing import Any, NamedTuple
 
-from regscribe.files.yaml_dump import dump
+from regscribe.files import dump
 
 from .suite import FUNCTIONS, Json
 

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from regscribe import checks, lower, schema, source
 from regscribe.emit import python
-from regscribe.files.yaml_dump import dump
+from regscribe.files import dump
 from regscribe.model import Diagnostic, RegisterMap, Severity
 
 from .places import places_of

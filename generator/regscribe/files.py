@@ -1,0 +1,127 @@
+"""Files that people write besides maps: backups, programs, configurations, states of simulated devices.
+
+`read` checks one against its JSON Schema, `dump` makes YAML that people compare line by line and that a YAML 1.2 reader
+takes for what it was, `save` writes whole or not at all. Every mistake is a FileError with its place.
+"""
+
+import os
+import tempfile
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from regscribe import schema, source
+from regscribe.model import Diagnostic
+from regscribe.source import Document
+from regscribe.visible import INVISIBLE
+
+MOST_BYTES = 8_000_000
+"""The largest of these files have 200 kB; one beyond this is none."""
+MOST_ERRORS = 20
+
+
+class FileError(Exception):
+    """A file that cannot be read or written, or is not what it should be: each mistake with line and column."""
+
+
+def read(path: Path, *, language: str, what: str) -> Document:
+    """The document in a file; `language` names its schema, `what` is how a message calls such a file (a backup)."""
+    try:
+        size = path.stat().st_size
+    except FileNotFoundError:
+        message = f"there is no file {path}"
+        raise FileError(message) from None
+    except OSError as error:
+        message = f"{path} cannot be read: {error.strerror or error}"
+        raise FileError(message) from None
+    if size > MOST_BYTES:
+        message = f"{path} has {size} bytes: a {what} has at most {MOST_BYTES}"
+        raise FileError(message)
+    return _checked(*source.load(path, escapes=True), language=language, what=f"{path} is no {what}")
+
+
+def parse(text: str, *, language: str, what: str) -> Document:
+    """As `read`, of a text that is to become such a file."""
+    return _checked(*source.parse(text, name=what, escapes=True), language=language, what=f"this is no {what}")
+
+
+def _checked(document: Document | None, found: list[Diagnostic], *, language: str, what: str) -> Document:
+    if document is not None:
+        found = schema.validate(document, language=language)
+        if not found:
+            return document
+    lines = [f"{one.span}: {one.message}{f' ({one.help})' if one.help else ''}" for one in found[:MOST_ERRORS]]
+    more = [f"and {len(found) - MOST_ERRORS} more"] if len(found) > MOST_ERRORS else []
+    raise FileError("\n".join([f"{what}:", *lines, *more]))
+
+
+class OneLine(dict[str, Any]):
+    """A mapping that stands on one line."""
+
+
+class _Dumper(yaml.SafeDumper):
+    """No anchors: equal values stay readable."""
+
+    def ignore_aliases(self, data: object) -> bool:  # noqa: ARG002 (pyyaml's signature)
+        """Whether a value is written out although it was written before."""
+        return True
+
+    def increase_indent(self, flow: bool = False, indentless: bool = False) -> None:  # noqa: ARG002, FBT001, FBT002 (as above)
+        """Put the items of a list to the right of their key."""
+        super().increase_indent(flow, indentless=False)
+
+
+def _one_line(dumper: yaml.SafeDumper, data: OneLine) -> yaml.Node:
+    return dumper.represent_mapping("tag:yaml.org,2002:map", data.items(), flow_style=True)
+
+
+def _text(dumper: yaml.SafeDumper, data: str) -> yaml.Node:
+    """Quote what is invisible, or no text by YAML 1.2 (pyyaml itself quotes what is none by 1.1)."""
+    try:
+        plain = INVISIBLE.search(data) is None and isinstance(source.resolve(data), str)
+    except source.NumberFormError:
+        plain = False
+    return dumper.represent_scalar("tag:yaml.org,2002:str", data, style=None if plain else '"')
+
+
+_Dumper.add_representer(OneLine, _one_line)
+_Dumper.add_representer(str, _text)
+
+
+def dump(data: Mapping[str, Any], *, remarks: Sequence[str] = ()) -> str:
+    """A mapping as YAML in the order of its keys; `remarks` become comments above it."""
+    body: str = yaml.dump(dict(data), Dumper=_Dumper, sort_keys=False, allow_unicode=True, width=1 << 20)
+    return "".join(f"# {remark}\n" for remark in remarks) + body
+
+
+def save(path: Path, text: str) -> None:
+    """Write a file beside its place, flush it to the disk and move it into its place.
+
+    Raises FileError where that fails (a full disk); a file that was there before is then as it was.
+    """
+    temporary = ""
+    try:
+        descriptor, temporary = tempfile.mkstemp(prefix=f".{path.name[:100]}.", dir=path.parent)
+        with os.fdopen(descriptor, "w", encoding="utf-8") as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())
+            os.fchmod(file.fileno(), _mode(path))
+        Path(temporary).replace(path)
+    except OSError as error:
+        with suppress(OSError):
+            Path(temporary).unlink()
+        message = f"{path} cannot be written ({error.strerror or error}); nothing of it was changed"
+        raise FileError(message) from None
+
+
+def _mode(path: Path) -> int:
+    """Mode of the file that is replaced, else what the user's mask leaves of 666."""
+    with suppress(OSError):
+        return path.stat().st_mode & 0o777
+    mask = os.umask(0)
+    os.umask(mask)
+    return 0o666 & ~mask
