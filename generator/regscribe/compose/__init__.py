@@ -22,7 +22,6 @@ __all__ = ["RULES", "Composed", "as_map", "compose", "is_library", "misplaced"]
 COMPOSING = ("extends", "uses", "renumber", "drop", "override")
 """Top-level keys that have done their work when a map is composed."""
 
-
 DEEPEST = 16
 """Maps that may stand between a map and the one that all of them build on."""
 
@@ -71,32 +70,24 @@ def misplaced(library: Document, path: Path) -> list[Diagnostic]:
 
 def compose(document: Document, path: Path) -> Composed:
     """The map of `document`, which lies at `path`, with all that it builds on."""
-    if is_library(document) or not _builds_on_others(document.root):
+    stands_alone = not left_out(document.root) and not any(document.root.child(key) for key in COMPOSING)
+    if is_library(document) or stands_alone:
         return Composed(document)
     findings = ComposeFindings()
     root = in_file(document.root, document.name)
     own = LoadedFile(text(at(root, (MAP, "id"))), path, root)
     loader = FileLoader(folder_of(path, own.id), findings)
     part = _build(own, loader, (own,))
+    files = tuple(loader.hashes.items())
     if part is None or findings.diagnostics:
-        found = tuple(sorted(findings.diagnostics, key=lambda found: found.span))
-        return Composed(None, found, files=tuple(loader.hashes.items()))
-    content_hash = loader.content_hash(document.content_hash) if loader.hashes else document.content_hash
-    whole = replace(document, data=part.root.value, root=part.root, content_hash=content_hash)
-    return _composed(whole, root, part, loader)
-
-
-def _builds_on_others(root: SourceNode) -> bool:
-    return bool(left_out(root)) or any(root.child(key) for key in COMPOSING)
-
-
-def _composed(whole: Document, root: SourceNode, part: _Part, loader: FileLoader) -> Composed:
+        return Composed(None, tuple(sorted(findings.diagnostics, key=lambda found: found.span)), files=files)
+    content_hash = loader.content_hash(document.content_hash) if files else document.content_hash
     return Composed(
-        whole,
+        replace(document, data=part.root.value, root=part.root, content_hash=content_hash),
         extends=text(root.child("extends")),
         uses=tuple(library.id for library in part.libraries),
         overrides=part.overrides,
-        files=tuple(loader.hashes.items()),
+        files=files,
         empty=tuple(sorted(loader.empty)),
         libraries=tuple(
             Document(one.path.name, "", one.root.value, loader.hashes[one.path], one.root) for one in part.libraries
@@ -109,40 +100,31 @@ def _build(file: LoadedFile, loader: FileLoader, chain: tuple[LoadedFile, ...]) 
     """Compose one map of a chain of extensions, the deepest first; None if something that it needs is missing."""
     base = _base(file, loader, chain)
     below = base.libraries if base else ()
-    libraries = _libraries(file, loader, {library.id for library in below})
-    if libraries is None or (file.root.child("extends") and base is None):
+    inherited = {library.id for library in below}
+    uses = [node for node in elements(file.root.child("uses")) if text(node) not in inherited]
+    libraries = [loader.find(node, LIBRARY, file) for node in uses]
+    found = [library for library in libraries if library is not None]
+    if len(found) < len(libraries) or (file.root.child("extends") and base is None):
         return None
-    own = with_libraries(file.root, libraries, loader.findings)
-    every = (*below, *libraries)
+    own = with_libraries(file.root, found, loader.findings)
+    every = (*below, *found)
     if base is None:
         return _Part(cut(own, *COMPOSING), every)
     root, overrides = extended(base.root, own, loader.findings)
     return _Part(cut(root, *COMPOSING), every, overrides)
 
 
-def _libraries(file: LoadedFile, loader: FileLoader, known: set[str]) -> list[LoadedFile] | None:
-    """The libraries of a map that are not known from its base; None if one is missing."""
-    wanted = [node for node in elements(file.root.child("uses")) if text(node) not in known]
-    found = [loader.find(node, LIBRARY, file) for node in wanted]
-    return None if None in found else [library for library in found if library is not None]
-
-
 def _base(file: LoadedFile, loader: FileLoader, chain: tuple[LoadedFile, ...]) -> _Part | None:
+    """The map that one extends, composed; where maps extend each other, an error at the map that is compiled."""
     node = file.root.child("extends")
     found = loader.find(node, MAP, file) if node else None
-    if node is None or found is None:
+    if found is None:
         return None
-    if len(chain) > DEEPEST or any(found.path.resolve() == each.path.resolve() for each in chain):
-        _refuse_cycle(found, loader, chain)
-        return None
-    return _build(found, loader, (*chain, found))
-
-
-def _refuse_cycle(found: LoadedFile, loader: FileLoader, chain: tuple[LoadedFile, ...]) -> None:
-    """Report the circle at the map that is compiled, with each further step of it."""
+    if len(chain) <= DEEPEST and all(found.path.resolve() != each.path.resolve() for each in chain):
+        return _build(found, loader, (*chain, found))
     names = " -> ".join([*(each.id for each in chain), found.id])
     steps = [(each.id, each.root.child("extends") or each.root) for each in chain]
     others = [(f"`{name}` extends `{text(step)}`", step.place) for name, step in steps[1:]]
-    loader.findings.add(
-        CYCLE, f"maps extend each other, or too many: {names}", steps[0][1].place, "let one stand alone", *others
-    )
+    message = f"maps extend each other, or too many: {names}"
+    loader.findings.add(CYCLE, message, steps[0][1].place, "let one stand alone", *others)
+    return None

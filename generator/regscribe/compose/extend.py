@@ -1,11 +1,9 @@
 """A map on the basis of another: the base with its models renamed, less what is dropped, changed, and added to."""
 
-from regscribe.compose.dangling_refs import without_dangling
 from regscribe.compose.findings import ComposeFindings, meant
 from regscribe.compose.merge import LISTS, append, laid_over, replace
 from regscribe.compose.overrides import Changes
-from regscribe.compose.rename_models import Renaming
-from regscribe.compose.renumber_sections import Renumbering
+from regscribe.compose.renaming import Renaming, renumbered
 from regscribe.compose.rules import CHANGED_IN_PASSING, NO_MODEL, RENUMBERS_NOTHING
 from regscribe.compose.tree import at, cut, edit, elements, id_of, key_place, listing, members, put, registers, text
 from regscribe.model import Override
@@ -18,23 +16,24 @@ _CLASH = "what differs from the base stands under `override`; else give it anoth
 def extended(base: SourceNode, own: SourceNode, findings: ComposeFindings) -> tuple[SourceNode, tuple[Override, ...]]:
     """The base as the extension has it, and what was overridden and dropped."""
     before = {path for path, _ in registers(base)}
-    changes = Changes(_with_models(base, own, findings), _place_of(base), findings)
+    at_base = ("the base", (at(base, ("map", "id")) or base.child("map") or base).place)
+    changes = Changes(_with_models(base, own, findings), at_base, findings)
     drop = own.child("drop")
     if drop is not None:
         changes.drop(drop)
-    changes.root = without_dangling(changes.root, before)
-    changes.root = _renumbered(changes.root, own.child("renumber"), findings, _place_of(base))
+    changes.drop_dangling(before)
+    changes.root = _renumbered(changes.root, own.child("renumber"), findings, at_base)
     for each in elements(own.child("override")):
         changes.override(each)
-    return _added(changes.root, own, findings), tuple(changes.records)
-
-
-def _place_of(base: SourceNode) -> SourcePlace:
-    return (at(base, ("map", "id")) or base.child("map") or base).place
+    root = laid_over(changes.root, own, findings, LISTS, owner="the base", advice=_CLASH)
+    root = replace(root, own, _REPLACED)
+    for group in elements(own.child("groups")):
+        root = _with_group(root, group, findings)
+    return root, tuple(changes.records)
 
 
 def _with_models(base: SourceNode, own: SourceNode, findings: ComposeFindings) -> SourceNode:
-    """The base with the models of the extension, which inherit what the base says of theirs."""
+    """The base with the models of the extension, which inherit what the base says of theirs but for the class."""
     have, table = members(base.child("models")), own.child("models") or own
     names: dict[str, list[str]] = {name: [] for name in have}
     models = table
@@ -46,40 +45,29 @@ def _with_models(base: SourceNode, own: SourceNode, findings: ComposeFindings) -
             findings.add(NO_MODEL, message, origin.place, meant(text(origin), have), other)
             continue
         names[text(origin)].append(name)
-        models = put(models, name, _inherited(have[text(origin)], node), key_place(table, name))
+        model = cut(node, "from")
+        for key, value in members(have[text(origin)]).items():
+            if key != "class" and model.child(key) is None:
+                model = put(model, key, value, have[text(origin)])
+        models = put(models, name, model, table)
     renaming = Renaming({name: tuple(new) for name, new in names.items()}, tuple(members(table)))
-    return put(renaming.inside(base), "models", models, key_place(own, "models"))
+    return put(renaming.inside(base), "models", models, own)
 
 
-def _inherited(base: SourceNode, own: SourceNode) -> SourceNode:
-    """A model with what the base says of it; its class is its own."""
-    merged = cut(own, "from")
-    for key, value in members(base).items():
-        if key != "class" and own.child(key) is None:
-            merged = put(merged, key, value, key_place(base, key))
-    return merged
-
-
-def _renumbered(root: SourceNode, table: SourceNode | None, findings: ComposeFindings, base: SourcePlace) -> SourceNode:
+def _renumbered(
+    root: SourceNode, table: SourceNode | None, findings: ComposeFindings, at_base: tuple[str, SourcePlace]
+) -> SourceNode:
     chapters = {old: text(new) for old, new in members(table).items()}
     if table is None or not chapters:
         return root
-    renumbering = Renumbering(chapters)
-    models = root.child("models")
-    new = renumbering.of(root)
+    used: set[str] = set()
+    new = renumbered(root, chapters, used)
     for old in chapters:
-        if old not in renumbering.used:
+        if old not in used:
             message = f"nothing of the base stands in chapter {old}"
-            findings.add(RENUMBERS_NOTHING, message, key_place(table, old), "remove it", ("the base", base))
-    return new if models is None else put(new, "models", models, key_place(root, "models"))
-
-
-def _added(root: SourceNode, own: SourceNode, findings: ComposeFindings) -> SourceNode:
-    root = laid_over(root, own, findings, LISTS, owner="the base", advice=_CLASH)
-    root = replace(root, own, _REPLACED)
-    for group in elements(own.child("groups")):
-        root = _with_group(root, group, findings)
-    return root
+            findings.add(RENUMBERS_NOTHING, message, key_place(table, old), "remove it", at_base)
+    models = root.child("models")
+    return new if models is None else put(new, "models", models, root)
 
 
 def _with_group(root: SourceNode, group: SourceNode, findings: ComposeFindings) -> SourceNode:
@@ -87,8 +75,7 @@ def _with_group(root: SourceNode, group: SourceNode, findings: ComposeFindings) 
     groups = elements(root.child("groups"))
     same = [number for number, each in enumerate(groups) if id_of(each) == id_of(group)]
     if not same:
-        place = (root.child("groups") or root).place
-        return put(root, "groups", listing([*groups, group], place), key_place(root, "groups"))
+        return put(root, "groups", listing([*groups, group], (root.child("groups") or root).place))
     old = groups[same[0]]
     for key in members(group).keys() - {"id", "registers"}:
         message = f"`{key}` is given for `{id_of(group)}`, which is a group of the base"

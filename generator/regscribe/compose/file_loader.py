@@ -78,10 +78,8 @@ class FileLoader:
             advice = "correct the id in it, or the name of the file"
             self.findings.add(OTHER_ID, message, node.place, advice, ("it says so here", called.place))
             return None
-        return LoadedFile(text(called), path, root, shipped=self._is_shipped(path))
-
-    def _is_shipped(self, path: Path) -> bool:
-        return path.is_relative_to(self.shipped) and self.folder.resolve() != self.shipped.resolve()
+        shipped = path.is_relative_to(self.shipped) and self.folder.resolve() != self.shipped.resolve()
+        return LoadedFile(text(called), path, root, shipped)
 
     def content_hash(self, own: str) -> str:
         """One hash for a file and all others that were read for it."""

@@ -28,10 +28,9 @@ class ComposeFindings:
 
 
 def meant(name: str, known: Iterable[str]) -> str:
-    """Guess which of the known names was meant, and list some of them."""
+    """A guess which of the known names was meant, and some of them."""
     names = list(dict.fromkeys(known))
     near = get_close_matches(name[:100], names, n=1)
     guess = f"did you mean `{near[0]}`? " if near else ""
     more = f" and {len(names) - _LISTED} more" if len(names) > _LISTED else ""
-    listed = ", ".join(shorten(one) for one in names[:_LISTED])
-    return f"{guess}there are: {listed}{more}" if names else "there are none"
+    return f"{guess}there are: {', '.join(map(shorten, names[:_LISTED]))}{more}" if names else "there are none"

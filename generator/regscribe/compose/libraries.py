@@ -4,7 +4,7 @@ from regscribe.compose.file_loader import LoadedFile
 from regscribe.compose.findings import ComposeFindings, meant
 from regscribe.compose.merge import TABLES, laid_over, replace
 from regscribe.compose.rules import LEAVES_NOTHING_OUT
-from regscribe.compose.tree import cut, edit, key_place, listing, mapping, members, put, scalar
+from regscribe.compose.tree import cut, key_place, listing, mapping, members, put, remove, scalar
 from regscribe.source import Document, SourceNode
 
 _LISTS = ("errata", "notes")
@@ -15,7 +15,7 @@ _MERGED = {*TABLES, *_LISTS, "notations", "protocol"}
 def with_libraries(root: SourceNode, libraries: list[LoadedFile], findings: ComposeFindings) -> SourceNode:
     """The map with all that its libraries hold, less the commands that it gives as null."""
     nulls = left_out(root)
-    below = mapping({}, {}, root.place)
+    below = mapping({}, root.place)
     for library in libraries:
         part = _without(library.root, nulls)
         advice = "use one of the two libraries only"
@@ -40,7 +40,7 @@ def left_out(root: SourceNode) -> set[str]:
 
 def _without(root: SourceNode, commands: set[str]) -> SourceNode:
     for name in sorted(commands):
-        root = edit(root, ("commands", name), lambda _: None)
+        root = remove(root, ("commands", name))
     return root
 
 
@@ -50,9 +50,8 @@ def as_map(library: Document) -> Document:
     groups = []
     for name, registers in members(root.child("sets")).items():
         label = scalar(name, registers.place)
-        groups.append(mapping({"id": label, "name": label, "registers": registers}, {}, registers.place))
-    about = root.child("library") or root
-    models = mapping({"Library": mapping({}, {}, place)}, {}, place)
-    root = put(put(cut(root, "library"), "map", about, place), "models", models, place)
-    root = put(root, "groups", listing(groups, place), place)
+        groups.append(mapping({"id": label, "name": label, "registers": registers}, registers.place))
+    models = mapping({"Library": mapping({}, place)}, place)
+    root = put(cut(root, "library"), "map", root.child("library") or root)
+    root = put(put(root, "models", models), "groups", listing(groups, place))
     return Document(library.name, library.text, root.value, library.content_hash, root)

@@ -33,13 +33,20 @@ def laid_over(
 ) -> SourceNode:
     """`below` with the tables, notations, lists and protocol of `above`.
 
-    A name that both have in a table is an error at the one above: `owner` says whose the names below are, `advice`
-    what to do.
+    A name that both have in a table, or a notation of one space, is an error at the one above: `owner` says whose the
+    names below are, `advice` what to do.
     """
     below = _merge_tables(below, above, findings, owner=owner, advice=advice)
-    below = append(_merge_notations(below, above, findings, owner=owner), above, lists)
+    have = {_notation(one): one for one in elements(below.child("notations"))}
+    for one in elements(above.child("notations")):
+        clash = have.get(_notation(one))
+        if clash is not None:
+            message = f"the notation `{text(one.child('name'))}` is declared here and in {owner}"
+            other = (f"the notation of {owner}", clash.place)
+            findings.add(NAME_CLASH, message, one.place, "remove one of the two", other)
+    below = append(below, above, ("notations", *lists))
     protocol = _merge_protocol(below.child("protocol"), above.child("protocol"))
-    return below if protocol is None else put(below, "protocol", protocol, key_place(above, "protocol"))
+    return below if protocol is None else put(below, "protocol", protocol, above)
 
 
 def _merge_protocol(below: SourceNode | None, above: SourceNode | None) -> SourceNode | None:
@@ -50,7 +57,7 @@ def _merge_protocol(below: SourceNode | None, above: SourceNode | None) -> Sourc
     for key, value in members(above).items():
         under = below.child(key)
         new = replace(under, value, members(value)) if key in NESTED and under is not None else value
-        merged = put(merged, key, new, key_place(above, key))
+        merged = put(merged, key, new, above)
     return merged
 
 
@@ -59,43 +66,32 @@ def _merge_tables(
 ) -> SourceNode:
     """`below` with the entries of the tables of `above`; those of `below` stand first."""
     for table, what in TABLES.items():
-        added = above.child(table)
+        added, have = above.child(table), below.child(table)
         if added is None:
             continue
-        have = below.child(table)
-        merged = have or mapping({}, {}, added.place)
+        merged = have or mapping({}, added.place)
         for name, value in members(added).items():
-            clash = have.child(name) if have else None
-            if have is not None and clash is not None:
-                message = f"the {what} `{name}` is declared here and in {owner}"
-                other = (f"the {what} of {owner}", key_place(have, name))
-                findings.add(NAME_CLASH, message, key_place(added, name), advice, other)
-            else:
-                merged = put(merged, name, value, key_place(added, name))
-        below = put(below, table, merged, key_place(above, table))
+            if have is None or have.child(name) is None:
+                merged = put(merged, name, value, added)
+                continue
+            message = f"the {what} `{name}` is declared here and in {owner}"
+            other = (f"the {what} of {owner}", key_place(have, name))
+            findings.add(NAME_CLASH, message, key_place(added, name), advice, other)
+        below = put(below, table, merged, above)
     return below
 
 
-def _merge_notations(below: SourceNode, above: SourceNode, findings: ComposeFindings, *, owner: str) -> SourceNode:
-    """`below` with the notations of `above`; one name for one space in both is an error."""
-    have = {(text(one.child("name")), text(one.child("space"))): one for one in elements(below.child("notations"))}
-    for one in elements(above.child("notations")):
-        clash = have.get((text(one.child("name")), text(one.child("space"))))
-        if clash is not None:
-            message = f"the notation `{text(one.child('name'))}` is declared here and in {owner}"
-            other = (f"the notation of {owner}", clash.place)
-            findings.add(NAME_CLASH, message, one.place, "remove one of the two", other)
-    return append(below, above, ("notations",))
+def _notation(node: SourceNode) -> tuple[str, str]:
+    return text(node.child("name")), text(node.child("space"))
 
 
 def append(below: SourceNode, above: SourceNode, keys: Iterable[str]) -> SourceNode:
     """`below` with the elements of the lists of `above` behind its own."""
     for key in keys:
-        added = above.child(key)
+        have, added = below.child(key), above.child(key)
         if added is not None:
-            have = below.child(key)
             both = listing([*elements(have), *elements(added)], (have or added).place)
-            below = put(below, key, both, key_place(above, key))
+            below = put(below, key, both, above)
     return below
 
 
@@ -104,5 +100,5 @@ def replace(below: SourceNode, above: SourceNode, keys: Iterable[str]) -> Source
     for key in keys:
         value = above.child(key)
         if value is not None:
-            below = put(below, key, value, key_place(above, key))
+            below = put(below, key, value, above)
     return below

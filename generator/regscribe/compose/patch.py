@@ -7,7 +7,6 @@ from regscribe.schema import inline
 from regscribe.source import SourceNode, SourcePlace, shorten
 
 _LONGEST = 160
-_NOTHING = "nothing"
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,24 +36,28 @@ class Patch:
     def lay(self, below: SourceNode, above: SourceNode, path: str = "") -> SourceNode:
         """`below` with the keys of `above`; mappings in both are merged in turn."""
         for key, new in members(above).items():
-            below = self._laid(below, key, new, key_place(above, key), path)
+            old, name = below.child(key), f"{path}{key}"
+            if old is not None and old.members is not None and new.members is not None:
+                below = put(below, key, self.lay(old, new, f"{name}."))
+            else:
+                below = self._replace(below, above, key, path)
         return below
 
-    def _laid(self, below: SourceNode, key: str, new: SourceNode, where: SourcePlace, path: str) -> SourceNode:
-        old, name = below.child(key), f"{path}{key}"
-        if old is not None and old.members is not None and new.members is not None:
-            return put(below, key, self.lay(old, new, f"{name}."), key_place(below, key))
-        holder = below if path else self._holder(below, key)
+    def _replace(self, below: SourceNode, above: SourceNode, key: str, path: str) -> SourceNode:
+        """`below` with one key of `above` in place of its own, and of a default at the top."""
+        new, name = members(above)[key], f"{path}{key}"
+        around = () if path else self.defaults
+        holder = next((each for each in (below, *around) if each.child(key)), below)
+        old = holder.child(key)
         removes_default = holder is not below and new.value is None
-        if removes_default or _same(holder.child(key), new):
-            self.idle.append(IdleKey(name, where, key_place(holder, key), is_default=removes_default))
+        if removes_default or _same(old, new):
+            self.idle.append(IdleKey(name, key_place(above, key), key_place(holder, key), is_default=removes_default))
             return below
-        self.changed.append(f"{name}: {_shown(holder.child(key))} -> {_shown(new)}")
-        return cut(below, key) if new.value is None else put(below, key, _clean(new), where)
-
-    def _holder(self, below: SourceNode, key: str) -> SourceNode:
-        """The mapping that has the key now: the one below, else the innermost one of defaults."""
-        return next((each for each in (below, *self.defaults) if each.child(key)), below)
+        self.changed.append(f"{name}: {_shown(old)} -> {_shown(new)}")
+        if new.value is None:
+            return cut(below, key)
+        nulls = [name for name, member in members(new).items() if member.value is None]  # with nothing to remove
+        return put(below, key, cut(new, *nulls) if nulls else new, above)
 
 
 def _same(old: SourceNode | None, new: SourceNode) -> bool:
@@ -63,12 +66,5 @@ def _same(old: SourceNode | None, new: SourceNode) -> bool:
     return type(old.value) is type(new.value) and bool(old.value == new.value)
 
 
-def _clean(node: SourceNode) -> SourceNode:
-    """A new mapping without the keys that are null: there is nothing below to remove."""
-    for key in [key for key, member in members(node).items() if member.value is None]:
-        node = cut(node, key)
-    return node
-
-
 def _shown(node: SourceNode | None) -> str:
-    return _NOTHING if node is None or node.value is None else shorten(inline(node.value), _LONGEST)
+    return "nothing" if node is None or node.value is None else shorten(inline(node.value), _LONGEST)

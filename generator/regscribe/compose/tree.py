@@ -13,10 +13,12 @@ _OF_REGISTERS = frozenset({"when", "text", "with", "writes", "conditions"})
 """Below these keys stand names of registers, which may be called like any key."""
 
 
-def mapping(members: Mapping[str, SourceNode], keys: Mapping[str, SourcePlace], place: SourcePlace) -> SourceNode:
+def mapping(
+    members: Mapping[str, SourceNode], place: SourcePlace, keys: Mapping[str, SourcePlace] | None = None
+) -> SourceNode:
     """A mapping of these values; a key without a place of its own stands where its value does."""
-    known = {key: keys.get(key, member.place) for key, member in members.items()}
-    return SourceNode({key: member.value for key, member in members.items()}, place, known, dict(members))
+    places = {key: (keys or {}).get(key, member.place) for key, member in members.items()}
+    return SourceNode({key: member.value for key, member in members.items()}, place, places, dict(members))
 
 
 def listing(elements: Iterable[SourceNode], place: SourcePlace) -> SourceNode:
@@ -35,7 +37,7 @@ def in_file(node: SourceNode, name: str) -> SourceNode:
     place = node.place._replace(file=name)
     if node.members is not None:
         keys = {key: where._replace(file=name) for key, where in (node.keys or {}).items()}
-        return mapping({key: in_file(member, name) for key, member in node.members.items()}, keys, place)
+        return mapping({key: in_file(member, name) for key, member in node.members.items()}, place, keys)
     if node.elements is not None:
         return listing((in_file(element, name) for element in node.elements), place)
     return node._replace(place=place)
@@ -71,15 +73,19 @@ def text(node: SourceNode | None) -> str:
     return "" if node is None or node.value is None else str(node.value)
 
 
-def put(node: SourceNode, key: str, value: SourceNode, place: SourcePlace) -> SourceNode:
-    """The mapping with another value under a key; a new key comes last."""
-    return mapping({**(node.members or {}), key: value}, {**(node.keys or {}), key: place}, node.place)
+def put(node: SourceNode, key: str, value: SourceNode, origin: SourceNode | None = None) -> SourceNode:
+    """The mapping with another value under a key, which stands where it does in `origin` (or else in `node`).
+
+    A new key comes last.
+    """
+    keys = {**(node.keys or {}), key: key_place(origin or node, key)}
+    return mapping({**(node.members or {}), key: value}, node.place, keys)
 
 
 def cut(node: SourceNode, *keys: str) -> SourceNode:
     """The mapping without some keys."""
     rest = {name: member for name, member in (node.members or {}).items() if name not in keys}
-    return mapping(rest, node.keys or {}, node.place)
+    return mapping(rest, node.place, node.keys)
 
 
 def kept(node: SourceNode, key: str, keep: Callable[[SourceNode], bool]) -> SourceNode:
@@ -88,7 +94,7 @@ def kept(node: SourceNode, key: str, keep: Callable[[SourceNode], bool]) -> Sour
     if have is None:
         return node
     left = [each for each in elements(have) if keep(each)]
-    return put(node, key, listing(left, have.place), key_place(node, key)) if left else cut(node, key)
+    return put(node, key, listing(left, have.place)) if left else cut(node, key)
 
 
 def at(node: SourceNode, location: Location) -> SourceNode | None:
@@ -110,7 +116,12 @@ def edit(node: SourceNode, location: Location, change: Callable[[SourceNode], So
         every = (new if place == step else element for place, element in enumerate(node.elements))
         return listing((element for element in every if element is not None), node.place)
     key = str(step)
-    return cut(node, key) if new is None else put(node, key, new, key_place(node, key))
+    return cut(node, key) if new is None else put(node, key, new)
+
+
+def remove(node: SourceNode, location: Location) -> SourceNode:
+    """The tree without what stands at a location."""
+    return edit(node, location, lambda _: None)
 
 
 def id_of(node: SourceNode) -> str:
