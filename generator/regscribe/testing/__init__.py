@@ -5,7 +5,6 @@ the strategies in `regscribe.testing.properties` need hypothesis. Imports the ru
 """
 
 from regscribe.testing.driver_checks import DriverUnderTest
-from regscribe.testing.register_trial import Trial
-from regscribe.testing.vectors import Vectors, load, number
+from regscribe.testing.vectors import Trial, Vectors, load, number
 
 __all__ = ["DriverUnderTest", "Trial", "Vectors", "load", "number"]

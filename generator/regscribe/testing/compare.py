@@ -1,11 +1,10 @@
-"""Hold a driver's answer against a vector, and say what differs."""
+"""Compare what a driver decodes and encodes with a vector, and report the differences."""
 
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from typing import Any
 
-from regscribe.testing.register_trial import Trial
-from regscribe.testing.vectors import Json, number
+from regscribe.testing.vectors import Json, Trial, number
 from regscribe_runtime import Flags, NotDecodable, Saturated, SensorFault, ValueNotDecodable, ValueRefused
 
 MOST_SHOWN = 12
@@ -18,21 +17,15 @@ def differs(where: str, what: str, found: object, expected: object) -> Iterator[
         yield f"{where}: {what} {found!r}, expected {expected!r}"
 
 
-def report(differences: Iterable[str]) -> str:
-    """Return differences as the message of a failure: how many, and the first of them."""
-    listed = list(differences)
-    rest = f"\n  ... and {len(listed) - MOST_SHOWN} more" if len(listed) > MOST_SHOWN else ""
-    return f"{len(listed)} differences:\n  " + "\n  ".join(listed[:MOST_SHOWN]) + rest
-
-
 def expect_none(differences: Iterable[str]) -> None:
-    """Raise AssertionError with a report if there are differences."""
+    """Raise AssertionError if there are differences: how many, and the first of them."""
     if listed := list(differences):
-        raise AssertionError(report(listed))
+        rest = f"\n  ... and {len(listed) - MOST_SHOWN} more" if len(listed) > MOST_SHOWN else ""
+        raise AssertionError(f"{len(listed)} differences:\n  " + "\n  ".join(listed[:MOST_SHOWN]) + rest)
 
 
 def same(found: object, text: str) -> bool:
-    """Tell whether a decoded value is what a vector spells; a float must be the nearest one."""
+    """Tell whether a decoded value is the text or number of a vector; a float must be the nearest one."""
     if isinstance(found, str):
         return found == text
     if isinstance(found, float):
@@ -60,11 +53,7 @@ def _value(where: str, trial: Trial, found: Any, vector: Json, expected: object)
     named = "special" in vector and not isinstance(found, str)  # its number counts as the range does: by name
     if "value" not in vector or not (named or same(found, vector["value"])):
         yield f"{where}: value {found!r}, expected {expected!r}"
-    else:
-        yield from _details(where, trial, found, vector)
-
-
-def _details(where: str, trial: Trial, found: Any, vector: Json) -> Iterator[str]:  # noqa: ANN401 (as above)
+        return
     for key in ("member", "special"):
         if key in vector:
             yield from _named(where, key, found, vector[key], trial.entry.get(f"{key}s", ()))

@@ -5,8 +5,7 @@ from functools import cached_property
 from typing import Any
 
 from regscribe.testing.compare import decoded, differs, encoded, expect_none, refused, same
-from regscribe.testing.register_trial import Trial, known
-from regscribe.testing.vectors import Json, Vectors, number
+from regscribe.testing.vectors import Json, Trial, Vectors, known, number
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.conditions import ALWAYS
 from regscribe_runtime.values.facts import CommandStep
@@ -14,9 +13,9 @@ from regscribe_runtime.values.facts import CommandStep
 WRITE_COIL, WRITE_COILS = 5, 15
 WRITE_ONE = (5, 6)
 ON = 0xFF00
-"""What function 05 sends for a coil that is on."""
+"""Word that function 05 sends for a coil that is on."""
 WITH_DOMAIN = frozenset({"number", "integer", "raw", "enum"})
-"""Kinds of which a vector says what can be written."""
+"""Kinds whose vectors have a domain of values to write, if there are any."""
 
 
 class DriverUnderTest:
@@ -43,7 +42,7 @@ class DriverUnderTest:
 
     @cached_property
     def mirrored(self) -> list[Trial]:
-        """Those of registers with several views."""
+        """The trials of `written` whose registers have several views."""
         return [trial for trial in self.written if len(trial.register.view_names) > 1]
 
     def __repr__(self) -> str:
@@ -54,24 +53,24 @@ class DriverUnderTest:
         return found
 
     def _trials(self) -> Iterator[Trial]:
-        """Yield trials of each register that the driver has; equal declarations in one set are tried once."""
+        """Yield trials of each register of the driver, once for those of a set that are equal for the codec."""
         for entry in self.vectors.sets:
             tried: list[tuple[object, ...]] = []
             paths = (place["path"] for place in entry["registers"] if self.model in place["models"])
             for register in filter(None, map(self._register, paths)):
-                declared = _declaration(register)
+                scaling = (register.scale, register.special_scale, register.range, register.sentinels)
+                declared = (register.views, id(register.value_type), register.access, *scaling)
                 if declared not in tried:
                     tried.append(declared)
                     yield from (Trial(register, entry, case, *known(case)) for case in entry["cases"])
 
     def check_registers(self) -> None:
         """Assert that the driver has the registers of the model, no others, at their addresses in every view."""
-        expect_none([*self._places(), *self._names()])
-
-    def _names(self) -> Iterator[str]:
         expected, found = {place["path"] for place, _ in self.places}, set(self.driver.registers)
-        yield from (f"{path}: the driver of {self.model} lacks it" for path in sorted(expected - found))
-        yield from (f"{path}: {self.model} has no such register" for path in sorted(found - expected))
+        differences = list(self._places())
+        differences += [f"{path}: the driver of {self.model} lacks it" for path in sorted(expected - found)]
+        differences += [f"{path}: {self.model} has no such register" for path in sorted(found - expected)]
+        expect_none(differences)
 
     def _places(self) -> Iterator[str]:
         for place, entry in self.places:
@@ -180,7 +179,7 @@ CHECKS = (
     DriverUnderTest.check_conditions_of_writing,
     DriverUnderTest.check_examples,
 )
-"""What generated tests ask of a driver and its vectors without drawing values."""
+"""The checks of generated tests that draw no values."""
 
 
 def _placed(register: Register[Any], name: str | None, start: int, count: int) -> tuple[Any, int]:
@@ -204,12 +203,6 @@ def _carried(function: int, sent: bytes) -> tuple[int, ...]:
 
 def _hex(words: tuple[int, ...]) -> str:
     return " ".join(f"{word:04X}" for word in words)
-
-
-def _declaration(register: Register[Any]) -> tuple[object, ...]:
-    """Return all that the codec looks at; two registers with equal declarations cannot differ in it."""
-    scaling = (register.scale, register.special_scale, register.range, register.sentinels)
-    return (register.views, id(register.value_type), register.access, *scaling)
 
 
 def _step(step: Json) -> CommandStep:

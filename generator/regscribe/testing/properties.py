@@ -13,9 +13,8 @@ from hypothesis import settings
 from hypothesis import strategies as st
 
 from regscribe.testing.driver_checks import DriverUnderTest
-from regscribe.testing.register_trial import Trial
 from regscribe.testing.simulated_read import wrong_requests, wrong_values
-from regscribe.testing.vectors import number
+from regscribe.testing.vectors import Json, Trial, number
 from regscribe_runtime import ValueNotDecodable, ValueRefused
 from regscribe_runtime.registers.register import Register
 
@@ -114,16 +113,17 @@ def _equal(found: object, value: object) -> bool:
     return found == value
 
 
+def _view(trial: Trial) -> Json:
+    view: Json = next(view for view in trial.entry["views"] if view["name"] == trial.view)
+    return view
+
+
 def _size(trial: Trial) -> int:
-    return int(next(view["words"] for view in trial.entry["views"] if view["name"] == trial.view))
-
-
-def _type(trial: Trial) -> str:
-    return str(next(view["type"] for view in trial.entry["views"] if view["name"] == trial.view))
+    return int(_view(trial)["words"])
 
 
 def _word(trial: Trial) -> st.SearchStrategy[int]:
-    return st.integers(0, {"bit": 1, "uint8": 255}.get(_type(trial), 65535))
+    return st.integers(0, {"bit": 1, "uint8": 255}.get(_view(trial)["type"], 65535))
 
 
 def values(trial: Trial) -> st.SearchStrategy[Any]:
@@ -153,10 +153,14 @@ def _inside(trial: Trial, stretch: dict[str, Any]) -> st.SearchStrategy[Any]:
     low, high, step = Fraction(stretch["low"]), Fraction(stretch["high"]), Fraction(stretch.get("step", 0))
     holes = {Fraction(text) for text in stretch.get("except", ())}
     slope, offset = Fraction(stretch.get("slope", 1)), Fraction(stretch.get("offset", 0))
-    is_float = _type(trial).startswith("float")
+    is_float = _view(trial)["type"].startswith("float")
 
     def carried(there: Fraction) -> Fraction:
-        return slope * _few_digits((there - offset) / slope) + offset if is_float else there
+        if not is_float:
+            return there
+        wire = (there - offset) / slope
+        few = Context(prec=SIGNIFICANT).divide(Decimal(wire.numerator), Decimal(wire.denominator))
+        return slope * Fraction(few) + offset
 
     def value(part: int) -> Fraction:
         there = carried(low + (high - low) * Fraction(part, PARTS))
@@ -171,11 +175,6 @@ def _inside(trial: Trial, stretch: dict[str, Any]) -> st.SearchStrategy[Any]:
     anywhere = st.one_of(st.integers(0, PARTS).map(value), near.filter(lambda there: low <= there <= high))
     ends = st.sampled_from((low, high))
     return st.one_of(anywhere, ends).filter(possible).map(lambda there: number(f"{there}"))
-
-
-def _few_digits(value: Fraction) -> Fraction:
-    """Cut a number to the digits that every float32 keeps."""
-    return Fraction(Context(prec=SIGNIFICANT).divide(Decimal(value.numerator), Decimal(value.denominator)))
 
 
 def others(trial: Trial) -> st.SearchStrategy[Any]:

@@ -1,4 +1,4 @@
-"""Drive the read operation of a driver without a link, and judge the requests that it makes."""
+"""Run the read operation of a driver without a link, and check the requests that it makes."""
 
 from collections import Counter, defaultdict
 from collections.abc import Callable, Container, Iterable, Iterator, Sequence
@@ -10,7 +10,6 @@ from regscribe_runtime.operations.session import Session
 from regscribe_runtime.operations.snapshot import Snapshot
 from regscribe_runtime.planning.read_places import ReadPlace, read_places
 from regscribe_runtime.registers.register import Register
-from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.wire_types import Space
 from regscribe_runtime.wire.requests import READ_SPACES, Reply, Request
 
@@ -21,7 +20,7 @@ BITS = frozenset({"coil", "discrete"})
 
 
 class ReadTrace(NamedTuple):
-    """The requests that a read made, and what it returned; both as the driver's runtime has them."""
+    """The requests that a read made, what it returned, and its session."""
 
     requests: tuple[Request, ...]
     snapshot: Snapshot
@@ -31,8 +30,7 @@ class ReadTrace(NamedTuple):
 def read_through(driver: Any, chosen: Sequence[Register[Any]], *, seed: int = 0, code: int = 0) -> ReadTrace:  # noqa: ANN401 (a generated class)
     """Read registers from a device whose words follow from `seed`.
 
-    All registers that the meaning of others depends on are taken to be known and to hold `code`, so only what was
-    chosen is read.
+    Registers that the meaning of the chosen ones depends on are known to hold `code`, so that they are not read.
     """
     session = Session(
         unit=driver.protocol.unit_ids[0],
@@ -60,7 +58,7 @@ def read_through(driver: Any, chosen: Sequence[Register[Any]], *, seed: int = 0,
 
 
 def word_at(space: str, address: int, seed: int) -> int:
-    """Return the word (the bit, the status byte) at an address: any one, but always the same."""
+    """Return the word (the bit, the status byte) at an address, always the same for a seed; 0 for the seed 0."""
     most = 1 if space in BITS else 0xFF if space == "status" else 0xFFFF
     return (address * 40503 + seed * 60493) >> 4 & most if seed else 0
 
@@ -68,18 +66,27 @@ def word_at(space: str, address: int, seed: int) -> int:
 def wrong_requests(driver: Any, chosen: Sequence[Register[Any]]) -> list[str]:  # noqa: ANN401 (a generated class)
     """Return what is wrong with the requests: registers left out or asked for twice, holes, limits."""
     requests = read_through(driver, chosen).requests
-    asked = Counter(cell for request in requests for cell in _cells(READ_SPACES[request.function], request))
-    found = [f"{register.path} is not asked for" for register in chosen if not _is_asked(register, asked)]
+    asked = Counter(
+        (READ_SPACES[request.function], request.address + offset)
+        for request in requests
+        for offset in range(request.quantity)
+    )
+    found = [f"{register.path} is not asked for" for register in chosen if not _is_read(register, asked)]
     found += [f"{space} {address} is asked for again" for (space, address), times in asked.items() if times > 1]
     found += [f"{space} {address} is no register" for space, address in sorted(_holes(driver, asked))]
-    return found + [text for request in requests for text in _too_much(driver.protocol, request)]
+    for request in requests:
+        is_bits = READ_SPACES[request.function] in BITS
+        most = driver.protocol.read_bits if is_bits else driver.protocol.read_words
+        if request.quantity > most:
+            found += [f"{request.quantity} addresses from {request.address} in one request, where {most} are allowed"]
+    return found
 
 
 def _holes(driver: Any, asked: Iterable[Cell]) -> set[Cell]:  # noqa: ANN401 (as above)
-    """The addresses of no register, in no view, and not unused either; none where the device answers for holes."""
+    """Return the addresses of no register and not unused; none where the device answers for holes."""
     if driver.protocol.read_holes:
         return set()
-    known = {cell for register in driver.registers.values() for cell in _places_of(register)}
+    known = {cell for register in driver.registers.values() for cell in _cells(register)}
     known |= {(space, at) for space, first, last in unused_of(driver) for at in range(first, last + 1)}
     return set(asked) - known
 
@@ -90,28 +97,18 @@ def unused_of(driver: Any) -> tuple[tuple[Space, int, int], ...]:  # noqa: ANN40
     return found
 
 
-def _cells(space: str, request: Request) -> Iterator[Cell]:
-    return ((space, request.address + offset) for offset in range(request.quantity))
-
-
-def _is_asked(register: Register[Any], asked: Container[Cell]) -> bool:
+def _is_read(register: Register[Any], asked: Container[Cell]) -> bool:
     return any(
         all((place.span.space, address) in asked for address in range(place.span.address, place.span.end))
         for place in read_places(register)
     )
 
 
-def _places_of(register: Register[Any]) -> Iterator[Cell]:
+def _cells(register: Register[Any]) -> Iterator[Cell]:
     base = register.views[0]
     starts = [(view, view.address(register.at)) for view in register.views]
     starts += [(base, alias) for alias in register.aliases]
     return ((view.space, start + offset) for view, start in starts for offset in range(view.words))
-
-
-def _too_much(protocol: Protocol, request: Request) -> Iterator[str]:
-    most = protocol.read_bits if READ_SPACES[request.function] in BITS else protocol.read_words
-    if request.quantity > most:
-        yield f"{request.quantity} addresses from {request.address} in one request, where {most} are allowed"
 
 
 def wrong_values(driver: Any, chosen: Sequence[Register[Any]], *, seed: int, code: int) -> list[str]:  # noqa: ANN401 (as above)

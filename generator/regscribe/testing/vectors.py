@@ -1,18 +1,18 @@
-"""The vectors of a map as read from its JSON file."""
+"""The vectors of a map as read from its JSON file, and a trial: a register of a driver in one of their situations."""
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 Json = Mapping[str, Any]
 
 
 @dataclass(frozen=True, slots=True)
 class Vectors:
-    """A vector file: sets of cases for registers of models, and the manual's worked examples."""
+    """A vector file: sets of cases for registers of models, the manual's worked examples, limits and commands."""
 
     map_id: str
     models: tuple[str, ...]
@@ -22,7 +22,7 @@ class Vectors:
     commands: tuple[Json, ...] = field(default=(), repr=False)
 
     def registers(self, model: str) -> Iterator[tuple[Json, Json]]:
-        """Yield each register of a model as its place (path, addresses) and the set that is true of it."""
+        """Yield the place (path, addresses) and the vector set of each register of a model."""
         for entry in self.sets:
             yield from ((place, entry) for place in entry["registers"] if model in place["models"])
 
@@ -45,7 +45,7 @@ def load(path: Path) -> Vectors:
 
 
 def number(text: str) -> int | float | Fraction:
-    """Return the number that a vector spells as a program would write it; a Fraction where no float spells it."""
+    """Return the number in a vector as an int or a float; a Fraction where no float has the same digits."""
     exactly = Fraction(text)
     if exactly.denominator == 1:
         return exactly.numerator
@@ -54,3 +54,46 @@ def number(text: str) -> int | float | Fraction:
     except OverflowError:  # beyond every float
         return exactly
     return nearest if Fraction(repr(nearest)) == exactly else exactly
+
+
+class Trial(NamedTuple):
+    """A register of a driver in one view and situation: `case` has its vectors, `entry` is their vector set."""
+
+    register: Any  # a Register; named so, pyright would let the field take what its __set__ takes, which is nothing
+    entry: Json
+    case: Json
+    state: Mapping[str, Any]
+    givens: Mapping[str, Any]
+
+    @property
+    def view(self) -> str:
+        """The name of the view."""
+        return str(self.case["view"])
+
+    def decode(self, words: Sequence[int]) -> Any:  # noqa: ANN401 (whatever the register holds)
+        """Decode with the driver under the state of this trial."""
+        return self.register.decode(words, view=self.view, state=self.state, givens=self.givens)
+
+    def encode(self, value: object, *, rounded: bool = False) -> tuple[int, ...]:
+        """Encode with the driver under the state of this trial."""
+        words: tuple[int, ...] = self.register.encode(
+            value, view=self.view, state=self.state, givens=self.givens, rounded=rounded
+        )
+        return words
+
+    def __repr__(self) -> str:
+        given = {name: codes for name, codes in self.givens.items() if name in self.case.get("givens", {})}
+        return f"{self.register.path} ({self.view}) with {dict(self.state) | given}"
+
+
+def known(case: Json) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return the state and the givens of a case as a driver takes them."""
+    givens = case.get("givens", {})
+    stated = {**case.get("assumed", {}), **case.get("state", {})}
+    return (
+        {path: number(text) for path, text in stated.items()},
+        {
+            name: codes if isinstance(codes, bool) else {number(text) for text in codes}
+            for name, codes in givens.items()
+        },
+    )
