@@ -1,7 +1,7 @@
-"""The reference codec: slow, obvious, with fractions only; what every other codec is measured against.
+"""The reference codec, which every other codec is tested against: slow, obvious, in exact fractions.
 
-Words -> wire number -> stored value -> value of use, and back. Nothing is cached or guessed; the runtime's codec is
-written apart from it, so that neither inherits the other's mistakes.
+Words -> wire number -> stored value -> value of use, and back. The runtime's codec shares no code with it, so that
+neither inherits the other's mistakes.
 """
 
 from regscribe.reference.codec import (
@@ -13,11 +13,10 @@ from regscribe.reference.codec import (
     version_number,
     version_text,
 )
-from regscribe.reference.ieee import NotFiniteError, ieee_bits, ieee_number, not_a_number, shortest
+from regscribe.reference.ieee import ieee_bits, ieee_number, shortest
 from regscribe.reference.outcome import Meaning, Reading, RefusalReason, RefusedError, UnknownValueError
 from regscribe.reference.surroundings import (
     MOST_DECIMALS,
-    NOTHING_KNOWN,
     Known,
     Surroundings,
     choose,
@@ -29,7 +28,6 @@ from regscribe.reference.surroundings import (
 )
 from regscribe.reference.words import (
     bytes_in_order,
-    carried,
     round_by,
     sent_words,
     transmit,
@@ -41,17 +39,14 @@ from regscribe.reference.words import (
 
 __all__ = [
     "MOST_DECIMALS",
-    "NOTHING_KNOWN",
     "Known",
     "Meaning",
-    "NotFiniteError",
     "Reading",
     "RefusalReason",
     "RefusedError",
     "Surroundings",
     "UnknownValueError",
     "bytes_in_order",
-    "carried",
     "choose",
     "decimal_factor",
     "decode",
@@ -61,7 +56,6 @@ __all__ = [
     "ieee_bits",
     "ieee_number",
     "limits",
-    "not_a_number",
     "number_of",
     "round_by",
     "sent_words",

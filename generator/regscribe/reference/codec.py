@@ -1,4 +1,4 @@
-"""Decode and encode one register, step by step as the map's language defines it."""
+"""Decodes and encodes one register, step by step as the map language defines it."""
 
 from fractions import Fraction
 from math import floor
@@ -20,7 +20,7 @@ PATTERNS = frozenset({Kind.FLAGS, Kind.FIELDS})
 
 
 def decode(register: Register, view: View, words: tuple[int, ...], known: Known = NOTHING_KNOWN) -> Reading:
-    """Say what `words`, read from `view`, mean; raises UnknownValueError for a value that decides and is not known."""
+    """Return what `words`, read from `view`, mean; raises UnknownValueError if that depends on an unknown value."""
     order = word_order(view, known)
     if order is None:
         return NOT_DECODABLE
@@ -49,7 +49,7 @@ def sentinel_number(view: View, sentinel: Sentinel) -> Fraction | NotANumber | N
 
 
 def special_value(register: Register, special: Special, known: Known) -> Fraction | None:
-    """Return the value of use that the code of a special value is as things stand; None if nobody can tell."""
+    """Return the code of a special value as a value of use; None if no scale holds or its decimals are no number."""
     conversion = choose(register.special_scale, known)
     factor = None if conversion is None else decimal_factor(conversion.decimals, known)
     return None if factor is None else special.code / factor
@@ -141,7 +141,7 @@ def encode(
 
 
 def _pattern(view: View, number: Fraction) -> Fraction:
-    """Return the number that a pattern of bits is to the type of the view."""
+    """Return a pattern of bits as a number of the view's type."""
     size = 1 << view.type.bits
     if not 0 <= number < size:
         raise RefusedError(RefusalReason.TYPE, f"{show(number)} has more than {view.type.bits} bits")
@@ -165,7 +165,9 @@ def _check_kind(register: Register, value: Fraction) -> None:
     if register.enum is not None and all(member.code != value for member in register.enum.members):
         raise RefusedError(RefusalReason.MEMBER, f"{show(value)} is no member of {register.enum.id}")
     if register.kind is Kind.FLAGS:
-        _check_bits(register, value)
+        named = sum(((1 << bits.width) - 1) << bits.low for bits in register.fields)
+        if value.denominator != 1 or value < 0 or int(value) & ~named:
+            raise RefusedError(RefusalReason.BITS, f"{show(value)} sets bits that mean nothing")
     if not register.fractional and value.denominator != 1:
         raise RefusedError(RefusalReason.TYPE, f"{show(value)} is no whole number")
 
@@ -185,12 +187,6 @@ def _special_code(register: Register, value: Fraction, known: Known) -> Fraction
     return None
 
 
-def _check_bits(register: Register, value: Fraction) -> None:
-    named = sum(((1 << bits.width) - 1) << bits.low for bits in register.fields)
-    if value.denominator != 1 or value < 0 or int(value) & ~named:
-        raise RefusedError(RefusalReason.BITS, f"{show(value)} sets bits that mean nothing")
-
-
 def _stored(register: Register, value: Fraction, known: Known, *, rounded: bool) -> Fraction:
     conversion = choose(register.scale, known)
     factor = None if conversion is None else decimal_factor(conversion.decimals, known)
@@ -200,19 +196,11 @@ def _stored(register: Register, value: Fraction, known: Known, *, rounded: bool)
     return _on_step(conversion, stored, known, rounded=rounded)
 
 
-def increment(conversion: Conversion, known: Known) -> Fraction | None:
-    """Return how far two stored numbers lie apart; None where nothing says so.
-
-    Raises RefusedError if a register that says it holds no number of decimals.
-    """
+def _on_step(conversion: Conversion, stored: Fraction, known: Known, *, rounded: bool) -> Fraction:
     factor = decimal_factor(conversion.places, known)
     if factor is None:
         raise RefusedError(RefusalReason.CONDITION, "nobody can tell how many decimals the device keeps")
-    return None if conversion.step is None else conversion.step / factor
-
-
-def _on_step(conversion: Conversion, stored: Fraction, known: Known, *, rounded: bool) -> Fraction:
-    step = increment(conversion, known)
+    step = None if conversion.step is None else conversion.step / factor
     if step is None or (stored / step).denominator == 1:
         return stored
     if not rounded:

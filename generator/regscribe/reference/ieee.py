@@ -21,15 +21,15 @@ class Format(NamedTuple):
 
 FORMATS = {WireType.FLOAT32: Format(23, 8, 9), WireType.FLOAT64: Format(52, 11, 17)}
 
-
 CONTEXTS = tuple(
     Context(prec=digits, rounding=rounding, Emax=999999, Emin=-999999)
     for digits in range(1, FORMATS[WireType.FLOAT64].digits + 1)
     for rounding in (ROUND_HALF_EVEN, ROUND_UP)
 )
-"""From few digits to many, the nearest decimal first.
+"""From few digits to many, rounding to the nearest decimal first, then away from zero.
 
-Below a power of two the numbers lie closer together: the nearest decimal may be another's, the next one not.
+Below a power of two the numbers lie closer together: the nearest decimal may read back as another number, the next
+one not.
 """
 
 

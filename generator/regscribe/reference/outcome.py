@@ -1,4 +1,4 @@
-"""What decoding gives and why encoding refuses."""
+"""Results of decoding, and reasons for which encoding refuses a value."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -6,7 +6,7 @@ from fractions import Fraction
 
 
 class UnknownValueError(LookupError):
-    """A value that decides was not said: the register (or `register.field`, or given) is the only argument."""
+    """A needed value is not known: the register (or `register.field`, or given) is the only argument."""
 
 
 class RefusalReason(StrEnum):
@@ -30,7 +30,7 @@ class RefusedError(ValueError):
 
 
 class Meaning(StrEnum):
-    """What words turned out to be."""
+    """Kind of result of decoding."""
 
     VALUE = "value"
     UNKNOWN_MEMBER = "unknown_member"
@@ -41,7 +41,7 @@ class Meaning(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """What words mean: `value` (a number or a text), or `fault` (the sentinel's id), or neither."""
+    """Result of decoding: `value` (a number or a text), or `fault` (the sentinel's id), or neither."""
 
     meaning: Meaning
     value: Fraction | str | None = None

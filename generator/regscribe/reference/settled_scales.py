@@ -1,4 +1,4 @@
-"""Every conversion that a register may have, with its decimals settled, and how far its values reach."""
+"""Conversions that a register may have, one for each number of decimals, and the range of its values."""
 
 from fractions import Fraction
 from functools import cache
@@ -10,15 +10,12 @@ MOST_DECIMALS = 4
 """Decimals tried where a register holds their number and the map does not limit it (16 bits have five digits)."""
 
 
+@cache
 def factors(decimals: Decimals | None) -> tuple[Fraction, ...]:
     """Every factor that a decimals register can mean: 1, 10, 100 ..."""
     if decimals is None:
-        return _powers(0)
-    return _powers(MOST_DECIMALS if decimals.at_most is None else decimals.at_most)
-
-
-@cache
-def _powers(most: int) -> tuple[Fraction, ...]:
+        return (Fraction(1),)
+    most = MOST_DECIMALS if decimals.at_most is None else decimals.at_most
     return tuple(Fraction(10) ** digits for digits in range(most + 1))
 
 
@@ -32,7 +29,7 @@ class Form(NamedTuple):
 
     @classmethod
     def of(cls, conversion: Conversion, factor: Fraction) -> "Form":
-        """Divide once, not for each value."""
+        """Return the form of a conversion, with the divisions done once for all values."""
         offset = conversion.add / Fraction(conversion.multiply) if conversion.add else Fraction(0)
         return cls(conversion, factor, factor / conversion.multiply, offset)
 

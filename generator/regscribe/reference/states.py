@@ -1,11 +1,11 @@
-"""Representative states of a device: which values of a register stand for all, and how they are combined."""
+"""Representative states of a device: the domain of a register, values that stand for all, and their combinations."""
 
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import groupby, product
 from typing import NamedTuple, TypeVar
 
-from regscribe.model import BitField, Enum, Interval, Kind, Number, Register, WireType
+from regscribe.model import Interval, Kind, Number, Register, WireType
 from regscribe.reference.settled_scales import forms, widest
 
 K = TypeVar("K", bound=Hashable)
@@ -27,32 +27,25 @@ MOST_LISTED = 32
 """A domain of up to as many whole numbers is taken as the list of its values."""
 
 ANYTHING = (Stretch(Fraction(-(10**30)), Fraction(10**30)),)
-"""For floats and for texts: no end that matters."""
+"""Domain of floats and texts: no end that matters."""
 
 
 def domain(register: Register, field: str = "") -> tuple[Stretch, ...]:
     """The values of use that the map allows for: members and invalid codes of an enum, the range and special values."""
-    if field:
-        bits = next((one for one in register.fields if one.id == field), None)
-        return _of_field(bits) if bits else ANYTHING
-    if register.enum is not None:
-        return _codes(register.enum)
+    bits = next((one for one in register.fields if one.id == field), None)
+    if field and bits is None:
+        return ANYTHING
+    enum = bits.enum if bits else register.enum
+    if enum is not None:
+        codes = sorted({member.code for member in enum.members} | {code for code, _ in enum.invalid})
+        return tuple(Stretch(Fraction(code), Fraction(code)) for code in codes)
+    if bits:
+        return (Stretch(Fraction(0), Fraction((1 << bits.width) - 1)),)
     if register.kind in {Kind.FLAGS, Kind.FIELDS}:
         return (Stretch(Fraction(0), Fraction((1 << register.bits) - 1)),)
     if register.kind is Kind.STRING or register.base.type is WireType.STRING:
         return ANYTHING
     return _without_faults(register, _of_number(register))
-
-
-def _of_field(bits: BitField) -> tuple[Stretch, ...]:
-    if bits.enum is not None:
-        return _codes(bits.enum)
-    return (Stretch(Fraction(0), Fraction((1 << bits.width) - 1)),)
-
-
-def _codes(enum: Enum) -> tuple[Stretch, ...]:
-    codes = sorted({member.code for member in enum.members} | {code for code, _ in enum.invalid})
-    return tuple(Stretch(Fraction(code), Fraction(code)) for code in codes)
 
 
 def _of_number(register: Register) -> tuple[Stretch, ...]:
@@ -72,7 +65,7 @@ def _stretch(interval: Interval, low: Fraction, high: Fraction) -> Stretch:
 
 
 def _without_faults(register: Register, stretches: tuple[Stretch, ...]) -> tuple[Stretch, ...]:
-    """Cut out the stored numbers that report faults, where they have one value each: no state has them as values."""
+    """Cut out the stored numbers that report faults, where each has one value: a device in use never holds them."""
     every = forms(register) if register.faults else ()
     if len(every) != 1 or any(view.factor != 1 or view.type.is_float for view in register.views):
         return stretches

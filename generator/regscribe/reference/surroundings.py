@@ -1,4 +1,4 @@
-"""What else must be known to read or write a value: conditions, limits and decimals under the values of others."""
+"""Conditions, limits and decimals of a register, evaluated with the values of other registers and the givens."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -15,7 +15,7 @@ MOST_DECIMALS = 9
 
 
 class Known(Protocol):
-    """What else must be known: values of use by path (or `register.field`), codes and facts of the givens by id."""
+    """Values of use of other registers by path (or `register.field`), and codes and facts of the givens by id."""
 
     @property
     def codes(self) -> Mapping[str, frozenset[Fraction]]:
@@ -28,7 +28,7 @@ class Known(Protocol):
         raise NotImplementedError
 
     def look_up(self, subject: str) -> Fraction:
-        """Return the present value of `subject`; raises UnknownValueError if nobody said it."""
+        """Return the present value of `subject`; raises UnknownValueError if it is not known."""
         raise NotImplementedError
 
 
@@ -38,14 +38,14 @@ Limits = tuple[tuple[Fraction | None, Fraction | None], ...]
 
 @dataclass(frozen=True, slots=True)
 class Surroundings:
-    """What is known, as far as it was said."""
+    """Known values in plain dicts."""
 
     values: Mapping[str, Fraction] = field(default_factory=dict)
     codes: Mapping[str, frozenset[Fraction]] = field(default_factory=dict)
     facts: Mapping[str, bool] = field(default_factory=dict)
 
     def look_up(self, subject: str) -> Fraction:
-        """Return the present value of `subject`; raises UnknownValueError if nobody said it."""
+        """Return the value of `subject`; raises UnknownValueError if there is none."""
         if subject not in self.values:
             raise UnknownValueError(subject)
         return self.values[subject]
@@ -55,7 +55,6 @@ NOTHING_KNOWN = Surroundings()
 
 
 def _is_true(test: Is, known: Known) -> bool:
-    """Tell whether one test is true under what is known."""
     if not test.register:
         if test.given not in known.facts:
             raise UnknownValueError(test.given)
@@ -92,7 +91,7 @@ def decimal_factor(decimals: Decimals | None, known: Known) -> Fraction | None:
     return Fraction(10**most)
 
 
-def limit_number(limit: Limit, factor: Fraction, known: Known) -> Fraction | None:
+def _limit(limit: Limit, factor: Fraction, known: Known) -> Fraction | None:
     """Return the number of a limit; None for an open one, which nothing is checked against."""
     if isinstance(limit, Open):
         return None
@@ -100,7 +99,7 @@ def limit_number(limit: Limit, factor: Fraction, known: Known) -> Fraction | Non
 
 
 def limits(limits_now: Range, known: Known) -> Limits:
-    """Lowest and highest value of each interval as things stand; None where nothing limits."""
+    """Return the limits; raises RefusedError if the decimals register holds no number of decimals."""
     factor = decimal_factor(limits_now.decimals, known)
     if factor is None:
         raise RefusedError(RefusalReason.CONDITION, f"{limits_now.decimals} holds no number of decimals")
@@ -108,17 +107,16 @@ def limits(limits_now: Range, known: Known) -> Limits:
 
 
 def divided_limits(limits_now: Range, factor: Fraction, known: Known) -> Limits:
-    """Return the limits where those that are numbers are divided by `factor`."""
+    """Return the limits, those that are numbers divided by `factor`."""
     return tuple(
-        (limit_number(interval.low, factor, known), limit_number(interval.high, factor, known))
-        for interval in limits_now.intervals
+        (_limit(interval.low, factor, known), _limit(interval.high, factor, known)) for interval in limits_now.intervals
     )
 
 
 def in_range(register: Register, value: Fraction, known: Known) -> bool:
-    """Tell whether `value` lies in one of the intervals that count now; a register without range takes all.
+    """Tell whether `value` lies in one of the intervals that hold now; a register without range takes all.
 
-    Raises RefusedError if the range has cases and none holds: nothing then says what the device would take.
+    Raises RefusedError if the range has cases and none holds.
     """
     if not register.range:
         return True

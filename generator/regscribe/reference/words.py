@@ -1,4 +1,4 @@
-"""Words and wire numbers: type, word order, rounding and text."""
+"""Words to wire numbers and back: type, order of words and bytes, rounding, text."""
 
 from fractions import Fraction
 from math import floor, trunc
@@ -37,7 +37,7 @@ def round_by(rounding: Rounding, number: Fraction) -> int:
 
 
 def word_order(view: View, known: Known) -> Order | None:
-    """Return the order of the words as things stand; None if the register's code sets no order."""
+    """Return the present order of the words; None if the code of the register that sets it has no order."""
     if isinstance(view.order, Order):
         return view.order
     code = known.look_up(view.order.register)
@@ -60,22 +60,14 @@ def words_in_order(view: View, raw: list[int], order: Order) -> tuple[int, ...]:
     return words if order is Order.BIG else tuple(reversed(words))
 
 
-def _bits_of(view: View, words: tuple[int, ...], order: Order) -> int:
-    bits = 0
-    for byte in bytes_in_order(view, words, order):
-        bits = bits * 256 + byte
-    return bits % (1 << view.type.bits)
-
-
 def words_of_bits(view: View, bits: int, order: Order) -> tuple[int, ...]:
     """Return the words on the wire of a number in two's complement, or of the bits of an IEEE number."""
-    raw = [(bits >> (8 * place)) % 256 for place in reversed(range(2 * view.type.words))]
-    return words_in_order(view, raw, order)
+    return words_in_order(view, list(bits.to_bytes(2 * view.type.words, "big")), order)
 
 
 def wire_number(view: View, words: tuple[int, ...], order: Order) -> Fraction | NotANumber | None:
-    """Return the number that the words spell: of IEEE patterns NAN for those of no number, None for an infinity."""
-    bits = _bits_of(view, words, order)
+    """Return the number in the words: NAN for IEEE patterns of no number, None for an infinity."""
+    bits = int.from_bytes(bytes_in_order(view, words, order), "big") % (1 << view.type.bits)
     if view.type.is_float:
         try:
             return shortest(ieee_number(bits, view.type), view.type)
