@@ -13,10 +13,10 @@ from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.simulate.device.state import Value
 from regscribe.simulate.device.value_arguments import Fault, Plain
 from regscribe.simulate.givens import GivenValue
-from regscribe.simulate.line.connection import Arrival, Delivery, Patience, Watcher
 from regscribe.simulate.line.server_context import Foreign
 from regscribe.simulate.line.servers import Server
-from regscribe.simulate.line.service import Service, Transport, start
+from regscribe.simulate.line.service import Arrival, Delivery, Patience, Service, Transport, Watcher
+from regscribe.simulate.line.serving import start
 from regscribe.simulate.map_cache import find_map
 from regscribe.simulate.process.thermal_process import ThermalProcess
 from regscribe_runtime.values.serial_line import SerialLine

@@ -22,7 +22,7 @@ from regscribe.simulate import (
     in_thread,
     start,
 )
-from regscribe.simulate.line.connection import MOST_WAITING, Connection, ConnectionPolicy
+from regscribe.simulate.line.connection import MOST_WAITING, Connection
 from regscribe.simulate.line.server_context import ServerContext
 from regscribe_runtime.wire.server_framing import framer_for
 
@@ -107,7 +107,7 @@ class Outlet(asyncio.Transport):
         self.reading = False
 
 
-def connected(device: SimulatedDevice, policy: ConnectionPolicy) -> tuple[Connection, Outlet]:
+def connected(device: SimulatedDevice, policy: Service) -> tuple[Connection, Outlet]:
     connection, outlet = Connection(framer_for("tcp"), ServerContext([device]), policy), Outlet()
     connection.connection_made(outlet)
     return connection, outlet
@@ -115,7 +115,7 @@ def connected(device: SimulatedDevice, policy: ConnectionPolicy) -> tuple[Connec
 
 def test_a_client_that_does_not_read_is_not_read_from_until_it_does(controller: RegisterMap) -> None:
     async def run() -> None:
-        connection, outlet = connected(SimulatedDevice(controller, "16C"), ConnectionPolicy())
+        connection, outlet = connected(SimulatedDevice(controller, "16C"), Service())
         connection.pause_writing()
         assert not outlet.reading
         connection.resume_writing()
@@ -132,7 +132,7 @@ def test_a_client_with_too_many_requests_waiting_is_not_read_from_until_they_are
             await let_go.wait()
             return each.frame
 
-        connection, outlet = connected(SimulatedDevice(controller, "16C"), ConnectionPolicy(delivery=hold))
+        connection, outlet = connected(SimulatedDevice(controller, "16C"), Service(delivery=hold))
         connection.data_received(READ * (MOST_WAITING - 1))
         assert outlet.reading
         connection.data_received(READ * 2)

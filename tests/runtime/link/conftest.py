@@ -17,7 +17,8 @@ import pytest
 from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map
 from regscribe.simulate import SimulatedDevice
-from regscribe.simulate.line.service import Service, Transport, start
+from regscribe.simulate.line.service import Service, Transport
+from regscribe.simulate.line.serving import start
 from regscribe_runtime.wire.client_framing import Rtu
 
 MAPS = Path(__file__).parents[3] / "maps"

@@ -15,8 +15,8 @@ from regscribe.emit import python
 from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map
 from regscribe.simulate import Exchange, Frame, Service, SimulatedDevice, Transport, start
-from regscribe.simulate.line.connection import Chunk, Patience
 from regscribe.simulate.line.line_faults import USUAL, LineFault, LineFaults
+from regscribe.simulate.line.service import Chunk, Patience
 from regscribe_runtime import AsyncBus, Bus, Retry
 from regscribe_runtime.link import connect
 from regscribe_runtime.link.trace import SENT, Trace

@@ -15,8 +15,8 @@ from hypothesis import strategies as st
 
 from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map
-from regscribe.simulate import SimulatedDevice, SimulatorError
-from regscribe.simulate.line.connection import MOST_WAITING, Connection, ConnectionPolicy
+from regscribe.simulate import Service, SimulatedDevice, SimulatorError
+from regscribe.simulate.line.connection import MOST_WAITING, Connection
 from regscribe.simulate.line.server_context import ServerContext
 from regscribe.tools.live import catalogue, config, link_names, target
 from regscribe.tools.live.capture import captured
@@ -109,7 +109,7 @@ class Sink(asyncio.Transport):
 def test_a_server_takes_any_bytes_keeps_few_and_answers_the_next_good_request(framing: str, data: Any) -> None:
     async def serve() -> None:
         sink = Sink()
-        connection = Connection(framer_for(framing), ServerContext([device()]), ConnectionPolicy())
+        connection = Connection(framer_for(framing), ServerContext([device()]), Service())
         connection.connection_made(sink)
         for piece in data.draw(streams(framing)):
             connection.data_received(piece)

@@ -31,7 +31,7 @@ from regscribe.simulate import (
     serve,
 )
 from regscribe.simulate.line.server_context import factor_of
-from regscribe.simulate.line.service import line_of
+from regscribe.simulate.line.serving import line_of
 from regscribe.visible import safe
 from regscribe_runtime.values.serial_line import ADDRESSINGS
 

@@ -76,7 +76,7 @@ def command(
     return 0
 
 
-def _logged(rounds: Iterator[Round], log: logs.Log | None) -> Iterator[Round]:
+def _logged(rounds: Iterator[Round], log: logs.TextLog | logs.SqliteLog | None) -> Iterator[Round]:
     for one in rounds:
         if log is not None:
             log.write(one)

@@ -7,8 +7,8 @@ from regscribe.model import Kind
 from regscribe.simulate.device import codec, plain_values
 from regscribe.simulate.device.device import READS, SimulatedDevice
 from regscribe.simulate.device.device_plan import AddressSpan
-from regscribe.simulate.line.connection import Exchange
 from regscribe.simulate.line.server_context import BROADCAST
+from regscribe.simulate.line.service import Exchange
 from regscribe_runtime.wire.pdu import EXCEPTION_BIT, MalformedError, decode_reply, decode_request
 from regscribe_runtime.wire.requests import SPACES, Request
 

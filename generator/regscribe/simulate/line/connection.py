@@ -2,11 +2,10 @@
 
 import asyncio
 from collections import deque
-from collections.abc import Awaitable, Callable, Sequence
-from dataclasses import dataclass
 from typing import cast
 
 from regscribe.simulate.line.server_context import ServerContext
+from regscribe.simulate.line.service import Chunk, Exchange, Patience, Service
 from regscribe_runtime.wire.framing import Frame
 from regscribe_runtime.wire.server_framing import Framer
 
@@ -17,63 +16,6 @@ MOST_WAITING = 64
 """Requests of one client that wait for their turn before no more are read from it."""
 
 
-@dataclass(frozen=True, slots=True)
-class Exchange:
-    """A request, the device's answer (None: silence) and the frame that would be sent (empty: nothing)."""
-
-    request: Frame
-    answer: bytes | None
-    frame: bytes
-
-
-@dataclass(frozen=True, slots=True)
-class Chunk:
-    """Bytes that are sent after `pause` seconds; with `hangup` the client is disconnected then."""
-
-    data: bytes = b""
-    pause: float = 0.0
-    hangup: bool = False
-
-
-Delivery = Callable[[Exchange], Awaitable[bytes | Sequence[Chunk]]]
-"""Stands between the device and the line: awaited for each exchange, it returns the bytes to send.
-
-The place for faults: waiting, changing, dropping or doubling frames. Exchanges of one connection pass one after the
-other; the device's own latency has passed before.
-"""
-
-Arrival = Callable[[Frame, Callable[[], bytes | None]], bytes | None]
-"""Stands between the line and the device: called with each request, and with what lets the device act on it.
-
-It returns the answer. If it does not let the device act, the request never arrived.
-"""
-
-Recorder = Callable[[Frame], None]
-"""Told of each request that concerns a device here, before it is handled."""
-
-Watcher = Callable[[Exchange], None]
-"""Told of each exchange, requests to foreign units among them, before its frame is sent."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Patience:
-    """Seconds: `idle` until a silent client is disconnected, `gap` until half a frame is given up."""
-
-    idle: float | None = 600.0
-    gap: float = 1.0
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ConnectionPolicy:
-    """How a connection treats its client, and who stands between the device and the line."""
-
-    patience: Patience | None = None
-    arrival: Arrival | None = None
-    delivery: Delivery | None = None
-    recorder: Recorder | None = None
-    watcher: Watcher | None = None
-
-
 class Connection(asyncio.Protocol):
     """Serves one client or one serial line: requests from its bytes, answers in the order of the requests.
 
@@ -81,13 +23,13 @@ class Connection(asyncio.Protocol):
     when it pauses writing; then the client is not read from until writing resumes.
     """
 
-    def __init__(self, framer: Framer, station: ServerContext, policy: ConnectionPolicy) -> None:
+    def __init__(self, framer: Framer, station: ServerContext, service: Service) -> None:
         self._loop = asyncio.get_running_loop()
         self.heard = self._loop.time()
         self._framer = framer
         self._station = station
-        self._policy = policy
-        self._gap = (policy.patience or Patience()).gap
+        self._service = service
+        self._gap = (service.patience or Patience()).gap
         self._waiting: deque[Frame] = deque()
         self._task: asyncio.Task[None] | None = None
         self._expiry: asyncio.TimerHandle | None = None
@@ -149,7 +91,7 @@ class Connection(asyncio.Protocol):
     def _take(self, requests: list[Frame]) -> None:
         if not requests:
             return
-        if not self._station.factor and self._policy.delivery is None:
+        if not self._station.factor and self._service.delivery is None:
             frames = [self._exchange(request).frame for request in requests]
             self._write(b"".join(frames))
             return
@@ -160,15 +102,15 @@ class Connection(asyncio.Protocol):
             self._task = self._loop.create_task(self._answer_waiting())
 
     def _exchange(self, request: Frame) -> Exchange:
-        policy = self._policy
-        if policy.recorder is not None and self._station.has(request.unit):
-            policy.recorder(request)
-        act, arrival = self._station.answer, policy.arrival
+        service = self._service
+        if service.recorder is not None and self._station.has(request.unit):
+            service.recorder(request)
+        act, arrival = self._station.answer, service.arrival
         unit, pdu = request.unit, request.pdu
         answer = act(unit, pdu) if arrival is None else arrival(request, lambda: act(unit, pdu))
         exchange = Exchange(request, answer, b"" if answer is None else self._framer.answer(request, answer))
-        if policy.watcher is not None:
-            policy.watcher(exchange)
+        if service.watcher is not None:
+            service.watcher(exchange)
         return exchange
 
     async def _answer_waiting(self) -> None:
@@ -187,7 +129,7 @@ class Connection(asyncio.Protocol):
             self._writer.close()
 
     async def _deliver(self, exchange: Exchange) -> None:
-        delivery = self._policy.delivery
+        delivery = self._service.delivery
         if self._station.factor and exchange.answer is not None:
             await asyncio.sleep(self._station.delay(exchange.request))
         sent = exchange.frame if delivery is None else await delivery(exchange)

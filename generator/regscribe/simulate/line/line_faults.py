@@ -6,7 +6,7 @@ from enum import StrEnum
 from random import Random
 from threading import Lock
 
-from regscribe.simulate.line.connection import Chunk, Exchange
+from regscribe.simulate.line.service import Chunk, Exchange
 from regscribe_runtime.wire.framing import MBAP_HEAD, TCP, Frame, build, checked_framing
 from regscribe_runtime.wire.pdu import encode_reply
 from regscribe_runtime.wire.requests import (

@@ -2,10 +2,10 @@
 
 import asyncio
 
-from regscribe.simulate.line.connection import ConnectionPolicy
 from regscribe.simulate.line.serial_ports import OpenLine
 from regscribe.simulate.line.server_context import ServerContext
 from regscribe.simulate.line.servers import LineServer
+from regscribe.simulate.line.service import Service
 from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.wire.server_framing import SilenceFramer
 
@@ -17,24 +17,17 @@ class PacedLineServer(LineServer):
     """Serves a line whose bytes take the time that they take at the speed of `serial`, in both directions.
 
     Frames end by silence, as RTU has it: bytes that follow each other within `gap` seconds are one frame. Requests
-    without silence between them are one bad frame. With `strict`, so is a request that begins within the gap after the
-    end of the answer before it.
+    without silence between them are one bad frame. With `strict_gaps`, so is a request that begins within the gap
+    after the end of the answer before it.
     """
 
     def __init__(
-        self,
-        line: OpenLine,
-        station: ServerContext,
-        policy: ConnectionPolicy,
-        *,
-        serial: SerialLine,
-        gap: float,
-        strict: bool,
+        self, line: OpenLine, station: ServerContext, service: Service, serial: SerialLine, gap: float
     ) -> None:
-        super().__init__(line, station, policy, SilenceFramer())
+        super().__init__(line, station, service, SilenceFramer())
         self._character = serial.character
         self._silence = gap
-        self._strict = strict
+        self._strict = service.strict_gaps
         self._frame = bytearray()
         self._arrival = 0.0
         self._ending: asyncio.TimerHandle | None = None

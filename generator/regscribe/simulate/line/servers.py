@@ -2,15 +2,25 @@
 
 import asyncio
 from abc import ABC, abstractmethod
+from dataclasses import replace
 from io import FileIO
 from typing import cast
 
 from regscribe.simulate.errors import SimulatorError
-from regscribe.simulate.line.connection import CHUNK, Connection, ConnectionPolicy, Patience
+from regscribe.simulate.line.connection import CHUNK, Connection
 from regscribe.simulate.line.serial_ports import OpenLine
 from regscribe.simulate.line.server_context import ServerContext
-from regscribe_runtime.wire.framing import RTU
+from regscribe.simulate.line.service import Patience, Service, Transport
+from regscribe_runtime.wire.framing import ASCII, RTU, TCP
 from regscribe_runtime.wire.server_framing import Framer, RtuFramer, framer_for
+
+FRAMINGS = {
+    Transport.TCP: TCP,
+    Transport.RTU_OVER_TCP: RTU,
+    Transport.ASCII_OVER_TCP: ASCII,
+}
+SERIAL_GAP = 0.1
+"""Seconds of silence that end a frame on a serial line: longer than 3.5 characters, for adapters deliver in chunks."""
 
 FAREWELL = 0.5
 """Seconds that a client has to take the last answers when its connection is closed."""
@@ -56,44 +66,42 @@ class Server(ABC):
 class TcpServer(Server):
     """Serves many clients; each is independent of what the others send or do not read.
 
-    When `most` clients are there and another comes, the one that was silent longest is disconnected.
+    When all `connections` are taken and another client comes, the one that was silent longest is disconnected.
     """
 
-    def __init__(self, station: ServerContext, framing: str, policy: ConnectionPolicy, *, most: int) -> None:
+    def __init__(self, station: ServerContext, service: Service) -> None:
         super().__init__()
-        self.station, self.framing, self.policy = station, framing, policy
-        self.buffer = memoryview(bytearray(RTU_CHUNK if framing == RTU else CHUNK))
-        self.clients: set[TcpClient] = set()
-        self._most = most
-        self._idle = (policy.patience or Patience()).idle
+        self.station, self.service = station, service
+        self.framing = FRAMINGS[service.transport]
+        self.buffer = memoryview(bytearray(RTU_CHUNK if self.framing == RTU else CHUNK))
+        self.clients: set[_TcpClient] = set()
         self._idle_check: asyncio.TimerHandle | None = None
         self._listener: asyncio.Server | None = None
 
-    async def listen(self, host: str, port: int) -> None:
+    async def listen(self) -> None:
         """Bind and accept; `host` and `port` are then the bound ones. SimulatorError where that is not possible."""
         loop = asyncio.get_running_loop()
+        host, port = self.service.host, self.service.port
         try:
-            self._listener = await loop.create_server(lambda: TcpClient(self), host, port)
+            self._listener = await loop.create_server(lambda: _TcpClient(self), host, port)
         except (OSError, OverflowError, UnicodeError) as problem:
             message = f"cannot listen on {host} port {port}: {problem}. Choose another port, or 0 for any free one"
             raise SimulatorError(message) from problem
         self.host, self.port = self._listener.sockets[0].getsockname()[:2]
-        if self._idle is not None:
-            self._disconnect_idle(self._idle)
+        idle = (self.service.patience or Patience()).idle
+        if idle is not None:
+            self._disconnect_idle(idle)
 
-    def admit(self, client: "TcpClient") -> None:
+    def admit(self, client: "_TcpClient") -> None:
         """Take a client in; if there are too many, disconnect the one that was silent longest."""
-        if len(self.clients) >= self._most:
-            silent = min(self.clients, key=lambda each: each.heard)
-            self.clients.discard(silent)
-            silent.dismiss()
+        if len(self.clients) >= self.service.connections:
+            min(self.clients, key=lambda each: each.heard).dismiss()
         self.clients.add(client)
 
     def _disconnect_idle(self, idle: float) -> None:
         """Disconnect clients that were silent for `idle` seconds, `LOOKS` times within them."""
         loop = asyncio.get_running_loop()
         for client in [each for each in self.clients if loop.time() - each.heard > idle]:
-            self.clients.discard(client)
             client.dismiss()
         self._idle_check = loop.call_later(idle / LOOKS, self._disconnect_idle, idle)
 
@@ -112,16 +120,15 @@ class TcpServer(Server):
         await asyncio.gather(*(gone.wait() for gone in leaving))
 
 
-class TcpClient(Connection, asyncio.BufferedProtocol):
+class _TcpClient(Connection, asyncio.BufferedProtocol):
     """One client of a TCP server; all clients of a server share the buffer of one chunk."""
 
     def __init__(self, server: TcpServer) -> None:
-        super().__init__(framer_for(server.framing), server.station, server.policy)
+        super().__init__(framer_for(server.framing), server.station, server.service)
         self._server = server
         self._gone = asyncio.Event()
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """Be admitted to the server."""
         super().connection_made(transport)
         self._server.admit(self)
 
@@ -130,17 +137,16 @@ class TcpClient(Connection, asyncio.BufferedProtocol):
         return self._server.buffer
 
     def buffer_updated(self, nbytes: int) -> None:
-        """Act on bytes of the buffer."""
         self.data_received(bytes(self._server.buffer[:nbytes]))
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """Leave the server."""
         super().connection_lost(exc)
         self._server.clients.discard(self)
         self._gone.set()
 
     def dismiss(self) -> asyncio.Event:
         """Let it take its last answers for a moment, and disconnect it; the event is set when it is gone."""
+        self._server.clients.discard(self)
         self._writer.close()
         self._loop.call_later(FAREWELL, self._writer.abort)
         return self._gone
@@ -149,11 +155,10 @@ class TcpClient(Connection, asyncio.BufferedProtocol):
 class LineServer(Server, Connection):
     """Serves one serial line, on two pipes of asyncio upon its file descriptor."""
 
-    def __init__(
-        self, line: OpenLine, station: ServerContext, policy: ConnectionPolicy, framer: Framer | None = None
-    ) -> None:
+    def __init__(self, line: OpenLine, station: ServerContext, service: Service, framer: Framer | None = None) -> None:
         Server.__init__(self, line.path)
-        Connection.__init__(self, framer or RtuFramer(), station, policy)
+        patience = service.patience or Patience(idle=None, gap=SERIAL_GAP)
+        Connection.__init__(self, framer or RtuFramer(), station, replace(service, patience=patience))
         self._line = line
 
     async def listen(self) -> None:

@@ -14,6 +14,7 @@ _BRACKETS = re.compile(r"(?:[\[<][0-9A-Fa-f]{2}[\]>]\s*)+")
 _PREFIXED = re.compile(r"(?:0x[0-9A-Fa-f]{1,2}[\s,]*)+")
 _PAIRS = re.compile(r"(?<![0-9A-Za-z:.])[0-9A-Fa-f]{2}(?:[ :,\-\t]+[0-9A-Fa-f]{2})+(?![0-9A-Za-z])")
 _SOLID = re.compile(r"(?<![0-9A-Za-z])(?:[0-9A-Fa-f]{2}){4,}(?![0-9A-Za-z])")
+_BYTE = re.compile(r"(?:0x)?([0-9A-Fa-f]{1,2})")
 _ASCII = re.compile(r":(?:[0-9A-Fa-f]{2}){3,}")
 _DIRECTIONS = (
     (SENT, re.compile(r"\b(?:tx|sent|sending|send|request|query|out|write)\b|(?<![-=])[-=]+>|>>>?|→", re.IGNORECASE)),
@@ -44,12 +45,9 @@ def captured(lines: Iterable[str], framing: str = "") -> Iterator[Captured]:
 
 
 def _candidates(text: str) -> Iterator[bytes]:
-    """What in a line may be the bytes of a frame, in every notation."""
+    """Runs of bytes in a line, in every notation."""
     for found in _ASCII.findall(text):
         yield found.encode("ascii")
-    for pattern in (_BRACKETS, _PREFIXED):
+    for pattern in (_BRACKETS, _PREFIXED, _PAIRS, _SOLID):
         for found in pattern.findall(text):
-            yield bytes(int(digits, 16) for digits in re.findall(r"(?:0x)?([0-9A-Fa-f]{1,2})", found))
-    for pattern in (_PAIRS, _SOLID):
-        for found in pattern.findall(text):
-            yield bytes.fromhex(re.sub(r"[^0-9A-Fa-f]", "", found))
+            yield bytes(int(digits, 16) for digits in _BYTE.findall(found))

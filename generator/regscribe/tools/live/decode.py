@@ -1,5 +1,6 @@
 """Decodes frames into the names of a map: requests and answers, registers with values, exceptions, commands."""
 
+from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
@@ -74,10 +75,14 @@ class Decoder:
     ) -> None:
         self.driver, self.first = driver, first
         self._givens, self._initial = dict(givens or {}), dict(state or {})
-        self._states: dict[int, dict[str, Any]] = {}
+        self._states: defaultdict[int, dict[str, Any]] = defaultdict(self._initial.copy)
         self._pending: tuple[int, Request] | None = None
         """A request that waits for its answer, with its unit."""
-        self._index = _index(driver)
+        self._index: dict[tuple[str, int], list[tuple[Register[Any], View]]] = defaultdict(list)
+        for register in driver.registers.values():
+            for view in register.views:
+                for at in (register.at, *register.aliases):
+                    self._index[view.space, view.address(at)].append((register, view))
 
     def feed(self, frame: CapturedFrame, direction: str = "") -> Decoded:
         """Decode the next frame; `direction` is sent, received, or "" where only the frames themselves tell."""
@@ -100,7 +105,12 @@ class Decoder:
 
     def _answer(self, frame: CapturedFrame, request: Request | None) -> Decoded:
         if frame.pdu[0] & EXCEPTION_BIT:
-            return self._exception(frame, request)
+            code = frame.pdu[1] if len(frame.pdu) > 1 else 0
+            _, name, meaning = self.driver.protocol.exception(code)
+            name = name or STANDARD.get(code, "unknown")
+            what = f"exception {code:02d} ({name}{f': {meaning}' if meaning else ''})"
+            items = self._items(frame.unit, request, None) if request else ()
+            return _decoded("response", frame, what, request, items, code)
         if request is None:
             return self._strange("response", frame, "to a request that is not in the capture")
         if request.function in WRITES:
@@ -111,13 +121,6 @@ class Decoder:
             return self._strange("response", frame, f"{len(words)} values where {request.quantity} were asked for")
         self._learn(frame.unit, request, words)
         return _decoded("response", frame, "", request, self._items(frame.unit, request, words))
-
-    def _exception(self, frame: CapturedFrame, request: Request | None) -> Decoded:
-        code = frame.pdu[1] if len(frame.pdu) > 1 else 0
-        _, name, meaning = self.driver.protocol.exception(code)
-        what = f"exception {code:02d} ({name or STANDARD.get(code, 'unknown')}{f': {meaning}' if meaning else ''})"
-        items = self._items(frame.unit, request, None) if request else ()
-        return _decoded("response", frame, what, request, items, code)
 
     def _strange(self, kind: str, frame: CapturedFrame, what: str) -> Decoded:
         return _decoded(kind, frame, f"function {frame.function if frame.pdu else 0:02d}, {what}")
@@ -135,12 +138,9 @@ class Decoder:
         named = f" (command {' or '.join(commands)})" if commands else ""
         return f"{'write' if request.function in WRITES else 'read'} {where}{named}"
 
-    def _state(self, unit: int) -> dict[str, Any]:
-        return self._states.setdefault(unit, dict(self._initial))
-
     def _learn(self, unit: int, request: Request, words: tuple[int, ...]) -> None:
         """Keep what registers hold now; twice, since the values of some decide those of others."""
-        state = self._state(unit)
+        state = self._states[unit]
         for register, view, part in list(self._registers(request, words)) * 2:
             try:
                 state[register.path] = codec.decode(register, view, part, state, self._givens, named=False)
@@ -155,7 +155,7 @@ class Decoder:
     def _decode(
         self, item: DecodedItem, unit: int, register: Register[Any], view: View, words: tuple[int, ...]
     ) -> DecodedItem:
-        state, item = self._state(unit), item._replace(words=words)
+        state, item = self._states[unit], item._replace(words=words)
         digits = " ".join(f"{word:04X}" for word in words)
         if len(words) < view.words:
             return item._replace(problem=f"{len(words)} of {view.words} words: {digits}")
@@ -189,16 +189,6 @@ def _decoded(
     function = frame.function if frame.pdu else 0
     address = request.address if request else None
     return Decoded(kind, frame.unit, function, what, address, tuple(items), exception, frame.complaint)
-
-
-def _index(driver: Driver) -> dict[tuple[str, int], list[tuple[Register[Any], View]]]:
-    """Registers with their views, by space and first address."""
-    found: dict[tuple[str, int], list[tuple[Register[Any], View]]] = {}
-    for register in driver.registers.values():
-        for view in register.views:
-            for at in (register.at, *register.aliases):
-                found.setdefault((view.space, view.address(at)), []).append((register, view))
-    return found
 
 
 def _is_answer(frame: CapturedFrame) -> bool:

@@ -8,7 +8,6 @@ import csv
 import io
 import os
 import sqlite3
-from abc import ABC, abstractmethod
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
@@ -28,36 +27,7 @@ class LogError(Exception):
     """A round could not be written; the log holds every round before it."""
 
 
-class Log(ABC):
-    """Takes rounds until it is closed."""
-
-    @abstractmethod
-    def write(self, one: Round) -> None:
-        """Add a round; LogError if it cannot be kept whole."""
-
-    @abstractmethod
-    def close(self) -> None:
-        """End the log; harmless twice."""
-
-
-def open_log(path: Path, device: str) -> Log:
-    """A log at `path`, new or continued; TargetError for another ending, a file of another kind, or no access."""
-    ending = path.suffix.lower()
-    if ending not in ENDINGS:
-        message = f"{path}: a log ends in .csv, .jsonl or .sqlite{meant(ending, ENDINGS) if ending else ''}"
-        raise TargetError(message)
-    try:
-        if ending == ".csv":
-            return _TextLog(path, device, _csv_lines, (",".join(COLUMNS) + "\n").encode())
-        if ending in {".jsonl", ".ndjson"}:
-            return _TextLog(path, device, _json_line)
-        return _SqliteLog(path, device)
-    except (OSError, sqlite3.Error) as error:
-        message = f"{path} cannot be written: {_reason(error)}"
-        raise TargetError(message) from None
-
-
-class _TextLog(Log):
+class TextLog:
     """A log of lines after a `head`: each round is one write, and the file is cut back to `whole` bytes if it fails."""
 
     def __init__(self, path: Path, device: str, lines: Callable[[Round, str], bytes], head: bytes = b"") -> None:
@@ -70,9 +40,11 @@ class _TextLog(Log):
             raise
 
     def write(self, one: Round) -> None:
+        """Add a round; LogError if it cannot be kept whole."""
         self._append(self.lines(one, self.device), f"the round of {one.time.isoformat()}")
 
     def close(self) -> None:
+        """End the log; harmless twice."""
         self.file.close()
 
     def _begin(self) -> int:
@@ -118,7 +90,9 @@ def _json_line(one: Round, device: str) -> bytes:
     return (json_text(plain(one, device)) + "\n").encode()
 
 
-class _SqliteLog(Log):
+class SqliteLog:
+    """A log in a table of SQLite: each round is one transaction."""
+
     def __init__(self, path: Path, device: str) -> None:
         self.path, self.device = path, device
         self.base = sqlite3.connect(path)
@@ -131,6 +105,7 @@ class _SqliteLog(Log):
             self.base.execute(f"CREATE TABLE IF NOT EXISTS {TABLE} ({', '.join(COLUMNS)})")
 
     def write(self, one: Round) -> None:
+        """Add a round; LogError if it cannot be kept whole."""
         places = ", ".join("?" for _ in COLUMNS)
         try:
             with self.base:
@@ -139,7 +114,25 @@ class _SqliteLog(Log):
             raise _unwritten(self.path, f"the round of {one.time.isoformat()}", error) from None
 
     def close(self) -> None:
+        """End the log; harmless twice."""
         self.base.close()
+
+
+def open_log(path: Path, device: str) -> TextLog | SqliteLog:
+    """A log at `path`, new or continued; TargetError for another ending, a file of another kind, or no access."""
+    ending = path.suffix.lower()
+    if ending not in ENDINGS:
+        message = f"{path}: a log ends in .csv, .jsonl or .sqlite{meant(ending, ENDINGS) if ending else ''}"
+        raise TargetError(message)
+    try:
+        if ending == ".csv":
+            return TextLog(path, device, _csv_lines, (",".join(COLUMNS) + "\n").encode())
+        if ending in {".jsonl", ".ndjson"}:
+            return TextLog(path, device, _json_line)
+        return SqliteLog(path, device)
+    except (OSError, sqlite3.Error) as error:
+        message = f"{path} cannot be written: {_reason(error)}"
+        raise TargetError(message) from None
 
 
 def plain(one: Round, device: str) -> dict[str, Any]:

@@ -5,7 +5,6 @@ from contextlib import closing
 from dataclasses import dataclass, field, replace
 from types import ModuleType
 from typing import Any
-from urllib.parse import urlencode
 
 from regscribe.tools.live import catalogue, givens, link_names
 from regscribe.tools.live import config as configuration
@@ -46,14 +45,6 @@ class Target:
 
     def __str__(self) -> str:
         return self.name or f"unit {self.unit} on {self.link}"
-
-    @property
-    def text(self) -> str:
-        """The whole name, as `parse` reads it."""
-        link = str(self.link)
-        more = {"unit": str(self.unit), "model": self.model, **{GIVEN + key: one for key, one in self.givens.items()}}
-        query = urlencode({key: value for key, value in more.items() if value}, safe="/:,")
-        return f"{link}{'&' if '?' in link else '?'}{query}"
 
     def known(self) -> Known:
         """The drivers of its model; TargetError if it has none, or none that is known."""

@@ -3,7 +3,7 @@
 import re
 import unicodedata
 from collections.abc import Sequence
-from decimal import Decimal, InvalidOperation
+from decimal import Decimal
 from enum import Enum
 from typing import Any
 
@@ -139,10 +139,7 @@ def _exactly(register: Register[Any], text: str) -> int | float:
     whole = _whole(text)
     if whole is not None:
         return whole
-    try:
-        number = Decimal(text)
-    except InvalidOperation:
-        number = Decimal("NaN")
+    number = Decimal(text)
     close = float(number)
     if not number.is_finite() or Decimal(repr(close)) != number:
         raise ValueRefused(register.path, f"`{text[:60]}` has more digits than a number of use can carry")

@@ -34,7 +34,6 @@ class ProgramAssignment(NamedTuple):
     setting: Setting
     where: Where
     time: bool = False
-    limited: bool = False
 
 
 class Assignments:
@@ -53,7 +52,7 @@ class Assignments:
         self._final()
         self._count()
         for path, code in self.place.spec.enable:
-            self._assign("enable", path, _amount(code), ("enable", path))
+            self._assign(path, _amount(code), ("enable", path))
 
     def report(self, where: Where, message: str) -> None:
         """Add a problem, labelled with the device's own number of the segment."""
@@ -64,12 +63,13 @@ class Assignments:
             label = f"segment {number}{f', {rest}' if rest else ''}"
         self.problems.append(Problem(where, label, message))
 
-    def _assign(
-        self, part: str, path: str, setting: Setting, where: Where, segment: int = 0, *, time: bool = False
-    ) -> None:
-        limited = self.place.spec.setpoint_limits is not None and where[-1] == "to"
-        found = self.place.register(path, segment)
-        self.assignments.append(ProgramAssignment(part, found, setting, where, time, limited))  # pyright: ignore[reportArgumentType] # a register is a descriptor, but no attribute of this tuple
+    def _register(self, path: str, where: Where) -> Register[Any]:
+        segment = self.place.spec.segments.first + int(where[1]) if where[0] == "segments" else 0
+        return self.place.register(path, segment)
+
+    def _assign(self, path: str, setting: Setting, where: Where, *, time: bool = False) -> None:
+        part = "count" if where[0] == "number_of_segments" else str(where[0])
+        self.assignments.append(ProgramAssignment(part, self._register(path, where), setting, where, time))  # pyright: ignore[reportArgumentType] # a register is a descriptor, but no attribute of this tuple
 
     def _lacks(self, key: str) -> None:
         self.report((key,), f"the {self.place.model} has no such setting: remove `{key}`")
@@ -78,7 +78,7 @@ class Assignments:
         if setting is None:
             return
         if path:
-            self._assign(key, path, setting, (key,))
+            self._assign(path, setting, (key,))
         else:
             self._lacks(key)
 
@@ -92,7 +92,7 @@ class Assignments:
         elif unit not in codes:
             self.report(("time_unit",), unknown("unit of time", unit, codes, where=f"in the {self.place.model}"))
         else:
-            self._assign("time_unit", spec.register, _amount(codes[unit]), ("time_unit",))
+            self._assign(spec.register, _amount(codes[unit]), ("time_unit",))
 
     def _cycles(self) -> None:
         cycles, spec = self.program.cycles, self.place.spec
@@ -103,11 +103,11 @@ class Assignments:
         elif cycles == FOREVER and spec.forever is None:
             self.report(("cycles",), f"the {self.place.model} has no program without end: give a number")
         elif cycles == FOREVER:
-            self._assign("cycles", spec.cycles, _amount(spec.forever or 0), ("cycles",))
+            self._assign(spec.cycles, _amount(spec.forever or 0), ("cycles",))
         elif cycles == spec.forever:
             self.report(("cycles",), f"{cycles} stands for a program without end: write `{FOREVER}` if that is meant")
         else:
-            self._assign("cycles", spec.cycles, _amount(cycles), ("cycles",))
+            self._assign(spec.cycles, _amount(cycles), ("cycles",))
 
     def _segments(self) -> None:
         segments, given = self.place.spec.segments, self.program.segments
@@ -115,50 +115,47 @@ class Assignments:
             self.report(("segments",), "there are none: a program has at least one")
         if len(given) > segments.many:
             message = f"{len(given)} segments, but the {self.place.model} has {segments.many}: leave some out"
-            self.report(("segments",), f"{message} ({segments.first} to {self.place.last})")
-        for place, segment in enumerate(given[: segments.many]):
-            self._segment(place, segment)
+            self.report(("segments",), f"{message} ({segments.first} to {segments.first + segments.many - 1})")
+        for index, segment in enumerate(given[: segments.many]):
+            self._segment(("segments", index), segment)
         if segments.idle:
-            for number in range(segments.first + len(given), segments.first + segments.many):
-                self._idle(number)
+            for index in range(len(given), segments.many):
+                self._idle(("segments", index))
 
-    def _segment(self, index: int, segment: Segment) -> None:
-        spec, where = self.place.spec.segments, ("segments", index)
-        number = spec.first + index
-        self._assign("segments", spec.setpoint, segment.to, (*where, "to"), number)
-        self._assign("segments", spec.ramp, segment.ramp, (*where, "ramp"), number, time=True)
+    def _segment(self, where: Where, segment: Segment) -> None:
+        spec = self.place.spec.segments
+        self._assign(spec.setpoint, segment.to, (*where, "to"))
+        self._assign(spec.ramp, segment.ramp, (*where, "ramp"), time=True)
         if spec.soak:
             soak = _amount(0, "s") if segment.soak is None else segment.soak
-            self._assign("segments", spec.soak, soak, (*where, "soak"), number, time=True)
+            self._assign(spec.soak, soak, (*where, "soak"), time=True)
         elif segment.soak is not None:
             advice = "a further segment to the same setpoint keeps it"
             self.report(
                 (*where, "soak"), f"the segments of the {self.place.model} have no time of their own to stay: {advice}"
             )
-        self._outputs("segments", dict(spec.outputs), segment.outputs, (*where, "outputs"), number)
+        self._outputs(dict(spec.outputs), segment.outputs, (*where, "outputs"))
 
-    def _idle(self, number: int) -> None:
+    def _idle(self, where: Where) -> None:
         """Make a segment that is behind the last one do nothing."""
-        spec, where = self.place.spec.segments, ("segments", number - self.place.spec.segments.first)
+        spec = self.place.spec.segments
         for path in spec.idle:
-            self._assign("segments", path, _amount(0, "s"), where, number, time=True)
+            self._assign(path, _amount(0, "s"), where, time=True)
         for name, path in spec.outputs:
-            state = _default(self.place.register(path, number))
+            state = _default(self._register(path, where))
             if state:
-                self._assign("segments", path, state, (*where, "outputs", name), number)
+                self._assign(path, state, (*where, "outputs", name))
 
-    def _outputs(
-        self, part: str, paths: Mapping[str, str], given: Mapping[str, str], where: Where, segment: int = 0
-    ) -> None:
+    def _outputs(self, paths: Mapping[str, str], given: Mapping[str, str], where: Where) -> None:
         for name in given:
             if name not in paths:
                 message = unknown("output", name, paths, where=f"in the {self.place.model}")
                 self.report((*where, name), message)
         for name, path in paths.items():
-            register = self.place.register(path, segment)
+            register = self._register(path, where)
             state = given.get(name) or _default(register)
             if state:
-                self._assign(part, path, state, (*where, name), segment)
+                self._assign(path, state, (*where, name))
             else:
                 states = ", ".join(choices(register))
                 self.report(where, f"`{name}` is missing, and the manual has no default: give one of {states}")
@@ -171,8 +168,8 @@ class Assignments:
         elif final is None:
             self.report(("final",), "it is missing: say what setpoint and outputs stay behind the last segment")
         else:
-            self._assign("final", spec.setpoint, final.to, ("final", "to"))
-            self._outputs("final", dict(spec.outputs), final.outputs, ("final", "outputs"))
+            self._assign(spec.setpoint, final.to, ("final", "to"))
+            self._outputs(dict(spec.outputs), final.outputs, ("final", "outputs"))
 
     def _count(self) -> None:
         spec, given, have = self.place.spec, self.program.number_of_segments, len(self.program.segments)
@@ -188,7 +185,7 @@ class Assignments:
                 ("number_of_segments",), f"{given}, but {have} segments are {counted} as the device counts them"
             )
         elif counted > 0 and have <= spec.segments.many:
-            self._assign("count", spec.number_of_segments, _amount(counted), ("number_of_segments",))
+            self._assign(spec.number_of_segments, _amount(counted), ("number_of_segments",))
 
     def _open_count(self, given: int | None, have: int) -> str:
         first = self.place.spec.segments.first

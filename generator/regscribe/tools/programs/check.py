@@ -53,7 +53,7 @@ def check(place: ProgramSlot, program: Program, *, beyond_limits: bool = False) 
                 continue  # what the times count in is wrong already, so nothing can be said of them
             try:
                 value = converter.value(one.register, one.setting, time=one.time)
-                if one.limited and not beyond_limits:
+                if one.where[-1] == "to" and not beyond_limits:
                     _within(place, converter, one.register, value)
                 one.register.encode(value, state=converter.state, givens=converter.givens)
             except ValueRefused as error:

@@ -23,8 +23,6 @@ THIN = 2
 """Width of what takes no time, or next to none."""
 
 MOST_LEVELS, MOST_TIMES = 8, 12
-FIRST_COLOUR = 1
-"""Colour 0 is that of the curve."""
 
 
 class PlotArea(NamedTuple):
@@ -189,7 +187,7 @@ def _colours(program: Program) -> dict[str, str]:
     """The colours of the states that outputs have, in the order in which they occur."""
     outputs = [one.outputs for one in program.segments] + ([program.final.outputs] if program.final else [])
     states = dict.fromkeys(state for one in outputs for state in one.values())
-    return {state: tint(number + FIRST_COLOUR) for number, state in enumerate(states)}
+    return {state: tint(number) for number, state in enumerate(states, start=1)}  # 0 is the colour of the curve
 
 
 def _by_segment(found: Profile) -> Iterator[list[Leg]]:

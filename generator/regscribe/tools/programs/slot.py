@@ -26,11 +26,6 @@ class ProgramSlot:
         """How it is called: `recipe`, or with its number `program 2`."""
         return f"{self.spec.id} {self.number}" if self.spec.programs else self.spec.id
 
-    @property
-    def last(self) -> int:
-        """The number of the last segment."""
-        return self.spec.segments.first + self.spec.segments.many - 1
-
     def register(self, path: str, segment: int = 0) -> Register[Any]:
         """The register of a path of the declaration, for this program and a segment."""
         return self.registers[numbered(path, self.number, segment)]

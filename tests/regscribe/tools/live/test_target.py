@@ -29,12 +29,11 @@ def configured(tmp_path: Path) -> config.Config:
 def test_a_link_names_unit_and_model_behind_its_settings() -> None:
     found = target.parse("rtu:/dev/ttyUSB0?baud=9600&unit=3&model=m5000")
     assert (found.unit, found.known().model, found.link.baud) == (3, "M5000", 9600)
-    assert target.parse(found.text) == found
 
 
 def test_a_name_of_the_configuration_stands_for_all_that_is_said_there(configured: config.Config) -> None:
     oven = target.parse("oven", configured)
-    assert oven.text == "tcp:10.0.0.7:1502?framing=rtu&timeout=1.5&unit=3&model=16C"
+    assert (str(oven.link), oven.unit, oven.model) == ("tcp:10.0.0.7:1502?framing=rtu&timeout=1.5", 3, "16C")
     assert (str(oven), target.parse("kiln", configured).unit) == ("oven", 7)
 
 
