@@ -9,7 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from regscribe.evidence import Comparison, compare_table, read
+from regscribe.evidence.compare import compare_table
+from regscribe.evidence.differences import Comparison
+from regscribe.evidence.table import read
 from regscribe.model import RegisterMap
 from regscribe.reference import Surroundings, encode
 from regscribe_runtime.values.numbers import parse

@@ -27,7 +27,8 @@ ACCESS = {
     **dict.fromkeys(("rw", "readwrite", "readandwrite"), "rw"),
 }
 
-Same = Callable[[str, str], bool]
+Fold = Callable[[str], str]
+"""Texts that become equal say the same."""
 
 
 def number(text: str) -> Fraction | None:
@@ -53,13 +54,15 @@ def differing(column: str, ours: str, theirs: str, *, loose: bool) -> tuple[str,
     Of objects only the entries that differ are returned. `loose` ignores case and punctuation of texts, and takes a
     section for the same as the one that it is part of (4.14 and 4.14.2).
     """
-    same = _loosely if loose else _exactly
+    fold = _bare if loose else one_line
     if column in OBJECTS:
-        return _objects(ours, theirs, same)
-    return None if _same(column, ours, theirs, same) else (one_line(ours), one_line(theirs))
+        left, right = ({_code(key): value for key, value in (objects(text) or {}).items()} for text in (ours, theirs))
+        wrong = [key for key in {**left, **right} if not _entry(left.get(key), right.get(key), fold)]
+        return (_shown(left, wrong), _shown(right, wrong)) if wrong else None
+    return None if _same(column, ours, theirs, fold) else (one_line(ours), one_line(theirs))
 
 
-def _same(column: str, ours: str, theirs: str, same: Same) -> bool:
+def _same(column: str, ours: str, theirs: str, fold: Fold) -> bool:
     numbers = number(ours), number(theirs)
     if column in NUMBERS and None not in numbers:
         return numbers[0] == numbers[1]
@@ -69,17 +72,9 @@ def _same(column: str, ours: str, theirs: str, same: Same) -> bool:
         return ours.strip().casefold() == theirs.strip().casefold()
     if column == "access":
         return access(ours) == access(theirs)
-    if column == "section" and same is _loosely:
+    if column == "section" and fold is _bare:
         return _within(ours, theirs) or _within(theirs, ours)
-    return same(ours, theirs)
-
-
-def _exactly(ours: str, theirs: str) -> bool:
-    return one_line(ours) == one_line(theirs)
-
-
-def _loosely(ours: str, theirs: str) -> bool:
-    return _bare(ours) == _bare(theirs)
+    return fold(ours) == fold(theirs)
 
 
 def _bare(text: str) -> str:
@@ -101,7 +96,11 @@ def _within(part: str, whole: str) -> bool:
 def objects(text: str) -> dict[str, object] | None:
     """Read a cell that holds an object; None if it does not."""
     if text.lstrip().startswith("{"):
-        return _json_object(text)
+        try:
+            found = json.loads(text)
+        except (ValueError, RecursionError):
+            return None
+        return found if isinstance(found, dict) else None
     if views := _matches(VIEW, text.split()):
         return {found[1]: int(found[2]) for found in views}
     if pairs := _matches(PAIR, filter(str.strip, re.split(r"[;\n]", text))):
@@ -115,20 +114,6 @@ def _matches(pattern: re.Pattern[str], parts: Iterable[str]) -> list[re.Match[st
     return [] if None in found else [match for match in found if match]
 
 
-def _json_object(text: str) -> dict[str, object] | None:
-    try:
-        found = json.loads(text)
-    except (ValueError, RecursionError):
-        return None
-    return found if isinstance(found, dict) else None
-
-
-def _objects(ours: str, theirs: str, same: Same) -> tuple[str, str] | None:
-    left, right = ({_code(key): value for key, value in (objects(text) or {}).items()} for text in (ours, theirs))
-    wrong = [key for key in {**left, **right} if not _entry(left.get(key), right.get(key), same)]
-    return (_shown(left, wrong), _shown(right, wrong)) if wrong else None
-
-
 def _code(key: str) -> str:
     """Return a code written in one way: 3 for `03` and 3.0, `8..11` for 8-11."""
     bits = re.fullmatch(r"\s*(\d+)\s*(?:\.\.+|-|to)\s*(\d+)\s*", key)
@@ -136,20 +121,15 @@ def _code(key: str) -> str:
     return f"{bits[1]}..{bits[2]}" if bits else key.strip() if code is None else str(code)
 
 
-def _entry(ours: object, theirs: object, same: Same) -> bool:
-    """Whether two entries of objects agree."""
+def _entry(ours: object, theirs: object, fold: Fold) -> bool:
+    """Whether two entries of objects agree; views do in what both sides say, their address at least."""
     if isinstance(ours, dict):
-        return _view(ours, theirs)
+        if isinstance(theirs, dict):
+            return bool(theirs) and all(ours.get(key) == value for key, value in theirs.items())
+        return type(theirs) is int and ours.get("address") == theirs
     if isinstance(ours, str) and type(theirs) in {int, float}:
         theirs = str(theirs)
-    return same(ours, theirs) if isinstance(ours, str) and isinstance(theirs, str) else ours == theirs
-
-
-def _view(ours: dict[str, object], theirs: object) -> bool:
-    """Whether two views agree in what both sides say, their address at least."""
-    if isinstance(theirs, dict):
-        return bool(theirs) and all(ours.get(key) == value for key, value in theirs.items())
-    return type(theirs) is int and ours.get("address") == theirs
+    return fold(ours) == fold(theirs) if isinstance(ours, str) and isinstance(theirs, str) else ours == theirs
 
 
 def _shown(found: Mapping[str, object], keys: list[str]) -> str:

@@ -60,7 +60,12 @@ def choose(table: Table, wanted: Sequence[str], notations: Sequence[str]) -> Col
     """
     known = _known(notations)
     if not wanted and not any(fold(head) in known for head in table.header):
-        raise TableError(_no_header(table))
+        heads = ", ".join(f"`{head[:40]}`" for head in table.header[:6])
+        message = (
+            f"{table.name}: none of {heads} is the name of a column: the first line must name the columns, for example "
+            f"address,name,access; known are {', '.join(COLUMNS)}"
+        )
+        raise TableError(message)
     asked = dict(_asked(wanted, known))
     at = _places(table, asked, known)
     if missing := [f"`{head}`" for name, head in asked.items() if name not in at]:
@@ -122,14 +127,6 @@ def _unknown(table: Table, head: str, index: int, known: dict[str, str]) -> str:
     return (
         f"{table.name}: there is no column `{head}`{_meant(head, known)}; choose the columns to compare with --columns "
         f"(name=header where the table calls it otherwise)"
-    )
-
-
-def _no_header(table: Table) -> str:
-    heads = ", ".join(f"`{head[:40]}`" for head in table.header[:6])
-    return (
-        f"{table.name}: none of {heads} is the name of a column: the first line must name the columns, for example "
-        f"address,name,access; known are {', '.join(COLUMNS)}"
     )
 
 

@@ -12,7 +12,7 @@ from regscribe.evidence.row_matching import Matching, match
 from regscribe.evidence.rows import ComparedRow, Spot, of_map, of_table
 from regscribe.evidence.table import Table, TableError
 from regscribe.export.csv import COLUMNS
-from regscribe.model import RegisterMap, Space
+from regscribe.model import RegisterMap
 
 OF_BASE = frozenset({"address", "aliases", "views", "id"})
 """What a row at an alias says of itself and not of the register."""
@@ -35,7 +35,10 @@ def compare_table(
     """
     notations = tuple(dict.fromkeys(notation.name for notation in register_map.notations))
     chosen = choose(table, columns, notations)
-    _refuse_keyless(table, chosen, notations)
+    keys = ["address", *notations, "id"]
+    if not chosen.names & {fold(name) for name in keys}:
+        message = f"{table.name} has none of the columns {', '.join(keys)}: nothing tells which register a row is about"
+        raise TableError(message)
     model = _model(register_map, table, chosen, model)
     theirs = list(of_table(table, chosen, register_map, model))
     notes = [*_other_maps(register_map, table, chosen), *_foreign_models(register_map, theirs)]
@@ -79,6 +82,7 @@ def compare_maps(
 
 
 def _of_models(register_map: RegisterMap, labels: Mapping[str, str]) -> list[ComparedRow]:
+    """The rows of the models among `labels`, under the label of each."""
     names = {one_line(name): label for name, label in labels.items()}
     return [replace(entry, model=names[entry.model]) for entry in of_map(register_map) if entry.model in names]
 
@@ -128,14 +132,18 @@ def _differences(
 def _without_silent(matching: Matching, register_map: RegisterMap) -> list[str]:
     """Take out the rows that name no register where the map has none, and note how many there are."""
     silent = _silent(register_map)
-    loud = [row for row in matching.only_theirs if not (row.is_silent and _stands_in(row, silent))]
+    loud = [
+        row
+        for row in matching.only_theirs
+        if not row.is_silent or not any((row.model, spot) in silent for spot in row.spots)
+    ]
     count = len(matching.only_theirs) - len(loud)
     matching.only_theirs = loud
     return [f"{count} rows name no register where the map has none (unused, reserved or a further word)"] * bool(count)
 
 
 def _silent(register_map: RegisterMap) -> set[tuple[str, Spot]]:
-    """Return by model the places where no register begins although the manual lists them."""
+    """Return by model the places, also without their space, where no register begins though the manual lists them."""
     found: set[tuple[str, Spot]] = set()
     for model in register_map.models:
         further = [
@@ -144,23 +152,9 @@ def _silent(register_map: RegisterMap) -> set[tuple[str, Spot]]:
             if not register.base.space.is_bits
         ]
         for space, first, last in (*model.unused, *register_map.reserved, *further):
-            found |= {(one_line(model.name), (space.value, address)) for address in range(first, last + 1)}
+            for address in range(first, last + 1):
+                found |= {(one_line(model.name), (space.value, address)), (one_line(model.name), ("", address))}
     return found
-
-
-def _stands_in(row: ComparedRow, places: set[tuple[str, Spot]]) -> bool:
-    """Whether one of the places where a row may stand is among `places`; a row without space may stand in any."""
-    spots = [(own, address) for space, address in row.spots for own in ([space] if space else Space)]
-    return any((row.model, (str(own), address)) in places for own, address in spots)
-
-
-def _refuse_keyless(table: Table, chosen: Columns, notations: Iterable[str]) -> None:
-    wanted = ["address", *notations, "id"]
-    if not chosen.names & {fold(name) for name in wanted}:
-        message = (
-            f"{table.name} has none of the columns {', '.join(wanted)}: nothing tells which register a row is about"
-        )
-        raise TableError(message)
 
 
 def _model(register_map: RegisterMap, table: Table, chosen: Columns, model: str) -> str:

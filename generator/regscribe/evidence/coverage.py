@@ -6,16 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 
 from regscribe.emit.words import one_line
 from regscribe.evidence.coverage_values import Addresses, MapCoverage, ModelCoverage, Remark
-from regscribe.model import (
-    FrameExample,
-    Kind,
-    Model,
-    Open,
-    Register,
-    RegisterMap,
-    Space,
-    ValueExample,
-)
+from regscribe.model import FrameExample, Kind, Model, Open, Register, RegisterMap, Space, ValueExample
 
 INFERRED, OPEN_LIMIT, NOT_STATED = KINDS = ("inferred", "open limit", "decimals not stated")
 """What is said of registers, in this order."""
@@ -62,17 +53,13 @@ def _exemplified(register_map: RegisterMap, model: Model) -> frozenset[str]:
 
     An example is about one model; it counts for another one whose register has the same views and scale.
     """
-    own = {register.path: register for register in model.registers}
-    paths = {(name, path) for name, path in _named(register_map) if register_map.has(name)}
-    return frozenset(path for name, path in paths if path in own and _alike(own[path], register_map.model(name), path))
-
-
-def _alike(register: Register, other: Model, path: str) -> bool:
-    try:
-        shown = other.register(path)
-    except KeyError:
-        return False
-    return (shown.views, shown.scale) == (register.views, register.scale)
+    forms = {
+        each.name: {register.path: (register.views, register.scale) for register in each.registers}
+        for each in register_map.models
+    }
+    own = forms[model.name]
+    named = [(name, path) for name, path in _named(register_map) if path in own and name in forms]
+    return frozenset(path for name, path in named if forms[name].get(path) == own[path])
 
 
 def _named(register_map: RegisterMap) -> Iterator[tuple[str, str]]:
@@ -90,27 +77,23 @@ def _touched(register_map: RegisterMap, frame: FrameExample) -> list[str]:
     if frame.address is None or not register_map.has(frame.model) or not _spaces([frame.function]):
         return []
     alike = next((codes for codes in register_map.alike if frame.function in codes), (frame.function,))
-    end = frame.address + _length(frame)
-    registers = register_map.model(frame.model).registers
-    found = [one.path for one in registers if _is_inside(one, _spaces(alike), frame.address, end)]
+    spaces, start = _spaces(alike), frame.address
+    end = start + (frame.count or len(frame.words or ()) or 1)
+    found = [
+        register.path
+        for register in register_map.model(frame.model).registers
+        if any(
+            view.space in spaces and start <= view.address(register.at) and view.last(register.at) < end
+            for view in register.views
+        )
+    ]
     return found if frame.words or len(found) == 1 else []
-
-
-def _length(frame: FrameExample) -> int:
-    return frame.count or len(frame.words or ()) or 1
 
 
 def _spaces(functions: Iterable[int]) -> set[Space]:
     """The spaces that function codes address."""
     codes = set(functions)
     return {one for one in Space if codes & {one.read_function, *one.write_functions}}
-
-
-def _is_inside(register: Register, spaces: set[Space], start: int, end: int) -> bool:
-    return any(
-        view.space in spaces and start <= view.address(register.at) and view.last(register.at) < end
-        for view in register.views
-    )
 
 
 def open_limits(register: Register) -> tuple[str, ...]:
@@ -122,20 +105,24 @@ def open_limits(register: Register) -> tuple[str, ...]:
 
 def _addresses(register_map: RegisterMap, model: Model) -> Iterator[Addresses]:
     """Yield the counts of each space that holds anything, in the order of `Space`."""
-    mapped = _by_space(_mapped(model))
-    aliases = _by_space(_aliases(model))
-    commands = _by_space(_commanded(model))
+    registers = model.registers
+    mapped = _by_space((view.space, view.address(one.at), view.last(one.at)) for one in registers for view in one.views)
+    aliases = _by_space(
+        (one.base.space, alias, alias + one.base.words - 1) for one in registers for alias in one.aliases
+    )
+    steps = [step for command in model.commands for step in command.steps if step.words]
+    written = _by_space((step.space, step.address, step.address + len(step.words) - 1) for step in steps)
     unused = _by_space(model.unused)
     reserved = _by_space(register_map.reserved)
     for space in Space:
-        kinds = [found[space] for found in (mapped, aliases, commands, unused, reserved)]
+        kinds = [found[space] for found in (mapped, aliases, written, unused, reserved)]
         if documented := set[int]().union(*kinds):
             yield Addresses(
                 space=space.value,
                 documented=len(documented),
                 mapped=len(mapped[space]),
                 aliases=len(aliases[space]),
-                commands=len(commands[space] - mapped[space] - aliases[space]),
+                commands=len(written[space] - mapped[space] - aliases[space]),
                 unused=len(unused[space]),
                 reserved=len(reserved[space]),
             )
@@ -150,24 +137,6 @@ def _by_space(stretches: Iterable[Stretch]) -> dict[Space, set[int]]:
     for space, first, last in stretches:
         found[space].update(range(first, last + 1))
     return found
-
-
-def _mapped(model: Model) -> Iterator[Stretch]:
-    for register in model.registers:
-        yield from ((view.space, view.address(register.at), view.last(register.at)) for view in register.views)
-
-
-def _aliases(model: Model) -> Iterator[Stretch]:
-    for register in model.registers:
-        base = register.base
-        yield from ((base.space, alias, alias + base.words - 1) for alias in register.aliases)
-
-
-def _commanded(model: Model) -> Iterator[Stretch]:
-    for command in model.commands:
-        for step in command.steps:
-            if step.words:
-                yield step.space, step.address, step.address + len(step.words) - 1
 
 
 def _remarks(register_map: RegisterMap) -> Iterator[Remark]:

@@ -9,7 +9,7 @@ from regscribe.evidence.cell_compare import problem
 from regscribe.evidence.columns import Columns, fold
 from regscribe.evidence.differences import Location
 from regscribe.evidence.table import Table, TableError, TableRow
-from regscribe.export.csv import COLUMNS, rows
+from regscribe.export.csv import rows
 from regscribe.model import Notation, RegisterMap, Space
 
 COMMAND = "command"
@@ -57,22 +57,19 @@ class ComparedRow:
         return Location(model=self.model, space=space, address=str(address), id=self.id, name=name, line=self.line)
 
 
-def of_map(register_map: RegisterMap) -> list[ComparedRow]:
-    """Return a row for each register and command of each model, with its address in every notation, too."""
-    every = ({name: getattr(row, name) for name in COLUMNS} for row in rows([register_map]))
-    return [_of_export(cells, register_map.notations) for cells in every]
-
-
-def _of_export(cells: dict[str, str], notations: Sequence[Notation]) -> ComparedRow:
-    space = cells["space"]
-    spots = ((space, int(cells["address"])),) if cells["address"] else ()
-    others = {
-        fold(notation.name): str(spots[0][1] + notation.offset)
-        for notation in notations
-        if spots and notation.space.value == space
-    }
-    aliases = tuple((space, int(alias)) for alias in cells["aliases"].split())
-    return ComparedRow(model=cells["model"], id=cells["id"], spots=spots, cells={**others, **cells}, aliases=aliases)
+def of_map(register_map: RegisterMap) -> Iterator[ComparedRow]:
+    """Yield a row for each register and command of each model, with its address in every notation, too."""
+    for row in rows([register_map]):
+        space = row.space
+        spots = ((space, int(row.address)),) if row.address else ()
+        aliases = tuple((space, int(alias)) for alias in row.aliases.split())
+        printed = {
+            fold(notation.name): str(spots[0][1] + notation.offset)
+            for notation in register_map.notations
+            if spots and notation.space.value == space
+        }
+        cells = printed | row._asdict()
+        yield ComparedRow(model=row.model, id=row.id, spots=spots, cells=cells, aliases=aliases)
 
 
 def of_table(table: Table, columns: Columns, register_map: RegisterMap, model: str) -> Iterator[ComparedRow]:

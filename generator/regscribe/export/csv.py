@@ -4,7 +4,8 @@ import csv
 import io
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import astuple, dataclass, fields
+from functools import partial
+from typing import NamedTuple
 
 from regscribe.emit.words import (
     bits_words,
@@ -20,10 +21,7 @@ from regscribe.emit.words import (
 from regscribe.model import (
     IDENTITY,
     BitField,
-    Case,
-    Cases,
     Command,
-    CommandStep,
     Kind,
     Model,
     Range,
@@ -41,8 +39,7 @@ summary = "every value of every model, arrays expanded, as a table"
 options: tuple[Option, ...] = ()
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Row:
+class Row(NamedTuple):
     """One row of the table; the fields are the columns, in order, and every one is text."""
 
     map: str
@@ -54,8 +51,8 @@ class Row:
     address: str = ""
     words: str = ""
     aliases: str = ""
-    access: str
-    kind: str
+    access: str = ""
+    kind: str = ""
     type: str = ""
     unit: str = ""
     minimum: str = ""
@@ -70,7 +67,7 @@ class Row:
     section: str = ""
 
 
-COLUMNS = tuple(field.name for field in fields(Row))
+COLUMNS = Row._fields
 
 
 def export(maps: Sequence[RegisterMap], _: Mapping[str, str]) -> dict[str, str]:
@@ -83,7 +80,7 @@ def csv_text(maps: Iterable[RegisterMap]) -> str:
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
     writer.writerow(COLUMNS)
-    writer.writerows(map(cell, astuple(row)) for row in rows(maps))
+    writer.writerows(map(cell, row) for row in rows(maps))
     return buffer.getvalue()
 
 
@@ -129,6 +126,9 @@ def _register_row(register_map: RegisterMap, model: Model, register: Register) -
 def _command_row(register_map: RegisterMap, model: Model, command: Command) -> Row:
     requests = [step for step in command.steps if step.words]
     first = requests[0] if requests else None
+    written: dict[str, list[str]] = {}
+    for step in requests:
+        written.setdefault(str(step.address), []).append(" ".join(map(str, step.words)))
     return Row(
         map=register_map.id,
         model=one_line(model.name),
@@ -139,20 +139,10 @@ def _command_row(register_map: RegisterMap, model: Model, command: Command) -> R
         words=str(sum(len(step.words) for step in requests)),
         access="w",
         kind="command",
-        values=_object(_written(requests)),
+        values=_object({address: ", ".join(words) for address, words in written.items()}),
         group=command.group,
         section=one_line(command.section),
     )
-
-
-def _written(requests: Iterable[CommandStep]) -> dict[str, str]:
-    """Words by the address they go to; several requests to one address are joined by a comma."""
-    written: dict[str, str] = {}
-    for step in requests:
-        words = " ".join(map(str, step.words))
-        key = str(step.address)
-        written[key] = f"{written[key]}, {words}" if key in written else words
-    return written
 
 
 def _object(members: Mapping[str, object]) -> str:
@@ -189,24 +179,20 @@ def _scale(register: Register) -> str:
 
 
 def _limits(register: Register) -> tuple[str, str]:
-    """Numbers where the range is one interval between numbers, else the limits of each case in words."""
-    cases = _as_printed(register.range)
+    """Numbers where the range is one interval between numbers, else the limits of each case in words.
+
+    Cases that differ in their decimals only are the one range that the manual's table prints.
+    """
+    cases = register.range
+    printed = [case.then._replace(decimals=None) for case in cases]
+    if len(cases) > 1 and all(one == printed[0] for one in printed):
+        cases = always(printed[0])
     plain = plain_interval(cases)
     if plain:
         return show(plain[0]), show(plain[1])
-    return _side(cases, low=True), _side(cases, low=False)
+    lowest, highest = (cases_words(map_cases(cases, partial(_ends, side=side))) for side in (0, 1))
+    return lowest, highest
 
 
-def _as_printed(cases: Cases[Range]) -> Cases[Range]:
-    """Take cases that differ in their decimals only as the one range that the manual's table prints."""
-    printed = [case.then._replace(decimals=None) for case in cases]
-    return always(printed[0]) if len(cases) > 1 and all(one == printed[0] for one in printed) else cases
-
-
-def _side(cases: Cases[Range], *, low: bool) -> str:
-    return cases_words(tuple(Case(case.when, _range_side(case.then, low=low)) for case in cases))
-
-
-def _range_side(limits: Range, *, low: bool) -> str:
-    ends = (interval.low if low else interval.high for interval in limits.intervals)
-    return listed([limit_words(end, decimals=limits.decimals) for end in ends])
+def _ends(limits: Range, side: int) -> str:
+    return listed([limit_words(interval[side], decimals=limits.decimals) for interval in limits.intervals])

@@ -6,13 +6,12 @@ out and told, never guessed.
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from typing import Any
 
 from regscribe.emit.words import one_line
-from regscribe.evidence import TableError
-from regscribe.evidence import read as read_table
 from regscribe.evidence.columns import choose
+from regscribe.evidence.table import TableError
+from regscribe.evidence.table import read as read_table
 from regscribe.files import OneLine, dump
 from regscribe.import_csv.keys import KEYS, Cells
 from regscribe.model import Diagnostic, Severity, Span
@@ -30,61 +29,52 @@ MOST_TEXT = 60
 IDS = re.compile(r"[a-z][a-z0-9_]{0,79}")
 
 
-@dataclass(slots=True)
-class _Left:
-    """What is left out: what it is, and the lines where it stands."""
+Row = tuple[int, Cells]
+"""The line of a row, and its cells by column."""
 
-    file: str
-    lines: dict[str, list[int]] = field(default_factory=dict)
-
-    def findings(self) -> tuple[Diagnostic, ...]:
-        return tuple(
-            Diagnostic(
-                name, f"left out: {what} ({_count(lines)})", Span(self.file, lines[0]), severity=Severity.WARNING
-            )
-            for what, lines in self.lines.items()
-        )
-
-
-def _count(lines: list[int]) -> str:
-    return "1 row" if len(lines) == 1 else f"{len(lines)} rows"
+LeftOut = dict[str, list[int]]
+"""What is left out, each with the lines where it stands."""
 
 
 def read(data: bytes, name: str) -> tuple[str, tuple[Diagnostic, ...]]:
     """Return models and groups as YAML, and what was left out; an error where the table is none."""
+    left: LeftOut = {}
     try:
-        table = read_table(data, name)
-        columns = choose(table, (), ())
-    except TableError as error:
-        return "", (_error(str(error), Span(name)),)
+        text = dump(_body(_rows(data, name), name, left))
+    except (TableError, ValueError) as error:
+        return "", (_diagnostic(str(error), Span(name), Severity.ERROR),)
+    counts = {what: "1 row" if len(lines) == 1 else f"{len(lines)} rows" for what, lines in left.items()}
+    return text, tuple(
+        _diagnostic(f"left out: {what} ({counts[what]})", Span(name, lines[0]), Severity.WARNING)
+        for what, lines in left.items()
+    )
+
+
+def _diagnostic(message: str, span: Span, severity: Severity) -> Diagnostic:
+    return Diagnostic(name, message, span, severity=severity)
+
+
+def _rows(data: bytes, file: str) -> list[Row]:
+    """Read the table. Raises TableError where registers cannot be made of it."""
+    table = read_table(data, file)
+    columns = choose(table, (), ())
     if missing := {"address", "name", "access"} - columns.names:
-        message = (
-            f"{name} has no column {', '.join(sorted(missing))}: a register needs an address, a name and its access"
-        )
-        return "", (_error(message, Span(name)),)
-    left = _Left(name)
-    rows = [(row.line, {column: row.cells[at].strip() for column, at in columns.at}) for row in table.rows]
-    try:
-        text = dump(_body(rows, left))
-    except ValueError as error:
-        return "", (_error(str(error), Span(name)),)
-    return text, left.findings()
+        lacking = f"{file} has no column {', '.join(sorted(missing))}"
+        message = f"{lacking}: a register needs an address, a name and its access"
+        raise TableError(message)
+    return [(row.line, {column: row.cells[at].strip() for column, at in columns.at}) for row in table.rows]
 
 
-def _error(message: str, span: Span) -> Diagnostic:
-    return Diagnostic(name, message, span)
-
-
-def _body(rows: Sequence[tuple[int, Cells]], left: _Left) -> dict[str, Any]:
+def _body(rows: Sequence[Row], file: str, left: LeftOut) -> dict[str, Any]:
     """Return the map without its head: rows that differ in their model alone are one register of several models."""
     models = dict.fromkeys(map(_model, (cells for _, cells in rows)))
     groups: dict[str, dict[str, dict[str, Any]]] = {}
     having: dict[tuple[str, str], dict[str, None]] = {}
     for line, cells in rows:
         if cells.get("kind") == "command":
-            left.lines.setdefault("commands", []).append(line)
+            left.setdefault("commands", []).append(line)
             continue
-        group, register = cells.get("group", "") or "Registers", _register(line, cells, left)
+        group, register = cells.get("group", "") or "Registers", _register(line, cells, file, left)
         groups.setdefault(group, {})[repr(register)] = register
         having.setdefault((group, repr(register)), {})[_model(cells)] = None
     for (group, key), some in having.items():
@@ -108,9 +98,9 @@ def _id(group: str) -> str:
     return found if IDS.fullmatch(found) else f"group_{found}"
 
 
-def _register(line: int, cells: Cells, left: _Left) -> dict[str, Any]:
+def _register(line: int, cells: Cells, file: str, left: LeftOut) -> dict[str, Any]:
     if not re.fullmatch(r"[0-9]{1,5}", cells["address"]) or not cells["name"]:
-        message = f"{left.file}:{line}: a row needs a decimal address and a name, for example 40,Setpoint"
+        message = f"{file}:{line}: a row needs a decimal address and a name, for example 40,Setpoint"
         raise ValueError(message)
     register: dict[str, Any] = {"at": int(cells["address"]), "name": cells["name"]}
     if IDS.fullmatch(cells.get("id", "")) and cells["id"] != snake(cells["name"]):
@@ -120,7 +110,7 @@ def _register(line: int, cells: Cells, left: _Left) -> dict[str, Any]:
             continue
         keys = KEYS[column](cells) if column in KEYS else None
         if keys is None:
-            left.lines.setdefault(f"{column} `{one_line(text)[:MOST_TEXT]}`", []).append(line)
+            left.setdefault(f"{column} `{one_line(text)[:MOST_TEXT]}`", []).append(line)
         else:
             register |= keys
     return register

@@ -5,7 +5,9 @@ from typing import Any
 
 import pytest
 
-from regscribe.evidence import Comparison, compare_table, read
+from regscribe.evidence.compare import compare_table
+from regscribe.evidence.differences import Comparison
+from regscribe.evidence.table import read
 from regscribe.export.csv import csv_text
 from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map

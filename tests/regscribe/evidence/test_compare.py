@@ -7,8 +7,10 @@ from dataclasses import replace
 
 import pytest
 
-from regscribe.evidence import Comparison, TableError, compare_table, read
 from regscribe.evidence.cell_compare import OBJECTS, differing
+from regscribe.evidence.compare import compare_table
+from regscribe.evidence.differences import Comparison
+from regscribe.evidence.table import TableError, read
 from regscribe.export.csv import COLUMNS
 from regscribe.model import RegisterMap
 

@@ -5,7 +5,8 @@ from dataclasses import replace
 
 import pytest
 
-from regscribe.evidence import Addresses, Remark, coverage
+from regscribe.evidence.coverage import coverage
+from regscribe.evidence.coverage_values import Addresses, Remark
 from regscribe.model import FrameExample, RegisterMap, Space
 
 Load = Callable[[str], RegisterMap]

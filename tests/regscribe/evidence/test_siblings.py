@@ -4,7 +4,8 @@ from collections.abc import Callable
 
 import pytest
 
-from regscribe.evidence import TableError, compare_maps
+from regscribe.evidence.compare import compare_maps
+from regscribe.evidence.table import TableError
 from regscribe.model import RegisterMap
 
 Load = Callable[[str], RegisterMap]

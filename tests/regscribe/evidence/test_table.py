@@ -4,7 +4,8 @@ from collections.abc import Callable
 
 import pytest
 
-from regscribe.evidence import Comparison, TableError, read
+from regscribe.evidence.differences import Comparison
+from regscribe.evidence.table import TableError, read
 
 Held = Callable[..., Comparison]
 

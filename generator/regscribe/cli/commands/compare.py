@@ -9,7 +9,9 @@ from regscribe.cli.shared.comparison_text import as_csv, as_json, as_text
 from regscribe.cli.shared.diagnostic_text import findings, tally
 from regscribe.cli.shared.map_arguments import find_map
 from regscribe.cli.shared.output import show, tell, warn
-from regscribe.evidence import Comparison, Table, TableError, compare_maps, compare_table, read
+from regscribe.evidence.compare import compare_maps, compare_table
+from regscribe.evidence.differences import Comparison
+from regscribe.evidence.table import Table, TableError, read
 from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map
 

@@ -10,7 +10,9 @@ from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.map_arguments import find_maps
 from regscribe.cli.shared.output import Piece, print_json, show, tell
 from regscribe.emit.docs_index import ADDRESSES, FACTS, coverage_text
-from regscribe.evidence import MapCoverage, Remark, card, counts, coverage
+from regscribe.evidence.coverage import coverage
+from regscribe.evidence.coverage_values import MapCoverage, Remark, counts
+from regscribe.evidence.index_row import card
 from regscribe.visible import safe
 
 

@@ -7,7 +7,7 @@ from dataclasses import asdict, replace
 
 from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.output import Piece
-from regscribe.evidence import CellDifference, Comparison, Location
+from regscribe.evidence.differences import CellDifference, Comparison, Location
 from regscribe.visible import cell, json_text, safe
 
 HEADER = ("what", "model", "space", "address", "id", "name", "column", "ours", "theirs", "line")

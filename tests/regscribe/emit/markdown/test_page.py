@@ -17,7 +17,7 @@ from markdown_it import MarkdownIt
 from regscribe.emit.docs_index import render_index
 from regscribe.emit.header import header
 from regscribe.emit.markdown import render
-from regscribe.evidence import card
+from regscribe.evidence.index_row import card
 from regscribe.model import Open, RegisterMap
 
 ROOT = Path(__file__).parents[4]
