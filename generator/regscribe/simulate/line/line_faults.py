@@ -20,7 +20,7 @@ from regscribe_runtime.wire.requests import (
 )
 
 STORM = 3
-"""Requests in a row that are refused while the device is busy."""
+"""Requests in a row that are refused."""
 STORM_CODES = (1, 2, 3, 4, 5, 6, 8, 10, 11)
 FUNCTIONS = (1, 2, 3, 4, 5, 6, 15, 16)
 MOST_NOISE = 24
@@ -31,7 +31,7 @@ SPLIT_SECONDS, CHATTER_SECONDS = 0.002, 0.001
 
 
 class LineFault(StrEnum):
-    """What happens to a request and its answer.
+    """A fault of a request or its answer.
 
     `REQUEST_LOST` and `REFUSED` keep the request from the device; after all others it was carried out. `FORGED` flips
     a bit of what the protocol compares (byte count, echo) and repairs the check; `FALSIFIED` one of what nothing can
@@ -104,7 +104,7 @@ class LineFaults:
             self._planned += [(fault, at) for fault in faults]
 
     def calm(self) -> None:
-        """No faults from now on."""
+        """Inject no more faults."""
         with self._lock:
             self._planned.clear()
             self.rate, self._storm = 0.0, 0
@@ -131,7 +131,7 @@ class LineFaults:
         return act()
 
     async def delivery(self, exchange: Exchange) -> Sequence[Chunk]:
-        """The answer as it comes out of the bad line."""
+        """The chunks of an answer after its fault."""
         fault, at = self._chosen.pop(id(exchange.request), (None, None))
         if not exchange.frame:
             return ()
@@ -160,7 +160,7 @@ class LineFaults:
         return (Chunk(bytes(flipped)),)
 
     def noise(self) -> bytes:
-        """Some bytes."""
+        """Random bytes, `MOST_NOISE` at most."""
         return self._random.randbytes(self._random.randint(1, MOST_NOISE))
 
     def _stale(self, exchange: Exchange) -> Sequence[Chunk] | None:
@@ -172,7 +172,7 @@ class LineFaults:
         return (Chunk(old + exchange.frame if self._random.random() < 1 / 2 else old),)
 
     def _identity(self, exchange: Exchange) -> tuple[int, ...]:
-        """What tells an answer from others in any case."""
+        """What distinguishes an answer from others: the transaction id, else unit and function."""
         request = exchange.request
         return (request.transaction,) if self._framing == TCP else (request.unit, request.pdu[0])
 

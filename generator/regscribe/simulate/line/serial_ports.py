@@ -14,7 +14,7 @@ LOCAL_FLAGS = 3
 
 
 class OpenLine:
-    """An open serial line: `fd` to read and write raw bytes (not blocking), `path` for the other side to open."""
+    """An open serial line: `fd` for raw bytes (not blocking), `path` for the other side to open."""
 
     def __init__(self, path: str, fd: int, *, port: serial.Serial | None = None, held: int | None = None) -> None:
         self.path = path

@@ -33,7 +33,7 @@ def factor_of(latency: float | str) -> float:
 
 
 class Foreign(StrEnum):
-    """What a request to a unit that is not there gets: nothing, or the exception of a gateway (TCP)."""
+    """Answer to a request for an absent unit: none, or the exception of a gateway (TCP)."""
 
     SILENCE = "silence"
     GATEWAY = "gateway"
@@ -66,7 +66,7 @@ class ServerContext:
         self._random = {each: Random(f"{each.seed} {each.unit}") for each in self._devices}  # noqa: S311 - repeatable, and no secret
 
     def _at(self, unit: int) -> SimulatedDevice | None:
-        """The device of a unit id: of two that were set to one id, the first."""
+        """The device of a unit id; if two were set to it, the first."""
         device = self._units.get(unit)
         if device is None or device.unit != unit:
             self._units = {each.unit: each for each in reversed(self._devices)}

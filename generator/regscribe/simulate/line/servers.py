@@ -92,12 +92,6 @@ class TcpServer(Server):
         if idle is not None:
             self._disconnect_idle(idle)
 
-    def admit(self, client: "_TcpClient") -> None:
-        """Take a client in; if there are too many, disconnect the one that was silent longest."""
-        if len(self.clients) >= self.service.connections:
-            min(self.clients, key=lambda each: each.heard).dismiss()
-        self.clients.add(client)
-
     def _disconnect_idle(self, idle: float) -> None:
         """Disconnect clients that were silent for `idle` seconds, `LOOKS` times within them."""
         loop = asyncio.get_running_loop()
@@ -130,7 +124,10 @@ class _TcpClient(Connection, asyncio.BufferedProtocol):
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         super().connection_made(transport)
-        self._server.admit(self)
+        clients = self._server.clients
+        if len(clients) >= self._server.service.connections:
+            min(clients, key=lambda each: each.heard).dismiss()
+        clients.add(self)
 
     def get_buffer(self, sizehint: int) -> memoryview:  # noqa: ARG002 - asyncio's signature
         """Where its bytes go; they are out of it before the next client's come."""
@@ -181,18 +178,15 @@ class LineServer(Server, Connection):
 
     def eof_received(self) -> bool:
         """End with an error: a line has no end."""
-        self._lose("end of data")
+        self.connection_lost(EOFError("end of data"))
         return False
 
     def connection_lost(self, exc: Exception | None) -> None:
         """End with the error of the line, if it was one."""
         super().connection_lost(exc)
         if exc is not None:
-            self._lose(str(exc))
-
-    def _lose(self, problem: str) -> None:
-        self._loss = f"serial device {self.path} is gone: {problem}"
-        self._ended.set()
+            self._loss = f"serial device {self.path} is gone: {exc}"
+            self._ended.set()
 
     async def _close(self) -> None:
         self._abort()

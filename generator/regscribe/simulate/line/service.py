@@ -1,4 +1,4 @@
-"""What the simulator is to serve: transport, latency, patience, and the hooks between line and device."""
+"""Options of a service: transport, latency, patience, and the hooks between line and device."""
 
 from collections.abc import Awaitable, Callable, Sequence
 from dataclasses import dataclass
@@ -7,9 +7,6 @@ from enum import StrEnum
 from regscribe.simulate.line.server_context import Foreign
 from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.wire.framing import Frame
-
-LOOPBACK = "127.0.0.1"
-MOST_CONNECTIONS = 64
 
 
 class Transport(StrEnum):
@@ -84,7 +81,7 @@ class Service:
     """
 
     transport: Transport = Transport.TCP
-    host: str = LOOPBACK
+    host: str = "127.0.0.1"
     port: int = 0
     path: str = ""
     line: SerialLine | None = None
@@ -93,7 +90,7 @@ class Service:
     strict_gaps: bool = False
     speed: float = 1.0
     foreign: Foreign | None = None
-    connections: int = MOST_CONNECTIONS
+    connections: int = 64
     patience: Patience | None = None
     arrival: Arrival | None = None
     delivery: Delivery | None = None

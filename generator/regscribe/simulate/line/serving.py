@@ -27,7 +27,10 @@ async def start(devices: Sequence[SimulatedDevice], service: Service) -> Server:
     Raises SimulatorError where the port is taken, the serial device cannot be opened, two devices share a unit, or the
     service asks for something impossible.
     """
-    transport, speed = Transport(service.transport), _checked_speed(service.speed)
+    transport, speed = Transport(service.transport), service.speed
+    if not 0 <= speed < math.inf:
+        message = f"speed {speed!r} is no factor of 0 or more (0: time stands still, 60: a minute a second)"
+        raise SimulatorError(message)
     usual = Foreign.GATEWAY if transport is Transport.TCP else Foreign.SILENCE
     line, factor = service.line or line_of(devices), factor_of(service.latency)
     station = ServerContext(devices, foreign=service.foreign or usual, line=line, factor=factor)
@@ -74,14 +77,6 @@ async def serve(
         await server.wait()
     finally:
         await server.stop()
-
-
-def _checked_speed(speed: float) -> float:
-    """The speed; SimulatorError if it is negative or not finite."""
-    if not 0 <= speed < math.inf:
-        message = f"speed {speed!r} is no factor of 0 or more (0: time stands still, 60: a minute a second)"
-        raise SimulatorError(message)
-    return speed
 
 
 async def _tick(devices: Sequence[SimulatedDevice], speed: float) -> None:

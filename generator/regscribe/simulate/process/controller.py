@@ -6,9 +6,9 @@ from regscribe.model import Process, Ramp
 from regscribe.simulate.device.device_plan import Stored
 from regscribe.simulate.device.state import DeviceState
 from regscribe.simulate.errors import SimulatorError
-from regscribe.simulate.process.control_loop import AlarmWatch, ControlLoop
-from regscribe.simulate.process.controller_settings import ControllerSettings, dependencies
+from regscribe.simulate.process.controller_parts import AlarmWatch, ControllerSettings, ControlLoop
 from regscribe.simulate.process.thermal_process import STEP, Oven, ThermalProcess
+from regscribe_runtime.values.views import scale_needs
 
 DIGITS = 6
 """Decimals to which a number of the process is kept before the device rounds it."""
@@ -31,8 +31,7 @@ class Controller:
         self._watches = [AlarmWatch(alarm, self._settings) for alarm in process.alarms]
         self._rest = 0.0
         self._working: float | None = None
-        register, _ = state.find(process.value)
-        self._scale = set(dependencies(register)) - {register.path}
+        self._scale = scale_needs(state.find(process.value)[0])
         self._put_before: dict[str, Fraction] = {}
         self._extremes: dict[str, float] = {}
         self._value: tuple[Stored, float | None] = ("", None)
@@ -61,7 +60,7 @@ class Controller:
             self._working = self._working * factor + offset
 
     def advance(self, seconds: float) -> None:
-        """Let time pass, in whole steps; what is left of a step is kept for the next time."""
+        """Let time pass in whole steps; the rest of a step is kept for the next call."""
         self._rest += seconds
         while self._rest >= STEP:
             self._rest -= STEP
@@ -177,7 +176,7 @@ class Controller:
 
 
 def controller_of(state: DeviceState, *, process: ThermalProcess | bool, seed: int) -> Controller | None:
-    """The controller of the map; SimulatorError if there is none for a process to hang on."""
+    """The controller of the map; SimulatorError if there is none for the process."""
     roles = state.blueprint.model.process
     if roles is None and process is not False:
         register_map = state.blueprint.register_map

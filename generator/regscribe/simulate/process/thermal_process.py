@@ -8,7 +8,7 @@ from random import Random
 from regscribe.simulate.errors import SimulatorError
 
 STEP = 0.5
-"""Simulated seconds between two looks of the controller at its process."""
+"""Simulated seconds between two steps of a controller."""
 
 MOST_STEPS = 100_000
 """Steps of dead time that are remembered at most."""
@@ -80,7 +80,7 @@ class Oven:
 
     @property
     def temperature(self) -> float:
-        """What the sensor says, in whole steps of its resolution."""
+        """The value of the sensor, in whole steps of its resolution."""
         noise = self._random.gauss(0, self._parameters.noise) if self._parameters.noise else 0.0
         resolution = self._parameters.resolution
         return round((self.level + noise) / resolution) * resolution

@@ -8,7 +8,7 @@ from regscribe_runtime.wire.capture import CapturedFrame, frames
 
 SENT, RECEIVED = "sent", "received"
 MOST = 100_000
-"""Characters of a line that are looked at."""
+"""Characters of a line that are searched."""
 
 _BRACKETS = re.compile(r"(?:[\[<][0-9A-Fa-f]{2}[\]>]\s*)+")
 _PREFIXED = re.compile(r"(?:0x[0-9A-Fa-f]{1,2}[\s,]*)+")
@@ -31,7 +31,7 @@ class Captured(NamedTuple):
 
 
 def captured(lines: Iterable[str], framing: str = "") -> Iterator[Captured]:
-    """The lines in which something can be a frame; a sound one is preferred to what only looks like bytes."""
+    """Yield the lines that may hold frames; sound frames are preferred to mere bytes."""
     for number, line in enumerate(lines, start=1):
         text = line[:MOST].strip()
         candidates = [found for raw in _candidates(text) if (found := frames(raw, framing))]

@@ -3,7 +3,7 @@
 import importlib
 import pkgutil
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from functools import cache
 from pathlib import Path
 from types import ModuleType
@@ -24,9 +24,8 @@ def models(packages: tuple[str, ...] = ()) -> tuple[Known, ...]:
     """
     found: dict[tuple[str, str], Known] = {}
     for name in (*packages, SHIPPED):
-        for module in _modules(package(name)):
-            for known in _declared(module):
-                found.setdefault((known.map_id, known.model), known)
+        for known in _drivers(package(name)):
+            found.setdefault((known.map_id, known.model), known)
     return tuple(found[key] for key in sorted(found))
 
 
@@ -77,14 +76,11 @@ def package(name: str) -> ModuleType:
         raise TargetError(message) from None
 
 
-def _modules(package: ModuleType) -> Iterator[ModuleType]:
-    yield package
-    for info in pkgutil.walk_packages(getattr(package, "__path__", []), f"{package.__name__}."):
-        yield importlib.import_module(info.name)
-
-
-def _declared(module: ModuleType) -> Iterable[Known]:
-    for value in list(vars(module).values()):
-        own = isinstance(value, type) and issubclass(value, BareDevice) and value.__module__ == module.__name__
-        if own and value.model and hasattr(module, f"Async{value.__name__}"):
-            yield Known(value.map_id, value.model, value, getattr(module, f"Async{value.__name__}"))
+def _drivers(package: ModuleType) -> Iterator[Known]:
+    """The drivers that the modules of a package define."""
+    infos = pkgutil.walk_packages(getattr(package, "__path__", []), f"{package.__name__}.")
+    for module in (package, *(importlib.import_module(info.name) for info in infos)):
+        for value in list(vars(module).values()):
+            own = isinstance(value, type) and issubclass(value, BareDevice) and value.__module__ == module.__name__
+            if own and value.model and hasattr(module, f"Async{value.__name__}"):
+                yield Known(value.map_id, value.model, value, getattr(module, f"Async{value.__name__}"))

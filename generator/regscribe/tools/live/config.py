@@ -17,7 +17,7 @@ VARIABLE = "REGSCRIBE_CONFIG"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NamedDevice:
-    """One named device: its link as text, and what is said beside it."""
+    """A named device: its link as text, and its other settings."""
 
     link: str
     unit: int | None = None
@@ -29,7 +29,7 @@ class NamedDevice:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Config:
-    """What a configuration says; `path` is empty where there is none."""
+    """A configuration; `path` is empty where there is none."""
 
     path: str = ""
     devices: Mapping[str, NamedDevice] = field(default_factory=dict)
@@ -37,7 +37,7 @@ class Config:
 
 
 def home() -> Path:
-    """Where the configuration of a user lies."""
+    """The path of the user's own configuration."""
     base = os.environ.get("XDG_CONFIG_HOME") or "~/.config"
     return Path(base, "regscribe", "devices.yaml").expanduser()
 

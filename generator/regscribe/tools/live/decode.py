@@ -139,7 +139,7 @@ class Decoder:
         return f"{'write' if request.function in WRITES else 'read'} {where}{named}"
 
     def _learn(self, unit: int, request: Request, words: tuple[int, ...]) -> None:
-        """Keep what registers hold now; twice, since the values of some decide those of others."""
+        """Keep the values of registers; decoded twice, since the values of some decide those of others."""
         state = self._states[unit]
         for register, view, part in list(self._registers(request, words)) * 2:
             try:
@@ -210,7 +210,7 @@ def _answers(frame: CapturedFrame, request: Request, *, sure: bool) -> bool:
 
 
 def _request(frame: CapturedFrame, first: int) -> Request | None:
-    """The request of a frame; None for one of another form."""
+    """The request of a frame; None for a frame of another form."""
     try:
         request = decode_request(frame.pdu).shifted(-first)
     except MalformedError:

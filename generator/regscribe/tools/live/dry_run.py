@@ -1,4 +1,4 @@
-"""A link that reads but does not write: what would be written is kept, and reads back as if it had been."""
+"""A link that keeps writes instead of sending them; they read back as if they had been sent."""
 
 from typing import Any, NamedTuple, cast
 
@@ -7,7 +7,7 @@ from regscribe_runtime.wire.requests import BLOCK_WRITES, READ_SPACES, SPACES, W
 
 
 class DryWrite(NamedTuple):
-    """A request that was not sent, and the unit that it would have gone to."""
+    """A request that was not sent, with its unit."""
 
     unit: int
     request: Request

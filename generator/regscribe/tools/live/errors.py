@@ -1,4 +1,4 @@
-"""Errors in names that people give (links, devices, models, registers), with the name that was probably meant."""
+"""Errors in names of links, devices, models and registers, with the name that was probably meant."""
 
 from collections.abc import Iterable
 from difflib import get_close_matches
@@ -7,7 +7,7 @@ MOST_NAMED = 12
 """Names that a message lists before it says how many more there are."""
 
 MOST_SHOWN = 100
-"""Characters of a person's own text that a message repeats."""
+"""Characters of the given text that a message repeats."""
 
 
 class TargetError(Exception):

@@ -13,7 +13,7 @@ from regscribe_runtime.values.conditions import choose, registers_of
 
 
 class RegisterReading(NamedTuple):
-    """What a register held: `value` plain and as `text` for people, in `unit`; or the `error` in place of it."""
+    """The value of a register: plain, as `text` for people, and with its `unit`; or the `error` instead."""
 
     name: str
     value: Plain | None
@@ -30,7 +30,7 @@ class RegisterReading(NamedTuple):
 
 
 def readings(registers: Sequence[Register[Any]]) -> Task[tuple[RegisterReading, ...]]:
-    """Read registers in few requests, each in the unit that it stands in now."""
+    """Read registers in few requests, each with its present unit."""
 
     def task(session: Session) -> Operation[tuple[RegisterReading, ...]]:
         snapshot = yield from read_with(registers, unit_needs)(session)
@@ -61,7 +61,7 @@ def read_with(registers: Iterable[Register[Any]], needs: Callable[[Register[Any]
 
 
 def held_of(register: Register[Any], value: Any, view: str | None) -> Task[Any]:  # noqa: ANN401 - of any register
-    """What a device will hold once `value` is written in `view`, rounded to what that view can carry.
+    """The value that a device will hold once `value` is written in `view`, rounded to what that view can carry.
 
     Nothing is written; registers that decide the scale are read. Raises what encoding raises.
     """
@@ -94,5 +94,5 @@ def unit_of(register: Register[Any], state: Mapping[str, Any], givens: Mapping[s
 
 
 def reason(error: RegscribeError, name: str) -> str:
-    """What an error says, without the name that stands beside it already."""
+    """The text of an error, without the name of its register."""
     return str(error).removeprefix(f"{name}: ")

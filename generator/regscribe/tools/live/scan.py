@@ -42,7 +42,7 @@ class Probe(NamedTuple):
 
 
 def units(text: str) -> tuple[int, ...]:
-    """Unit ids as people list them: `1-20,33`; TargetError."""
+    """The unit ids of a list like `1-20,33`; TargetError."""
     found: list[int] = []
     for part in text.split(","):
         span = _SPAN.fullmatch(part.strip())
@@ -55,7 +55,7 @@ def units(text: str) -> tuple[int, ...]:
 
 
 def settings(link: LinkName, bauds: Sequence[int], formats: Sequence[str]) -> tuple[LinkName, ...]:
-    """The links to try: every speed with every character format (8N1); what the link's own name says stays.
+    """The links to try: every speed with every character format (8N1); what the link states itself stays.
 
     TargetError for a format that is none, and for speeds over TCP.
     """
@@ -72,7 +72,7 @@ def settings(link: LinkName, bauds: Sequence[int], formats: Sequence[str]) -> tu
 
 
 def seconds_for(link: LinkName) -> float:
-    """How long one unit is waited for: as its name says, else a usual time and that of the characters."""
+    """Seconds to wait for one unit: the timeout of the link, else a default, and the time of the characters."""
     if not link.serial:
         return link.timeout or TCP_SECONDS
     return (link.timeout or SERIAL_SECONDS) + CHARACTERS / (link.baud or USUAL_BAUDS[0])
@@ -92,7 +92,7 @@ def scan(
     names: bool = True,
     every: bool = False,
 ) -> Iterator[Probe]:
-    """Ask every unit on every link for one register; yields each question with what it found.
+    """Ask every unit on every link for one register; yields each probe.
 
     Once units answered with one setting of a line the others are not tried, unless `every` says so. With `names`, who
     answers is asked for its model. LinkLost if the port cannot be opened or vanishes.

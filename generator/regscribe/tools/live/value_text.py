@@ -40,7 +40,7 @@ def show(register: Register[Any], value: Any) -> Plain:  # noqa: ANN401 - a valu
 
 
 def as_text(register: Register[Any], value: Any) -> str:  # noqa: ANN401 - as above
-    """A value of use for people: `150.5`, `RUN`, `HEATER, FAN`; the unit is none of it."""
+    """A value of use for people, without its unit: `150.5`, `RUN`, `HEATER, FAN`."""
     return text_of(show(register, value))
 
 
@@ -56,12 +56,12 @@ def text_of(plain: Plain) -> str:
 
 
 def is_number(plain: object) -> bool:
-    """Whether a plain value is a number: only numbers stand in units."""
+    """Whether a plain value is a number: only numbers have units."""
     return isinstance(plain, (int, float)) and not isinstance(plain, bool)
 
 
 def parse(register: Register[Any], plain: Plain, *, unit: str = "", current_unit: str = "") -> Any:  # noqa: ANN401 - as above
-    """The value of use that `plain` means; ValueRefused if it means none, or stands in another unit.
+    """The value of use of a plain value; ValueRefused if there is none, or if it is in another unit.
 
     `unit` is what stands beside the value; a number's text may carry its own (`150.5 °F`). `current_unit` is the unit
     that the device works in now.

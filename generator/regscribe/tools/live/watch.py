@@ -11,8 +11,6 @@ from regscribe_runtime import BareDevice, LinkLost, NoAnswer, Register, Regscrib
 IDLE_SHARE = 0.1
 """Share of a round's time on the line for which the line is left to others before the next round."""
 
-NEVER = 0
-
 
 class Round(NamedTuple):
     """One reading of all registers: when it began, how long it took, the values; `changed` since the last good round.
@@ -52,8 +50,8 @@ def watch(
     registers: Sequence[Register[Any]],
     *,
     every: float,
-    count: int = NEVER,
-    give_up: int = NEVER,
+    count: int = 0,
+    give_up: int = 0,
     sleep: Callable[[float], None] = time.sleep,
 ) -> Iterator[Round]:
     """Read `registers` every so many seconds, `count` times (0: for ever).

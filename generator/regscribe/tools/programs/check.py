@@ -37,7 +37,7 @@ class ProgramRefused(RegscribeError, ValueError):  # noqa: N818 (as the errors o
 
 
 def check(place: ProgramSlot, program: Program, *, beyond_limits: bool = False) -> Task[Checked]:
-    """Hold a program against a device as it is configured now; with `beyond_limits` inferred limits do not count."""
+    """Check a program against a device as it is configured now; with `beyond_limits` inferred limits do not count."""
 
     def task(session: Session) -> Operation[Checked]:
         made = Assignments(place, program)

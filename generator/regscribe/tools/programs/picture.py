@@ -26,7 +26,7 @@ MOST_LEVELS, MOST_TIMES = 8, 12
 
 
 class PlotArea(NamedTuple):
-    """Where times and levels stand in the picture."""
+    """The area of the curve in the picture: pixels of times and levels."""
 
     left: float
     right: float
@@ -37,11 +37,11 @@ class PlotArea(NamedTuple):
     high: Fraction
 
     def x(self, time: Fraction) -> float:
-        """Where a time stands."""
+        """The pixel of a time."""
         return self.left + float((self.right - self.left) * time / self.total) if self.total else self.left
 
     def y(self, level: Fraction) -> float:
-        """Where a level stands."""
+        """The pixel of a level."""
         return float(self.bottom - (self.bottom - self.top) * (level - self.low) / (self.high - self.low))
 
 
@@ -66,7 +66,7 @@ def drawing(program: Program, *, first: int = 1) -> Drawing:
 
 
 def describe(program: Program, found: Profile) -> str:
-    """The profile in words, for who cannot see it."""
+    """The profile in words, as alternative text."""
     last = "; then " + _level(found, found.final) + " stays" if found.final is not None else ""
     legs = [
         f"segment {one.segment}: {one.kind} {_level(found, one.to)} {_duration(found, one.end - one.start)}"

@@ -24,7 +24,7 @@ FEW = 4
 
 
 class Leg(NamedTuple):
-    """A part of a segment: from `start` to `end` the setpoint goes `source` -> `to` (None: where it happens to be)."""
+    """A part of a segment: from `start` to `end` the setpoint goes from `source` (None: unknown) to `to`."""
 
     segment: int
     kind: Literal["ramp", "soak"]
@@ -49,7 +49,7 @@ class Profile:
 
     @property
     def total(self) -> Fraction:
-        """How long one cycle takes."""
+        """The time of one cycle."""
         return self.legs[-1].end if self.legs else NOUGHT
 
     @property

@@ -1,4 +1,4 @@
-"""A setpoint program as a typed value, whatever the registers of a device look like."""
+"""A setpoint program as a typed value, independent of the registers of a device."""
 
 import re
 from collections.abc import Mapping
@@ -51,7 +51,7 @@ class Segment:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Final:
-    """What stays behind the last segment."""
+    """The setpoint and outputs after the last segment."""
 
     to: Setting
     outputs: Outputs = field(default_factory=dict)

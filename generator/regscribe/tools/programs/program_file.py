@@ -112,7 +112,7 @@ def dump(program: Program, *, remarks: tuple[str, ...] = ()) -> str:
 
 
 def _lines(value: Any) -> Any:  # noqa: ANN401 - of `plain`
-    """A segment on one line."""
+    """Plain data with each segment on one line."""
     if isinstance(value, Mapping):
         return files.OneLine(value)
     return [_lines(one) for one in value] if isinstance(value, list) else value

@@ -1,4 +1,4 @@
-"""Reading a program from a device."""
+"""Reads a program from a device."""
 
 from collections.abc import Iterator, Mapping
 from typing import Any
@@ -13,7 +13,7 @@ from regscribe_runtime.values.programs import ProgramCounts
 
 
 def read(place: ProgramSlot) -> Task[Program]:
-    """Read a program: the segments that are in use, or that may be where the manual leaves their number open."""
+    """Read a program: its segments in use, or all that may be in use where the manual leaves their number open."""
 
     def task(session: Session) -> Operation[Program]:
         snapshot = yield from read_with(_registers(place), needs)(session)
@@ -85,7 +85,7 @@ class _Reader:
         return FOREVER if spec.forever is not None and int(value) == spec.forever else int(value)
 
     def _used(self, count: Any) -> range:  # noqa: ANN401 - as above
-        """The numbers of the segments in use; where it is not stated which one does not count, all that may be."""
+        """Numbers of the segments in use, or of all that may be in use."""
         segments = self.place.spec.segments
         used = segments.many
         if count is not None:

@@ -32,7 +32,7 @@ class ProgramState:
 
 
 class NotNow(RegscribeError):  # noqa: N818 (as the errors of drivers)
-    """An act that means nothing in the present state of the device, or that it has no way for; nothing was written."""
+    """An act that is useless in the present state of the device, or not possible over the line; nothing was written."""
 
 
 def status(place: ProgramSlot) -> Task[ProgramState]:

@@ -43,7 +43,7 @@ class SettingConverter:
         return Amount(Decimal(repr(number)), self.unit(register, time=time))
 
     def value(self, register: Register[Any], setting: Setting, *, time: bool = False) -> Any:  # noqa: ANN401 - as above
-        """The value of use of a setting; ValueRefused for another unit, and for what the register does not know."""
+        """The value of use of a setting; ValueRefused for another unit, or a name that the register does not have."""
         if isinstance(setting, str):
             return value_text.parse(register, setting)
         unit = self.unit(register, time=time)

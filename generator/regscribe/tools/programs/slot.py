@@ -23,7 +23,7 @@ class ProgramSlot:
 
     @property
     def name(self) -> str:
-        """How it is called: `recipe`, or with its number `program 2`."""
+        """`recipe`, or with its number `program 2`."""
         return f"{self.spec.id} {self.number}" if self.spec.programs else self.spec.id
 
     def register(self, path: str, segment: int = 0) -> Register[Any]:

@@ -1,12 +1,54 @@
-"""Outputs and alarms of a controller: PID, on/off and manual outputs; trips with hysteresis, delay and latch."""
+"""Parts of a controller: its settings, its outputs (PID, on/off, by hand), and its alarms."""
 
 from collections.abc import Callable
 
-from regscribe.model import Alarm, Output, Pid, TripKind
-from regscribe.simulate.process.controller_settings import ControllerSettings
+from regscribe.model import Alarm, Condition, Output, Pid, TripKind
+from regscribe.reference import holds
+from regscribe.simulate.device.state import DeviceState
 from regscribe.simulate.process.thermal_process import STEP
+from regscribe_runtime.values.views import scale_needs
 
 FULL = 1.0
+
+
+class ControllerSettings:
+    """Cache of numbers and conditions, also of registers that the controller itself moves."""
+
+    def __init__(self, state: DeviceState) -> None:
+        self._state = state
+        self._numbers: dict[str, float] = {}
+        self._conditions: dict[int, bool] = {}
+        self._paths: set[str] = set()
+
+    def refresh(self) -> frozenset[str]:
+        """Forget what may have changed since the last call; return the registers that were touched."""
+        touched = frozenset(self._state.touched)
+        if not touched.isdisjoint(self._paths):
+            self._numbers.clear()
+            self._conditions.clear()
+        self._state.touched.clear()
+        return touched
+
+    def number(self, path: str) -> float:
+        """Return the value of use of a register; 0 for none."""
+        if not path:
+            return 0.0
+        if path not in self._numbers:
+            register, _ = self._state.find(path)
+            self._paths.update((register.path, *scale_needs(register)))
+            self._numbers[path] = float(self._state.look_up(path))
+        return self._numbers[path]
+
+    def holds(self, condition: Condition | None) -> bool:
+        """Whether a condition holds; none never does."""
+        if condition is None:
+            return False
+        key = id(condition)  # conditions live as long as their map
+        if key not in self._conditions:
+            for path in condition.registers:
+                self._paths.update((path, *scale_needs(self._state.register(path))))
+            self._conditions[key] = holds(condition, self._state)
+        return self._conditions[key]
 
 
 class ControlLoop:
@@ -87,10 +129,7 @@ class ControlLoop:
         return self._settings.number(path) / float(self.output.full) if path else otherwise
 
 
-Distance = Callable[[float, float, float], float]
-"""How far a process value is beyond the trip (above 0: it trips), from value, setpoint and limit."""
-
-DISTANCES: dict[TripKind, Distance] = {
+DISTANCES: dict[TripKind, Callable[[float, float, float], float]] = {
     TripKind.HIGH: lambda value, _, limit: value - limit,
     TripKind.LOW: lambda value, _, limit: limit - value,
     TripKind.DEVIATION_HIGH: lambda value, setpoint, limit: value - (setpoint + limit),
@@ -98,6 +137,7 @@ DISTANCES: dict[TripKind, Distance] = {
     TripKind.INSIDE: lambda value, setpoint, limit: limit - abs(value - setpoint),
     TripKind.OUTSIDE: lambda value, setpoint, limit: abs(value - setpoint) - limit,
 }
+"""How far a process value is beyond the trip (above 0: it trips), from value, setpoint and limit."""
 
 
 class AlarmWatch:
