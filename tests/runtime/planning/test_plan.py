@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from regscribe_runtime.planning.address_ranges import AddressRanges, AddressStretch, RegisterSpan
 from regscribe_runtime.planning.cost import Cost
-from regscribe_runtime.planning.plan import Block, RequestLimits, SplitReason, Terms, Uncoverable, blocks, explain
+from regscribe_runtime.planning.plan import Block, RequestLimits, SplitReason, Terms, blocks, explain
 from regscribe_runtime.values.protocol import Latency
 from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.values.wire_types import Space
@@ -177,7 +177,7 @@ def test_the_reasons_of_a_plan_say_why_each_request_is_its_own() -> None:
     terms = Terms(RequestLimits(words=6), ground, cost)
     found = explain(blocks([RegisterSpan(*one) for one in at + more], terms), terms)
 
-    assert [(one.block.address, one.carried, one.split.reason) for one in found.requests] == [
+    assert [(one.block.address, one.block.quantity, one.split.reason) for one in found.requests] == [
         (0, 1, SplitReason.FIRST),
         (0, 2, SplitReason.SPACE),
         (2, 6, SplitReason.LIMIT),
@@ -199,9 +199,9 @@ def test_a_register_that_can_only_be_written_is_never_read_along() -> None:
 
     found = explain(blocks([RegisterSpan(Space.HOLDING, 0, 3), RegisterSpan(Space.HOLDING, 4, 2)], terms), terms)
 
-    assert [(one.block.address, one.carried) for one in found.requests] == [(0, 3), (4, 2)]
+    assert [(one.block.address, one.block.quantity) for one in found.requests] == [(0, 3), (4, 2)]
     assert found.requests[1].split.reason is SplitReason.UNREADABLE
-    with pytest.raises(Uncoverable, match=r"holding 2\.\.4 cannot be read"):
+    with pytest.raises(ValueError, match=r"holding 2\.\.4 cannot be read"):
         blocks([RegisterSpan(Space.HOLDING, 2, 3)], terms)
 
 

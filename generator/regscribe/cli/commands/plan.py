@@ -173,7 +173,7 @@ class _PlanReport:
             f"{block.function:02d}",
             f"{block.address}" if block.quantity == 1 else f"{block.address}..{block.end - 1}",
             str(one.wanted),
-            str(one.carried),
+            str(one.block.quantity),
             str(one.bytes),
             f"{one.ms:.1f}",
             f"{reason} ({one.split.detail})" if one.split.detail else reason,
@@ -196,7 +196,7 @@ class _PlanReport:
                 {
                     "function": one.block.function,
                     "address": one.block.address,
-                    "quantity": one.carried,
+                    "quantity": one.block.quantity,
                     "wanted": one.wanted,
                     "bytes": one.bytes,
                     "ms": round(one.ms, 3),

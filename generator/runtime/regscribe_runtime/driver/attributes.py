@@ -15,8 +15,7 @@ class WriteOptions(TypedDict, total=False):
     """Options of a write.
 
     `view` chooses another view than the preferred one. `rounded` allows a value finer than the device can hold.
-    `confirm` is needed where the map calls the write dangerous. `verify` tells whether the value is read back; by
-    default that of a setting is, and that of a passing operation is not.
+    `confirm` is needed for a dangerous write. `verify` tells whether the value is read back; by default settings are.
     """
 
     view: str | None

@@ -8,6 +8,7 @@ from regscribe_runtime.errors import ValueRefused
 from regscribe_runtime.link.timing import broadcast_seconds
 from regscribe_runtime.operations.write_request import check_condition, check_confirmation, condition_needs
 from regscribe_runtime.registers.register import Register
+from regscribe_runtime.values.conditions import State
 from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.values.views import View
@@ -16,7 +17,6 @@ from regscribe_runtime.wire.requests import Request
 NOBODY = "no device of this bus is known: add one, or pass driver=..."
 
 Driver = type["BareDevice"] | type["AsyncBareDevice"]
-State = Mapping[str, Any]
 
 
 def request_for(
@@ -24,16 +24,16 @@ def request_for(
     value: object,
     drivers: Mapping[str, Driver],
     *,
-    view: str | None,
-    state: State,
     givens: State,
-    confirm: bool,
+    view: str | None = None,
+    state: State | None = None,
+    confirm: bool = False,
 ) -> Request:
     """The request that writes a register of all units; ValueRefused with the reason if it must not be sent.
 
     `drivers` are those of all units on the line, by their names in messages.
     """
-    chosen = register.write_view(view)
+    chosen, state = register.write_view(view), state or {}
     _check_units(register, drivers)
     command = register.unlock or register.apply
     if command:

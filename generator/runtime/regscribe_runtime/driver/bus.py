@@ -6,10 +6,10 @@ requests of other units may come between theirs: a long operation of one device 
 
 from collections.abc import Iterator, Mapping
 from contextlib import AsyncExitStack, ExitStack
-from typing import Any, Generic, Self, TypeVar, Unpack
+from typing import Any, Generic, Self, TypedDict, TypeVar, Unpack
 
 from regscribe_runtime.driver import broadcast
-from regscribe_runtime.driver.device import AsyncBareDevice, BareDevice
+from regscribe_runtime.driver.device import AsyncBareDevice, AsyncLinkUser, BareDevice, LinkUser
 from regscribe_runtime.errors import ValueRefused
 from regscribe_runtime.link import connect
 from regscribe_runtime.link.links import (
@@ -33,6 +33,17 @@ USUAL_GAP = 4.0
 D = TypeVar("D", bound="BareDevice | AsyncBareDevice")
 S = TypeVar("S", bound=BareDevice)
 A = TypeVar("A", bound=AsyncBareDevice)
+
+
+class BroadcastOptions(TypedDict, total=False):
+    """Options of a broadcast: `view` and `confirm` as in `WriteOptions`.
+
+    `state` has the values, equal in all units, of the registers that the written one depends on, by path.
+    """
+
+    view: str | None
+    state: Mapping[str, Any] | None
+    confirm: bool
 
 
 class _Common(Generic[D]):
@@ -76,7 +87,7 @@ class _Common(Generic[D]):
         return found | ({driver.__name__: driver} if driver is not None else {})
 
     def _broadcast_request(
-        self, register: Register[Any], value: object, driver: broadcast.Driver | None, **how: Any
+        self, register: Register[Any], value: object, driver: broadcast.Driver | None, how: BroadcastOptions
     ) -> Request:
         givens = [one.session.givens for one in self] or [{}]
         if any(one != givens[0] for one in givens):
@@ -88,7 +99,7 @@ class _Common(Generic[D]):
             device.session.forget()
 
 
-class Bus(_Common[BareDevice]):
+class Bus(_Common[BareDevice], LinkUser):
     """Several synchronous drivers on one link, for any number of threads."""
 
     def __init__(self, link: Link, *, gap: float = USUAL_GAP) -> None:
@@ -118,30 +129,13 @@ class Bus(_Common[BareDevice]):
         self._add(device, self.link.line)
         return device
 
-    def open(self) -> None:
-        """Open the link, if it is not open; LinkLost if that fails."""
-        self.link.open()
-
-    def close(self) -> None:
-        """Close the link; harmless if it is closed."""
-        self.link.close()
-
-    def __enter__(self) -> Self:
-        self.open()
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
-
     def broadcast(
         self,
         register: Register[Any],
         value: object,
         *,
-        view: str | None = None,
-        state: Mapping[str, Any] | None = None,
         driver: type[BareDevice] | None = None,
-        confirm: bool = False,
+        **how: Unpack[BroadcastOptions],
     ) -> None:
         """Write a register (`Athena16C.setpoint_ram`) of all units at once; returns when all had time to carry it out.
 
@@ -149,7 +143,7 @@ class Bus(_Common[BareDevice]):
         another register there, or the value depends on registers that are not in `state`. `driver` stands for the units
         of a bus without devices.
         """
-        request = self._broadcast_request(register, value, driver, view=view, state=state or {}, confirm=confirm)
+        request = self._broadcast_request(register, value, driver, how)
         self.broadcast_raw(request, driver=driver)
 
     def broadcast_raw(self, request: Request, *, driver: type[BareDevice] | None = None) -> None:
@@ -164,7 +158,7 @@ class Bus(_Common[BareDevice]):
                 self._forget()
 
 
-class AsyncBus(_Common[AsyncBareDevice]):
+class AsyncBus(_Common[AsyncBareDevice], AsyncLinkUser):
     """As `Bus`, for asyncio."""
 
     def __init__(self, link: AsyncLink, *, gap: float = USUAL_GAP) -> None:
@@ -194,33 +188,16 @@ class AsyncBus(_Common[AsyncBareDevice]):
         self._add(device, self.link.line)
         return device
 
-    async def open(self) -> None:
-        """As `Bus.open`."""
-        await self.link.open()
-
-    async def close(self) -> None:
-        """As `Bus.close`."""
-        await self.link.close()
-
-    async def __aenter__(self) -> Self:
-        await self.open()
-        return self
-
-    async def __aexit__(self, *_: object) -> None:
-        await self.close()
-
     async def broadcast(
         self,
         register: Register[Any],
         value: object,
         *,
-        view: str | None = None,
-        state: Mapping[str, Any] | None = None,
         driver: type[AsyncBareDevice] | None = None,
-        confirm: bool = False,
+        **how: Unpack[BroadcastOptions],
     ) -> None:
         """As `Bus.broadcast`."""
-        request = self._broadcast_request(register, value, driver, view=view, state=state or {}, confirm=confirm)
+        request = self._broadcast_request(register, value, driver, how)
         await self.broadcast_raw(request, driver=driver)
 
     async def broadcast_raw(self, request: Request, *, driver: type[AsyncBareDevice] | None = None) -> None:

@@ -55,7 +55,6 @@ class _Common:
     _unused: ClassVar[tuple[tuple[Space, int, int], ...]] = ()
     registers: ClassVar[Catalogue] = Catalogue(whole=True)
     session: Session
-    _on_bus = False
 
     def _begin(self, unit: int, givens: Mapping[str, Any]) -> None:
         owner: type = type(self)
@@ -90,20 +89,18 @@ class _Common:
         return f"<{type(self).__name__} unit {self.session.unit}>"
 
 
-class BareDevice(_Common, Part):
-    """A synchronous driver of one unit behind a link; `givens` are the facts that the manual leaves open."""
+class LinkUser:
+    """Opens and closes a synchronous link."""
 
-    def __init__(self, link: Link, *, unit: int, **givens: Any) -> None:
-        Part.__init__(self, self)
-        self.link = link
-        self._begin(unit, givens)
+    link: Link
+    _on_bus = False
 
     def open(self) -> None:
-        """Open the link; LinkLost if that fails."""
+        """Open the link, if it is not open; LinkLost if that fails."""
         self.link.open()
 
     def close(self) -> None:
-        """Close the link; that of a bus stays open."""
+        """Close the link, harmless if it is closed; a device of a bus leaves it open."""
         if not self._on_bus:
             self.link.close()
 
@@ -113,6 +110,38 @@ class BareDevice(_Common, Part):
 
     def __exit__(self, *_: object) -> None:
         self.close()
+
+
+class AsyncLinkUser:
+    """Opens and closes an asyncio link."""
+
+    link: AsyncLink
+    _on_bus = False
+
+    async def open(self) -> None:
+        """As `LinkUser.open`."""
+        await self.link.open()
+
+    async def close(self) -> None:
+        """As `LinkUser.close`."""
+        if not self._on_bus:
+            await self.link.close()
+
+    async def __aenter__(self) -> Self:
+        await self.open()
+        return self
+
+    async def __aexit__(self, *_: object) -> None:
+        await self.close()
+
+
+class BareDevice(_Common, LinkUser, Part):
+    """A synchronous driver of one unit behind a link; `givens` are the facts that the manual leaves open."""
+
+    def __init__(self, link: Link, *, unit: int, **givens: Any) -> None:
+        Part.__init__(self, self)
+        self.link = link
+        self._begin(unit, givens)
 
     def run(self, task: tasks.Task[T]) -> T:
         """Run an operation; others of this unit wait, requests of other units may come between its own."""
@@ -164,29 +193,13 @@ class Device(BareDevice):
         return cls(client_link(cls.protocol, client, **settings), unit=unit)
 
 
-class AsyncBareDevice(_Common, AsyncPart):
+class AsyncBareDevice(_Common, AsyncLinkUser, AsyncPart):
     """An asyncio driver; otherwise as `BareDevice`."""
 
     def __init__(self, link: AsyncLink, *, unit: int, **givens: Any) -> None:
         AsyncPart.__init__(self, self)
         self.link = link
         self._begin(unit, givens)
-
-    async def open(self) -> None:
-        """Open the link; LinkLost if that fails."""
-        await self.link.open()
-
-    async def close(self) -> None:
-        """As `BareDevice.close`."""
-        if not self._on_bus:
-            await self.link.close()
-
-    async def __aenter__(self) -> Self:
-        await self.open()
-        return self
-
-    async def __aexit__(self, *_: object) -> None:
-        await self.close()
 
     async def run(self, task: tasks.Task[T]) -> T:
         """As `BareDevice.run`."""

@@ -2,8 +2,9 @@
 
 from collections.abc import Awaitable, Iterator, Mapping
 from functools import cache
+from itertools import chain
 from types import MappingProxyType
-from typing import Any, ClassVar, Generic, Protocol, Self, TypeVar, overload
+from typing import Any, Generic, Self, TypeVar, overload
 
 from regscribe_runtime.operations import tasks
 from regscribe_runtime.operations.snapshot import Snapshot
@@ -11,7 +12,6 @@ from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.facts import CommandStep
 
 T = TypeVar("T")
-R = TypeVar("R", bound="Runner | AsyncRunner")
 P = TypeVar("P", bound="Part")
 A = TypeVar("A", bound="AsyncPart")
 B = TypeVar("B", bound="Part | AsyncPart")
@@ -31,26 +31,6 @@ class Catalogue:
         return _catalogue(owner, whole=self.whole)
 
 
-class Runner(Protocol):
-    """The synchronous device of a part."""
-
-    registers: ClassVar[Catalogue]
-
-    def run(self, task: tasks.Task[T]) -> T:
-        """Run an operation on the device."""
-        raise NotImplementedError
-
-
-class AsyncRunner(Protocol):
-    """As `Runner`, for asyncio."""
-
-    registers: ClassVar[Catalogue]
-
-    async def run(self, task: tasks.Task[T]) -> T:
-        """Run an operation on the device."""
-        raise NotImplementedError
-
-
 @cache
 def _catalogue(owner: type, *, whole: bool) -> Mapping[str, Register[Any]]:
     members = [member for group in groups_of(owner).values() for member in group.members]
@@ -65,10 +45,10 @@ def _registers(owner: type) -> Iterator[tuple[str, Register[Any]]]:
             yield name, declared
         elif isinstance(declared, Array):
             inside = list(_registers(declared.element))
-            for index in range(declared.first, declared.first + declared.count):
+            for place, index in enumerate(declared.numbers):
                 for path, register in inside:
                     there = f"{name}[{index}].{path}"
-                    yield there, register.moved((index - declared.first) * declared.stride, there)
+                    yield there, register.moved(place * declared.stride, there)
 
 
 @cache
@@ -89,17 +69,15 @@ def _members_of(owner: type) -> Mapping[str, list[Register[Any]]]:
 
 
 def _declared(owner: type, *kinds: type) -> dict[str, Any]:
-    found: dict[str, Any] = {}
-    for base in reversed(owner.__mro__):
-        found.update({name: value for name, value in vars(base).items() if isinstance(value, kinds)})
-    return found
+    attributes = chain.from_iterable(vars(base).items() for base in reversed(owner.__mro__))
+    return {name: value for name, value in attributes if isinstance(value, kinds)}
 
 
-class _AnyPart(Generic[R]):
+class _AnyPart(Generic[B]):
     registers = Catalogue()
     _prefix = ""
 
-    def __init__(self, device: R, prefix: str = "") -> None:
+    def __init__(self, device: B, prefix: str = "") -> None:
         self._device, self._prefix = device, prefix
 
     def placed(self) -> dict[str, Register[Any]]:
@@ -114,7 +92,7 @@ class _AnyPart(Generic[R]):
         return self._device.registers[f"{self._prefix}.{path}"] if self._prefix else register
 
 
-class Part(_AnyPart[Runner]):
+class Part(_AnyPart["Part"]):
     """A part of a synchronous driver: the device, an array element, its commands."""
 
     def bind(self, register: Register[T], sync: Any, _: object) -> Any:
@@ -130,7 +108,7 @@ class Part(_AnyPart[Runner]):
         return self.run(tasks.read_part(self.placed()))
 
 
-class AsyncPart(_AnyPart[AsyncRunner]):
+class AsyncPart(_AnyPart["AsyncPart"]):
     """As `Part`, for asyncio."""
 
     def bind(self, register: Register[T], _: object, awaitable: Any) -> Any:
@@ -149,21 +127,21 @@ class AsyncPart(_AnyPart[AsyncRunner]):
 class Elements(Generic[T]):
     """The elements of an array, by the manual's numbers."""
 
-    def __init__(self, make: Any, first: int, count: int) -> None:
-        self._make, self.first, self.count = make, first, count
+    def __init__(self, make: Any, numbers: range) -> None:
+        self._make, self._numbers = make, numbers
 
     def __getitem__(self, index: int) -> T:
-        if not self.first <= index < self.first + self.count:
-            message = f"no element {index}: they run from {self.first} to {self.first + self.count - 1}"
+        if index not in self._numbers:
+            message = f"no element {index}: they run from {self._numbers[0]} to {self._numbers[-1]}"
             raise IndexError(message)
         element: T = self._make(index)
         return element
 
     def __iter__(self) -> Iterator[T]:
-        return (self[index] for index in range(self.first, self.first + self.count))
+        return map(self.__getitem__, self._numbers)
 
     def __len__(self) -> int:
-        return self.count
+        return len(self._numbers)
 
 
 class Array(Generic[P, A]):
@@ -171,7 +149,7 @@ class Array(Generic[P, A]):
 
     def __init__(self, element: type[P], awaitable: type[A], *, first: int, count: int, stride: int) -> None:
         self.element, self.awaitable = element, awaitable
-        self.first, self.count, self.stride = first, count, stride
+        self.numbers, self.stride = range(first, first + count), stride
         self.id = ""
 
     def __set_name__(self, owner: type, name: str) -> None:
@@ -192,7 +170,7 @@ class Array(Generic[P, A]):
         def element(index: int) -> Any:
             return make(instance._device, f"{inside}{self.id}[{index}]")  # noqa: SLF001 (as above)
 
-        return Elements(element, self.first, self.count)
+        return Elements(element, self.numbers)
 
 
 class _Bound(Generic[B]):
@@ -254,9 +232,9 @@ class SubPart(Generic[P, A]):
     def __get__(self, instance: Part | AsyncPart | None, owner: type) -> Self | P | A:
         if instance is None:
             return self
-        if isinstance(instance, Part):
-            return self.part(instance._device)  # noqa: SLF001 (parts are one family)
-        return self.awaitable(instance._device)  # noqa: SLF001 (as above)
+        make: Any = self.part if isinstance(instance, Part) else self.awaitable
+        part: P | A = make(instance._device)  # noqa: SLF001 (parts are one family)
+        return part
 
     def commands(self) -> dict[str, Command]:
         """The commands declared here, by id."""

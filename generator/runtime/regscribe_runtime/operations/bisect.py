@@ -1,12 +1,11 @@
 """Bisection of a refused read request until the registers that the unit lacks are found; the others are delivered.
 
-A register is absent if the unit answers a read of it alone with the exception that the map gives for bad addresses
-(as a rule illegal data address). Other exceptions, and silence, concern the whole operation and are raised. Only where
-the map says that the device does not answer for bad addresses does silence mean absence: two times, and if the unit
-answers other requests.
+A register is absent if the unit answers a read of it alone with the exception that the map gives for bad addresses.
+Other exceptions, and silence, are raised. Where the map says that the device does not answer for bad addresses, silence
+means absence if it is repeated and the unit answers other requests.
 
-If one half is good, the other must be bad, so it is halved without being requested as a whole: one absent register
-among n takes between log2(n) and 2 log2(n) requests.
+If one half is good, the other is halved without being requested as a whole: one absent register among n takes between
+log2(n) and 2 log2(n) requests.
 """
 
 from collections.abc import Generator, Sequence

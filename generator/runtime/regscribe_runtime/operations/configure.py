@@ -83,7 +83,7 @@ def configure(
         finally:
             session.forget()
         for path in work.paths(Fate.EQUAL):
-            if work.register(path).persistence in EEPROM:
+            if session.registers[path].persistence in EEPROM:
                 session.wear.add(path, spared=1)
         return work.report()
 
@@ -149,7 +149,7 @@ def _write_line(work: Transaction, one: Assignment, *, rounded: bool) -> Operati
 
 def _apply_commands(work: Transaction) -> list[str]:
     """The commands that make what was written take effect, each once."""
-    written = map(work.register, work.paths(Fate.WRITTEN, Fate.DIFFERS, Fate.UNKNOWN))
+    written = map(work.session.registers.__getitem__, work.paths(Fate.WRITTEN, Fate.DIFFERS, Fate.UNKNOWN))
     return list(dict.fromkeys(one.apply for one in written if one.apply and not one.governs))
 
 

@@ -11,6 +11,7 @@ from regscribe_runtime.operations.bisect import Words
 from regscribe_runtime.operations.session import Session
 from regscribe_runtime.planning.plan import Block
 from regscribe_runtime.registers import codec
+from regscribe_runtime.registers.codec import Converter
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.kinds import Kind
 from regscribe_runtime.values.views import View
@@ -41,12 +42,12 @@ class PreparedBlock:
         self.request = Request(block.function, block.address, block.quantity)
         together, others = _split(placed)
         self.packer = struct.Struct(f">{block.quantity}H")
-        self.unpacker = struct.Struct(_format(together, block.quantity))
-        self.order = _order(together, block.quantity, session)
+        layout, self.order = _layout(together, block.quantity, session)
+        self.unpacker = struct.Struct(layout)
         self.paths = [register.path for register, _, _ in together]
-        converters = [_converter(register, view, session, unknown) for register, view, _ in together]
+        converters = [_converter(codec.reader, register, view, session, unknown) for register, view, _ in together]
         self.converters = [(place, convert) for place, convert in enumerate(converters) if convert is not codec.same]
-        self.alone = [(*one, _decoder(*one[:2], session, unknown)) for one in others]
+        self.alone = [(*one, _converter(codec.decoder, *one[:2], session, unknown)) for one in others]
 
     def decode(self, words: Sequence[int]) -> dict[str, Any]:
         """Values by path, or the ValueNotDecodable of a register without a value."""
@@ -70,7 +71,7 @@ class PreparedBlock:
         for register, view, start in self.placed:
             there = words[start : start + view.words]
             if None not in there:
-                decode = _decoder(register, view, session, unknown)
+                decode = _converter(codec.decoder, register, view, session, unknown)
                 found[register.path] = _caught(decode, there)
         return found
 
@@ -87,44 +88,36 @@ def _split(placed: Sequence[Placed]) -> tuple[list[Placed], list[Placed]]:
     return together, alone
 
 
-def _format(together: Sequence[Placed], quantity: int) -> str:
-    codes, end = [">"], 0
-    for _, view, start in together:
-        codes.append("xx" * (start - end) + view.type.code)
-        end = start + view.words
-    return "".join(codes) + "xx" * (quantity - end)
-
-
-def _order(together: Sequence[Placed], quantity: int, session: Session) -> list[int] | None:
-    places = list(range(quantity))
+def _layout(together: Sequence[Placed], quantity: int, session: Session) -> tuple[str, list[int] | None]:
+    """The format of `struct` for all registers, and the order of words in which it applies (None: that of the wire)."""
+    codes, places, end = ">", list(range(quantity)), 0
     for register, view, start in together:
+        codes += "xx" * (start - end) + view.type.code
+        end = start + view.words
         with suppress(ValueNotDecodable, KeyError):  # its converter raises it, for this register alone
             if view.words > 1 and codec.word_order(view, register.path, session.memory) is Order.LITTLE:
-                places[start : start + view.words] = places[start : start + view.words][::-1]
-    return None if places == sorted(places) else places
+                places[start:end] = places[start:end][::-1]
+    return codes + "xx" * (quantity - end), None if places == sorted(places) else places
 
 
 def _converter(
-    register: Register[Any], view: View, session: Session, unknown: Mapping[str, RegscribeError]
-) -> Callable[[Any], Any]:
+    make: Callable[..., Converter],
+    register: Register[Any],
+    view: View,
+    session: Session,
+    unknown: Mapping[str, RegscribeError],
+) -> Converter:
+    """The converter of `codec.reader` or `codec.decoder`; one that raises the error where the word order is unknown."""
+    state = codec.known_state(register, session.memory, unknown)
     try:
         if view.words > 1:
-            codec.word_order(view, register.path, codec.known(register, session.memory, unknown))
-        return codec.reader(register, view, session.memory, session.givens, unknown)
+            codec.word_order(view, register.path, state)
+        return make(register, view, state, session.givens)
     except ValueNotDecodable as error:
         return codec.failing(error)
 
 
-def _decoder(
-    register: Register[Any], view: View, session: Session, unknown: Mapping[str, RegscribeError]
-) -> Callable[[Any], Any]:
-    try:
-        return codec.decoder(register, view, session.memory, session.givens, unknown)
-    except ValueNotDecodable as error:
-        return codec.failing(error)
-
-
-def _caught(convert: Callable[[Any], Any], given: Any) -> Any:
+def _caught(convert: Converter, given: Any) -> Any:
     try:
         return convert(given)
     except ValueNotDecodable as error:

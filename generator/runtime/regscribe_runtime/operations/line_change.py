@@ -1,7 +1,7 @@
 """Writes of registers that set the line itself: the driver follows the device, or says where it was left.
 
-The device may answer in the old setting, in the new one or not at all, and may change at once or later. So after the
-write it is looked for in the new setting, then in the old one, by reading the register back.
+The device may answer in the old setting, in the new one or not at all, and may change at once or later. So the
+register is read back in the new setting, then in the old one.
 """
 
 from __future__ import annotations
@@ -22,8 +22,6 @@ from regscribe_runtime.wire.requests import verify
 
 MARKS = frozenset({Kind.STRING, Kind.VERSION})
 """Kinds of registers whose words identify a device: they do not change, and no neighbour holds the same."""
-
-LATER = "restart"
 
 FIRST_UNIT = 1
 """Unit 0 is the broadcast, which nobody answers."""
@@ -58,7 +56,7 @@ def follow(session: Session, one: RegisterWrite, governs: Governs) -> Operation[
         known = [other for other in session.registers.values() if other.kind in MARKS and other.access.readable]
         marks = yield from words_of(session, [(other, other.read_view()) for other in known])
     cause = yield from _send(session, one, governs)
-    yield from _find(session, one, old, [] if governs.since == LATER else new, marks, cause)
+    yield from _find(session, one, old, [] if governs.since == "restart" else new, marks, cause)
     session.home = None
 
 
@@ -140,7 +138,7 @@ def _find(
     read = yield from _read(session, one, marks)
     value = value_text(one.value(session))
     if read is None:
-        raise _left(one.path, value, old, new, cause)
+        raise _left(one.path, value, old, new, cause) from cause
     if one.matches(read, session):
         return  # it holds the value and talks as before: it will change later
     if cause is None:
@@ -169,9 +167,7 @@ def _left(path: str, value: str, old: LineChange, new: list[LineChange], cause: 
     else:
         reason = f"{answer}, and now it does not answer as before. The manual does not say what {value} sets"
     asked = "; ".join(map(line_text, new)) or value
-    error = LeftAt(path, before=line_text(old), asked=asked, reason=reason)
-    error.__cause__ = cause
-    return error
+    return LeftAt(path, before=line_text(old), asked=asked, reason=reason)
 
 
 def line_text(change: LineChange) -> str:

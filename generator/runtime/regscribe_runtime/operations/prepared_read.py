@@ -6,6 +6,7 @@ time, so every value is decoded with the state under which it was sent.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from typing import Any, TypeVar
 
 from regscribe_runtime.errors import RegscribeError, ValueNotDecodable
@@ -24,23 +25,24 @@ MISSING = object()
 
 
 class PreparedRead:
-    """The requests of one read and the decoders of the answers; made by `make_ready`."""
+    """The requests of one read and the decoders of the answers; made by `make_ready`.
 
-    __slots__ = ("_unchanged", "_watched", "absent", "atomic", "blocks", "paths", "unknown")
+    `entries` has the paths of all registers in their order, with the errors of absent ones and None for the others.
+    """
+
+    __slots__ = ("_entries", "_unchanged", "_unknown", "_watched", "atomic", "blocks")
 
     def __init__(
         self,
         blocks_: list[PreparedBlock],
-        paths: Iterable[str],
+        entries: dict[str, RegscribeError | None],
         *,
         watched: list[tuple[Register[Any], WordPosition]],
         atomic: bool,
-        absent: Mapping[str, RegscribeError],
         unknown: Mapping[str, RegscribeError],
     ) -> None:
-        self.blocks, self.paths, self.atomic = blocks_, tuple(paths), atomic
-        self.absent, self.unknown = absent, unknown
-        self._watched = watched
+        self.blocks, self.atomic = blocks_, atomic
+        self._entries, self._unknown, self._watched = entries, unknown, watched
         self._unchanged: list[Words] | None = None if watched else []
 
     def changed(self, answers: Sequence[Words], session: Session) -> dict[str, Any]:
@@ -50,7 +52,9 @@ class PreparedRead:
             return {}
         state, found = dict(session.memory), {}
         for (register, place), raw in zip(self._watched, words, strict=True):
-            value = _value(register, place, raw, state, session)
+            value = MISSING
+            with suppress(ValueNotDecodable, KeyError):
+                value = codec.decode(register, place.view, raw, state, session.givens, named=False)  # type: ignore[arg-type] # asked: `blind`
             if session.memory.get(register.path, MISSING) != value:
                 found[register.path] = value
             if value is MISSING:
@@ -62,19 +66,17 @@ class PreparedRead:
         return found
 
     def decode(self, answers: Sequence[Sequence[int]]) -> dict[str, Any]:
-        """Values or errors by path, in the order of `paths`."""
-        values: dict[str, Any] = dict.fromkeys(self.paths)
-        values.update(self.absent)
+        """Values or errors by path."""
+        values: dict[str, Any] = self._entries.copy()
         for block, words in zip(self.blocks, answers, strict=True):
             values.update(block.decode(words))
         return values
 
     def decode_partly(self, answers: Sequence[Words], session: Session) -> dict[str, Any]:
         """As `decode`, for answers in which words are missing: None for a register that could not be read."""
-        values: dict[str, Any] = dict.fromkeys(self.paths)
-        values.update(self.absent)
+        values: dict[str, Any] = self._entries.copy()
         for block, words in zip(self.blocks, answers, strict=True):
-            values.update(block.decode_partly(words, session, self.unknown))
+            values.update(block.decode_partly(words, session, self._unknown))
         return values
 
     def blind(self, answers: Sequence[Words]) -> bool:
@@ -88,15 +90,6 @@ class PreparedRead:
 
 def _words(place: WordPosition, answers: Sequence[Words]) -> Words:
     return answers[place.block][place.start : place.start + place.view.words]
-
-
-def _value(
-    register: Register[Any], place: WordPosition, words: Words, state: Mapping[str, Any], session: Session
-) -> Any:
-    try:
-        return codec.decode(register, place.view, words, state, session.givens, named=False)  # type: ignore[arg-type] # asked: `blind`
-    except (ValueNotDecodable, KeyError):
-        return MISSING
 
 
 R = TypeVar("R", bound=Readable)
@@ -144,14 +137,9 @@ def make_ready(
         PreparedBlock(block, sorted(own, key=lambda one: one[2]), session, unknown)
         for block, own in zip(layout.blocks, placed, strict=True)
     ]
-    return PreparedRead(
-        made,
-        chosen,
-        watched=[(wanted[path], layout.checks[path]) for path in needs if path in layout.checks],
-        atomic=layout.atomic,
-        absent={path: why for path, one in chosen.items() if (why := missing(session, one))},
-        unknown=unknown,
-    )
+    entries = {path: missing(session, one) for path, one in chosen.items()}
+    watched = [(wanted[path], layout.checks[path]) for path in needs if path in layout.checks]
+    return PreparedRead(made, entries, watched=watched, atomic=layout.atomic, unknown=unknown)
 
 
 def missing(session: Session, register: Register[Any]) -> RegscribeError | None:

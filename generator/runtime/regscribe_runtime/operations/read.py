@@ -86,10 +86,10 @@ def know(session: Session, paths: Iterable[str], *, fresh: bool = False, depth: 
     unknown = yield from _unknown(session, needs, depth=depth + 1)
     spans = list(map(item_of, registers, views))
     found = yield from fetch(session, spans)
-    values = {
-        register.path: codec.decode(register, view, found[span], session.memory, session.givens, unknown, named=False)
-        for register, view, span in zip(registers, views, spans, strict=True)
-    }
+    values = {}
+    for register, view, span in zip(registers, views, spans, strict=True):
+        state = codec.known_state(register, session.memory, unknown)
+        values[register.path] = codec.decode(register, view, found[span], state, session.givens, named=False)
     for path, value in values.items():
         if not fresh or session.memory.get(path, value) != value:  # of fresh ones, those remembered that have changed
             session.remember(path, value)
@@ -104,7 +104,8 @@ def read(register: Register[T], view_name: str | None) -> Task[T]:
         if key not in session.prepared:
             view = register.read_view(view_name)
             unknown = yield from _unknown(session, register.needs(view))
-            made = codec.decoder(register, view, session.memory, session.givens, unknown)
+            state = codec.known_state(register, session.memory, unknown)
+            made = codec.decoder(register, view, state, session.givens)
             if unknown:
                 only_now: T = made((yield from session.exchange(read_request(register, view))))
                 return only_now  # an unknown register may have a value when it is read again
@@ -135,7 +136,7 @@ def read_unit(register: Register[Any]) -> Task[str]:
 
     def task(session: Session) -> Operation[str]:
         unknown = yield from _unknown(session, registers_of(register.unit))
-        state = codec.known(register, session.memory, unknown)
+        state = codec.known_state(register, session.memory, unknown)
         return choose(register.unit, state, session.givens) or ""
 
     return task
@@ -144,14 +145,13 @@ def read_unit(register: Register[Any]) -> Task[str]:
 def read_many(registers: Sequence[Register[Any]], *, fresh: bool = True, rest: bool = False) -> Task[Snapshot]:
     """Read several registers in the requests of least cost: one snapshot with a value or an error for each.
 
-    The snapshot is consistent: registers that the meaning of values depends on (decimals, input type, word order) are
-    read behind the values. If they differ from the remembered ones, all is read again, unless values and dependencies
-    came in one request; after TRIES reads Unsteady is raised. Without `fresh` remembered dependencies are used, as in
-    single reads: cheaper, and right as long as no other master configures the device.
+    Dependencies (decimals, input type, word order) are read behind the values. If they differ from the remembered ones,
+    all is read again, unless values and dependencies came in one request; after TRIES reads Unsteady is raised. Without
+    `fresh` remembered dependencies are used: right as long as no other master configures the device.
 
-    If the unit refuses a request because it lacks a register, `Bisection` finds it. Its entry is an Absent error, and
-    plans leave it out until the refusal expires: at the next read (but not that of a `rest`) if others depend on it and
-    the unit was seen to have it. Raises NoAnswer, LinkLost, WrongAnswer, and ExceptionAnswer for other exceptions.
+    A register that the unit lacks is found by `Bisection`. Its entry is an Absent error, and plans leave it out until
+    the refusal expires; a `rest` is read without looking for expired ones. Raises NoAnswer, LinkLost, WrongAnswer, and
+    ExceptionAnswer for other exceptions.
     """
 
     def task(session: Session) -> Operation[Snapshot]:
@@ -190,7 +190,8 @@ def read_part(placed: Mapping[str, Register[Any]]) -> Task[Snapshot]:
 
     def task(session: Session) -> Operation[Snapshot]:
         found = yield from read_many(list(placed.values()))(session)
-        return found.renamed({register.path: name for name, register in placed.items()})
+        names = {register.path: name for name, register in placed.items()}
+        return Snapshot({names[path]: value for path, value in found.entries.items()}, found.answers)
 
     return task
 

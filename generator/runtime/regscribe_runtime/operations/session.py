@@ -44,11 +44,10 @@ TERMS = object()
 class Session:
     """One device behind one link.
 
-    `memory` holds the values of registers that the meaning of others depends on. It is cleared when one of them is
-    written, after a command, and when the link was reopened (`epoch`). `prepared` caches requests and decoders made
-    under that memory, so it is cleared whenever the memory changes. `proven` are remembered registers that were read
-    since the link was opened, `absences` addresses that this unit refused; those in `unused` (space, first, last) are
-    read as 0.
+    `memory` holds the values of registers that the meaning of others depends on; it is cleared by writes to them, by
+    commands, and when the link was reopened (`epoch`). `prepared` caches requests and decoders made under that memory,
+    so it is cleared whenever the memory changes. `proven` are remembered registers that were read since the link was
+    opened, `absences` addresses that this unit refused; those in `unused` (space, first, last) are read as 0.
 
     `line` is the link's serial line (None over TCP), `retry` the retries (None: those of the link), `wrote` whether the
     present operation has sent anything but reads. `broken_off` is the report of the last `configure` that was cancelled
@@ -56,18 +55,12 @@ class Session:
     restored if that operation fails.
     """
 
-    __slots__ = (
-        "_behind", "_ground", "_timed", "_tries", "absences", "addressing", "broken_off", "commands", "epoch", "givens",
-        "groups", "home", "line", "memory", "prepared", "protocol", "proven", "registers", "retry", "unit", "unused",
-        "wear", "wrote",
-    )  # fmt: skip # one name a line says no more
-
     def __init__(
         self,
         *,
         unit: int,
         protocol: Protocol,
-        registers: Mapping[str, Any],
+        registers: Mapping[str, Register[Any]],
         commands: Mapping[str, Any],
         givens: Mapping[str, Any],
         groups: Mapping[str, Any] = MappingProxyType({}),
@@ -98,7 +91,7 @@ class Session:
 
     def own(self, register: Register[Any]) -> Register[Any]:
         """The register of this device for a declaration; ValueError if it is of another device or of all elements."""
-        found: Register[Any] | None = self.registers.get(register.path)
+        found = self.registers.get(register.path)
         if found is not None and (found is register or (found.at, found.views) == (register.at, register.views)):
             return found
         message = (

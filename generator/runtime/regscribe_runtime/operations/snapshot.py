@@ -65,10 +65,6 @@ class Snapshot(Mapping[str, Any]):
                     found[register.path] = there
         return found
 
-    def renamed(self, names: Mapping[str, str]) -> "Snapshot":
-        """The same values under other paths."""
-        return Snapshot({names[path]: value for path, value in self._values.items()}, self.answers)
-
     def __repr__(self) -> str:
         shown = ", ".join(f"{path}={value!r}" for path, value in self._values.items())
         return f"Snapshot({shown})"

@@ -19,7 +19,6 @@ from regscribe_runtime.operations.read_back import (
 from regscribe_runtime.operations.session import Operation, Pause, Session
 from regscribe_runtime.operations.write_order import Batch, batches
 from regscribe_runtime.operations.write_request import EEPROM, run
-from regscribe_runtime.registers.register import Register
 from regscribe_runtime.report import Change, Fate, Progress, Sent, Teller, Words, WriteReport
 from regscribe_runtime.values.kinds import Access
 
@@ -66,14 +65,9 @@ class Transaction:
         """The registers with one of these fates, in the order of writing."""
         return [path for path, change in self.changes.items() if change.fate in fates]
 
-    def register(self, path: str) -> Register[Any]:
-        """A register by its path."""
-        found: Register[Any] = self.session.registers[path]
-        return found
-
     def target(self, path: str) -> Target:
         """A register and the view in which it is written."""
-        register = self.register(path)
+        register = self.session.registers[path]
         return register, register.view(self.changes[path].view)
 
     def write_of(self, path: str, words: Words) -> RegisterWrite:
@@ -162,7 +156,7 @@ class Transaction:
 
     def settle(self, paths: Sequence[str], after: Exception) -> Operation[None]:
         """Read registers back and record the fates that this shows; one that cannot be read keeps its own."""
-        targets = [self.target(path) for path in paths if self.register(path).access is Access.READ_WRITE]
+        targets = [self.target(path) for path in paths if self.session.registers[path].access is Access.READ_WRITE]
         found = (yield from look_back(self.session, targets, after)) if targets else None
         for path, words in (found or {}).items():
             self._mark_held(path, words)
@@ -205,7 +199,7 @@ class Transaction:
 
         What governs the line is left as it is: the driver talks that way now.
         """
-        touched = [path for path in self.paths(*TOUCHED) if not self.register(path).governs]
+        touched = [path for path in self.paths(*TOUCHED) if not self.session.registers[path].governs]
         self.unlocked.clear()
         try:
             for path in reversed(touched):
@@ -222,7 +216,7 @@ class Transaction:
             return
         with suppress(BaseException):  # the caller cannot break off an undoing
             self._tell(f"undo {path}")
-        yield from self._unlock(self.register(path).unlock)
+        yield from self._unlock(self.session.registers[path].unlock)
         for batch in batches(self.session, [self.write_of(path, words)]):
             try:
                 yield from self.session.exchange(batch.request)

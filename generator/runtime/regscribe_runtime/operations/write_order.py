@@ -61,14 +61,15 @@ def batches(session: Session, pieces: Iterable[RegisterWrite]) -> Iterator[Batch
 
     What depends on a value goes in a later request: a device may check a whole request before it takes any of it.
     """
-    batch: list[RegisterWrite] = []
+    groups: list[list[RegisterWrite]] = []
     for each in pieces:
-        if batch and not _fits(session.protocol, batch, each):
-            yield _closed(session, batch)
-            batch = []
-        batch.append(each)
-    if batch:
-        yield _closed(session, batch)
+        if groups and _fits(session.protocol, groups[-1], each):
+            groups[-1].append(each)
+        else:
+            groups.append([each])
+    for group in groups:
+        words = tuple(word for piece in group for word in piece.words)
+        yield Batch(write_request(session, group[0].view, group[0].address, words), tuple(group))
 
 
 def _fits(protocol: Protocol, batch: list[RegisterWrite], other: RegisterWrite) -> bool:
@@ -91,8 +92,3 @@ def _fits(protocol: Protocol, batch: list[RegisterWrite], other: RegisterWrite) 
 def _common(one: RegisterWrite) -> tuple[object, ...]:
     """What values of one request must have in common."""
     return one.view.space, one.view.functions, one.register.unlock, one.register.apply
-
-
-def _closed(session: Session, batch: list[RegisterWrite]) -> Batch:
-    first, words = batch[0], tuple(word for piece in batch for word in piece.words)
-    return Batch(write_request(session, first.view, first.address, words), tuple(batch))

@@ -65,7 +65,7 @@ def _raise_all(refusals: Sequence[ValueRefused]) -> None:
 def _register(session: Session, key: Any) -> Register[Any]:
     declared: Register[Any] | None = None if isinstance(key, str) else getattr(key, "register", key)
     path = declared.path if declared else key
-    register: Register[Any] | None = session.registers.get(path)
+    register = session.registers.get(path)
     if register is None:
         near = get_close_matches(path, session.registers, n=SUGGESTED)
         meant = f": did you mean {' or '.join(near)}?" if near else ""

@@ -17,6 +17,9 @@ NANOSECONDS = 1_000_000
 TCP_ROUND_TRIP = 1.0
 """Milliseconds assumed for a request and its answer on a local network, with the stacks at both ends."""
 
+MBAP_BYTES = 7
+"""Transaction, protocol, length and unit before a PDU over TCP."""
+
 TCP_BYTE = 80
 """Nanoseconds of a byte at 100 Mbit/s."""
 
@@ -93,17 +96,13 @@ class Cost(NamedTuple):
     def _frames(self, request: int, answer: int) -> tuple[float, float]:
         """Milliseconds of both frames without the values, and of a byte of values; `request`, `answer`: PDU bytes."""
         byte = TCP_BYTE / NANOSECONDS
-        fixed = self.round_trip + (self._bytes(request) + self._bytes(answer)) * byte if self.round_trip else 0.0
+        fixed = self.round_trip + (request + answer + 2 * MBAP_BYTES) * byte if self.round_trip else 0.0
         if self.line is None:
             return fixed, byte
         ascii_frames = self.framing == "ascii"
         silences = 0 if ascii_frames else 2 * self.line.silence(float(self.gap))
         fixed += 1000 * ((self._characters(request) + self._characters(answer)) * self.line.character + silences)
         return fixed, 1000 * self.line.character * (2 if ascii_frames else 1)
-
-    @staticmethod
-    def _bytes(pdu: int) -> int:
-        return pdu + 7  # unit, length, protocol, transaction
 
     def _characters(self, pdu: int) -> int:
         """Of the frame around a function code and its data: with unit and CRC, or the ASCII one with LRC."""
@@ -113,8 +112,8 @@ class Cost(NamedTuple):
         """The characters on the line (bytes over TCP) of a request and its answer."""
         request = 1 if space is Space.STATUS else 5
         values = -(-quantity // BITS_IN_BYTE) if space.is_bits else BYTES_IN_WORD * quantity
-        frame = self._characters if self.line else self._bytes
-        return frame(request) + frame(2 + values)
+        pdus = (request, 2 + values)
+        return sum(map(self._characters, pdus)) if self.line else sum(pdus) + 2 * MBAP_BYTES
 
 
 def milliseconds(nanoseconds: int) -> float:

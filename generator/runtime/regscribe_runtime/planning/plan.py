@@ -91,11 +91,6 @@ class Planned(NamedTuple):
     ms: float
     split: Split
 
-    @property
-    def carried(self) -> int:
-        """Addresses that the answer carries."""
-        return self.block.quantity
-
 
 class Plan(NamedTuple):
     """The requests of a plan in the order of sending."""
@@ -110,7 +105,7 @@ class Plan(NamedTuple):
     @property
     def carried(self) -> int:
         """Addresses that the answers carry."""
-        return sum(one.carried for one in self.requests)
+        return sum(one.block.quantity for one in self.requests)
 
     @property
     def bytes(self) -> int:
@@ -123,18 +118,14 @@ class Plan(NamedTuple):
         return sum(one.ms for one in self.requests)
 
 
-class Uncoverable(ValueError):  # noqa: N818 (a fact about an item; callers ask the ground first)
-    """An item that no request may read."""
-
-
 def blocks(items: Iterable[RegisterSpan], terms: Terms) -> tuple[Block, ...]:
-    """The requests of least total cost that read all items; Uncoverable for one that cannot be read."""
+    """The requests of least total cost that read all items; ValueError for one that cannot be read."""
     stretches: dict[tuple[Space, AddressStretch], dict[RegisterSpan, list[RegisterSpan]]] = defaultdict(dict)
     for item in dict.fromkeys(items):
         stretch = terms.ground.stretch(item)
         if stretch is None:
             message = f"{item.space} {item.address}..{item.end - 1} cannot be read"
-            raise Uncoverable(message)
+            raise ValueError(message)
         stretches[item.space, stretch].setdefault(terms.ground.widened(item), []).append(item)
     tariffs = {space: terms.cost.tariff(space) for space, _ in stretches}
     found = []

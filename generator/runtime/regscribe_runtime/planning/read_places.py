@@ -19,36 +19,29 @@ class ReadPlace(NamedTuple):
     view: View
     span: RegisterSpan
 
-    @classmethod
-    def at(cls, view: View, address: int) -> "ReadPlace":
-        """The place of a view whose first word is at `address`."""
-        return cls(view, RegisterSpan(view.space, address, view.words))
-
 
 def read_places(register: Placed) -> tuple[ReadPlace, ...]:
     """All places to read a register at, that of the preferred view first; at least one."""
     preferred = read_view(register)
-    first = ReadPlace.at(preferred, preferred.address(register.at))
+    first = ReadPlace(preferred, RegisterSpan(preferred.space, preferred.address(register.at), preferred.words))
     if len(register.views) == 1 and not register.aliases:
         return (first,)
     found = {first.span: first}
     for view, address in places(register):
-        if view is preferred or same_number(view, preferred):
-            place = ReadPlace.at(view, address)
-            found.setdefault(place.span, place)
+        equal = view is preferred or (
+            set(view.needs()) <= set(preferred.needs())
+            and view.byte_order == preferred.byte_order
+            and same_precision(view, preferred)
+        )
+        if equal:
+            span = RegisterSpan(view.space, address, view.words)
+            found.setdefault(span, ReadPlace(view, span))
     return tuple(place for place in found.values() if place.view.readable) or (first,)
 
 
 def place_of(register: Placed, ranges: AddressRanges) -> ReadPlace | None:
     """The first place that may be read; None if this unit has the register nowhere."""
     return next((place for place in read_places(register) if ranges.stretch(place.span) is not None), None)
-
-
-def same_number(view: View, other: View) -> bool:
-    """Whether a view transmits the same number as `other` with the same precision, and depends on no more registers."""
-    return (
-        set(view.needs()) <= set(other.needs()) and view.byte_order == other.byte_order and same_precision(view, other)
-    )
 
 
 def same_precision(view: View, other: View) -> bool:

@@ -6,7 +6,6 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from functools import partial
-from types import MappingProxyType
 from typing import Any, NoReturn, Protocol
 
 from regscribe_runtime.errors import NotDecodable, Saturated, SensorFault, ValueNotDecodable, ValueRefused
@@ -22,20 +21,14 @@ from regscribe_runtime.values.wire_types import Order, WireType
 class Coded(Scaled, Protocol):
     """The part of a register's declaration that encoding and decoding depend on."""
 
-    @property
-    def path(self) -> str: ...  # noqa: D102 (a field)
-    @property
-    def kind(self) -> Kind: ...  # noqa: D102
-    @property
-    def value_type(self) -> ValueType[Any]: ...  # noqa: D102
-    @property
-    def sentinels(self) -> tuple[Sentinel, ...]: ...  # noqa: D102
+    path: str
+    kind: Kind
+    value_type: ValueType[Any]
+    sentinels: tuple[Sentinel, ...]
 
 
 Unknown = Mapping[str, object]
 """Registers without a known value: the reason by path."""
-
-NOTHING: Unknown = MappingProxyType({})
 
 Converter = Callable[[Any], Any]
 """From a number on the wire to a value."""
@@ -93,23 +86,14 @@ def _swapped(words: Words) -> Words:
     return [(word & 0xFF) << 8 | word >> 8 for word in words]
 
 
-def reader(
-    register: Coded,
-    view: View,
-    state: State,
-    givens: Givens,
-    unknown: Unknown = NOTHING,
-    *,
-    named: bool = True,
-) -> Converter:
+def reader(register: Coded, view: View, state: State, givens: Givens, *, named: bool = True) -> Converter:
     """A function from a wire number of `view` to a value, under the present `state`.
 
-    It raises Saturated, SensorFault or NotDecodable for numbers that are no values; SensorFault even where no scale
-    holds, or the scale depends on a register that is `unknown`. A special value is returned as its enum member; without
-    `named` as its number, as conditions and limits compare it.
+    It raises Saturated, SensorFault or NotDecodable for numbers that are no values; SensorFault even where the scale is
+    unknown. A special value is returned as its enum member; without `named` as its number, as conditions compare it.
     """
     try:
-        convert = _with_specials(register, view, known(register, state, unknown), givens, named=named)
+        convert = _with_specials(register, view, state, givens, named=named)
     except ValueNotDecodable as error:
         convert = failing(error)
     return _guarded(register, view, convert)
@@ -127,7 +111,7 @@ class _Known(dict[str, Any]):
         raise NotDecodable(self._register.path, f"its meaning depends on {path}: {why}")
 
 
-def known(register: Coded, state: State, unknown: Unknown) -> State:
+def known_state(register: Coded, state: State, unknown: Unknown) -> State:
     """The state for decoding a register; looking up an `unknown` one in it raises NotDecodable."""
     return _Known(register, state, unknown) if unknown else state
 
@@ -217,11 +201,9 @@ def _specials(register: Coded, state: State, givens: Givens) -> dict[Fraction, t
     if chosen is None:
         raise NotDecodable(register.path, "no decimals of the manual hold for its special values")
     divisor = power(register.path, chosen.decimals, state)
-    found = {exact(member.value) / divisor: member for member in special or ()}
-    meant = {Fraction(code) / divisor: Fraction(number) for code, number in means.items()}
-    return {code: (member, code) for code, member in found.items()} | {
-        code: (None, number) for code, number in meant.items()
-    }
+    codes = {exact(member.value) / divisor: member for member in special or ()}
+    found = {code: (member, code) for code, member in codes.items()}
+    return found | {Fraction(code) / divisor: (None, Fraction(number)) for code, number in means.items()}
 
 
 def _with_specials(register: Coded, view: View, state: State, givens: Givens, *, named: bool) -> Converter:
@@ -275,19 +257,12 @@ def _guarded(register: Coded, view: View, scaled: Converter) -> Converter:
 
 
 def decoder(
-    register: Coded,
-    view: View,
-    state: State,
-    givens: Givens,
-    unknown: Unknown = NOTHING,
-    *,
-    named: bool = True,
+    register: Coded, view: View, state: State, givens: Givens, *, named: bool = True
 ) -> Callable[[Sequence[int]], Any]:
     """A function from the words of `view` (in wire order) to a value, under the present `state`; see `reader`.
 
     It raises ValueNotDecodable with the words in it.
     """
-    state = known(register, state, unknown)
     arrange = arranger(view, register.path, state)
     unpack: Callable[[Words], Any] = view.type.unpack
     convert: Converter = same
@@ -307,21 +282,14 @@ def decoder(
 
 
 def decode(
-    register: Coded,
-    view: View,
-    words: Sequence[int],
-    state: State,
-    givens: Givens,
-    unknown: Unknown = NOTHING,
-    *,
-    named: bool = True,
+    register: Coded, view: View, words: Sequence[int], state: State, givens: Givens, *, named: bool = True
 ) -> Any:
     """The value of `words` (in wire order), see `reader`; ValueNotDecodable carries the words."""
     if len(words) != view.words:
         message = f"{register.path} has {view.words} words in its {view.name} view, not {len(words)}"
         raise ValueError(message)
     try:
-        return decoder(register, view, state, givens, unknown, named=named)(words)
+        return decoder(register, view, state, givens, named=named)(words)
     except ValueNotDecodable as error:
         error.words = tuple(words)
         raise

@@ -67,21 +67,6 @@ def unnamed_bits(value: Flags) -> int:
     return int(value) & ~int(type(value).named())
 
 
-class Bit:
-    """One bit of a word as a bool; `low` counts from 0, the least significant."""
-
-    def __init__(self, low: int, label: str = "") -> None:
-        self.low = self.high = low
-        self.label = label
-
-    @overload
-    def __get__(self, instance: None, owner: type) -> Self: ...
-    @overload
-    def __get__(self, instance: "Word", owner: type) -> bool: ...
-    def __get__(self, instance: "Word | None", owner: type) -> Self | bool:
-        return self if instance is None else bool(int(instance) >> self.low & 1)
-
-
 class Field(Generic[V]):
     """Bits `low` to `high` of a word as a number or an enum."""
 
@@ -100,13 +85,20 @@ class Field(Generic[V]):
         return value
 
 
+class Bit(Field[bool]):
+    """One bit of a word as a bool; `low` counts from 0, the least significant."""
+
+    def __init__(self, low: int, label: str = "") -> None:
+        super().__init__(low, low, bool, label)
+
+
 class Word(int):
     """A word of bit fields: an int whose subclasses name its parts; `replace` makes a changed copy."""
 
     parts: ClassVar[tuple[str, ...]] = ()
 
     def __init_subclass__(cls) -> None:
-        cls.parts = tuple(name for name, part in vars(cls).items() if isinstance(part, (Bit, Field)))
+        cls.parts = tuple(name for name, part in vars(cls).items() if isinstance(part, Field))
 
     def replace(self, **parts: int) -> Self:
         """A copy with some parts set anew; TypeError for an unknown part, ValueError for one that does not fit."""

@@ -130,7 +130,6 @@ def _bit(register: str, value: Any) -> Fraction:
 
 boolean: ValueType[bool] = ValueType(Kind.BOOLEAN, bool, _bit, coded=True)
 
-
 _VERSION = "a version"
 
 
