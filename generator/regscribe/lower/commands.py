@@ -9,7 +9,7 @@ from regscribe.lower.register_values import named_value
 from regscribe.lower.rules import NOT_CONSTANT, UNKNOWN_MEMBER, UNKNOWN_VIEW
 from regscribe.lower.scope import Scope
 from regscribe.lower.subject import Subject, code_of_text, subject_of
-from regscribe.lower.texts import identifier, unknown
+from regscribe.lower.texts import identifier, known_name
 from regscribe.model import Command, CommandStep, Effect, Kind, Protocol, Register, Rounding, Space, View
 from regscribe.reference import RefusedError, UnknownValueError, encode
 
@@ -81,9 +81,7 @@ def view_of(node: Value | None, register: Register) -> View:
     if node is None:
         return register.base
     views = {view.name: view for view in register.views}
-    if node.text() not in views:
-        unknown(node, UNKNOWN_VIEW, "view", node.text(), views, of=register.path)
-    return views.get(node.text(), register.base)
+    return views.get(known_name(node, UNKNOWN_VIEW, "view", views, of=register.path), register.base)
 
 
 def unsigned(words: tuple[int, ...]) -> tuple[int, ...]:

@@ -9,7 +9,7 @@ from regscribe.lower.register_values import named_value
 from regscribe.lower.rules import UNKNOWN_COMMAND, UNKNOWN_FLAG, UNKNOWN_MEMBER, UNKNOWN_SENTINEL, WRONG_SORT
 from regscribe.lower.scope import Scope
 from regscribe.lower.subject import Subject, code_of_text, subject_of
-from regscribe.lower.texts import unknown
+from regscribe.lower.texts import known_name, unknown
 from regscribe.lower.variants import named_models
 from regscribe.model import Example, FrameExample, Kind, Model, Outcome, Register, TimingExample, ValueExample
 from regscribe.reference import number_of
@@ -99,17 +99,11 @@ def _reading(node: Value | None, register: Register | None) -> tuple[Fraction | 
     if node is None or register is None:
         return None, None
     if node.is_list:
-        return None, tuple(_flag(element, register) for element in node.elements())
+        flags = [field.id for field in register.fields if field.is_flag]
+        return None, tuple(known_name(each, UNKNOWN_FLAG, "flag", flags, of=register.path) for each in node.elements())
     if node.is_text and register.kind in {Kind.STRING, Kind.VERSION}:
         return node.text(), None
     return named_value(node, register.kind, register.enum, register.specials, UNKNOWN_MEMBER), None
-
-
-def _flag(node: Value, register: Register) -> str:
-    known = [each.id for each in register.fields if each.is_flag]
-    if node.text() not in known:
-        unknown(node, UNKNOWN_FLAG, "flag", node.text(), known, of=register.path)
-    return node.text()
 
 
 def _fault(node: Value, register: Register | None) -> str:
@@ -123,9 +117,7 @@ def _frame(node: Value, product: Product) -> FrameExample:
     printed = node.mapping_of("frame")
     frame = _bytes(printed)
     address, count, words, command = (node.child(key) for key in ("address", "count", "words", "command"))
-    known = [each.id for each in product.model.commands]
-    if command and command.text() not in known:
-        unknown(command, UNKNOWN_COMMAND, "command", command.text(), known)
+    commands = [each.id for each in product.model.commands]
     return FrameExample(
         source=node.text_of("source"),
         model=product.scope.model,
@@ -140,7 +132,7 @@ def _frame(node: Value, product: Product) -> FrameExample:
         writes=tuple(_write(key, value, product) for key, value in node.items_of("writes")),
         view=node.text_of("view"),
         state=_state(node, product.scope),
-        command=command.text() if command else "",
+        command=known_name(command, UNKNOWN_COMMAND, "command", commands) if command else "",
         span=printed.span,
     )
 

@@ -14,7 +14,7 @@ from regscribe.lower.rules import NO_MODULE, UNKNOWN_REGISTER
 from regscribe.lower.scales import own_units, rule_at, scale_at, unit_at
 from regscribe.lower.scope import Scope
 from regscribe.lower.subject import subject_of
-from regscribe.lower.texts import unknown
+from regscribe.lower.texts import known_name
 from regscribe.lower.variants import named_models
 from regscribe.lower.views import set_at
 from regscribe.model import (
@@ -96,14 +96,12 @@ def _notation(node: Value) -> Notation:
 def _given(node: Value, products: list[Product]) -> Given:
     """A fact from elsewhere that a program must give; RS0301 where it is about an unknown register."""
     register, homes = node.child("register"), products[0].scope.homes if products else {}
-    if register and register.text() not in homes:
-        unknown(register, UNKNOWN_REGISTER, "register", register.text(), homes)
     return Given(
         id=node.key,
         kind=node.choice_of("type", GivenKind.CODES),
         description=node.text_of("description"),
         reason=node.text_of("reason"),
-        register=register.text() if register else "",
+        register=known_name(register, UNKNOWN_REGISTER, "register", homes) if register else "",
         span=node.key_span,
     )
 

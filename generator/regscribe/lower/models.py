@@ -10,7 +10,7 @@ from regscribe.lower.programs import programs_of
 from regscribe.lower.registers import folded, register_of
 from regscribe.lower.rules import UNKNOWN_GROUP
 from regscribe.lower.scope import Scope
-from regscribe.lower.texts import unknown, whole_ends
+from regscribe.lower.texts import known_name, whole_ends
 from regscribe.lower.tree import Item, TreeBranch, TreeNode, TreePosition, entries_of, items_in, name_of, span_of
 from regscribe.lower.variants import Models
 from regscribe.model import Array, Group, Model, Protocol, Register, Space
@@ -88,9 +88,7 @@ def _groups(bundles: list[Bundle], root: Value) -> tuple[Group, ...]:
     order: dict[str, int] = {}
     known = [bundle.id for bundle in bundles]
     for place, node in enumerate(root.elements_of("write_order"), start=1):
-        if node.text() not in known:
-            unknown(node, UNKNOWN_GROUP, "group", node.text(), known)
-        order.setdefault(node.text(), place)
+        order.setdefault(known_name(node, UNKNOWN_GROUP, "group", known), place)
     return tuple(
         Group(
             id=bundle.id,

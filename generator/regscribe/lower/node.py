@@ -162,10 +162,6 @@ class Value(Keyed):
             if not key.startswith("x-")
         ]
 
-    def values(self) -> list["Value"]:
-        """The values of a mapping, without `x-` keys; nothing for any other value."""
-        return [node for _, node in self.items()]
-
     def elements(self) -> list["Value"]:
         """The values of a list; a single value counts as a list of one, null as an empty one."""
         if isinstance(self.value, list):

@@ -42,6 +42,10 @@ class ProgramPlace:
         name = node.child(key) if node else None
         return self.found(name, name.text()) if name else ""
 
+    def paths(self, node: Value, *keys: str) -> dict[str, str]:
+        """The paths of the registers that several keys name."""
+        return {key: self.path(node, key) for key in keys}
+
     def found(self, node: Value, name: str, *, at_key: bool = False) -> str:
         """The path of the register of this name; RS0301 or RS0302 at `node` and an empty one if there is none."""
         candidates = [f"{prefix}{name}" for prefix in dict.fromkeys((self.inside, self.prefix, ""))]

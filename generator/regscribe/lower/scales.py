@@ -8,7 +8,7 @@ from regscribe.lower.conditions import cases_of, condition_of
 from regscribe.lower.node import Keyed, Value
 from regscribe.lower.rules import NO_ENDS, TWO_SCALES, UNKNOWN_DECIMALS, UNKNOWN_SCALE, UNKNOWN_UNIT, WRONG_SORT
 from regscribe.lower.scope import Scope
-from regscribe.lower.texts import unknown, unordered
+from regscribe.lower.texts import known_name, unknown, unordered
 from regscribe.lower.tree import TreeNode
 from regscribe.model import ALWAYS, IDENTITY, SAME, Case, Cases, Condition, Conversion, Decimals, WireType, always, show
 
@@ -153,6 +153,4 @@ def rescaled(node: Value | None, scope: Scope) -> str:
     if node is None:
         return ""
     by_case = [name for name, unit in scope.map.items_of("units") if unit.is_list]
-    if node.text() not in by_case:
-        unknown(node, UNKNOWN_UNIT, "unit with cases", node.text(), by_case)
-    return node.text()
+    return known_name(node, UNKNOWN_UNIT, "unit with cases", by_case)

@@ -2,7 +2,7 @@
 
 from regscribe.lower.node import Value
 from regscribe.lower.rules import SET_IN_ITSELF, TOO_MANY_ELEMENTS, UNKNOWN_REGISTER, UNKNOWN_SET
-from regscribe.lower.texts import unknown, whole_ends
+from regscribe.lower.texts import known_name, unknown, whole_ends
 from regscribe.model.identifiers import snake, unindexed
 
 MOST = 65536
@@ -65,11 +65,9 @@ def left_of(table: Value, node: Value, model: str) -> list[Value]:
 
     RS0301 for an id that the set does not have, RS0331 where sets have grown beyond all addresses.
     """
-    ids = {_id(element): element for element in table.elements()}
-    for left_out in node.elements_of("except_ids"):
-        if left_out.text() not in ids:
-            unknown(left_out, UNKNOWN_REGISTER, "register", left_out.text(), ids, of=node.text_of("set"))
-    names = set(node.texts_of("except_ids"))
+    ids = dict.fromkeys(_id(element) for element in table.elements())
+    set_name, left_out = node.text_of("set"), node.elements_of("except_ids")
+    names = {known_name(each, UNKNOWN_REGISTER, "register", ids, of=set_name) for each in left_out}
     kept = [element for element in table.elements() if _id(element) not in names]
     grown = node.context.grown
     grown[model] = grown.get(model, 0) + len(kept)

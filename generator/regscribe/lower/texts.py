@@ -1,7 +1,7 @@
 """Texts of a map with a form of their own: identifiers, names of other things, and ranges `a..b`."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from difflib import get_close_matches
 from fractions import Fraction
 
@@ -15,7 +15,7 @@ _NUMBER = r"([+-]?[0-9]{1,30}(?:\.[0-9]{1,30})?(?:[eE][+-]?[0-9]{1,3})?)"
 _ENDS = re.compile(rf"\s*{_NUMBER}\s*\.\.\s*{_NUMBER}\s*")
 
 
-def identifier(node: Value, *, label: str, given: Value | None, capitals: bool = False) -> str:
+def identifier(node: Value, *, label: str, given: Value | None) -> str:
     """The identifier `given` in the map, or else the one derived from `label`; RS0317 where that is none."""
     name = given.text() if given else snake(unindexed(label))
     if not name.isidentifier():
@@ -23,7 +23,7 @@ def identifier(node: Value, *, label: str, given: Value | None, capitals: bool =
         what = f"`{name}` is no identifier" if given else f"no identifier can be derived from `{brief(label)}`"
         where.report(NO_IDENTIFIER, what, remedy="give an `id` of letters, digits and _ that starts with a letter")
         return "unnamed"
-    return name.upper() if capitals else name
+    return name
 
 
 def unknown(
@@ -39,6 +39,14 @@ def unknown(
     more = f" and {len(names) - _LISTED} more" if len(names) > _LISTED else ""
     listed = f"there are: {', '.join(map(brief, names[:_LISTED]))}{more}" if names else "there are none"
     node.report(rule, f"there is no {what} `{brief(name)}`{place}", remedy=f"{guess}{listed}", at_key=at_key)
+
+
+def known_name(node: Value, rule: str, what: str, known: Collection[str], *, of: str = "") -> str:
+    """The text of `node`, which is to be one of the names known; reports `rule` where it is none of them."""
+    name = node.text()
+    if name not in known:
+        unknown(node, rule, what, name, known, of=of)
+    return name
 
 
 def ends(node: Value) -> tuple[Fraction, Fraction]:

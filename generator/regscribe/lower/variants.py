@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 from regscribe.lower.node import Keyed, Value
 from regscribe.lower.rules import IDLE_VARIANT, UNKNOWN_MODEL
-from regscribe.lower.texts import unknown
+from regscribe.lower.texts import known_name
 
 Models = tuple[str, ...]
 
@@ -72,10 +72,8 @@ def present(node: Value, among: Models, every: Models) -> Models:
 
 def named_models(nodes: list[Value], every: Models) -> Models:
     """The models that a list names; RS0314 for names of no model."""
-    for node in nodes:
-        if node.text() not in every:
-            unknown(node, UNKNOWN_MODEL, "model", node.text(), every)
-    return tuple(node.text() for node in nodes if node.text() in every)
+    names = [known_name(node, UNKNOWN_MODEL, "model", every) for node in nodes]
+    return tuple(name for name in names if name in every)
 
 
 def settings_of(layers: list[Value]) -> Keys:
@@ -91,10 +89,8 @@ def with_variants(layer: Value, model: str, has: Models, every: Models) -> list[
     chosen = [layer]
     for variant in layer.elements_of("variants"):
         for node in variant.elements_of("models"):
-            name = node.text()
-            if name not in every:
-                unknown(node, UNKNOWN_MODEL, "model", name, every)
-            elif name not in has:
+            name = known_name(node, UNKNOWN_MODEL, "model", every)
+            if name in every and name not in has:
                 message = f"this variant is for {name}, but the register is not on {name}"
                 node.report(IDLE_VARIANT, message, remedy=f"the register is on: {', '.join(has) or 'no model'}")
         if model in variant.texts_of("models"):

@@ -20,13 +20,13 @@ from regscribe.model.map import (
     Notation,
     Outcome,
     Override,
+    ProgramNotes,
     RegisterMap,
     TimingExample,
     ValueExample,
     Waiver,
 )
 from regscribe.model.process import Alarm, Effect, OnOff, Output, Pid, Process, Ramp, Trip, TripKind
-from regscribe.model.program_notes import ProgramNotes
 from regscribe.model.register import Array, Group, Inferred, Register
 from regscribe_runtime.values.conditions import ALWAYS, Case, Cases, Condition, Is, always, registers_of
 from regscribe_runtime.values.facts import CommandStep, Governs, Identity, Setting, WriteCondition

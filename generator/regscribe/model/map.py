@@ -9,8 +9,7 @@ from regscribe.model.enums import Enum
 from regscribe.model.faults import Faults, ProtocolNotes
 from regscribe.model.identifiers import ways_to_say
 from regscribe.model.process import Effect, Process
-from regscribe.model.program_notes import ProgramNotes
-from regscribe.model.register import Array, Group, Register
+from regscribe.model.register import Array, Group, Inferred, Register
 from regscribe_runtime.values.facts import CommandStep, Identity
 from regscribe_runtime.values.programs import SetpointProgram
 from regscribe_runtime.values.protocol import Protocol
@@ -78,6 +77,15 @@ class Command:
     def named_steps(self) -> tuple[tuple[CommandStep, str], ...]:
         """The steps, each with the path of the register that it names."""
         return tuple(zip(self.steps, (*self.step_registers, *[""] * len(self.steps)), strict=False))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ProgramNotes:
+    """The manual's remarks on a program, what was concluded about it, and where it stands in the map."""
+
+    description: str = ""
+    inferred: tuple[Inferred, ...] = ()
+    span: Span = NOWHERE
 
 
 @dataclass(frozen=True, slots=True)
@@ -291,7 +299,7 @@ class RegisterMap:
 
     def model(self, name: str) -> Model:
         """Find a model by its manual name; KeyError if the map has none."""
-        return next(model for model in self.models if model.name == name) if self.has(name) else self._no_model(name)
+        return {model.name: model for model in self.models}[name]
 
     def has(self, name: str) -> bool:
         """Whether the map covers a model of this name."""
@@ -300,6 +308,3 @@ class RegisterMap:
     def accepted(self, limit: str) -> int:
         """Return the most that the device answers: `limit` (`read_words` and so on), or what it accepts beyond it."""
         return dict(self.accepts).get(limit, int(getattr(self.protocol, limit)))
-
-    def _no_model(self, name: str) -> Model:
-        raise KeyError(name)

@@ -113,10 +113,8 @@ class Register:
     @property
     def write_view(self) -> View:
         """The view that drivers write."""
-        return self._first([view for view in self.views if view.writable])
-
-    def _first(self, able: list[View]) -> View:
-        return self.preferred if self.preferred in able or not able else able[0]
+        writable = [view for view in self.views if view.writable]
+        return self.preferred if self.preferred in writable or not writable else writable[0]
 
     @property
     def beginnings(self) -> tuple[tuple[str, Fraction | str], ...]:
