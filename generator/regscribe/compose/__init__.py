@@ -4,14 +4,14 @@
 which each value still knows the file that it stands in. A map that stands alone passes unchanged.
 """
 
+import hashlib
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from regscribe.compose.extend import extended
 from regscribe.compose.file_loader import FileLoader, LoadedFile
-from regscribe.compose.findings import ComposeFindings
+from regscribe.compose.findings import CYCLE, OTHER_ID, RULES, ComposeFindings
 from regscribe.compose.libraries import as_map, left_out, with_libraries
-from regscribe.compose.rules import CYCLE, OTHER_ID, RULES
 from regscribe.compose.tree import at, cut, elements, in_file, text
 from regscribe.map_files import ENDINGS, LIBRARY, MAP, folder_of
 from regscribe.model import Diagnostic, Override
@@ -81,7 +81,8 @@ def compose(document: Document, path: Path) -> Composed:
     files = tuple(loader.hashes.items())
     if part is None or findings.diagnostics:
         return Composed(None, tuple(sorted(findings.diagnostics, key=lambda found: found.span)), files=files)
-    content_hash = loader.content_hash(document.content_hash) if files else document.content_hash
+    hashes = "\n".join((document.content_hash, *loader.hashes.values()))
+    content_hash = hashlib.sha256(hashes.encode()).hexdigest() if files else document.content_hash
     return Composed(
         replace(document, data=part.root.value, root=part.root, content_hash=content_hash),
         extends=text(root.child("extends")),

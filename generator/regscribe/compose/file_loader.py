@@ -1,12 +1,10 @@
 """The other files of a map: found by id in its `maps` folder or among those shipped, read once, checked in shape."""
 
-import hashlib
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from regscribe import schema, source
-from regscribe.compose.findings import ComposeFindings, meant
-from regscribe.compose.rules import NO_FILE, OTHER_ID, WRONG_FILE
+from regscribe.compose.findings import NO_FILE, OTHER_ID, WRONG_FILE, ComposeFindings, suggestion
 from regscribe.compose.tree import in_file, key_place, text
 from regscribe.map_files import ENDINGS, LIBRARY, ids_in, is_file, shipped
 from regscribe.source import Document, SourceNode
@@ -46,7 +44,7 @@ class FileLoader:
         if not found:
             where = source.display_name(paths[0])
             message = f"there is no {kind} `{node.value}`: no file {where}, and none comes with regscribe"
-            self.findings.add(NO_FILE, message, node.place, meant(str(node.value), ids_in(places, kind)))
+            self.findings.add(NO_FILE, message, node.place, suggestion(str(node.value), ids_in(places, kind)))
             return None
         path = found[0]
         if path not in self.known:
@@ -80,7 +78,3 @@ class FileLoader:
             return None
         shipped = path.is_relative_to(self.shipped) and self.folder.resolve() != self.shipped.resolve()
         return LoadedFile(text(called), path, root, shipped)
-
-    def content_hash(self, own: str) -> str:
-        """One hash for a file and all others that were read for it."""
-        return hashlib.sha256("\n".join((own, *self.hashes.values())).encode()).hexdigest()

@@ -1,10 +1,9 @@
 """Libraries: their names become names of the map, their commands, errata and notes come along."""
 
 from regscribe.compose.file_loader import LoadedFile
-from regscribe.compose.findings import ComposeFindings, meant
+from regscribe.compose.findings import LEAVES_NOTHING_OUT, ComposeFindings, suggestion
 from regscribe.compose.merge import TABLES, laid_over, replace
-from regscribe.compose.rules import LEAVES_NOTHING_OUT
-from regscribe.compose.tree import cut, key_place, listing, mapping, members, put, remove, scalar
+from regscribe.compose.tree import cut, key_place, listing, mapping, members, put, remove
 from regscribe.source import Document, SourceNode
 
 _LISTS = ("errata", "notes")
@@ -25,7 +24,7 @@ def with_libraries(root: SourceNode, libraries: list[LoadedFile], findings: Comp
     for name in nulls - set(every):
         message = f"there is no command `{name}` in a library that could be left out"
         where = key_place(root.child("commands") or root, name)
-        advice = f"commands of a base are dropped by `drop`; {meant(name, every)}"
+        advice = f"commands of a base are dropped by `drop`; {suggestion(name, every)}"
         findings.add(LEAVES_NOTHING_OUT, message, where, advice)
     own = _without(root, nulls)
     advice = "use that one, or rename yours"
@@ -49,7 +48,7 @@ def as_map(library: Document) -> Document:
     root, place = library.root, library.root.place
     groups = []
     for name, registers in members(root.child("sets")).items():
-        label = scalar(name, registers.place)
+        label = SourceNode(name, registers.place)
         groups.append(mapping({"id": label, "name": label, "registers": registers}, registers.place))
     models = mapping({"Library": mapping({}, place)}, place)
     root = put(cut(root, "library"), "map", root.child("library") or root)

@@ -2,8 +2,7 @@
 
 from collections.abc import Iterable
 
-from regscribe.compose.findings import ComposeFindings
-from regscribe.compose.rules import NAME_CLASH
+from regscribe.compose.findings import NAME_CLASH, ComposeFindings
 from regscribe.compose.tree import elements, key_place, listing, mapping, members, put, text
 from regscribe.source import SourceNode
 

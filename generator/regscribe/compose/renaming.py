@@ -4,7 +4,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from regscribe.compose.tree import branches, cut, elements, listing, mapping, members, put, scalar, text
+from regscribe.compose.tree import branches, cut, elements, listing, mapping, members, put, text
 from regscribe.source import SourceNode
 
 _SECTIONS = {"source", "where"}
@@ -58,7 +58,7 @@ class Renaming:
             node = put(node, "except", but) if but.elements else cut(node, "except")
         if one is not None and text(one) in self.names:
             names = self.names[text(one)]
-            return put(node, "model", scalar(names[0], one.place)) if names else None
+            return put(node, "model", SourceNode(names[0], one.place)) if names else None
         return node
 
     def _renamed(self, node: SourceNode, key: str) -> SourceNode | None:
@@ -68,7 +68,7 @@ class Renaming:
             return None
         names = dict.fromkeys(name for each in old for name in self.names[text(each)])
         place = (node.child(key) or node).place
-        return listing((scalar(name, place) for name in names), place)
+        return listing((SourceNode(name, place) for name in names), place)
 
 
 def renumbered(node: SourceNode, chapters: Mapping[str, str], used: set[str]) -> SourceNode:
@@ -87,7 +87,7 @@ def renumbered(node: SourceNode, chapters: Mapping[str, str], used: set[str]) ->
     for key in _SECTIONS & members(node).keys():
         section = members(node)[key]
         if section.members is None and section.elements is None:
-            node = put(node, key, scalar(_CHAPTER.sub(renumber, str(section.value)), section.place))
+            node = put(node, key, SourceNode(_CHAPTER.sub(renumber, str(section.value)), section.place))
     for key, member in branches(node):
         node = put(node, key, renumbered(member, chapters, used))
     return node

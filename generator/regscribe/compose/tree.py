@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator, Mapping
 
 from regscribe.model.identifiers import snake, unindexed
-from regscribe.source import Plain, SourceNode, SourcePlace
+from regscribe.source import SourceNode, SourcePlace
 
 Step = str | int
 Location = tuple[Step, ...]
@@ -27,13 +27,8 @@ def listing(elements: Iterable[SourceNode], place: SourcePlace) -> SourceNode:
     return SourceNode([element.value for element in every], place, elements=every)
 
 
-def scalar(value: Plain, place: SourcePlace) -> SourceNode:
-    """A text or a number."""
-    return SourceNode(value, place)
-
-
 def in_file(node: SourceNode, name: str) -> SourceNode:
-    """The same tree, with the file's name at each place: so it can be told from values of other files."""
+    """The same tree, with the file's name at each place, which tells it from values of other files."""
     place = node.place._replace(file=name)
     if node.members is not None:
         keys = {key: where._replace(file=name) for key, where in (node.keys or {}).items()}

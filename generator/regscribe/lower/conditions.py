@@ -47,16 +47,16 @@ def cases_of(node: Value, scope: Scope, make: Callable[[Value], Made]) -> Cases[
 
 
 def write_condition(node: Value | None, scope: Scope) -> WriteCondition | None:
-    """When a write is possible, and why only then; None where nothing is said of it."""
+    """Condition of a write, and the reason for it; None where the map states none."""
     return WriteCondition(condition_of(node, scope), node.line_of("reason")) if node else None
 
 
 def both(*conditions: Condition) -> Condition:
     """The condition that holds where all hold, each test once; where only one has tests, that one with its name."""
-    asking = [part for part in conditions if not part.always]
-    if len(asking) == 1:
-        return asking[0]
-    return Condition(tuple(dict.fromkeys(test for part in asking for test in part.tests)))
+    parts = [part for part in conditions if not part.always]
+    if len(parts) == 1:
+        return parts[0]
+    return Condition(tuple(dict.fromkeys(test for part in parts for test in part.tests)))
 
 
 def excludes(one: Condition, other: Condition) -> bool:
@@ -74,8 +74,8 @@ def _contrary(test: Is, other: Is) -> bool:
 
 def _tests(key: str, matcher: Value, scope: Scope) -> list[Is]:
     if key == "given":
-        said = ((element.child("not"), element) for element in matcher.elements())
-        return [Is("", given=_given(no or yes, scope, "boolean"), negated=no is not None) for no, yes in said]
+        givens = ((element.child("not"), element) for element in matcher.elements())
+        return [Is("", given=_given(no or yes, scope, "boolean"), negated=no is not None) for no, yes in givens]
     subject = subject_of(matcher, key, scope)
     return [] if subject is None else [_test(matcher, subject, scope, negated=False)]
 

@@ -1,4 +1,4 @@
-"""Keys that could have no effect where they stand: said, so that nobody believes in them."""
+"""Keys without effect where they stand, which are reported so that nobody relies on them."""
 
 from collections.abc import Callable
 from typing import NamedTuple
@@ -10,7 +10,7 @@ from regscribe.lower.tree import TreeNode
 from regscribe.model import Kind, Register
 
 _CODES = frozenset({Kind.ENUM, Kind.FLAGS, Kind.FIELDS, Kind.STRING, Kind.VERSION, Kind.BOOLEAN})
-_WORN = frozenset({"eeprom", "both"})
+_LASTING = frozenset({"eeprom", "both"})
 
 
 class Idle(NamedTuple):
@@ -67,7 +67,7 @@ TABLE: tuple[Idle, ...] = (
     ),
     Idle(
         frozenset({"endurance"}),
-        lambda register, _: register.access.writable and register.persistence not in {*_WORN, "ram"},
+        lambda register, _: register.access.writable and register.persistence not in {*_LASTING, "ram"},
         "`persistence` does not say that writing wears it out",
         "add `persistence: eeprom` (or `both`), or remove it",
     ),
@@ -84,32 +84,32 @@ TABLE: tuple[Idle, ...] = (
         "remove it; `byte_order` orders the bytes of a word",
     ),
 )
-"""Each key that could be ignored, and where."""
+"""The keys that may be without effect, and when they are."""
 
 
-def report_idle(entry: TreeNode, register: Register) -> None:
-    """Report the keys of the register itself that have no effect (RS0338), and note those that it takes from others."""
+def report_idle_keys(entry: TreeNode, register: Register) -> None:
+    """Report the keys of the register itself that have no effect (RS0338), and note those that have one."""
     found = {
         key: idle for idle in reversed(TABLE) for key in idle.keys & entry.settings.keys() if idle.when(register, entry)
     }
     for key, node in entry.settings.items():
         if key not in found:
-            node.context.taken.add(node.path)
+            node.context.used.add(node.path)
         elif node.path[: len(entry.node.path)] == entry.node.path:
             message = f"`{entry.id}` has `{key}`, but {found[key].why}"
             node.report(IDLE_KEY, message, remedy=found[key].remedy, at_key=True)
-    entry.node.context.taken.update(entry.settings.replaced)
+    entry.node.context.used.update(entry.settings.replaced)
     for layer in (*entry.place.layers, *entry.place.over):
-        entry.node.context.offered.setdefault(layer.path, layer)
+        entry.node.context.defaults.setdefault(layer.path, layer)
 
 
-def report_untaken(root: Value) -> None:
+def report_idle_defaults(root: Value) -> None:
     """Report each default of a group, an array or a use of a set that has no effect on any register (RS0339)."""
     context = root.context
-    for layer in context.offered.values():
+    for layer in context.defaults.values():
         for part in (layer, *layer.elements_of("variants")):
             for key, node in part.items():
-                idle = key not in {"variants", "models"} and node.value is not None and node.path not in context.taken
+                idle = key not in {"variants", "models"} and node.value is not None and node.path not in context.used
                 if idle and node.span.file == context.document.name:
                     message = f"`{key}` has no effect on any register here"
                     node.report(IDLE_DEFAULT, message, remedy="remove it", at_key=True)

@@ -6,7 +6,7 @@ from dataclasses import replace
 from regscribe.lower.conditions import condition, condition_of
 from regscribe.lower.enums import enum_at
 from regscribe.lower.examples import Product, examples_of
-from regscribe.lower.idle_keys import report_untaken
+from regscribe.lower.idle_keys import report_idle_defaults
 from regscribe.lower.models import model_of, scopes_of, stretch_of
 from regscribe.lower.node import Value
 from regscribe.lower.protocol import faults_of, notes_of, protocol_of
@@ -42,7 +42,7 @@ def map_of(root: Value) -> RegisterMap:
         Product(scope, model_of(models[name], root, scope, bundles, protocol))
         for name, (scope, bundles) in scopes.items()
     ]
-    report_untaken(root)
+    report_idle_defaults(root)
     for product in products:
         _lower_tables(root, replace(product.scope, lenient=True))
     about = root.child("map") or root
@@ -95,13 +95,13 @@ def _notation(node: Value) -> Notation:
 
 def _given(node: Value, products: list[Product]) -> Given:
     """A fact from elsewhere that a program must give; RS0301 where it is about an unknown register."""
-    register, homes = node.child("register"), products[0].scope.homes if products else {}
+    register, owners = node.child("register"), products[0].scope.owners if products else {}
     return Given(
         id=node.key,
         kind=node.choice_of("type", GivenKind.CODES),
         description=node.text_of("description"),
         reason=node.text_of("reason"),
-        register=known_name(register, UNKNOWN_REGISTER, "register", homes) if register else "",
+        register=known_name(register, UNKNOWN_REGISTER, "register", owners) if register else "",
         span=node.key_span,
     )
 

@@ -31,11 +31,11 @@ def scopes_of(root: Value) -> dict[str, tuple[Scope, list[Bundle]]]:
     models = tuple(name for name, _ in root.items_of("models"))
     bundles = {model: [_bundle(node, root, model, models) for node in root.elements_of("groups")] for model in models}
     entries = {model: {entry.path: entry for bundle in bundles[model] for entry in bundle.entries} for model in models}
-    homes: dict[str, Models] = {}
+    owners: dict[str, Models] = {}
     for model in models:
         for path in entries[model]:
-            homes[path] = (*homes.get(path, ()), model)
-    return {model: (Scope(root, model, models, entries[model], homes), bundles[model]) for model in models}
+            owners[path] = (*owners.get(path, ()), model)
+    return {model: (Scope(root, model, models, entries[model], owners), bundles[model]) for model in models}
 
 
 def _bundle(node: Value, root: Value, model: str, models: Models) -> Bundle:

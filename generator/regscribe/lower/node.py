@@ -29,17 +29,17 @@ class Collector:
     """State of lowering one document, and the diagnostics found in it so far.
 
     Registers are lowered once for each model and element, so `found` keeps one diagnostic per rule and place.
-    `sizes` are the numbers of registers of each set, `grown` those that sets put into each model. `offered` are the
-    defaults for several registers, by the path of where they stand, `taken` the paths of all keys that count for some
-    register.
+    `sizes` are the numbers of registers of each set, `grown` those that sets put into each model. `defaults` are
+    the mappings of defaults for several registers, by their paths, `used` the paths of all keys that have an effect on
+    some register.
     """
 
     document: Document
     found: dict[tuple[str, Span], Diagnostic] = field(default_factory=dict)
     grown: dict[str, int] = field(default_factory=dict)
     sizes: dict[str, int] = field(default_factory=dict)
-    offered: dict[Path, "Value"] = field(default_factory=dict)
-    taken: set[Path] = field(default_factory=set)
+    defaults: dict[Path, "Value"] = field(default_factory=dict)
+    used: set[Path] = field(default_factory=set)
 
     @property
     def diagnostics(self) -> list[Diagnostic]:

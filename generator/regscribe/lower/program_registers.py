@@ -19,7 +19,7 @@ def numbers_of(node: Value, name: str, scope: Scope) -> list[int]:
     elements = [path.removeprefix(name) for path in scope.entries if path.startswith(f"{name}[")]
     numbers = sorted({int(match[1]) for element in elements if (match := _ELEMENT.match(element))})
     if not numbers:
-        known = dict.fromkeys(_ELEMENT.split(path)[0] for path in scope.homes if "[" in path)
+        known = dict.fromkeys(_ELEMENT.split(path)[0] for path in scope.owners if "[" in path)
         unknown(node, UNKNOWN_REGISTER, "array", node.text(), known)
     return numbers
 
@@ -53,7 +53,7 @@ class ProgramPlace:
         for path in candidates:
             if all(element in self.scope.entries for element in elements[path]):
                 return path
-        elsewhere = [element for path in candidates for element in elements[path] if element in self.scope.homes]
+        elsewhere = [element for path in candidates for element in elements[path] if element in self.scope.owners]
         lacking = [element for element in elsewhere if element not in self.scope.entries]
         if elsewhere:
             self.scope.missing(node, (lacking or elsewhere)[0], at_key=at_key)
@@ -63,8 +63,8 @@ class ProgramPlace:
 
     def _known(self) -> list[str]:
         own = [numbered(prefix, self.numbers[0], self.first) for prefix in (self.inside, self.prefix) if prefix]
-        inside = [path.removeprefix(part) for part in own for path in self.scope.homes if path.startswith(part)]
-        return inside + [path for path in self.scope.homes if "[" not in path]
+        inside = [path.removeprefix(part) for part in own for path in self.scope.owners if path.startswith(part)]
+        return inside + [path for path in self.scope.owners if "[" not in path]
 
     def code(self, node: Value, path: str) -> int:
         """The code of a member or special value of the register at `path`."""
@@ -86,6 +86,6 @@ class ProgramPlace:
         found = []
         for key, name in node.items_of("outputs"):
             element = numbered(f"{self.inside}{name.text()}", self.numbers[0], self.first)
-            if element not in self.scope.homes or element in self.scope.entries:
+            if element not in self.scope.owners or element in self.scope.entries:
                 found.append((key, self.found(name, name.text())))
         return tuple(found)

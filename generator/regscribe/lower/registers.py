@@ -5,7 +5,7 @@ from fractions import Fraction
 
 from regscribe.lower.conditions import cases_of, condition, write_condition
 from regscribe.lower.enums import enum_of, fields_of
-from regscribe.lower.idle_keys import report_idle
+from regscribe.lower.idle_keys import report_idle_keys
 from regscribe.lower.node import Keyed, Value
 from regscribe.lower.register_values import beginning_of, range_of, sentinels_of, specials_of, version_of
 from regscribe.lower.rules import NO_ACCESS
@@ -94,7 +94,7 @@ def register_of(entry: TreeNode, everywhere: Scope) -> Register:
         rules=tuple((use, name) for key, use in _RULES.items() if (name := settings.text_of(key)).isidentifier()),
         span=span_of(entry.node),
     )
-    report_idle(entry, register)
+    report_idle_keys(entry, register)
     return register
 
 
@@ -111,7 +111,7 @@ def folded(entry: TreeNode, everywhere: Scope) -> Register:
 def kind_of(
     entry: TreeNode, views: tuple[View, ...], scaling: tuple[Scaling, ...], specials: tuple[Special, ...]
 ) -> Kind:
-    """What the value is to a program: told by the map, or else by the other keys."""
+    """Kind of the value in programs: stated by the map, else derived from the other keys."""
     settings = entry.settings
     if "kind" in settings:
         return settings["kind"].choice(Kind.INTEGER)

@@ -13,7 +13,6 @@ from regscribe.lower.tree import TreeNode
 from regscribe.model import ALWAYS, IDENTITY, SAME, Case, Cases, Condition, Conversion, Decimals, WireType, always, show
 
 NOT_STATED = "not_stated"
-_WITH_POINT = "value"
 _MOST_DIGITS = 100
 _LINEAR = frozenset({"multiply", "add"})
 _WAYS = _LINEAR | {"scale", "decimals"}
@@ -114,7 +113,7 @@ def _decimals(node: Value, scope: Scope) -> Conversion:
         return IDENTITY
     decimals = Decimals(scope.path(register), at_most.whole() if at_most else None)
     increment = step.number() if step else None
-    if node.text_of("stores") == _WITH_POINT:
+    if node.text_of("stores") == "value":  # with its point
         return Conversion(step=Fraction(1) if increment is None else increment, places=decimals)
     return Conversion(decimals=decimals, step=increment)
 

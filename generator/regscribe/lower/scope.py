@@ -19,7 +19,7 @@ Made = TypeVar("Made")
 class Scope:
     """One model's registers by path, and the tables of the map.
 
-    `homes` are the models that have a register of a path. `viewer` is the register that refers: a name means a sibling
+    `owners` are the models that have a register of a path. `viewer` is the register that refers: a name means a sibling
     in the same element of an array before a register elsewhere. `lenient`: what is looked up belongs to no register
     yet, so a name is good if any model and any element has it. `folded`: the viewer stands for that register of all
     elements, so a sibling in the same element is found under a path with empty brackets, `channels[].decimals`.
@@ -29,7 +29,7 @@ class Scope:
     model: str
     models: Models
     entries: dict[str, TreeNode]
-    homes: dict[str, Models]
+    owners: dict[str, Models]
     viewer: TreeNode | None = None
     lenient: bool = False
     folded: bool = False
@@ -95,15 +95,15 @@ class Scope:
 
     def missing(self, node: Value, name: str, *, at_key: bool = False) -> None:
         """Report that this model has no register of this name."""
-        homes = next((self.homes[f"{at}{name}"] for at in (*self.prefixes, "") if f"{at}{name}" in self.homes), ())
-        if self.lenient and (homes or any(path.endswith(f".{name}") for path in self.homes)):
+        owners = next((self.owners[f"{at}{name}"] for at in (*self.prefixes, "") if f"{at}{name}" in self.owners), ())
+        if self.lenient and (owners or any(path.endswith(f".{name}") for path in self.owners)):
             return
-        if not homes:
-            unknown(node, UNKNOWN_REGISTER, "register", name, self.homes, at_key=at_key)
+        if not owners:
+            unknown(node, UNKNOWN_REGISTER, "register", name, self.owners, at_key=at_key)
             return
         viewer = self.viewer
         needed = f"where `{viewer.path}` needs it" if viewer else "where it is needed"
-        message = f"`{name}` is not on {self.model}, {needed}, only on {', '.join(homes)}"
+        message = f"`{name}` is not on {self.model}, {needed}, only on {', '.join(owners)}"
         remedy = f"keep what refers to it to those models with `models`, or give it a variant for {self.model}"
         related = (Related(f"needed by `{viewer.path}`", span_of(viewer.node)),) if viewer else ()
         node.report(OTHER_MODELS, message, remedy=remedy, at_key=at_key, related=related)

@@ -14,7 +14,7 @@ DEEPEST = 16
 _REMEDY = "look for a set that is used often in a set that is used often"
 
 
-def table_of(node: Value, sets: Value, around: tuple[str, ...]) -> Value | None:
+def set_named(node: Value, sets: Value, around: tuple[str, ...]) -> Value | None:
     """The set that `node` names; None with RS0333 where there is none, RS0334 where it is one of those `around` it.
 
     RS0331 where there are not addresses enough for all that the set brings, before any of it is looked at.
@@ -43,24 +43,24 @@ def _size(name: str, sets: Value, depth: int) -> int:
         if not depth:
             return MOST + 1
         sizes[name] = 0  # of a set that contains itself
-        sizes[name] = _sum(sets.elements_of(name), sets, depth - 1)
+        sizes[name] = _size_of_elements(sets.elements_of(name), sets, depth - 1)
     return sizes[name]
 
 
-def _sum(nodes: list[Value], sets: Value, depth: int) -> int:
+def _size_of_elements(nodes: list[Value], sets: Value, depth: int) -> int:
     total = 0
     for node in nodes:
         if node.child("set"):
             total += _size(node.text_of("set"), sets, depth)
         elif node.child("registers"):
             first, last = whole_ends(node.child("repeat"), (1, 1))
-            total += (last - first + 1) * _sum(node.elements_of("registers"), sets, depth)
+            total += (last - first + 1) * _size_of_elements(node.elements_of("registers"), sets, depth)
         else:
             total += 1
     return total
 
 
-def left_of(table: Value, node: Value, model: str) -> list[Value]:
+def included_elements(table: Value, node: Value, model: str) -> list[Value]:
     """The elements of a set but those that `except_ids` of `node` names.
 
     RS0301 for an id that the set does not have, RS0331 where sets have grown beyond all addresses.

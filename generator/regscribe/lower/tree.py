@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 from regscribe.lower.node import Value
 from regscribe.lower.rules import ON_NO_MODEL, TOO_MANY_ELEMENTS
-from regscribe.lower.sets import left_of, table_of
+from regscribe.lower.sets import included_elements, set_named
 from regscribe.lower.texts import identifier, whole_ends
 from regscribe.lower.variants import Keys, Models, present, settings_of, with_variants
 from regscribe.model import Span
@@ -103,8 +103,8 @@ def _set(node: Value, place: TreePosition) -> tuple[Item, ...]:
     """The registers of the set that `node` puts here."""
     each = node.child("set_each")
     has = _models(node, place)
-    table = table_of(node, place.sets, place.open)
-    registers = left_of(table, node, place.model) if table and place.model in has else []
+    table = set_named(node, place.sets, place.open)
+    registers = included_elements(table, node, place.model) if table and place.model in has else []
     inside = replace(
         place,
         among=has,
