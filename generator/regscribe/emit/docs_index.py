@@ -1,6 +1,6 @@
-"""The index of the reference docs: all maps of a run with what they cover, at `docs/README.md`.
+"""The index of the reference docs: all maps of a run with their coverage, at `docs/README.md`.
 
-It is made from a card for each map, ready Markdown that the build's cache keeps: a map that did not change need not be
+It is made from a card for each map, ready Markdown that the build's cache keeps, so that a map without change is not
 compiled for it. Nothing heavy is imported here, since every build writes the index.
 """
 
@@ -54,10 +54,10 @@ ABOUT_ADDRESSES = (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Card:
-    """What the index says of one map, each cell ready Markdown.
+    """Rows of one map in the tables of the index, each cell ready Markdown.
 
-    `family` is its row among the families, `sums` its row of errata and the like, `facts` a row for each model,
-    `addresses` a row for each space, `remarks` what is inferred and open.
+    `family` and `sums` are one row each, `facts` has a row for each model, `addresses` for each space, `remarks` for
+    what is inferred or open.
     """
 
     id: str

@@ -67,7 +67,10 @@ def _section(heading: str, schema: Schema, definitions: Schema) -> Iterator[str]
         yield "\n".join(_table(schema, definitions)) + "\n"
         yield from _borrowed(schema)
     yield from _rules(schema)
-    yield from _examples(schema)
+    if schema.get("examples"):
+        yield "```yaml"
+        yield from (inline(example) for example in schema["examples"])
+        yield "```\n"
 
 
 def _table(schema: Schema, definitions: Schema) -> Iterator[str]:
@@ -99,13 +102,13 @@ def _borrowed(schema: Schema) -> Iterator[str]:
 
 
 def _owner(details: Schema) -> str:
-    """The definition whose key this one repeats; empty if it is a key of its own."""
+    """Return the definition that the key belongs to; empty if it is a key of its own."""
     steps = details.get("else", details).get("$ref", "").split("/")
     return steps[2] if len(steps) > 3 else ""  # noqa: PLR2004  "#/$defs/register/properties/unit" has five steps
 
 
 def _effective(details: Schema, definitions: Schema) -> Schema:
-    """A key's own words laid over those of what it refers to; of a key that may be null, the other branch counts."""
+    """Return the schema of a key with what it refers to; of a key that may be null, that of the other values."""
     details = details["else"] if details.get("if") == _MAY_BE_NULL else details
     if "$ref" not in details:
         return details
@@ -116,30 +119,25 @@ def _effective(details: Schema, definitions: Schema) -> Schema:
 
 
 def _form(schema: Schema) -> str:
-    """Say what a value may be, with links to the sections that say more."""
+    """Describe the values that a schema allows, with links to the sections that say more."""
     if "$ref" in schema:
         return _link(schema["$ref"])
     if schema.get("if") == _MAY_BE_NULL:
         return f"{_form(schema['else'])}, or null"
     if "enum" in schema or "const" in schema:
         return ", ".join(f"`{inline(word)}`" for word in schema.get("enum", [schema.get("const")]))
-    return _typed(schema) if "type" in schema else "anything"
-
-
-def _typed(schema: Schema) -> str:
-    """Name the types of a value, with the bounds of all."""
-    types = [schema["type"]] if isinstance(schema["type"], str) else schema["type"]
-    words = dict.fromkeys(_one_form(name, schema) for name in types)
+    types = schema.get("type", [])
+    words = dict.fromkeys(_type_form(name, schema) for name in ([types] if isinstance(types, str) else types))
     bounds = [text.format(schema[bound]) for bound, text in _BOUNDS if bound in schema]
-    return " or ".join(words) + (f" ({', '.join(bounds)})" if bounds else "")
+    return (" or ".join(words) + (f" ({', '.join(bounds)})" if bounds else "")) if words else "anything"
 
 
-def _one_form(name: str, schema: Schema) -> str:
-    """Name a type; a branch of the schema for just this type says more."""
+def _type_form(name: str, schema: Schema) -> str:
+    """Describe one of the types of a schema, with the branch for this type."""
     branch = _branch(name, schema)
-    if branch and "$ref" in branch:
+    if "$ref" in branch:
         return _link(branch["$ref"])
-    items = (branch or {}).get("items", schema.get("items"))
+    items = branch.get("items", schema.get("items"))
     if name == "array" and items:
         return f"list of {_items(items)}"
     if name == "object" and "x-key" in schema:
@@ -147,12 +145,11 @@ def _one_form(name: str, schema: Schema) -> str:
     return _TYPES[name]
 
 
-def _branch(name: str, schema: Schema) -> Schema | None:
+def _branch(name: str, schema: Schema) -> Schema:
+    """Return the branch of a condition on the type, if it is for this type alone; else an empty one."""
     condition = schema.get("if", {})
-    if "type" not in condition:
-        return None
-    branch: Schema | None = schema.get("then" if condition["type"] == name else "else")
-    return None if branch is None or "if" in branch else branch
+    branch: Schema = schema.get("then" if condition.get("type") == name else "else", {}) if "type" in condition else {}
+    return {} if "if" in branch else branch
 
 
 def _items(items: Schema) -> str:
@@ -175,13 +172,13 @@ def _values(schema: Schema) -> str:
 
 
 def _value(schema: Schema) -> Schema:
-    """What stands under the keys that the map chooses."""
+    """Return the schema of the values under keys that the map chooses."""
     value: Schema = next(value for pattern, value in schema["patternProperties"].items() if pattern != "^x-")
     return value
 
 
 def _rules(schema: Schema) -> Iterator[str]:
-    """What the keys ask of each other, as far as the schema says it in words."""
+    """Yield a list of rules between keys, as far as the schema has them in words."""
     lines = [
         f"- Needed: {branch['x-missing']}."
         for branch in (schema, *schema.get("allOf", ()))
@@ -198,17 +195,9 @@ def _rules(schema: Schema) -> Iterator[str]:
         yield "\n".join(lines) + "\n"
 
 
-def _examples(schema: Schema) -> Iterator[str]:
-    if schema.get("examples"):
-        yield "```yaml"
-        yield from (inline(example) for example in schema["examples"])
-        yield "```\n"
-
-
 def _link(pointer: str) -> str:
     steps = pointer.removeprefix("#/$defs/").split("/")
-    words = steps[-1].replace("_", " ") if len(steps) > 1 else steps[0].replace("_", " ")
-    return f"[{words}](#{_heading(steps[0]).lower().replace(' ', '-')})"
+    return f"[{steps[-1].replace('_', ' ')}](#{_heading(steps[0]).lower().replace(' ', '-')})"
 
 
 def _heading(name: str) -> str:

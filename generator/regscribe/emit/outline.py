@@ -13,20 +13,20 @@ INDEX = re.compile(r"\[\d+\]")
 
 @dataclass(frozen=True, slots=True)
 class Leaf:
-    """One register of the family; `arrays` are those it stands in, outermost first (its first element is shown)."""
+    """One register of the family, and the arrays that it is in, outermost first (their first elements are shown)."""
 
     register: Merged[Register]
     arrays: tuple[Array, ...] = ()
 
     @property
     def group(self) -> str:
-        """Return the id of the group it belongs to."""
+        """The id of its group."""
         return self.register.first.group
 
 
 @dataclass(frozen=True, slots=True)
 class Branch:
-    """An array with what it repeats."""
+    """An array with the registers and arrays of one element."""
 
     array: Merged[Array]
     arrays: tuple[Array, ...]
@@ -34,7 +34,7 @@ class Branch:
 
     @property
     def group(self) -> str:
-        """Return the group of its first register."""
+        """The group of its first register."""
         return next((leaf.group for leaf in leaves(self.children)), "")
 
 
@@ -69,22 +69,21 @@ def leaves(nodes: Iterable[Node]) -> Iterator[Leaf]:
 def _nodes(
     models: Sequence[Model], members: dict[str, tuple[Register | Array, ...]], arrays: tuple[Array, ...]
 ) -> tuple[Node, ...]:
-    found = merge(models, lambda model: members[model.name], _key)
-    return tuple(_node(shared, arrays) for shared in found)
+    nodes: list[Node] = []
+    for shared in merge(models, lambda model: members[model.name], _key):
+        registers = tuple((model, item) for model, item in shared.versions if isinstance(item, Register))
+        if registers:
+            nodes.append(Leaf(Merged(shared.key, registers), arrays))
+            continue
+        versions = tuple((model, item) for model, item in shared.versions if isinstance(item, Array))
+        inner = {model.name: array.members for model, array in versions}
+        children = _nodes([model for model, _ in versions], inner, (*arrays, versions[0][1]))
+        nodes.append(Branch(Merged(shared.key, versions), arrays, children))
+    return tuple(nodes)
 
 
 def _key(member: Register | Array) -> str:
     return pattern(member.path) if isinstance(member, Register) else f"array {member.id}"
-
-
-def _node(shared: Merged[Register | Array], arrays: tuple[Array, ...]) -> Node:
-    registers = tuple((model, item) for model, item in shared.versions if isinstance(item, Register))
-    if registers:
-        return Leaf(Merged(shared.key, registers), arrays)
-    versions = tuple((model, item) for model, item in shared.versions if isinstance(item, Array))
-    members = {model.name: array.members for model, array in versions}
-    inner = (*arrays, versions[0][1])
-    return Branch(Merged(shared.key, versions), arrays, _nodes([model for model, _ in versions], members, inner))
 
 
 def aliases(register: Register) -> tuple[View, ...]:

@@ -1,19 +1,17 @@
-"""Where the pictures of a map lie: what draws them and what links to them agree on it here."""
+"""Names and paths of the pictures of a map, for the pages that link to them and the emitter that draws them."""
 
 import hashlib
 import re
 from pathlib import PurePosixPath
 
+ADDRESSES = "addresses.svg"
+"""Name of the picture of a map's address spaces."""
+
 LONGEST = 80
 """Characters of a name before it is cut: a file system takes 255 bytes."""
 
 PLAIN = re.compile(r"[a-z0-9_]+(?:\[\]\.[a-z0-9_]+)*")
-"""Paths whose file names differ whenever they do."""
-
-
-def addresses() -> str:
-    """Return the name of the picture of a map's address spaces."""
-    return "addresses.svg"
+"""Paths that have a file name of their own without a hash."""
 
 
 def bits(pattern: str) -> str:

@@ -1,4 +1,4 @@
-"""Generated files that no map makes any more: what a run finds in its output directory and may remove."""
+"""Finds stale files: generated files in an output directory that no map makes any more."""
 
 import os
 import re
@@ -12,9 +12,9 @@ TEMPORARY = re.compile(r"\..*\.([0-9]{1,10})\.tmp")
 
 
 def stale_files(targets: Container[str], folders: Iterable[str], out: Path, owned: Callable[[str], bool]) -> list[str]:
-    """Return the generated files below `out` that stand at none of the paths `targets`, of maps that `owned` claims.
+    """Return the generated files below `out` that are not in `targets`, of maps whose id `owned` accepts.
 
-    `folders` are those of `out` to look into ("": the files beside them).
+    `folders` are the folders of `out` to look into ("": the files beside them).
     """
     paths = {path.relative_to(out).as_posix(): path for folder in folders for path in _files_below(out, folder)}
     return [name for name, path in paths.items() if name not in targets and _is_stale(path, owned)]
@@ -30,14 +30,12 @@ def _files_below(out: Path, folder: str) -> Iterator[Path]:
 
 
 def _is_stale(path: Path, owned: Callable[[str], bool]) -> bool:
-    if path.is_symlink() or _is_in_work(path):
-        return False
-    origin = origin_of(path)
+    origin = None if path.is_symlink() or _is_being_written(path) else origin_of(path)
     return origin is not None and owned(origin)
 
 
-def _is_in_work(path: Path) -> bool:
-    """Whether another run is writing the file just now; what a run left that was killed is stale as all else."""
+def _is_being_written(path: Path) -> bool:
+    """Tell whether it is the temporary file of a process that still runs."""
     found = TEMPORARY.fullmatch(path.name)
     if found is None or os.name != "posix":
         return found is not None

@@ -1,9 +1,10 @@
-"""What a user's template can say in words: the public part of `words`, under the names of docs/templates.md.
+"""Facts in words for users' templates, under the names of docs/templates.md.
 
-All results are plain text on one line; nothing is escaped for the language that the template writes.
+Each is plain text on one line; nothing is escaped for the language that the template writes.
 """
 
 from fractions import Fraction
+from inspect import isfunction
 from types import SimpleNamespace
 
 from regscribe.emit import words as text
@@ -82,24 +83,6 @@ def member(one: Member, enum: Enum) -> str:
 
 
 WORDS = SimpleNamespace(
-    **{
-        function.__name__: function
-        for function in (
-            identifier,
-            line,
-            number,
-            access,
-            unit,
-            scale,
-            conversion,
-            limits,
-            default,
-            order,
-            bits,
-            special,
-            sentinel,
-            member,
-        )
-    }
+    **{name: word for name, word in globals().items() if isfunction(word) and word.__module__ == __name__}
 )
-"""What a template has as `words`: these functions and nothing else of this module."""
+"""The functions of this module, and nothing else of it: a template has them as `words`."""

@@ -1,14 +1,36 @@
-"""A user's own templates: which there are, and where the text of each goes (docs/templates.md)."""
+"""Users' own templates: their files, and path, header and text of what is made of them (docs/templates.md)."""
 
 import os
 from collections.abc import Callable, Container, Iterator, Mapping
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
-from regscribe.emit.comments import with_header
-from regscribe.emit.header import header
+from regscribe.emit.header import HEAD, header
 from regscribe.emit.write import WriteError
 from regscribe.model import RegisterMap
 from regscribe.visible import safe
+
+_HASH = ("# ", "", "\n# ")
+_SLASHES = ("// ", "", "\n// ")
+_BLOCK = ("/* ", " */", "\n   ")
+_MARKUP = ("<!-- ", " -->", " ")
+_DASHES = ("-- ", "", "\n-- ")
+_PASCAL = ("(* ", " *)", "\n   ")
+_SEMICOLON = ("; ", "", "\n; ")
+_PERCENT = ("% ", "", "\n% ")
+
+COMMENTS = {
+    _HASH: "cfg cmake conf jl mk nix pl properties ps1 py pyi r rb robot sh tcl toml yaml yml",
+    _SLASHES: "adoc cc cpp cs cxx dart fs go groovy h++ hh hpp hxx ino java js kt php proto rs scala swift ts zig",
+    _BLOCK: "c css h ld",
+    _MARKUP: "htm html md svg xhtml",
+    _DASHES: "adb ads elm hs lua sql vhd vhdl",
+    _PASCAL: "exp ml pas scl st",
+    _SEMICOLON: "asm clj el ini lisp",
+    _PERCENT: "erl m tex",
+}
+"""Prefix, suffix and separator of the two sentences of a header (see `header`), and endings of files that take them."""
+
+BY_SUFFIX = {f".{ending}": style for style, endings in COMMENTS.items() for ending in endings.split()}
 
 ENDING = ".j2"
 NO_COMMENT = "how a comment is written in such a file is not known: put {{ header }} into one of its first lines"
@@ -34,7 +56,7 @@ class Templates:
             path = _path(name, register_map)
             if path in taken or path in texts:
                 raise WriteError(safe(f"{self.folder / name}: another file is written to {path}: rename the template"))
-            text = with_header(self.text(name, register_map), path, register_map)
+            text = _with_header(self.text(name, register_map), path, register_map)
             if text is None:
                 raise WriteError(safe(f"{self.folder / name}: {NO_COMMENT}"))
             texts[path] = text
@@ -51,7 +73,7 @@ class Templates:
 
 
 def _path(name: str, register_map: RegisterMap) -> str:
-    """Where the text of a template goes: its name without `.j2`, with what stands for parts of the map's id."""
+    """Return the path of a template's text: its name without `.j2`, with `{maker}` and `{family}` filled in."""
     maker, _, family = register_map.id.partition("/")
     return name.removesuffix(ENDING).replace("{maker}", maker).replace("{family}", family)
 
@@ -61,3 +83,11 @@ def _files(folder: Path) -> Iterator[Path]:
     for root, folders, names in os.walk(folder):
         folders[:] = [name for name in folders if not name.startswith(".")]
         yield from (Path(root, name) for name in names if not name.startswith("."))
+
+
+def _with_header(text: str, path: str, register_map: RegisterMap) -> str | None:
+    """Put the header before a text as a comment, unless it stands in the first `HEAD` bytes; None without a comment."""
+    if header(register_map).encode() in text.encode()[:HEAD]:
+        return text
+    style = BY_SUFFIX.get(PurePosixPath(path).suffix.lower())
+    return None if style is None else f"{header(register_map, *style)}\n{text}"

@@ -1,6 +1,6 @@
-"""Facts of a map in words, for people: conditions, ranges, scales, units, labels; shared by the text emitters.
+"""Facts of a map in plain text: conditions, ranges, scales, units, labels; shared by all emitters of texts.
 
-The words are plain text. An emitter that needs more (escaping, links) passes its own `Wording`.
+An emitter that needs more than plain text (escaping, links) passes its own `Wording`.
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -57,14 +57,14 @@ def _condition_name(condition: Condition) -> str:
 
 
 def spelled(path: str) -> str:
-    """A register's path in words: letters for the indices that are those of the register that speaks of it."""
+    """Return the path of a register with letters for indices that are those of the referring register."""
     first, *rest = path.split(OPEN)
     return first + "".join(f"[{letter}]{part}" for letter, part in zip(LETTERS, rest, strict=False))
 
 
 @dataclass(frozen=True, slots=True)
 class Wording:
-    """How the parts of a phrase that come from the map are written: free text, register paths, conditions."""
+    """Formatting of the parts of a phrase that come from the map: free text, register paths, conditions."""
 
     text: Callable[[str], str] = str
     register: Callable[[str], str] = spelled
@@ -84,8 +84,8 @@ def listed(parts: Sequence[str], last: str = "or") -> str:
     return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} {last} {parts[-1]}" if parts else ""
 
 
-def span_words(first: int, last: int, between: str = " to ") -> str:
-    """Write a stretch of addresses or bits: `40`, `40 to 49`."""
+def span_words(first: int | str, last: int | str, between: str = " to ") -> str:
+    """Return an interval of addresses, bits or numbers: `40`, `40 to 49`."""
     return str(first) if first == last else f"{first}{between}{last}"
 
 
@@ -105,26 +105,22 @@ def fold(codes: Iterable[Codes]) -> tuple[Codes, ...]:
 
 
 def codes_words(codes: Iterable[Codes], labels: Mapping[int, str] | None = None, last: str = "or") -> str:
-    """Codes as `0 to 12, 14 or off (20)`: a single code wears its label, if it has one."""
-    return listed([_code_words(code, labels or {}) for code in fold(codes)], last)
-
-
-def _code_words(code: Codes, labels: Mapping[int, str]) -> str:
-    low, high = code
-    if low != high:
-        return f"{show(low)} to {show(high)}"
-    label = labels.get(int(low)) if low.denominator == 1 else None
-    return f"{one_line(label)} ({show(low)})" if label else show(low)
+    """Return codes as `0 to 12, 14 or off (20)`: a single code has its label, if there is one."""
+    parts = []
+    for low, high in fold(codes):
+        label = (labels or {}).get(int(low)) if low == high and low.denominator == 1 else None
+        parts.append(f"{one_line(label)} ({show(low)})" if label else span_words(show(low), show(high)))
+    return listed(parts, last)
 
 
 def member_words(member: Member, enum: Enum) -> str:
-    """What a member is beside its label: each cell under the head of its column, then its description."""
+    """Return what the manual says of a member: each cell with the head of its column, then its description."""
     cells = (f"{column}: {cell}" for column, cell in zip(enum.columns, member.cells, strict=False))
     return "; ".join(one_line(part) for part in (*cells, member.description) if part)
 
 
 def labels_of(enum: Enum | None) -> dict[int, str]:
-    """Code to label of an enum's members; empty without an enum."""
+    """Return the labels of an enum's members by code; empty without an enum."""
     return {member.code: member.label for member in enum.members} if enum else {}
 
 
@@ -140,7 +136,7 @@ def _labels(test: Is, model: Model | None) -> dict[int, str]:
 
 
 def words_of_test(test: Is, model: Model | None = None, wording: Wording | None = None) -> str:
-    """One test: `input_type is 0 to 12`, `inpt is one of linear_inputs`; labels come from the model's enums."""
+    """Return one test: `input_type is 0 to 12`, `inpt is one of linear_inputs`; labels come from the model's enums."""
     wording = wording or PLAIN
     given = wording.text(test.given)
     if not test.register:
@@ -153,24 +149,24 @@ def words_of_test(test: Is, model: Model | None = None, wording: Wording | None 
 
 
 def condition_words(condition: Condition, model: Model | None = None, wording: Wording | None = None) -> str:
-    """All tests of a condition joined by `and`; `always` without tests."""
+    """Return all tests of a condition joined by `and`; `always` without tests."""
     return " and ".join(words_of_test(test, model, wording) for test in condition.tests) or "always"
 
 
 def cases_words(cases: Cases[str], wording: Wording = PLAIN) -> str:
-    """Cases as `condition: text; condition: text; otherwise: text`; the text alone where nothing is asked."""
+    """Return cases as `condition: text; condition: text; otherwise: text`; the text alone without a condition."""
     if len(cases) == 1 and cases[0].when.always:
         return cases[0].then
     return "; ".join(f"{when_words(case.when, wording)}: {case.then}" for case in cases if case.then)
 
 
 def when_words(condition: Condition, wording: Wording = PLAIN) -> str:
-    """Name the condition of a case among several: its name or its words, `otherwise` where nothing is asked."""
+    """Return the condition of a case among several: its name or its words, `otherwise` for a case that always holds."""
     return OTHERWISE if condition.always else wording.condition(condition)
 
 
 def divisor_words(decimals: Decimals | None, wording: Wording = PLAIN) -> str:
-    """`/10^dp`, `/10^min(dp, 3)`, or nothing."""
+    """Return `/10^dp`, `/10^min(dp, 3)`, or an empty text."""
     if decimals is None:
         return ""
     register = wording.register(decimals.register)
@@ -178,7 +174,7 @@ def divisor_words(decimals: Decimals | None, wording: Wording = PLAIN) -> str:
 
 
 def limit_words(limit: Limit, wording: Wording = PLAIN, decimals: Decimals | None = None) -> str:
-    """Word a limit: its number, the register that holds it, or `open (why)`."""
+    """Return a limit: its number, the register that holds it, or `open (why)`."""
     match limit:
         case Open():
             return f"open ({wording.text(one_line(limit))})"
@@ -189,13 +185,13 @@ def limit_words(limit: Limit, wording: Wording = PLAIN, decimals: Decimals | Non
 
 
 def interval_words(interval: Interval, wording: Wording = PLAIN, decimals: Decimals | None = None) -> str:
-    """`low to high`, one limit where both are equal."""
+    """Return `low to high`, one limit where both are equal."""
     low, high = (limit_words(limit, wording, decimals) for limit in (interval.low, interval.high))
-    return low if low == high else f"{low} to {high}"
+    return span_words(low, high)
 
 
 def range_words(limits: Range, wording: Wording = PLAIN) -> str:
-    """Word a range: its intervals joined by `or`."""
+    """Return a range: its intervals joined by `or`."""
     return listed([interval_words(interval, wording, limits.decimals) for interval in limits.intervals])
 
 
@@ -211,7 +207,7 @@ def plain_interval(cases: Cases[Range]) -> tuple[Number, Number] | None:
 
 
 def conversion_words(conversion: Conversion) -> str:
-    """Write the value from the stored number x as a formula: `x`, `x/10`, `0.1*x - 1999.9`, `x/10^dp`."""
+    """Return the formula of the value for the stored number x: `x`, `x/10`, `0.1*x - 1999.9`, `x/10^dp`."""
     divisor = divisor_words(conversion.decimals)
     linear = _product(conversion.multiply) + _sum(conversion.add)
     formula = f"({linear}){divisor}" if divisor and conversion.add else linear + divisor
@@ -219,7 +215,7 @@ def conversion_words(conversion: Conversion) -> str:
 
 
 def step_words(conversion: Conversion, wording: Wording = PLAIN) -> str:
-    """`, x in steps of 1/10^dp`, or nothing."""
+    """Return `, x in steps of 1/10^dp`, or an empty text."""
     if conversion.step is None:
         return ""
     return f", x in steps of {show(conversion.step)}{divisor_words(conversion.places, wording)}"
@@ -243,33 +239,31 @@ def map_cases(cases: Cases[T], words: Callable[[T], str]) -> Cases[str]:
 
 
 def special_words(special: Special, wording: Wording = PLAIN) -> str:
-    """`0 = off`, with the number it stands for: `0 = shortest (reads as 0.2)`."""
+    """Return `0 = off`, with the number that it stands for: `0 = shortest (reads as 0.2)`."""
     means = f" (reads as {show(special.means)})" if special.means is not None else ""
     return f"{show(special.code)} = {wording.text(one_line(special.label))}{means}"
 
 
 def sentinel_words(sentinel: Sentinel, wording: Wording = PLAIN) -> str:
-    """`-32768 = sensor low`: a stored number that is no value."""
+    """Return `-32768 = sensor low`: a stored number that reports a fault."""
     return f"{sentinel.spelled} = {wording.text(one_line(sentinel.label))}"
 
 
 def value_words(register: Register, value: Fraction | str | None, wording: Wording = PLAIN) -> str:
-    """Word a default: text, a number, or a code with its label (`3 = off`); empty where the manual gives none."""
+    """Return a default: text, a number, or a code with its label (`3 = off`); empty where the manual gives none."""
     if value is None:
         return ""
     if isinstance(value, str):
         return wording.text(one_line(value))
-    label = _default_label(register, value)
+    if register.enum:
+        label = labels_of(register.enum).get(int(value), "")
+    else:
+        label = {special.value: special.label for special in register.specials}.get(value, "")
     return f"{show(value)} = {wording.text(one_line(label))}" if label else show(value)
 
 
-def _default_label(register: Register, default: Fraction) -> str:
-    specials = {special.value: special.label for special in register.specials}
-    return labels_of(register.enum).get(int(default), "") if register.enum else specials.get(default, "")
-
-
 def order_words(order: Order | OrderFrom, wording: Wording = PLAIN) -> str:
-    """Word the word order, or the register that sets it with the meaning of its codes."""
+    """Return the word order, or the register that sets it with the meaning of its codes."""
     if isinstance(order, Order):
         return ORDER[order]
     codes = ", ".join(f"{code} = {ORDER[meaning]}" for code, meaning in order.codes)
@@ -277,5 +271,5 @@ def order_words(order: Order | OrderFrom, wording: Wording = PLAIN) -> str:
 
 
 def bits_words(field: BitField) -> str:
-    """Write the bits of a field: `3` or `8..11`."""
+    """Return the bits of a field: `3` or `8..11`."""
     return span_words(field.low, field.high, "..")

@@ -1,4 +1,4 @@
-"""The one step that writes: only what changed, all of it or nothing, and never outside the output directory."""
+"""Writes generated files: only what changed, all of it or nothing, and never outside the output directory."""
 
 import os
 import re
@@ -31,7 +31,7 @@ class WriteError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """What was done, or with `check` what there is to do: paths, and the unified diff (empty without `check`)."""
+    """Changes that were made, or with `check` are to be made: paths, and the unified diff (empty without `check`)."""
 
     written: tuple[str, ...] = ()
     removed: tuple[str, ...] = ()
@@ -49,7 +49,7 @@ def write(
 ) -> Report:
     """Bring `out` up to date with `files` (text by relative path).
 
-    `kept` are paths known to be up to date; `owned` tells by its id whether a map's files are stale when they are
+    `kept` are paths known to be up to date. Files of a map whose id `owned` accepts are stale, and removed, if they are
     neither in `files` nor in `kept`. With `check` nothing is touched. Raises WriteError, before anything is written
     (unless it is a stale file that cannot be removed).
     """
@@ -58,16 +58,19 @@ def write(
     targets = {path: _target(path, out) for path in sorted({*files, *kept})}
     before = {path: _read(targets[path]) for path in files}
     changed = {path: text for path, text in files.items() if before[path] != text.encode()}
-    stale = stale_files(targets, _folders(targets), out, owned)
+    tops = {path.partition("/")[0] if "/" in path else "" for path in targets}
+    stale = stale_files(targets, sorted(tops, key=lambda top: (not top, top)), out, owned)  # "" last
     if not check:
-        _bring_up_to_date({targets[path]: text for path, text in changed.items()}, stale, out)
+        _replace({targets[path]: text for path, text in changed.items()})
+        for path in stale:
+            _remove(path, out)
     unchanged = tuple(path for path in targets if path not in changed)
     diff = _difference(changed, stale, before, out) if check else ""
     return Report(tuple(sorted(changed)), tuple(stale), unchanged, diff)
 
 
 def with_package_files(files: Mapping[str, str], kept: Iterable[str] = ()) -> dict[str, str]:
-    """Return `files` with what makes an import package of each folder that holds a driver."""
+    """Return `files` with the files that make an import package of each folder with a driver."""
     drivers = [path for path in (*files, *kept) if path.startswith(f"{PACKAGE}/") and path.endswith(".py")]
     folders = {parent for path in drivers for parent in PurePosixPath(path).parents if parent.name}
     package_files = {f"{folder}/__init__.py": PACKAGE_FILE for folder in folders}
@@ -98,17 +101,12 @@ def _read(target: Path) -> bytes | None:
         raise _refusal(target, error) from None
 
 
-def _folders(targets: Iterable[str]) -> list[str]:
-    """Return the top folders that this run writes to, "" last for files beside them."""
-    return sorted({path.partition("/")[0] if "/" in path else "" for path in targets}, key=lambda top: (not top, top))
-
-
 def _difference(changed: Mapping[str, str], stale: Iterable[str], before: Mapping[str, bytes | None], out: Path) -> str:
-    diffs = [unified(path, before[path], text.encode()) for path, text in sorted(changed.items())]
-    return "".join([*diffs, *(unified(path, _read(out / path), None) for path in stale)])
+    diffs = [_unified(path, before[path], text.encode()) for path, text in sorted(changed.items())]
+    return "".join([*diffs, *(_unified(path, _read(out / path), None) for path in stale)])
 
 
-def unified(path: str, old: bytes | None, new: bytes | None) -> str:
+def _unified(path: str, old: bytes | None, new: bytes | None) -> str:
     """Return the unified diff from `old` to `new`; None stands for a file that does not exist."""
     before, after = _lines(old), _lines(new)
     names = "/dev/null" if old is None else f"a/{path}", "/dev/null" if new is None else f"b/{path}"
@@ -124,12 +122,6 @@ def _lines(content: bytes | None) -> list[str]:
 
 def _ended(line: str) -> str:
     return line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n"
-
-
-def _bring_up_to_date(texts: Mapping[Path, str], stale: Iterable[str], out: Path) -> None:
-    _replace(texts)
-    for path in stale:
-        _remove(path, out)
 
 
 def _replace(texts: Mapping[Path, str]) -> None:
@@ -155,18 +147,15 @@ def _remove(path: str, out: Path) -> None:
     try:
         (out / path).unlink(missing_ok=True)  # another run may have been quicker
         for parent in list(PurePosixPath(path).parents)[:-1]:
-            _remove_package_file(out / parent)
+            folder = out / parent
+            package_file = folder / "__init__.py"
+            only = [entry.name for entry in folder.iterdir() if entry.name != "__pycache__"]
+            if only == [package_file.name] and package_file.read_bytes() == PACKAGE_FILE.encode():
+                package_file.unlink()
             with suppress(OSError):  # not empty: someone else's files are in it
-                (out / parent).rmdir()
+                folder.rmdir()
     except OSError as error:
         raise _refusal(out / path, error) from None
-
-
-def _remove_package_file(folder: Path) -> None:
-    only = [entry.name for entry in folder.iterdir() if entry.name != "__pycache__"]
-    package_file = folder / "__init__.py"
-    if only == [package_file.name] and package_file.read_bytes() == PACKAGE_FILE.encode():
-        package_file.unlink()
 
 
 def _refusal(target: Path, error: OSError) -> WriteError:

@@ -24,7 +24,7 @@ def drawings(register_map: RegisterMap) -> dict[str, Drawing]:
     """Return the pictures by file name before they become SVG, for those who look at the layout."""
     if not any(model.registers for model in register_map.models):
         return {}
-    found = {picture_paths.addresses(): addresses(register_map)}
+    found = {picture_paths.ADDRESSES: addresses(register_map)}
     nodes = outline(register_map.models)
     for leaf in leaves(nodes):
         if any(register.fields for _, register in leaf.register.versions):

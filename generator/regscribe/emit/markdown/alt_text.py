@@ -50,7 +50,7 @@ def _few(parts: Sequence[str]) -> Sequence[str]:
 def address_map(context: PageContext) -> Md:
     """Return the picture of the address spaces; nothing if no model has a register."""
     drawn = any(model.registers for model in context.map.models)
-    return _picture(context, picture_paths.addresses(), addresses(context.map)) if drawn else Md()
+    return _picture(context, picture_paths.ADDRESSES, addresses(context.map)) if drawn else Md()
 
 
 def bit_fields(context: PageContext, leaf: Leaf) -> tuple[Md, ...]:

@@ -1,10 +1,13 @@
 """The generated pytest module: names and paths only; what is tested stands in `regscribe.testing`."""
 
+from collections.abc import Iterable
+
 from regscribe.emit.header import header
+from regscribe.emit.python.formatting import call, lay
 from regscribe.emit.python.literals import literal
 from regscribe.model import RegisterMap
 
-BODY = '''"""The driver against its vectors, and properties that hold for every value."""
+HEAD = '''"""The driver against its vectors, and properties that hold for every value."""
 
 {header}
 
@@ -28,107 +31,34 @@ def models(drivers: list[DriverUnderTest]) -> pytest.MarkDecorator:
 
 
 every_model = models(DRIVERS)
-
-
-@every_model
-def test_the_driver_has_the_registers_of_its_model_at_their_addresses(driver: DriverUnderTest) -> None:
-    driver.check_registers()
-
-
-@every_model
-def test_requests_keep_to_the_limits_of_the_device_and_commands_send_what_the_map_says(driver: DriverUnderTest) -> None:
-    driver.check_device()
-
-
-@every_model
-def test_words_decode_to_the_values_of_the_vectors(driver: DriverUnderTest) -> None:
-    driver.check_decoding()
-
-
-@every_model
-def test_values_encode_to_the_words_of_the_vectors(driver: DriverUnderTest) -> None:
-    driver.check_encoding()
-
-
-@every_model
-def test_values_that_no_words_can_carry_are_refused(driver: DriverUnderTest) -> None:
-    driver.check_refusals()
-
-
-@every_model
-def test_writes_are_allowed_exactly_under_their_conditions(driver: DriverUnderTest) -> None:
-    driver.check_conditions_of_writing()
-
-
-@every_model
-def test_the_worked_examples_of_the_manual_hold(driver: DriverUnderTest) -> None:
-    driver.check_examples()
-
-
-@every_model
-@hold.each_run
-@given(data=st.data())
-def test_any_words_give_a_value_or_a_documented_error(driver: DriverUnderTest, data: st.DataObject) -> None:
-    hold.total_decoding(driver, data)
 '''
 
+CHECKS = {
+    "check_registers": "the_driver_has_the_registers_of_its_model_at_their_addresses",
+    "check_device": "requests_keep_to_the_limits_of_the_device_and_commands_send_what_the_map_says",
+    "check_decoding": "words_decode_to_the_values_of_the_vectors",
+    "check_encoding": "values_encode_to_the_words_of_the_vectors",
+    "check_refusals": "values_that_no_words_can_carry_are_refused",
+    "check_conditions_of_writing": "writes_are_allowed_exactly_under_their_conditions",
+    "check_examples": "the_worked_examples_of_the_manual_hold",
+}
+"""Names of tests by the method of `DriverUnderTest` that each calls."""
 
-READ = """
-
-@models([driver for driver in DRIVERS if driver.readable])
-@hold.each_run
-@given(data=st.data())
-def test_a_read_covers_each_register_once_and_crosses_no_hole_and_no_limit(
-    driver: DriverUnderTest, data: st.DataObject
-) -> None:
-    hold.covering_reads(driver, data)
-
-
-@models([driver for driver in DRIVERS if driver.readable])
-@hold.each_run
-@given(data=st.data())
-def test_registers_read_together_have_the_values_that_they_have_alone(
-    driver: DriverUnderTest, data: st.DataObject
-) -> None:
-    hold.batches(driver, data)
-"""
-
-WRITTEN = """
-
-@models([driver for driver in DRIVERS if driver.written])
-@hold.each_run
-@given(data=st.data())
-def test_what_was_encoded_decodes_to_the_same_value(driver: DriverUnderTest, data: st.DataObject) -> None:
-    hold.round_trip(driver, data)
-
-
-@models([driver for driver in DRIVERS if driver.written])
-@hold.each_run
-@given(data=st.data())
-def test_a_value_outside_the_domain_is_refused(driver: DriverUnderTest, data: st.DataObject) -> None:
-    hold.refusal(driver, data)
-"""
-
-MIRRORED = """
-
-@models([driver for driver in DRIVERS if driver.mirrored])
-@hold.each_run
-@given(data=st.data())
-def test_the_views_of_a_register_agree(driver: DriverUnderTest, data: st.DataObject) -> None:
-    hold.agreement(driver, data)
-"""
+PROPERTIES = {
+    "total_decoding": ("", "any_words_give_a_value_or_a_documented_error"),
+    "covering_reads": ("readable", "a_read_covers_each_register_once_and_crosses_no_hole_and_no_limit"),
+    "batches": ("readable", "registers_read_together_have_the_values_that_they_have_alone"),
+    "round_trip": ("written", "what_was_encoded_decodes_to_the_same_value"),
+    "refusal": ("written", "a_value_outside_the_domain_is_refused"),
+    "agreement": ("mirrored", "the_views_of_a_register_agree"),
+}
+"""By the function of `regscribe.testing.properties`: what a driver must have (empty: nothing), and the test's name."""
 
 
 def module_text(register_map: RegisterMap) -> str:
     """Return the text of the test module of a map; maker and file names are checked identifiers of the map."""
     maker, family = register_map.id.split("/")
-    registers = [register for model in register_map.models for register in model.registers]
-    parts = (
-        (READ, any(register.access.readable for register in registers)),
-        (WRITTEN, any(register.access.writable for register in registers)),
-        (MIRRORED, any(register.access.writable and len(register.views) > 1 for register in registers)),
-    )
-    body = BODY.format(
+    head = HEAD.format(
         header=header(register_map, prefix="# ", separator="\n# "),
         maker=maker.replace("-", "_"),
         module=family.replace("-", "_"),
@@ -136,7 +66,27 @@ def module_text(register_map: RegisterMap) -> str:
         file_text=literal(f"{family}.json"),
         classes=_classes([f"module.{model.class_name}" for model in register_map.models]),
     )
-    return body + "".join(text for text, wanted in parts if wanted)
+    registers = [register for model in register_map.models for register in model.registers]
+    had = {
+        "": True,
+        "readable": any(register.access.readable for register in registers),
+        "written": any(register.access.writable for register in registers),
+        "mirrored": any(register.access.writable and len(register.views) > 1 for register in registers),
+    }
+    checks = [_test(name, ["@every_model"], [], f"driver.{check}()") for check, name in CHECKS.items()]
+    properties = [_property(name, needed, function) for function, (needed, name) in PROPERTIES.items() if had[needed]]
+    return "".join([head, *checks, *properties])
+
+
+def _property(name: str, needed: str, function: str) -> str:
+    drivers = f"@models([driver for driver in DRIVERS if driver.{needed}])" if needed else "@every_model"
+    decorators = [drivers, "@hold.each_run", "@given(data=st.data())"]
+    return _test(name, decorators, ["data: st.DataObject"], f"hold.{function}(driver, data)")
+
+
+def _test(name: str, decorators: Iterable[str], more: Iterable[str], body: str) -> str:
+    signature = lay(call(f"test_{name}", "driver: DriverUnderTest", *more), head="def ", tail=" -> None:")
+    return "\n".join(["", "", *decorators, *signature, f"    {body}", ""])
 
 
 def _classes(names: list[str]) -> str:
