@@ -1,7 +1,7 @@
-"""Whether a view can carry a number: every scale a register may have, and what of a value reaches the wire."""
+"""Whether views can carry a number under the scales that a register may have: exactly, less finely, or not at all."""
 
 from collections.abc import Iterator
-from enum import Enum
+from enum import IntEnum
 from fractions import Fraction
 
 from regscribe.model import Number, Range, Register, Special, View, show
@@ -11,7 +11,7 @@ from regscribe.reference.settled_scales import Form, factors, forms
 HELP_TYPE = "correct the number, the type or the scale"
 
 
-class Fit(Enum):
+class Fit(IntEnum):
     """Whether words can spell a number, best first: exactly, with less resolution, not at all."""
 
     EXACT = 0
@@ -65,7 +65,7 @@ def best_fit(register: Register, values: tuple[Fraction, ...], every: tuple[Form
                 now = fit(form, view, value)
                 if now is Fit.EXACT:
                     return now
-                found = min(found, now, key=lambda one: one.value)
+                found = min(found, now)
     return found if every else Fit.EXACT
 
 

@@ -14,17 +14,6 @@ Region = tuple[Space, str, int, int]
 """Where the views of one name stand: their space, their name, the first and the last address."""
 
 
-def view_sets(scopes: Scopes) -> Iterator[Register]:
-    """One register for each view set of the map: registers whose views differ in their addresses only count once."""
-    seen: set[tuple[object, ...]] = set()
-    for scope in scopes:
-        for register in scope.model.registers:
-            shape = tuple((v.name, v.space, v.type, v.region, v.preferred, v.words) for v in register.views)
-            if shape not in seen:
-                seen.add(shape)
-                yield register
-
-
 def regions(scope: RuleScope) -> dict[Region, Register]:
     """The regions of a model, each with the first register that has it; view sets that state one alike share it."""
     found: dict[Region, Register] = {}
@@ -120,7 +109,10 @@ def function_of_another_space(register: Register, _: RuleScope) -> Iterator[Prob
 @map_rule("RS0460", "More than one preferred view")
 def preferred_twice(_: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
     """A driver uses one view unless told otherwise."""
-    for register in view_sets(scopes):
+    seen: set[tuple[object, ...]] = set()
+    for register in (register for scope in scopes for register in scope.model.registers):
         names = [view.name for view in register.views if view.preferred]
-        if len(names) > 1:
+        shape = tuple((v.name, v.space, v.type, v.region, v.preferred, v.words) for v in register.views)
+        if len(names) > 1 and shape not in seen:
+            seen.add(shape)  # registers whose views differ in their addresses alone have one view set
             yield Finding.at(register, f"has preferred views {', '.join(names)}", "prefer one of them")

@@ -66,12 +66,12 @@ def choose(table: Table, wanted: Sequence[str], notations: Sequence[str]) -> Col
             f"address,name,access; known are {', '.join(COLUMNS)}"
         )
         raise TableError(message)
-    asked = dict(_asked(wanted, known))
-    at = _places(table, asked, known)
-    if missing := [f"`{head}`" for name, head in asked.items() if name not in at]:
+    requested = dict(_requested(wanted, known))
+    at = _places(table, requested, known)
+    if missing := [f"`{head}`" for name, head in requested.items() if name not in at]:
         message = f"{table.name} has no column {', '.join(missing)}: it has {', '.join(dict.fromkeys(table.header))}"
         raise TableError(message)
-    compared = tuple(name for name in (asked or at) if name not in PLACES)
+    compared = tuple(name for name in (requested or at) if name not in PLACES)
     return Columns(tuple(at.items()), compared)
 
 
@@ -82,22 +82,22 @@ def _known(notations: Sequence[str]) -> dict[str, str]:
     return known | {name: column for name, column in SYNONYMS.items() if name not in known}
 
 
-def _places(table: Table, asked: dict[str, str], known: dict[str, str]) -> dict[str, int]:
-    """Where the columns stand; without `asked`, every header that has something below it must be known."""
+def _places(table: Table, requested: dict[str, str], known: dict[str, str]) -> dict[str, int]:
+    """Where the columns stand; without `requested`, every header that has something below it must be known."""
     at: dict[str, int] = {}
     for index, head in enumerate(table.header):
-        name = _name_of(head, asked, known)
+        name = _name_of(head, requested, known)
         if name in at:
             message = f"{table.name}: `{table.header[at[name]]}` and `{head}` both are the column `{name}`: drop one"
             raise TableError(message)
         if name:
             at[name] = index
-        elif not asked and (head or any(row.cells[index].strip() for row in table.rows)):
+        elif not requested and (head or any(row.cells[index].strip() for row in table.rows)):
             raise TableError(_unknown(table, head, index, known))
     return at
 
 
-def _asked(wanted: Sequence[str], known: dict[str, str]) -> Iterable[tuple[str, str]]:
+def _requested(wanted: Sequence[str], known: dict[str, str]) -> Iterable[tuple[str, str]]:
     """Yield the column of the export and the table's name of it, for each item of --columns."""
     for item in wanted:
         name, _, head = (part.strip() for part in item.partition("="))
@@ -107,17 +107,17 @@ def _asked(wanted: Sequence[str], known: dict[str, str]) -> Iterable[tuple[str, 
         yield known[fold(name)], head or name
 
 
-def _name_of(head: str, asked: dict[str, str], known: dict[str, str]) -> str:
+def _name_of(head: str, requested: dict[str, str], known: dict[str, str]) -> str:
     """Return the column of the export that a header means; empty for one that is not used."""
-    for name, wanted in asked.items():
+    for name, wanted in requested.items():
         if fold(head) == fold(wanted):
             return name
     name = known.get(fold(head), "")
-    if not asked:
+    if not requested:
         return name
-    if name in asked and known.get(fold(asked[name])) == name:
-        return name  # asked for by another of its names
-    return name if name in KEYS and name not in asked else ""
+    if name in requested and known.get(fold(requested[name])) == name:
+        return name  # requested by another of its names
+    return name if name in KEYS and name not in requested else ""
 
 
 def _unknown(table: Table, head: str, index: int, known: dict[str, str]) -> str:

@@ -132,13 +132,13 @@ def _differences(
 def _without_silent(matching: Matching, register_map: RegisterMap) -> list[str]:
     """Take out the rows that name no register where the map has none, and note how many there are."""
     silent = _silent(register_map)
-    loud = [
+    kept = [
         row
         for row in matching.only_theirs
         if not row.is_silent or not any((row.model, spot) in silent for spot in row.spots)
     ]
-    count = len(matching.only_theirs) - len(loud)
-    matching.only_theirs = loud
+    count = len(matching.only_theirs) - len(kept)
+    matching.only_theirs = kept
     return [f"{count} rows name no register where the map has none (unused, reserved or a further word)"] * bool(count)
 
 

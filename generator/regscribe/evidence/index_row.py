@@ -6,7 +6,7 @@ from regscribe.emit.docs_index import Card
 from regscribe.emit.markdown import index_row
 from regscribe.emit.markdown.escape import Md, code, escape, join, md, prose
 from regscribe.evidence.coverage import coverage
-from regscribe.evidence.coverage_values import Addresses, MapCoverage, Remark, counts
+from regscribe.evidence.coverage_values import Addresses, MapCoverage, counts
 from regscribe.model import RegisterMap
 
 
@@ -20,7 +20,10 @@ def card(register_map: RegisterMap) -> Card:
         sums=(family, *map(str, counts(found))),
         facts=tuple((family, escape(model.name), *map(str, counts(model))) for model in found.models),
         addresses=tuple((family, *row) for row in _addresses(found)),
-        remarks=tuple((family, *_remark(remark)) for remark in found.remarks),
+        remarks=tuple(
+            (family, one.kind, join(", ", map(code, one.at)), escape(", ".join(one.models)), prose(one.text))
+            for one in found.remarks
+        ),
     )
 
 
@@ -32,8 +35,3 @@ def _addresses(found: MapCoverage) -> Iterator[tuple[str, ...]]:
             models.setdefault(addresses, []).append(model.name)
     for item, names in models.items():
         yield (escape(", ".join(names)), item.space, *map(str, counts(item)))
-
-
-def _remark(remark: Remark) -> tuple[str, ...]:
-    places = join(", ", [code(at) for at in remark.at])
-    return (remark.kind, places, escape(", ".join(remark.models)), prose(remark.text))

@@ -45,9 +45,11 @@ class _RowIndex:
         """Return free entries at the row's place; a command only for a row without id, where no register stands."""
         if row.is_command and row.id:
             return []  # several commands may begin at one address
-        found = self._free(self._standing(row), row)
+        standing = self._standing(row)
+        found = self._free(standing, row)
         registers = [place for place in found if not self.entries[place].is_command]
-        return registers or ([] if self._registers(row) else found)
+        taken = not row.is_command and any(not self.entries[place].is_command for place in standing)
+        return registers or ([] if taken else found)
 
     def named(self, row: ComparedRow) -> list[int]:
         """Return free entries of the row's id, wherever they stand."""
@@ -60,18 +62,14 @@ class _RowIndex:
     def _standing(self, row: ComparedRow) -> list[int]:
         return [place for spot in row.spots for place in self.at.get((row.model, spot), ())]
 
-    def _registers(self, row: ComparedRow) -> bool:
-        """Whether registers stand at the place of a row that is a register's."""
-        return not row.is_command and any(not self.entries[place].is_command for place in self._standing(row))
-
     def _free(self, places: Iterable[int], row: ComparedRow) -> list[int]:
         """Those without a counterpart; a row that says what kind it is finds a command only if it is one."""
-        told = bool(row.cells.get("kind", "").strip())
+        states_kind = bool(row.cells.get("kind", "").strip())
         entries = self.entries
         return [
             place
             for place in places
-            if place in self.free and not (told and entries[place].is_command != row.is_command)
+            if place in self.free and not (states_kind and entries[place].is_command != row.is_command)
         ]
 
 
@@ -103,9 +101,8 @@ def _single(places: list[int], row: ComparedRow, ours: Sequence[ComparedRow], na
         title = row.cells.get("name", "")
         places = [place for place in places if ours[place].cells["name"] == title] or places
     if len(places) > 1:
-        spots = ", ".join(
-            f"{place.space} {place.address} (`{place.id}`)" for place in (ours[one].place for one in places)
-        )
+        fitting = [ours[one].place for one in places]
+        spots = ", ".join(f"{place.space} {place.address} (`{place.id}`)" for place in fitting)
         message = (
             f"{name}:{row.line}: this row may be any of {spots} of {row.model}: add a column `space` or `id` that tells"
         )

@@ -53,7 +53,14 @@ def read(content: bytes, name: str) -> Table:
     if not body:
         message = f"{name} has a header in line {head.line} and no row after it"
         raise TableError(message)
-    return Table(name, header, tuple(_fitted(row, header, name) for row in body))
+    for row in body:
+        if len(row.cells) < len(header) or any(cell.strip() for cell in row.cells[len(header) :]):
+            message = (
+                f"{name}:{row.line}: this row has {len(row.cells)} cells and the header has {len(header)}: quote a "
+                "cell that holds a separator, and write empty cells too"
+            )
+            raise TableError(message)
+    return Table(name, header, tuple(TableRow(row.line, row.cells[: len(header)]) for row in body))
 
 
 def _text(content: bytes, name: str) -> str:
@@ -81,10 +88,10 @@ def _rows(text: str, name: str) -> Iterator[TableRow]:
     """Yield the rows that have any content; a quoted cell may hold line ends."""
     first, _, rest = text.partition("\n")
     hint = first.strip().strip('"')
-    told = hint.lower().startswith("sep=") and len(hint) == len("sep=;")
-    separator = hint[-1] if told else max(SEPARATORS, key=first.count)  # a comma where the header has none
-    reader = csv.reader(io.StringIO(rest if told else text, newline=""), delimiter=separator, strict=True)
-    before = int(told)
+    has_hint = hint.lower().startswith("sep=") and len(hint) == len("sep=;")
+    separator = hint[-1] if has_hint else max(SEPARATORS, key=first.count)  # a comma where the header has none
+    reader = csv.reader(io.StringIO(rest if has_hint else text, newline=""), delimiter=separator, strict=True)
+    before = int(has_hint)
     line = before + 1
     try:
         for cells in reader:
@@ -97,15 +104,3 @@ def _rows(text: str, name: str) -> Iterator[TableRow]:
             "into quotes, and double the quotes in it"
         )
         raise TableError(message) from None
-
-
-def _fitted(row: TableRow, header: tuple[str, ...], name: str) -> TableRow:
-    """Return the row with the header's number of cells: trailing empty cells are added or dropped."""
-    extra = row.cells[len(header) :]
-    if any(cell.strip() for cell in extra) or len(row.cells) < len(header):
-        message = (
-            f"{name}:{row.line}: this row has {len(row.cells)} cells and the header has {len(header)}: quote a cell "
-            "that holds a separator, and write empty cells too"
-        )
-        raise TableError(message)
-    return TableRow(row.line, row.cells[: len(header)])

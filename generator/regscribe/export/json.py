@@ -48,7 +48,8 @@ def export(maps: Sequence[RegisterMap], _: Mapping[str, str]) -> dict[str, str]:
 
 def json_text(maps: Iterable[RegisterMap]) -> str:
     """Return all facts of the maps as one JSON document, indented, with a line end."""
-    document = {"format": FORMAT, "maps": [_map(register_map) for register_map in maps]}
+    facts = [{key: value for key, value in _fields(each).items() if key != "source"} for each in maps]
+    document = {"format": FORMAT, "maps": facts}
     return json.dumps(document, ensure_ascii=False, indent=1) + "\n"
 
 
@@ -63,10 +64,6 @@ def number(value: Number) -> Json:
     if exact(nearest) == value:
         return nearest
     return {"numerator": value.numerator, "denominator": value.denominator, "text": show(value)}
-
-
-def _map(register_map: RegisterMap) -> Json:
-    return {key: value for key, value in _fields(register_map).items() if key != "source"}
 
 
 def _model(model: Model) -> Json:
@@ -104,17 +101,17 @@ def _example(example: Any) -> Json:  # noqa: ANN401 (one of the types in EXAMPLE
 
 def _register(register: Register) -> Json:
     views = [_view(view, register.at) for view in register.views]
-    return {name: told for name, told in _fields(register).items() if name != "at"} | {"views": views}
+    return {name: value for name, value in _fields(register).items() if name != "at"} | {"views": views}
 
 
 def _view(view: View, at: int) -> Json:
     found = _fields(view) | {"address": view.address(at), "word_order": _plain(view.order)}
-    return {name: told for name, told in found.items() if name not in {"offset", "order"}}
+    return {name: value for name, value in found.items() if name not in {"offset", "order"}}
 
 
 def _test(test: Is) -> Json:
     codes = [{"low": number(low), "high": number(high)} for low, high in test.codes]
-    return {name: told for name, told in _fields(test).items() if name != "bits"} | {"codes": codes}
+    return {name: value for name, value in _fields(test).items() if name != "bits"} | {"codes": codes}
 
 
 def _interval(interval: Interval) -> Json:

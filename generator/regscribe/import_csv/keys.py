@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Callable, Mapping
-from fractions import Fraction
 from typing import Any
 
 from regscribe.evidence.cell_compare import access, number, objects
@@ -14,10 +13,6 @@ Cells = Mapping[str, str]
 PLAIN_SCALE = re.compile(r"x/1(0{1,18})")
 PLAIN_UNIT = re.compile(r"[^;:]+")
 """A unit under no condition."""
-
-
-def _nothing(_: Cells) -> dict[str, Any]:
-    return {}
 
 
 def _space(cells: Cells) -> dict[str, Any] | None:
@@ -52,13 +47,9 @@ def _default(cells: Cells) -> dict[str, Any] | None:
     value = number(cells["default"])
     if value is None:
         return {"default": cells["default"]}
-    return {"default": plain} if (plain := _plain(value)) is not None else None
-
-
-def _plain(value: Fraction) -> int | float | None:
     if value.denominator == 1:
-        return value.numerator
-    return float(value) if exact(float(value)) == value else None
+        return {"default": value.numerator}
+    return {"default": float(value)} if exact(float(value)) == value else None
 
 
 def _values(cells: Cells) -> dict[str, Any] | None:
@@ -94,8 +85,8 @@ def _aliases(cells: Cells) -> dict[str, Any] | None:
 
 
 KEYS: dict[str, Callable[[Cells], dict[str, Any] | None]] = {
-    "address": _nothing,
-    "name": _nothing,
+    "address": lambda _: {},
+    "name": lambda _: {},
     "kind": lambda cells: None if cells["kind"] in {"version", "fields"} else {},
     "space": _space,
     "access": _access,

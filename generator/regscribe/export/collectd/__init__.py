@@ -3,11 +3,13 @@
 import re
 from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
+from fractions import Fraction
 
+from regscribe.checks.assumed_values import default_values, with_fields
 from regscribe.export.collectd.configuration import EVERY, Poll, collectd_text
-from regscribe.export.collectd.state import surroundings
-from regscribe.model import Model, RegisterMap
+from regscribe.model import GivenKind, Model, RegisterMap, parse
 from regscribe.plugins import Option, OptionError
+from regscribe.reference import Surroundings
 
 name = "collectd"
 summary = "a configuration of collectd's modbus plugin that polls one model"
@@ -27,6 +29,13 @@ LONGEST_INTERVAL = 10**9
 NAME = r"[A-Za-z0-9][A-Za-z0-9._-]{0,39}"
 """What collectd can make a folder of."""
 
+NUMBER = re.compile(r"-?[0-9]{1,20}(\.[0-9]{1,20})?")
+"""A decimal of a sane length: an exponent may ask for more digits than there is memory."""
+
+CODES = re.compile(r"\s*(-?[0-9]{1,6})(?:\.\.(-?[0-9]{1,6}))?\s*")
+MOST_CODES = 0x10000
+FACTS = {"true": True, "false": False}
+
 
 def export(maps: Sequence[RegisterMap], options: Mapping[str, str]) -> dict[str, str]:
     """Return the configuration. Raises OptionError."""
@@ -35,7 +44,7 @@ def export(maps: Sequence[RegisterMap], options: Mapping[str, str]) -> dict[str,
         raise OptionError(message)
     (register_map,) = maps
     model = _model(register_map, options["model"])
-    known = surroundings(register_map, model, _each(options["with"]), _each(options["given"]))
+    known = _surroundings(register_map, model, _each(options["with"]), _each(options["given"]))
     return {"": collectd_text(register_map, model, _poll(register_map, model, options), known)}
 
 
@@ -51,6 +60,58 @@ def _model(register_map: RegisterMap, wanted: str) -> Model:
     meant = f"; did you mean `{near[0]}`?" if near else ""
     message = f"{register_map.id} has no model `{wanted}`: it has {', '.join(known)}{meant}"
     raise OptionError(message)
+
+
+def _surroundings(register_map: RegisterMap, model: Model, state: Sequence[str], givens: Sequence[str]) -> Surroundings:
+    """Return the state for which the poll is worked out: the defaults, and what --with and --given say.
+
+    Each of `state` is PATH=VALUE (a number or a member's id), each of `givens` ID=VALUE.
+    """
+    values = with_fields(model, default_values(model) | dict(_register_value(model, text) for text in state))
+    codes: dict[str, frozenset[Fraction]] = {}
+    facts: dict[str, bool] = {}
+    kinds = {given.id: given.kind for given in register_map.givens}
+    for text in givens:
+        name, _, value = text.partition("=")
+        if name not in kinds:
+            message = f"--given {text}: write ID=VALUE; {register_map.id} has the givens {', '.join(kinds) or '(none)'}"
+            raise OptionError(message)
+        if kinds[name] is GivenKind.CODES:
+            codes[name] = _codes(text, value)
+        elif value not in FACTS:
+            message = f"--given {text}: it is true or false"
+            raise OptionError(message)
+        else:
+            facts[name] = FACTS[value]
+    return Surroundings(values, codes, facts)
+
+
+def _register_value(model: Model, text: str) -> tuple[str, Fraction]:
+    path, equals, value = text.partition("=")
+    register = next((each for each in model.registers if each.path == path), None)
+    if not equals or register is None:
+        message = f"--with {text}: write PATH=VALUE, PATH being a register of {model.name}"
+        raise OptionError(message)
+    members = {member.id: Fraction(member.code) for member in register.enum.members} if register.enum else {}
+    if value.upper() in members:
+        return path, members[value.upper()]
+    if not NUMBER.fullmatch(value):
+        known = f"a number or one of {', '.join(members)}" if members else "a number"
+        message = f"--with {text}: the value of `{path}` is {known}"
+        raise OptionError(message)
+    return path, parse(value)
+
+
+def _codes(text: str, value: str) -> frozenset[Fraction]:
+    codes: set[Fraction] = set()
+    for part in value.split(","):
+        found = CODES.fullmatch(part)
+        first, last = (int(found[1]), int(found[2] or found[1])) if found else (0, -1)
+        if last - first not in range(MOST_CODES):
+            message = f"--given {text}: `{part}` is neither a code nor a range of codes; for example 1,4..6"
+            raise OptionError(message)
+        codes.update(map(Fraction, range(first, last + 1)))
+    return frozenset(codes)
 
 
 def _poll(register_map: RegisterMap, model: Model, options: Mapping[str, str]) -> Poll:
