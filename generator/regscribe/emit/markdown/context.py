@@ -155,9 +155,9 @@ def fact_table(
     found = Merged(shared.key, tuple((model, dict(facts(model, item))) for model, item in shared.versions))
 
     def row(label: str) -> tuple[str, Md]:
-        return label, by_model(found, lambda _, version: version[label])
+        return label, by_model(found, lambda _, words: words[label])
 
-    return table(headers, [one for one in map(row, found.first) if one[1]])
+    return table(headers, [row(label) for label in found.first if any(words[label] for _, words in found.versions)])
 
 
 def source(section: str) -> Md:

@@ -76,8 +76,8 @@ def _facts(context: PageContext, leaf: Leaf, model: Model, register: Register) -
     shadowed = md("takes the value of ", context.register(register.shadows)) if register.shadows else Md()
     yield "When power comes", shadowed
     yield "Follows", follows(context, model, register)
-    rescaled = link(register.rescales, context.anchor("unit", register.rescales))
-    yield "Changing it", md("the device converts every value whose unit is ", rescaled) if register.rescales else Md()
+    unit = link(register.rescales, context.anchor("unit", register.rescales)) if register.rescales else Md()
+    yield "Changing it", md("the device converts every value whose unit is ", unit) if unit else unit
     yield "Before a write", md("run ", context.command(register.unlock), " first") if register.unlock else Md()
     yield "After a write", md("takes effect with ", context.command(register.apply)) if register.apply else Md()
     yield "Governs", _governs(register)
