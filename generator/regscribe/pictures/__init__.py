@@ -21,7 +21,7 @@ def render(register_map: RegisterMap) -> dict[str, str]:
 
 
 def drawings(register_map: RegisterMap) -> dict[str, Drawing]:
-    """Return the pictures by file name before they become SVG, for those who look at the layout."""
+    """Return the pictures by file name before they become SVG."""
     if not any(model.registers for model in register_map.models):
         return {}
     found = {picture_paths.ADDRESSES: addresses(register_map)}

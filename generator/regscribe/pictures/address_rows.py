@@ -4,14 +4,14 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby, pairwise
 
-from regscribe.model import Space
-from regscribe.pictures.address_use import AddressUse, Stretch
+from regscribe.model import RegisterMap, Space
+from regscribe.pictures.address_use import AddressUse
 
 Hole = tuple[str, int, int]
 """Addresses without a register: `unused`, `reserved` or nothing, the first and the last."""
 
 Content = tuple[int, tuple[AddressUse, ...], str]
-"""What neighbours share if they are drawn as one cell: -1 (their number if many addresses lie in each), uses, kind."""
+"""Equal for neighbours that are drawn as one cell: -1 (with many addresses in a cell, its number), uses, kind."""
 
 MOST_SECTIONS = 24
 """With more regions than this a space is drawn as one section."""
@@ -44,40 +44,40 @@ GRIDS = (
 
 @dataclass(frozen=True, slots=True)
 class AddressSection:
-    """A stretch of one space under a heading: places of one view, and stretches that are `unused` or `reserved`."""
+    """A stretch of one space under a heading: uses of one view, and stretches that are `unused` or `reserved`."""
 
     space: Space
     region: tuple[int, int] | None
-    places: tuple[AddressUse, ...]
+    uses: tuple[AddressUse, ...]
     holes: tuple[Hole, ...] = ()
 
     @property
     def view(self) -> str:
         """Return the names of the views."""
-        return ", ".join(dict.fromkeys(place.view for place in self.places))
+        return ", ".join(dict.fromkeys(use.view for use in self.uses))
 
     @property
     def first(self) -> int:
         """Return the lowest address."""
-        starts = [*(place.first for place in self.places), *(low for _, low, _ in self.holes)]
+        starts = [*(use.first for use in self.uses), *(low for _, low, _ in self.holes)]
         return self.region[0] if self.region else min(starts)
 
     @property
     def last(self) -> int:
         """Return the highest address; a region may end beyond its last register."""
-        ends = [*(place.last for place in self.places), *(high for _, _, high in self.holes)]
+        ends = [*(use.last for use in self.uses), *(high for _, _, high in self.holes)]
         return max([*ends, self.region[1]] if self.region else ends)
 
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """Neighbouring columns with the same content: places, or a hole of a `kind` (empty: an address of nothing)."""
+    """Neighbouring columns with the same content: uses, or a hole of a `kind` (empty: an address of nothing)."""
 
     column: int
     span: int
     first: int
     last: int
-    places: tuple[AddressUse, ...] = ()
+    uses: tuple[AddressUse, ...] = ()
     kind: str = ""
 
 
@@ -89,34 +89,30 @@ class AddressRow:
     cells: tuple[Cell, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Fold:
-    """Rows without a register, drawn as one line: stretches (kind, first and last address) in order, without gaps."""
-
-    stretches: tuple[Hole, ...]
+Fold = tuple[Hole, ...]
+"""Rows without a register, drawn as one line: holes in order, without gaps between them."""
 
 
-def sections(
-    found: Sequence[AddressUse], unused: Iterable[Stretch], reserved: Iterable[Stretch]
-) -> tuple[AddressSection, ...]:
+def sections(register_map: RegisterMap, uses: Sequence[AddressUse]) -> tuple[AddressSection, ...]:
     """Return the sections of all spaces, by space and address."""
-    holes = [("unused", *stretch) for stretch in unused] + [("reserved", *stretch) for stretch in reserved]
-    made: list[AddressSection] = []
+    unused = dict.fromkeys(stretch for model in register_map.models for stretch in model.unused)
+    stretches = [("unused", *stretch) for stretch in unused] + [("reserved", *one) for one in register_map.reserved]
+    found: list[AddressSection] = []
     for space in Space:
-        here = [place for place in found if place.space is space]
-        there = [(kind, low, high) for kind, of, low, high in holes if of is space]
-        made += sorted(_of_space(space, here, there), key=lambda section: (section.first, section.last))
-    return tuple(made)
+        own = [use for use in uses if use.space is space]
+        holes = [(kind, low, high) for kind, of, low, high in stretches if of is space]
+        found += sorted(_of_space(space, own, holes), key=lambda section: (section.first, section.last))
+    return tuple(found)
 
 
 def _of_space(space: Space, found: list[AddressUse], holes: list[Hole]) -> Iterator[AddressSection]:
-    regions = list(dict.fromkeys(place.region for place in found if place.region is not None))
+    regions = list(dict.fromkeys(use.region for use in found if use.region is not None))
     if len(regions) > MOST_SECTIONS:
         regions = []
     for region in regions:
-        inside = tuple(place for place in found if place.region == region)
+        inside = tuple(use for use in found if use.region == region)
         yield AddressSection(space, region, inside, _clipped(holes, *region))
-    rest = tuple(place for place in found if place.region not in regions)
+    rest = tuple(use for use in found if use.region not in regions)
     outside = tuple((kind, *gap) for kind, low, high in holes for gap in gaps(regions, low, high))
     if rest or outside:
         yield from _by_view(AddressSection(space, None, rest, outside))
@@ -125,11 +121,11 @@ def _of_space(space: Space, found: list[AddressUse], holes: list[Hole]) -> Itera
 def _by_view(section: AddressSection) -> tuple[AddressSection, ...]:
     """Return a section for each view without a region, if their addresses do not mix; holes go with the first."""
     views: dict[str, list[AddressUse]] = {}
-    for place in section.places:
-        views.setdefault(place.view, []).append(place)
+    for use in section.uses:
+        views.setdefault(use.view, []).append(use)
     parts = [
-        replace(section, places=tuple(places), holes=() if number else section.holes)
-        for number, places in enumerate(views.values())
+        replace(section, uses=tuple(uses), holes=() if number else section.holes)
+        for number, uses in enumerate(views.values())
     ]
     ordered = sorted(parts, key=lambda part: part.first)
     apart = all(one.last < two.first for one, two in pairwise(ordered))
@@ -155,11 +151,11 @@ def gaps(spans: Iterable[tuple[int, int]], low: int, high: int) -> Iterator[tupl
         yield low, high
 
 
-def choose(made: Sequence[AddressSection]) -> Grid:
+def choose(found: Sequence[AddressSection]) -> Grid:
     """Return the finest grid whose rows and cells are not too many."""
     for grid in GRIDS:
-        rows = sum(len(_numbers(section, grid.step)) for section in made)
-        cells = sum(len(_numbers(section, grid.scale)) for section in made)
+        rows = sum(len(_numbers(section, grid.step)) for section in found)
+        cells = sum(len(_numbers(section, grid.scale)) for section in found)
         if rows <= grid.rows and cells <= grid.cells:
             return grid
     return GRIDS[-1]
@@ -167,21 +163,21 @@ def choose(made: Sequence[AddressSection]) -> Grid:
 
 def _numbers(section: AddressSection, step: int) -> set[int]:
     """Return which rows (or cells) of `step` addresses hold a register."""
-    return {number for place in section.places for number in range(place.first // step, place.last // step + 1)}
+    return {number for use in section.uses for number in range(use.first // step, use.last // step + 1)}
 
 
 def layout(section: AddressSection, grid: Grid) -> tuple[AddressRow | Fold, ...]:
     """Return the rows of a section; rows without registers that follow each other are one fold."""
     kinds: dict[int, str] = {}
-    places: dict[int, list[AddressUse]] = {}
+    uses: dict[int, list[AddressUse]] = {}
     for kind, low, high in section.holes:
         kinds.update(dict.fromkeys(range(low // grid.scale, high // grid.scale + 1), kind))
-    for place in section.places:
-        for cell in range(place.first // grid.scale, place.last // grid.scale + 1):
-            places.setdefault(cell, []).append(place)
+    for use in section.uses:
+        for cell in range(use.first // grid.scale, use.last // grid.scale + 1):
+            uses.setdefault(cell, []).append(use)
 
     def content(cell: int) -> Content:
-        found = tuple(places.get(cell, ()))
+        found = tuple(uses.get(cell, ()))
         return cell if found and grid.scale > 1 else -1, found, kinds.get(cell, "")
 
     full = _numbers(section, grid.step)
@@ -204,7 +200,7 @@ def _fold(section: AddressSection, grid: Grid, numbers: Sequence[int]) -> Fold:
         if first <= high:
             stretches.append((kind, max(first, low), high))
         first = max(first, high + 1)
-    return Fold((*stretches, ("", first, last)) if first <= last else tuple(stretches))
+    return (*stretches, ("", first, last)) if first <= last else tuple(stretches)
 
 
 def _row(section: AddressSection, grid: Grid, content: Callable[[int], Content], number: int) -> AddressRow:
@@ -212,10 +208,8 @@ def _row(section: AddressSection, grid: Grid, content: Callable[[int], Content],
     first = max(start, section.first // grid.scale)
     last = min(start + grid.columns - 1, section.last // grid.scale)
     cells: list[Cell] = []
-    for (_, places, kind), run in groupby(range(first, last + 1), key=content):
+    for (_, uses, kind), run in groupby(range(first, last + 1), key=content):
         numbers = list(run)
         end = (numbers[-1] + 1) * grid.scale - 1
-        cells.append(
-            Cell(numbers[0] - start, len(numbers), numbers[0] * grid.scale, end, places, "" if places else kind)
-        )
+        cells.append(Cell(numbers[0] - start, len(numbers), numbers[0] * grid.scale, end, uses, "" if uses else kind))
     return AddressRow(start * grid.scale, tuple(cells))

@@ -1,4 +1,4 @@
-"""Which addresses of which space hold what, on which models: every view and every alias of every register."""
+"""Addresses with the registers that they transmit, by model: every view and every alias of every register."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -6,9 +6,6 @@ from dataclasses import dataclass, replace
 from regscribe.emit.common_values import models_by
 from regscribe.emit.markdown.transmission import view_formula
 from regscribe.model import Access, Model, Register, RegisterMap, Space, View
-
-Stretch = tuple[Space, int, int]
-"""Space, first and last address."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,22 +27,22 @@ class AddressUse:
     models: tuple[str, ...] = ()
 
 
-def places(register_map: RegisterMap) -> tuple[AddressUse, ...]:
-    """Return every place once, with the models that have it, by space and address."""
-    models = models_by((model.name, place) for model in register_map.models for place in _places(model))
-    found = [replace(place, models=tuple(dict.fromkeys(names))) for place, names in models.items()]
-    return tuple(sorted(found, key=lambda place: (list(Space).index(place.space), place.first, place.last)))
+def address_uses(register_map: RegisterMap) -> tuple[AddressUse, ...]:
+    """Return every use once, with the models that have it, by space and address."""
+    models = models_by((model.name, use) for model in register_map.models for use in _uses(model))
+    found = [replace(use, models=tuple(dict.fromkeys(names))) for use, names in models.items()]
+    return tuple(sorted(found, key=lambda use: (list(Space).index(use.space), use.first, use.last)))
 
 
-def _places(model: Model) -> Iterator[AddressUse]:
+def _uses(model: Model) -> Iterator[AddressUse]:
     for register in model.registers:
-        yield from (_place(register, view) for view in register.views)
+        yield from (_use(register, view) for view in register.views)
         for address in register.aliases:
-            base = _place(register, register.base)
+            base = _use(register, register.base)
             yield replace(base, first=address, last=address + register.base.words - 1, region=None, alias=True)
 
 
-def _place(register: Register, view: View) -> AddressUse:
+def _use(register: Register, view: View) -> AddressUse:
     return AddressUse(
         space=view.space,
         first=view.address(register.at),
@@ -61,15 +58,10 @@ def _place(register: Register, view: View) -> AddressUse:
     )
 
 
-def unused(register_map: RegisterMap) -> tuple[Stretch, ...]:
-    """Return the stretches that any model has as unused."""
-    return tuple(dict.fromkeys(stretch for model in register_map.models for stretch in model.unused))
-
-
 def groups(register_map: RegisterMap, found: Sequence[AddressUse]) -> dict[str, str]:
     """Return the names of the groups that have registers by id, in the manual's order; `` for none."""
     names = {group.id: group.name for model in register_map.models for group in model.groups}
-    present = {place.group for place in found}
+    present = {use.group for use in found}
     named = {id_: name for id_, name in names.items() if id_ in present}
-    rest = dict.fromkeys(place.group for place in found if place.group not in names)
+    rest = dict.fromkeys(use.group for use in found if use.group not in names)
     return named | {id_: id_ or "Other registers" for id_ in rest}

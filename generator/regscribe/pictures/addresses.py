@@ -7,7 +7,7 @@ from regscribe.emit.markdown.context import SPACES
 from regscribe.emit.words import listed, span_words
 from regscribe.model import RegisterMap
 from regscribe.pictures.address_rows import AddressRow, AddressSection, Fold, Grid, choose, layout, sections
-from regscribe.pictures.address_use import places, unused
+from regscribe.pictures.address_use import address_uses
 from regscribe.pictures.cell_style import Looks, draw, looks
 from regscribe.pictures.drawing import MARGIN, PLAIN, SMALL, WIDTH, Box, Canvas, Drawing, DrawnLine, Text
 from regscribe.pictures.legend import legend
@@ -30,9 +30,9 @@ Rows = tuple[AddressRow | Fold, ...]
 
 def addresses(register_map: RegisterMap) -> Drawing:
     """Draw the address spaces of a map."""
-    uses = places(register_map)
+    uses = address_uses(register_map)
     styles = looks(register_map, uses)
-    made = sections(uses, unused(register_map), register_map.reserved)
+    made = sections(register_map, uses)
     grid = choose(made)
     layouts = [layout(section, grid) for section in made]
     canvas = Canvas()
@@ -42,8 +42,8 @@ def addresses(register_map: RegisterMap) -> Drawing:
     remark = f"Each row has {grid.step} addresses, {unit}; {address}. The letter in a cell names its group."
     canvas.head(title, (remark,))
     cells = [cell for rows in layouts for row in rows if isinstance(row, AddressRow) for cell in row.cells]
-    used = [styles.look(cell.places) for cell in cells if cell.places]
-    legend(canvas, styles, used, [cell.kind for cell in cells if not cell.places])
+    used = [styles.look(cell.uses) for cell in cells if cell.uses]
+    legend(canvas, styles, used, [cell.kind for cell in cells if not cell.uses])
     several = Counter(section.space for section in made)
     for section, rows in zip(made, layouts, strict=True):
         _section(canvas, _heading(section, several=several[section.space] > 1), rows, grid, styles)
@@ -71,8 +71,8 @@ def _section(canvas: Canvas, heading: str, rows: Rows, grid: Grid, styles: Looks
 def _heading(section: AddressSection, *, several: bool) -> str:
     if not several:
         return SPACES[section.space]
-    types = list(dict.fromkeys(place.type for place in section.places))
-    formulas = list(dict.fromkeys(place.formula for place in section.places if not place.alias))
+    types = list(dict.fromkeys(use.type for use in section.uses))
+    formulas = list(dict.fromkeys(use.formula for use in section.uses if not use.alias))
     view = f"view {section.view}" if section.view else ""
     rule = f"at {listed(formulas)}" if formulas != ["n"] and 0 < len(formulas) <= MOST_FORMULAS else ""
     parts = [f"{SPACES[section.space]} {section.first} to {section.last}", view, listed(types), rule]
@@ -88,10 +88,10 @@ def _row(canvas: Canvas, row: AddressRow, grid: Grid, styles: Looks) -> None:
     canvas.add(Text(LEFT - 8, canvas.y + HEIGHT - 8, str(row.first), PLAIN, "end", "dim"))
     for cell in row.cells:
         left = LEFT + wide * cell.column
-        if cell.places:
+        if cell.uses:
             box = Box(left, canvas.y, wide * cell.span, HEIGHT, "")
-            words = styles.tip(cell.places, cell.first, cell.last)
-            draw(canvas, box, styles.look(cell.places), 12 if grid.columns <= FEW else 9, words)
+            words = styles.tip(cell.uses, cell.first, cell.last)
+            draw(canvas, box, styles.look(cell.uses), 12 if grid.columns <= FEW else 9, words)
         else:
             words = f"{cell.first} to {cell.last}: {cell.kind or 'no register'}"
             style = cell.kind or "empty"
@@ -103,7 +103,7 @@ def _fold(canvas: Canvas, fold: Fold, grid: Grid) -> None:
     """Draw a break: a jagged line on both sides of what is left out."""
     middle = canvas.y + FOLDED / 2
     right = LEFT + _cell_width(grid) * grid.columns
-    words = "; ".join(f"{span_words(low, high)}: {kind or 'no register'}" for kind, low, high in fold.stretches)
+    words = "; ".join(f"{span_words(low, high)}: {kind or 'no register'}" for kind, low, high in fold)
     shown = shorten(words, right - LEFT - 120, SMALL + 1)
     half = width(shown, SMALL + 1) / 2 + 10
     centre = (LEFT + right) / 2

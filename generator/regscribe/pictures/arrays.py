@@ -1,4 +1,4 @@
-"""An array as a picture: what an element holds, the addresses of the first elements and the last, and the formulas."""
+"""Picture of an array: members of an element, addresses of the first elements and the last, and formulas."""
 
 from collections.abc import Iterator
 
@@ -33,7 +33,7 @@ MOST_ROWS = 40
 MOST_LEVELS = 12
 MOST_DEPTH = 4
 MOST_VIEWS = 6
-"""What is drawn at most."""
+"""Most rows, levels, depth and views that are drawn."""
 
 
 def array(register_map: RegisterMap, branch: Branch) -> Drawing:
@@ -99,7 +99,7 @@ def _x(level: Level, column: int) -> float:
 
 
 def _heads(canvas: Canvas, level: Level) -> None:
-    """Draw the index of each element, the arrow to the next one, and what the columns beside them are."""
+    """Draw the index of each element, the arrow to the next one, and the heads of the other columns."""
     canvas.y += 16
     if level.step is not None:
         y, start, end = canvas.y, CELLS + CELL / 2, CELLS + CELL * 1.5

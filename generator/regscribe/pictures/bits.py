@@ -115,8 +115,11 @@ def _word(canvas: Canvas, strip: Strip, low: int, high: int) -> None:
     for bit in range(low, high + 1):
         canvas.add(Text(_x(bit, low) + BIT / 2, canvas.y, str(bit), SMALL, "middle", "dim"))
     canvas.y += 5
-    inside = [slot for slot in strip.slots if slot.field.low <= high and low <= slot.field.high]
-    spans = sorted({(max(slot.field.low, low), min(slot.field.high, high)) for slot in inside})
+    slots: dict[tuple[int, int], list[Slot]] = {}
+    for slot in strip.slots:
+        if slot.field.low <= high and low <= slot.field.high:
+            slots.setdefault((max(slot.field.low, low), min(slot.field.high, high)), []).append(slot)
+    spans = sorted(slots)
     for number, (first, last) in enumerate(spans):
         canvas.add(Box(_x(last, low) + 1, canvas.y, BIT * (last - first + 1) - 2, HEIGHT, tint(number), radius=2))
     for first, last in gaps(spans, low, high):
@@ -125,8 +128,7 @@ def _word(canvas: Canvas, strip: Strip, low: int, high: int) -> None:
     bottom = canvas.y + HEIGHT
     canvas.y = bottom + 6
     for span in spans:
-        there = [slot for slot in inside if (max(slot.field.low, low), min(slot.field.high, high)) == span]
-        _meanings(canvas, there, (_x(span[1], low) + _x(span[0], low) + BIT) / 2, bottom)
+        _meanings(canvas, slots[span], (_x(span[1], low) + _x(span[0], low) + BIT) / 2, bottom)
     canvas.y += 10
 
 

@@ -1,4 +1,4 @@
-"""How a cell of the address map looks: what it shows is told by letter, outline and mark, never by colour alone."""
+"""Style of the cells of the address map: letter, outline and mark say what a cell shows, never colour alone."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -48,38 +48,38 @@ class Looks:
     numbers: dict[str, int]
 
     def look(self, found: Sequence[AddressUse]) -> Look:
-        """Return how a cell with these places looks: the group with the most places counts."""
-        counted = Counter(place.group for place in found)
-        access = {place.access for place in found}
+        """Return how a cell with these uses looks: the group with the most uses counts."""
+        counted = Counter(use.group for use in found)
+        access = {use.access for use in found}
         only = access.pop() if len(access) == 1 else Access.READ_WRITE
         group = max(counted, key=lambda id_: (counted[id_], -self.numbers[id_]))
-        return Look(self.numbers[group], only, all(place.alias for place in found), self._mark(found))
+        return Look(self.numbers[group], only, all(use.alias for use in found), self._mark(found))
 
     def _mark(self, found: Sequence[AddressUse]) -> str:
-        if len({place.group for place in found}) > 1:
+        if len({use.group for use in found}) > 1:
             return SEVERAL
-        if len({(place.path, place.models) for place in found}) > 1 and len({place.models for place in found}) > 1:
+        if len({(use.path, use.models) for use in found}) > 1 and len({use.models for use in found}) > 1:
             return OTHERWISE
         return self.sets.get(found[0].models, "")
 
     def tip(self, found: Sequence[AddressUse], first: int, last: int) -> str:
         """Return the words of a cell's tooltip: its addresses and what they hold."""
-        shown = [self._words(place) for place in found[:MOST_WORDS]]
+        shown = [self._words(use) for use in found[:MOST_WORDS]]
         more = [f"and {len(found) - MOST_WORDS} more"] if len(found) > MOST_WORDS else []
         return f"{span_words(first, last)}: {'; '.join([*shown, *more])}"
 
-    def _words(self, place: AddressUse) -> str:
-        parts = [place.name, f"alias of {place.path}" if place.alias else place.path, ACCESS[place.access]]
-        parts.append(self.groups[place.group])
-        if len(place.models) < len(self.models):
-            parts.append(set_words(place.models, self.models))
+    def _words(self, use: AddressUse) -> str:
+        parts = [use.name, f"alias of {use.path}" if use.alias else use.path, ACCESS[use.access]]
+        parts.append(self.groups[use.group])
+        if len(use.models) < len(self.models):
+            parts.append(set_words(use.models, self.models))
         return ", ".join(shorten(clean(part), TIP, 10) for part in parts)
 
 
 def looks(register_map: RegisterMap, found: Sequence[AddressUse]) -> Looks:
     """Number the groups and the sets of models of all uses of a map."""
     models = tuple(model.name for model in register_map.models)
-    partial = dict.fromkeys(place.models for place in found if len(place.models) < len(models))
+    partial = dict.fromkeys(use.models for use in found if len(use.models) < len(models))
     sets = {names: str(number) if number <= MOST_SETS else MANY for number, names in enumerate(partial, start=1)}
     names = groups(register_map, found)
     return Looks(names, models, sets, {group: number for number, group in enumerate(names)})

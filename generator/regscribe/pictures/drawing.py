@@ -1,4 +1,4 @@
-"""What a picture consists of, before it becomes SVG: boxes, lines and texts at known places, in pixels."""
+"""A picture before it becomes SVG: boxes, lines and texts at positions in pixels."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
@@ -62,7 +62,7 @@ Item = Box | DrawnLine | Text
 
 @dataclass(frozen=True, slots=True)
 class Drawing:
-    """A finished picture: `title` says what it shows, `description` the same for who cannot see it."""
+    """A finished picture with its title and, for those who do not see it, a description."""
 
     title: str
     description: str

@@ -17,7 +17,11 @@ class Level:
     """An array of the tree as its first model has it; those around it are shown at their first element."""
 
     branch: Branch
-    depth: int = 0
+
+    @property
+    def depth(self) -> int:
+        """Return how many arrays it stands in."""
+        return len(self.branch.arrays)
 
     @property
     def array(self) -> Array:
@@ -76,12 +80,12 @@ def lettered_name(name: str) -> str:
     return re.sub(r"\{([ij])\}", r"\1", name)
 
 
-def levels(branch: Branch, depth: int = 0) -> Iterator[Level]:
-    """Yield an array and the arrays in it, each before what it holds."""
-    yield Level(branch, depth)
+def levels(branch: Branch) -> Iterator[Level]:
+    """Yield an array and the arrays in it, outer ones first."""
+    yield Level(branch)
     for child in branch.children:
         if isinstance(child, Branch):
-            yield from levels(child, depth + 1)
+            yield from levels(child)
 
 
 def _base(leaf: Leaf) -> View:

@@ -104,7 +104,7 @@ SHAPES = {
     "mark": "pointer-events:none",
     **{f"o{index}": "stroke-width:2.5" for index in range(len(EDGES))},
 }
-"""What classes have beside colours."""
+"""Declarations of classes beside their colours."""
 
 PATTERNS = (
     '<pattern id="unused" width="6" height="6" patternUnits="userSpaceOnUse">'

@@ -1,4 +1,4 @@
-"""How wide text may get, in a font that nobody knows beforehand: measured by a wide one, so that narrower ones fit."""
+"""Width of text in a font that is not known beforehand: measured in a wide one, so that narrower ones fit."""
 
 import re
 import unicodedata
@@ -26,14 +26,14 @@ BOLD = 1.2
 
 ASCENT = 0.8
 DESCENT = 0.24
-"""What letters take above and below their base line, in font sizes."""
+"""Height of letters above and below their base line, in font sizes."""
 
 ELLIPSIS = "…"
 
 INVALID = re.compile(
     r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069\ufeff\ud800-\udfff\ufffe\uffff]"
 )
-"""What XML forbids, shows as nothing or turns the direction of its neighbours."""
+"""Characters that XML forbids, that are invisible, or that turn the direction of their neighbours."""
 
 
 def clean(text: str) -> str:

@@ -66,18 +66,18 @@ class Violation:
 
 
 def violation(error: "ValidationError") -> Violation:
-    """Take over what is needed of an error; its own message shows the instance, so it is not."""
+    """Convert an error, without its message, which holds the whole instance."""
     schema = error.schema if isinstance(error.schema, dict) else {}
     return Violation(str(error.validator), tuple(error.absolute_path), schema, error.validator_value, error.instance)
 
 
 def complaints(error: Violation) -> Iterator[Complaint]:
-    """Say what one violation means: one complaint for each key concerned."""
+    """Yield the messages of one violation: one for each key concerned."""
     kind = error.kind
     if kind == "additionalProperties":
         yield from _unknown_keys(error)
     elif kind in {"required", "dependentRequired"}:
-        yield from (_missing_key(error, key) for key in _needed(error) if key not in error.instance)
+        yield from _missing_keys(error)
     elif kind == "not":
         said = f"`{error.path[-1]}` {error.schema.get('description', 'cannot stand here')}"
         yield Complaint(rules.EXCLUSIVE_KEYS, error.path, said, "delete one of the two", at_key=True)
@@ -117,20 +117,19 @@ def _meant(key: str, known: Mapping[str, Mapping[str, Any]]) -> str:
     return f"did you mean `{near[0]}`?" if near else f"the keys here are: {', '.join(known)}"
 
 
-def _needed(error: Violation) -> list[str]:
-    """List the keys that must be there, or must be for the sake of others that are."""
-    if isinstance(error.bound, list):
-        return error.bound
-    return [key for given, keys in error.bound.items() if given in error.instance for key in keys]
-
-
-def _missing_key(error: Violation, key: str) -> Complaint:
-    said = error.schema.get("x-missing", f"`{key}`")
+def _missing_keys(error: Violation) -> Iterator[Complaint]:
+    needed = error.bound
+    if error.kind == "dependentRequired":
+        needed = [key for given, keys in error.bound.items() if given in error.instance for key in keys]
     where = f" in {title(error.schema)}" if "title" in error.schema else ""
-    details = error.schema.get("properties", {}).get(key, {})
-    meaning = str(details.get("description", "")).split(". ")[0].rstrip(".")
-    advice = ", ".join(filter(None, (f"add {said}{f' ({meaning})' if meaning else ''}", example(details))))
-    return Complaint(rules.MISSING_KEY, error.path, f"{said} is missing{where}", advice, at_key=True, subject=key)
+    for key in needed:
+        if key in error.instance:
+            continue
+        said = error.schema.get("x-missing", f"`{key}`")
+        details = error.schema.get("properties", {}).get(key, {})
+        meaning = str(details.get("description", "")).split(". ")[0].rstrip(".")
+        advice = ", ".join(filter(None, (f"add {said}{f' ({meaning})' if meaning else ''}", example(details))))
+        yield Complaint(rules.MISSING_KEY, error.path, f"{said} is missing{where}", advice, at_key=True, subject=key)
 
 
 def _wrong_type(error: Violation) -> Complaint:

@@ -1,4 +1,4 @@
-"""What the shape of a map must keep to: known keys, the right types, one form for each value."""
+"""Rules of the shape of a map: known keys, the right types, one form for each value."""
 
 from regscribe.model import Rule
 

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 from regscribe.map_files import data_folder
 
 if TYPE_CHECKING:
-    from jsonschema import ValidationError
     from jsonschema.protocols import Validator
 
 MAP = "map"
@@ -27,12 +26,17 @@ def schema_json(language: str = MAP) -> dict[str, Any]:
 @cache
 def validator(language: str = MAP) -> "Validator":
     """Return the validator of a language, built at the first call."""
-    from jsonschema import Draft202012Validator  # noqa: PLC0415 - 60 ms that a document without mistakes does not need
+    from jsonschema import Draft202012Validator, ValidationError  # noqa: PLC0415 - 60 ms that few documents need
     from jsonschema.validators import extend  # noqa: PLC0415 - as above
+
+    def unique_items(_: "Validator", unique: Any, instance: Any, __: Any) -> Iterator[ValidationError]:  # noqa: ANN401  JSON
+        """Find an element given twice in linear time; jsonschema compares each with each where types differ."""
+        if unique and isinstance(instance, list) and given_twice(instance):
+            yield ValidationError("an element is given twice")
 
     schema = schema_json(language)
     checks: type[Validator] = extend(  # type: ignore[no-untyped-call]  # types-jsonschema leaves it untyped
-        Draft202012Validator, {"uniqueItems": _unique_items}
+        Draft202012Validator, {"uniqueItems": unique_items}
     )
     return checks(_inline(schema, schema.get("$defs", {}), {}))
 
@@ -71,14 +75,6 @@ def resolved(node: Mapping[str, Any], definitions: Mapping[str, Any]) -> dict[st
 def exact(pattern: str) -> str:
     r"""Let a pattern's `$` mean the end, as in ECMA 262; in Python it also stands before a last line feed."""
     return f"{pattern[:-1]}\\Z" if pattern.startswith("^") and pattern.endswith("$") else pattern
-
-
-def _unique_items(_: "Validator", unique: Any, instance: Any, __: Any) -> "Iterator[ValidationError]":  # noqa: ANN401  JSON
-    """Find an element given twice, in linear time (jsonschema compares each with each where types differ)."""
-    from jsonschema import ValidationError  # noqa: PLC0415 - as above
-
-    if unique and isinstance(instance, list) and given_twice(instance):
-        yield ValidationError("an element is given twice")
 
 
 def given_twice(elements: Sequence[Any]) -> bool:

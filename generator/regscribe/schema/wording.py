@@ -22,23 +22,18 @@ def example(schema: Mapping[str, Any]) -> str:
 
 
 def inline(value: object) -> str:
-    """Write a value of the schema on one line of YAML."""
+    """Write a value of the schema on one line of YAML, with quotes where YAML would take a text for something else."""
     if isinstance(value, dict):
         return "{" + ", ".join(f"{key}: {inline(element)}" for key, element in value.items()) + "}"
     if isinstance(value, list):
         return f"[{', '.join(inline(element) for element in value)}]"
-    if isinstance(value, bool):
-        return str(value).lower()
-    return _scalar(value) if isinstance(value, str) else str(value)
-
-
-def _scalar(text: str) -> str:
-    """Quote a text that YAML would take for something else."""
+    if not isinstance(value, str):
+        return str(value).lower() if isinstance(value, bool) else str(value)
     try:
-        plain = bool(_PLAIN.match(text)) and isinstance(resolve(text), str)
+        plain = bool(_PLAIN.match(value)) and isinstance(resolve(value), str)
     except NumberFormError:
         plain = False
-    return text if plain else "'" + text.replace("'", "''") + "'"
+    return value if plain else "'" + value.replace("'", "''") + "'"
 
 
 def describe(value: object) -> str:

@@ -33,11 +33,11 @@ class SourcePlace(NamedTuple):
 
 
 START = SourcePlace(0, 0, 0, 0)
-"""The start of a file: the place of what is wrong with the file as a whole."""
+"""The start of a file: the place of mistakes of the file as a whole."""
 
 
 class SourceNode(NamedTuple):
-    """One value: its place, the places of its keys, what it holds, and its size with all aliases expanded."""
+    """One value with its place, the places of its keys, its children, and its size with all aliases expanded."""
 
     value: Plain
     place: SourcePlace

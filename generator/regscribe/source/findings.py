@@ -13,7 +13,7 @@ Others = tuple[tuple[str, SourcePlace], ...]
 
 
 class StopReadingError(Exception):
-    """The rest of the file is not worth reading; what is known stands in the findings."""
+    """Reading ends here; the reason is the last of the findings."""
 
 
 @dataclass(slots=True)

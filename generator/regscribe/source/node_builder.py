@@ -31,7 +31,7 @@ _BLANK_OR_COMMENT = re.compile(r"(?:[ \t]*+(?:#.*)?+(?:\n|\Z))*+[ \t]*+")
 
 
 class NodeBuilder:
-    """Builds the tree of one file; what is wrong goes to `findings`. With `escapes` these may spell any character."""
+    """Builds the tree of one file, and adds its mistakes to `findings`; `escapes` allows any character as an escape."""
 
     def __init__(self, text: str, findings: Findings, *, escapes: bool = False) -> None:
         self._escapes = escapes
@@ -177,7 +177,7 @@ class NodeBuilder:
         self._stack[-1].attach(node._replace(place=place))
 
     def _check_limits(self, size: int, height: int, place: SourcePlace) -> None:
-        """Count the values of a node and the levels that it adds to those that are open."""
+        """Count the values of a node, and check the depth with its own levels; raises StopReadingError."""
         self._values += size
         if self._values > MAX_VALUES:
             message = f"more than {MAX_VALUES:,} values with all aliases expanded"

@@ -1,4 +1,4 @@
-"""What a file must keep to before its meaning is looked at: readable, UTF-8, YAML 1.2 in one sense only."""
+"""Rules of a file before its meaning is looked at: readable, UTF-8, YAML 1.2 in one sense only."""
 
 from regscribe.model import Rule
 

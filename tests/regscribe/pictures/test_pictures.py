@@ -32,7 +32,7 @@ from regscribe.model import (
 )
 from regscribe.pictures import drawings, render, style
 from regscribe.pictures.address_rows import GRIDS, AddressRow, layout, sections
-from regscribe.pictures.address_use import places, unused
+from regscribe.pictures.address_use import address_uses
 from regscribe.pictures.cell_style import looks
 from regscribe.pictures.drawing import WIDTH, Box, Drawing, Text
 from regscribe.pictures.text_width import clean, shorten, width, wrap
@@ -291,7 +291,8 @@ def test_the_region_of_each_view_is_a_strip_of_its_own(oven: RegisterMap) -> Non
 def test_a_hole_is_cut_at_the_regions_of_views() -> None:
     view = View("x10", WireType.UINT16, offset=1000, region=(1000, 1999))
     place = replace(register("a", 5), views=(register("a", 5).base, view))
-    found = sections(places(family(model("A", [place]))), [(Space.HOLDING, 900, 1100)], ())
+    register_map = family(model("A", [place], unused=((Space.HOLDING, 900, 1100),)))
+    found = sections(register_map, address_uses(register_map))
     assert [(section.region, section.holes) for section in found] == [
         (None, (("unused", 900, 999),)),
         ((1000, 1999), (("unused", 1000, 1100),)),
@@ -391,12 +392,10 @@ def test_shortened_and_wrapped_text_fits_its_room(text: str) -> None:
 
 
 def test_rows_of_a_section_follow_each_other_without_a_gap(any_map: RegisterMap) -> None:
-    for section in sections(places(any_map), unused(any_map), any_map.reserved):
+    for section in sections(any_map, address_uses(any_map)):
         rows = layout(section, GRIDS[0])
         spans = [
-            (row.cells[0].first, row.cells[-1].last)
-            if isinstance(row, AddressRow)
-            else (row.stretches[0][1], row.stretches[-1][2])
+            (row.cells[0].first, row.cells[-1].last) if isinstance(row, AddressRow) else (row[0][1], row[-1][2])
             for row in rows
         ]
         assert spans[0][0] == section.first
@@ -410,6 +409,6 @@ def test_no_two_paints_of_neighbouring_groups_are_alike() -> None:
 
 def test_groups_of_the_largest_map_that_comes_along_have_colours_of_their_own() -> None:
     maps = [compiled for path in MAPS if (compiled := compile_map(path).map)]
-    largest = max(len(looks(one, places(one)).groups) for one in maps)
+    largest = max(len(looks(one, address_uses(one)).groups) for one in maps)
     assert len({style.tint(number) for number in range(largest)}) == largest > 12
     assert len({style.outline(number) for number in range(largest)}) == largest

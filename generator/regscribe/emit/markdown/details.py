@@ -16,22 +16,20 @@ Rows = tuple[tuple[Md, ...], ...]
 
 def views(context: PageContext, leaf: Leaf) -> tuple[Titled, ...]:
     """Return the table of views of a register that has several, once or by model."""
-    facts = leaf.register.states(lambda _, register: _view_rows(context, leaf, register))
-    return titled("Views", ("View", "Wire address", "Other notation", "Type"), facts)
 
+    def rows(_: Model, register: Register) -> Rows:
+        found: list[tuple[Md, ...]] = []
+        for view in register.views if len(register.views) > 1 else ():
+            name, at = md(code(view.name), " (preferred)" if view is register.preferred else ""), register.at
+            if leaf.arrays:
+                found.append((name, code(formula(view, at, leaf.arrays)), Md(), escape(view_type(view))))
+            else:
+                address = view.address(at)
+                notations = context.notations(view.space, address)
+                found.append((name, escape(str(address)), notations, escape(view_type(view))))
+        return tuple(found)
 
-def _view_rows(context: PageContext, leaf: Leaf, register: Register) -> Rows:
-    if len(register.views) == 1:
-        return ()
-    return tuple(
-        (
-            md(code(view.name), " (preferred)" if view is register.preferred else ""),
-            code(formula(view, register.at, leaf.arrays)) if leaf.arrays else escape(str(view.address(register.at))),
-            Md() if leaf.arrays else context.notations(view.space, view.address(register.at)),
-            escape(view_type(view)),
-        )
-        for view in register.views
-    )
+    return titled("Views", ("View", "Wire address", "Other notation", "Type"), leaf.register.states(rows))
 
 
 def by_condition(context: PageContext, leaf: Leaf) -> tuple[Titled, ...]:

@@ -142,7 +142,7 @@ def _paragraphs(*parts: Md) -> tuple[Md, ...]:
 
 
 def commands(context: PageContext) -> tuple[RegisterEntry, ...]:
-    """Return the commands of all models with their steps and what they may destroy."""
+    """Return the commands of all models with their steps and dangers."""
     found = merge(context.map.models, lambda model: model.commands, lambda command: command.id)
     return tuple(_command(context, shared) for shared in found)
 

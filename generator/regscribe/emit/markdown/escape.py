@@ -15,7 +15,7 @@ BLOCK_START = re.compile(r" ?(?:[-+](?=[ -]|$)|=(?==* ?$)|\d{1,9}[.)](?= |$))")
 """A list marker, a rule or the underline of a heading at the start of a line."""
 
 ADDRESS = re.compile(r"(?:https?|ftp)://[^\s`|<>]*|\bwww\.[^\s`|<>]*|[\w.+-]{1,64}@[\w.-]+", re.IGNORECASE)
-"""What renderers turn into links on their own; inside a code span they do not. Without the 64, long words take ages."""
+"""Addresses that renderers turn into links, but not in a code span; without the 64, long words take ages."""
 
 CONTROL = re.compile(r"[\x00-\x08\x0e-\x1f\x7f-\x9f\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069\ufeff\ud800-\udfff]")
 """Characters that show as nothing or turn the direction of their neighbours; joiners of emoji are not among them."""

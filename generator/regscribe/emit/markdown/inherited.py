@@ -8,7 +8,7 @@ from regscribe.model import Override
 
 PLURALS = frozenset({"errata", "examples", "notes", "waivers"})
 INTERNAL = frozenset({"waivers"})
-"""What is between the map and the compiler, and no fact of the device."""
+"""Parts of a map that are no facts of the device."""
 
 WORDS = "description"
 """A key whose text stands at the thing itself."""
@@ -24,7 +24,7 @@ def base(context: PageContext) -> Md:
 
 
 def overrides(context: PageContext) -> PageTable:
-    """Return what differs from the map that this one extends, with the reason of each."""
+    """Return the differences from the map that this one extends, with their reasons."""
     shown = (item for item in context.map.overrides if item.what not in INTERNAL)
     rows = ((_subject(context, item), _change(item), prose(item.reason)) for item in shown)
     return table(("What", "How it differs", "Why"), rows)

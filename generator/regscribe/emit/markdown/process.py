@@ -22,7 +22,7 @@ Row = tuple[str, str]
 
 
 def follows(context: PageContext, model: Model, register: Register) -> Md:
-    """Return what a register, or its bits, take from others by themselves."""
+    """Return the registers that a register, and the conditions that its bits, follow."""
     cases = (md(context.register(case.then), _when(context, case.when, model)) for case in register.follows)
     bits = (
         md(code(field.id), " is set when ", context.condition(field.follows, model))
@@ -33,7 +33,7 @@ def follows(context: PageContext, model: Model, register: Register) -> Md:
 
 
 def effects(context: PageContext, model: Model, found: tuple[Effect, ...]) -> Md:
-    """Return what a command changes, in a sentence; nothing if the map does not say."""
+    """Return the changes of a command in a sentence; empty if the map does not say."""
     parts: list[Md] = []
     for effect in found:
         when = _when(context, effect.when, model)
@@ -60,7 +60,7 @@ def process(context: PageContext) -> PageTable:
 
 
 def assumptions(context: PageContext) -> tuple[Md, ...]:
-    """Return what a simulator assumes of the process, and why, each once."""
+    """Return the assumptions of the simulator about the process, with their reasons, each once."""
     found = dict.fromkeys(pair for model in context.map.models if model.process for pair in model.process.assumed)
     return tuple(md(one_line(what), " (", one_line(why), ")") for what, why in found)
 

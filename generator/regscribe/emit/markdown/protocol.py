@@ -26,7 +26,7 @@ FUNCTIONS = {
 }
 BIT_FUNCTIONS = frozenset({1, 2, 5, 15})
 USUAL = " (as Modbus has it; not stated here)"
-"""Behind what a page says of the line though the map gives no such key: it is a fact of Modbus, not of the manual."""
+"""Stands behind a default of Modbus for which the map has no key."""
 
 LATER_READ = {
     Later.EXCEPTION: "",
@@ -66,7 +66,7 @@ def _requests(register_map: RegisterMap) -> Iterable[tuple[str, Md]]:
 
 
 def _most(register_map: RegisterMap, what: str) -> str:
-    """Return how much one request may carry, and what the device is known to answer beyond that."""
+    """Return the most that one request may carry, and the limit that the device is known to accept."""
     found = []
     for verb in ("read", "write"):
         limit = f"{verb}_{what}"
@@ -157,7 +157,7 @@ def _answer(context: PageContext, code: int) -> Md:
 
 
 def exceptions(context: PageContext) -> PageTable:
-    """Return what the device means by its exception codes."""
+    """Return the exception codes of the device with their meanings."""
     found = context.map.protocol.exceptions
     rows = ((f"{item.code:02d}", item.name, prose(item.meaning)) for item in found)
     return table(("Code", "Name", "Meaning"), rows)

@@ -58,7 +58,7 @@ def _body(model: Model, *, wait: str) -> list[str]:
 
 
 def _shown_register(model: Model) -> Register | None:
-    """Return what a user wants to see first: a measured number, best with faults, aliases or a unit by condition."""
+    """Return the register to read: a measured number, best with faults, aliases or a unit by condition."""
 
     def interest(register: Register) -> int:
         return bool(register.sentinels) + bool(register.aliases) + bool(register.unit_id)

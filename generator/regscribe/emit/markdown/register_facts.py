@@ -86,7 +86,7 @@ def _facts(context: PageContext, leaf: Leaf, model: Model, register: Register) -
 
 
 def _value_facts(context: PageContext, model: Model, register: Register) -> Iterator[tuple[str, Md]]:
-    """Yield how the value is transmitted, and what it may be; what depends on conditions has a table of its own."""
+    """Yield transmission, range and form of the value; facts by condition have a table of their own."""
     wording, limits, scale = context.wording(model), register.range, register.scale
     single = len(register.views) == 1
     sent = (md(view_type(register.base)), transmission(context, register.base)) if single else ()
@@ -128,7 +128,7 @@ def indices(arrays: Sequence[Array]) -> Md:
 
 
 def transmission(context: PageContext, view: View) -> Md:
-    """Return what a view does to the stored value: factor, rounding, saturation, order, functions, alignment."""
+    """Return the transmission of a view: factor, rounding, saturation, orders, functions, alignment."""
     order = view.order
     words = Md()  # for the usual order, and for a single word in a fixed order
     if order is not Order.BIG and (view.words > 1 or not isinstance(order, Order)):

@@ -17,7 +17,7 @@ Shape = tuple[tuple[str, View], ...]
 
 
 def plain(context: PageContext) -> tuple[Md, ...]:
-    """Return how the registers with one view are transmitted, and what cannot be scaled."""
+    """Return sentences on the types of registers with one view, and on registers without a scale."""
     registers = [leaf.register.first for leaf in leaves(context.nodes)]
     counts = Counter(view_type(register.base) for register in registers if len(register.views) == 1)
     raw = sum(register.kind is Kind.RAW for register in registers)
@@ -105,7 +105,7 @@ def units(context: PageContext) -> PageTable:
 
 
 def givens(context: PageContext) -> PageTable:
-    """Return what the user of a driver must supply, and why."""
+    """Return the arguments that the user of a driver must give, with their reasons."""
     rows = (
         (
             code(item.id),
