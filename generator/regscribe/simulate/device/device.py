@@ -9,11 +9,10 @@ from typing import Any
 from regscribe.model import SILENCE, Model, RegisterMap, Space
 from regscribe.simulate.device import state_files
 from regscribe.simulate.device.commands import Commands
-from regscribe.simulate.device.read_requests import Reader, Refusal
 from regscribe.simulate.device.side_effects import Conduct
 from regscribe.simulate.device.state import DeviceState, Value
 from regscribe.simulate.device.value_arguments import Plain
-from regscribe.simulate.device.write_requests import Writer
+from regscribe.simulate.device.word_access import Refusal, WordAccess
 from regscribe.simulate.errors import SimulatorError
 from regscribe.simulate.givens import GivenValue
 from regscribe.simulate.line.line_settings import Tuning
@@ -56,9 +55,8 @@ class SimulatedDevice:
         self._tuning = Tuning(self.state, unit=_unit(register_map, unit), addressing=addressing)
         self._protocol = register_map.protocol
         self._commands = Commands(self.model.commands)
-        self._reader = Reader(self.state, seed, self.unit)
         self._conduct = Conduct(self.state, self._commands, controller_of(self.state, process=process, seed=seed))
-        self._writer = Writer(self.state, self._commands, self._conduct)
+        self._words = WordAccess(self.state, self._commands, self._conduct, seed, self.unit)
         self.moves = bool(process)
         self._lock = RLock()
         self._functions: dict[int, Callable[[bytes], bytes]] = {
@@ -183,7 +181,7 @@ class SimulatedDevice:
     def _read(self, pdu: bytes) -> bytes:
         request = self._request(pdu)
         function = self._reading(request.function, request.address)
-        words = self._reader.read(READS[function], function, request.address, request.quantity)
+        words = self._words.read(READS[function], function, request.address, request.quantity)
         return encode_reply(Reply(request.function, words))
 
     def _reading(self, function: int, address: int) -> int:
@@ -195,7 +193,7 @@ class SimulatedDevice:
     def _write(self, request: Request) -> int:
         """Write what a request carries; returns how many values were written."""
         space = functions.SPACES[request.function]
-        return self._writer.write(space, request.function, request.address, request.words)
+        return self._words.write(space, request.function, request.address, request.words)
 
     def _write_one(self, pdu: bytes) -> bytes:
         self._write(self._request(pdu))
@@ -209,9 +207,9 @@ class SimulatedDevice:
     def _mask_word(self, pdu: bytes) -> bytes:
         request = self._request(pdu)
         keep, put = request.words
-        (word,) = self._reader.read(Space.HOLDING, request.function, request.address, 1)
+        (word,) = self._words.read(Space.HOLDING, request.function, request.address, 1)
         masked = ((word & keep) | (put & ~keep & 0xFFFF),)
-        self._writer.write(Space.HOLDING, request.function, request.address, masked)
+        self._words.write(Space.HOLDING, request.function, request.address, masked)
         return pdu
 
     def _write_and_read(self, pdu: bytes) -> bytes:
@@ -219,8 +217,8 @@ class SimulatedDevice:
         function = pdu[0]
         read = self._request(bytes([functions.READ_HOLDING]) + pdu[1:5])
         write = self._request(bytes([functions.WRITE_REGISTERS]) + pdu[5:])
-        self._writer.write(Space.HOLDING, function, write.address, write.words)
-        words = self._reader.read(Space.HOLDING, function, read.address, read.quantity)
+        self._words.write(Space.HOLDING, function, write.address, write.words)
+        words = self._words.read(Space.HOLDING, function, read.address, read.quantity)
         return encode_reply(Reply(function, words))
 
     def _status(self, pdu: bytes) -> bytes:

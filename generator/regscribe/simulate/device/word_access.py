@@ -1,5 +1,7 @@
-"""Write requests: value by value, whole values only, up to the first one that the device refuses."""
+"""Read and write requests to the words (or bits) of a device, with its answers to those that it refuses."""
 
+import struct
+import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -7,27 +9,86 @@ from regscribe.model import Later, Register, Space
 from regscribe.reference import holds
 from regscribe.simulate.device import codec
 from regscribe.simulate.device.commands import Commands
-from regscribe.simulate.device.device_plan import AddressSpan, Stored
-from regscribe.simulate.device.read_requests import Refusal, check_request
+from regscribe.simulate.device.device_plan import AddressSpan, Blueprint, Stored
 from regscribe.simulate.device.side_effects import Conduct
 from regscribe.simulate.device.state import DeviceState
 
 WRITE_ONE = 6
 
 
+class Refusal(Exception):  # noqa: N818 -- the device refuses; nothing went wrong in the program
+    """The device refuses a request: `code` is the exception code that it answers, or `SILENCE`."""
+
+    def __init__(self, code: int) -> None:
+        super().__init__(f"exception code {code}")
+        self.code = code
+
+
+def check_request(blueprint: Blueprint, space: Space, function: int, address: int, count: int, *, most: str) -> None:
+    """Refuse a request for its form: count (`most` names the limit), function or alignment in the region of a view.
+
+    The form is checked before any register is looked up, as devices do.
+    """
+    faults = blueprint.register_map.faults
+    if not 1 <= count <= blueprint.register_map.accepted(f"{most}_bits" if space.is_bits else f"{most}_words"):
+        raise Refusal(faults.quantity)
+    region = blueprint.layout.region(space, address)
+    if region is None:
+        return
+    if region.functions and function not in region.functions:
+        raise Refusal(faults.view_function)
+    if count % region.align:
+        raise Refusal(faults.misaligned_count)
+    if address % region.align:
+        raise Refusal(faults.misaligned_address)
+
+
 @dataclass(frozen=True, slots=True)
-class Writer:
-    """Writes words (or bits) of one device through any view; half of a value is refused as misaligned."""
+class WordAccess:
+    """Reads and writes words of one device through any view; half of a value is refused as misaligned.
+
+    `seed` and `unit` make the garbage behind the end of a value its own, and the same at every run.
+    """
 
     state: DeviceState
     commands: Commands
     conduct: Conduct
+    seed: int
+    unit: int
+
+    def read(self, space: Space, function: int, address: int, count: int) -> tuple[int, ...]:
+        """Return the `count` words (bits) from `address` on; raises Refusal."""
+        blueprint = self.state.blueprint
+        check_request(blueprint, space, function, address, count, most="read")
+        for each in range(address, address + count):
+            place = blueprint.layout.place(space, each)
+            if place is not None and not place.view.allows(function):
+                raise Refusal(blueprint.register_map.faults.view_function)
+        return tuple(
+            self._fill(space, address + index, first=index == 0) if word is None else word
+            for index, word in enumerate(self.state.words(space, address, count))
+        )
+
+    def _fill(self, space: Space, address: int, *, first: bool) -> int:
+        """The word at an address where no readable register stands; raises Refusal."""
+        layout, register_map = self.state.blueprint.layout, self.state.blueprint.register_map
+        later = register_map.faults.later_read
+        if (space, address) in layout.reserved or (space, address) in layout.unused:
+            return 0
+        hole = layout.documents(space, address) and layout.place(space, address) is None
+        if hole and later is not Later.GARBAGE and register_map.protocol.read_holes:
+            return 0
+        if first or later not in {Later.GARBAGE, Later.ZEROS}:
+            raise Refusal(register_map.faults.address)
+        garbage = zlib.crc32(struct.pack(">qBI", self.seed, self.unit & 0xFF, address))
+        return 0 if later is Later.ZEROS else garbage & (1 if space.is_bits else 0xFFFF)
 
     def write(self, space: Space, function: int, address: int, words: Sequence[int]) -> int:
         """Write from `address` on; returns how many words (bits) were written. Raises Refusal.
 
-        Where the protocol says that a later bad word stops the write, fewer than all may be written; otherwise a
-        refused request leaves the state as it was. A command counts as run once its words are written.
+        The values are written one by one. Where the protocol says that a later bad word stops the write, fewer than all
+        may be written; otherwise a refused request leaves the state as it was. A command is run once its words are
+        written.
         """
         check_request(self.state.blueprint, space, function, address, len(words), most="write")
         place = self.state.blueprint.layout.place(space, address)
