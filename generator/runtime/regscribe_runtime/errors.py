@@ -1,31 +1,8 @@
-"""What can go wrong when a driver talks to a device: one small tree.
-
-RegscribeError
-├── LinkLost            the link is closed, or broke
-├── NoAnswer            nothing came within the response timeout
-├── ExceptionAnswer     the device refused, with a code and its own meaning of it
-├── WrongAnswer         an answer that does not fit the request
-│   └── PartialWrite    fewer words were written than were sent
-├── Absent              this unit does not have the register: a batch goes round it for a while
-├── Unsteady            what the values depend on changed while they were read, again and again
-├── ValueRefused        refused here, before anything was sent
-│   ├── ConditionNotMet the register cannot be written in the present state of the device
-│   └── ValuesRefused   several values of one `configure`
-├── WriteFailed         a write was sent and did not come to its good end
-│   ├── NotWritten      certainly not carried out
-│   ├── WriteUnknown    nobody can tell whether it was carried out
-│   ├── ReadBackDiffers the device took the write and holds another value
-│   ├── NotApplied      carried out, but the command that makes it take effect was not
-│   ├── NotConfigured   `configure` broke off: its report says what was written, undone, unknown
-│   └── LeftAt          the device talks otherwise now than this link does
-└── ValueNotDecodable   words that are no value of the register
-    ├── SensorFault     a sentinel: the device reports a fault instead of a number
-    ├── Saturated       the view was clipped: the true value lies at or beyond its end
-    └── NotDecodable    anything else (no scale holds, not a number, a version with too many digits)
+"""Errors of drivers, one tree below `RegscribeError`.
 
 A lost answer to a write is never answered by sending it again: the register is read back. If that shows the value, the
 write was good. Otherwise NotWritten or WriteUnknown say so, and they are NoAnswer, LinkLost or WrongAnswer as well,
-whichever it was: who handles these handles the lost write with them.
+whichever it was, so that code which handles these handles the lost write as well.
 """
 
 from collections.abc import Mapping, Sequence
@@ -67,7 +44,7 @@ STANDARD = {
 }
 """The names of exception codes where the device's manual gives none (Modbus Application Protocol V1.1b3, section 7)."""
 GATEWAY = frozenset({10, 11})
-"""Exceptions of a gateway, not of the device: nobody answered behind it."""
+"""Exceptions of a gateway instead of a device: no unit answered behind it."""
 
 
 class ExceptionAnswer(RegscribeError):  # noqa: N818 (as above)
@@ -155,7 +132,7 @@ class ValuesRefused(ValueRefused):
 
 
 class WriteFailed(RegscribeError):  # noqa: N818 (as above)
-    """A write to `register` (a path, or the id of a command) was sent and did not come to its good end."""
+    """A write to `register` (a path, or the id of a command) was sent and did not succeed."""
 
     def __init__(self, register: str, reason: str) -> None:
         self.register, self.reason = register, reason
@@ -187,7 +164,7 @@ class NotApplied(WriteFailed):
 
 
 class NotConfigured(WriteFailed):
-    """`configure` broke off; `report` says of each register what became of it."""
+    """`configure` broke off; `report` has the fate of each register: written, undone, unknown."""
 
     def __init__(self, reason: str, report: WriteReport) -> None:
         self.report = report
@@ -195,7 +172,7 @@ class NotConfigured(WriteFailed):
 
 
 class LeftAt(WriteFailed):
-    """After `register` was written the device is not found: neither as it talked before nor as it was told to talk.
+    """After `register` was written the device answers neither under its former settings nor under the new ones.
 
     `before` and `asked` are the two settings in words.
     """
@@ -222,32 +199,24 @@ class SensorFault(ValueNotDecodable):
 
 
 class Saturated(ValueNotDecodable):
-    """The view stands at the end of its range: the value is this or beyond, so it is not decoded."""
+    """The view stands at the end of its range: the true value lies there or beyond, so it is not decoded."""
 
 
 class NotDecodable(ValueNotDecodable):
-    """Words that mean nothing under the present state of the device."""
+    """Words without meaning in the present state: no scale holds, not a number, too many digits of a version."""
 
 
 LOST = (NoAnswer, LinkLost, WrongAnswer)
-"""What can happen to the answer of a write that was carried out nevertheless."""
+"""Errors after which a write may have been carried out nevertheless."""
 
 
 def lost(kind: type[WriteFailed], register: str, reason: str, cause: Exception) -> WriteFailed:
-    """An error of `kind` that is of the kind of its cause as well: NoAnswer, LinkLost or WrongAnswer."""
+    """An error of `kind` that is of the class of its cause as well: NoAnswer, LinkLost or WrongAnswer."""
     base = next((one for one in LOST if isinstance(cause, one)), None)
-    made = kind if base is None else _both(kind, base)
-    error = made.__new__(made)
+    if base is not None:
+        kind = type(f"{kind.__name__}{base.__name__}", (kind, base), {"__doc__": kind.__doc__})
+    error = kind.__new__(kind)
     error.__dict__.update(vars(cause))
     WriteFailed.__init__(error, register, reason)
     error.__cause__ = cause
     return error
-
-
-_BOTH: dict[tuple[type[WriteFailed], type[RegscribeError]], type[WriteFailed]] = {}
-
-
-def _both(kind: type[WriteFailed], base: type[RegscribeError]) -> type[WriteFailed]:
-    if (kind, base) not in _BOTH:
-        _BOTH[kind, base] = type(f"{kind.__name__}{base.__name__}", (kind, base), {"__doc__": kind.__doc__})
-    return _BOTH[kind, base]

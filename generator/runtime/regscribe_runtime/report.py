@@ -1,6 +1,7 @@
-"""What became of writes: a report for each register and command of a `configure`, and the count of EEPROM writes."""
+"""Reports of writes: the fate of each register and command of a `configure`, and the count of EEPROM writes."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections import UserDict
+from collections.abc import Callable
 from enum import StrEnum
 from typing import Any, NamedTuple
 
@@ -8,14 +9,14 @@ Words = tuple[int, ...]
 
 
 MOST_EQUAL = 5
-"""More registers that held their value already are counted, not named: what is to be looked after stands out."""
+"""More registers that held their value already are counted, not named, so that the others stand out."""
 
 
 class Fate(StrEnum):
-    """What became of one value.
+    """The fate of one value.
 
     `PLANNED` of a dry run. `EQUAL`: the device held it already. `DIFFERS`: written, but reading it back shows something
-    else. `RESTORED`: written and undone. `UNKNOWN`: nobody can tell what the device holds.
+    else. `RESTORED`: written and undone. `UNKNOWN`: the device may hold the old value, the new one or something else.
     """
 
     PLANNED = "planned"
@@ -28,7 +29,7 @@ class Fate(StrEnum):
 
 
 class Change(NamedTuple):
-    """One register of a `configure`: what it held, what it is to hold, and what became of it.
+    """One register of a `configure`: the value that it held, the one that it is to hold, and its fate.
 
     `before` and `sent` are words of `view`, `was` and `value` what they mean (None where the register cannot be read,
     or holds no value). `read` are the words that were read back last (None: not read).
@@ -100,12 +101,12 @@ class WriteReport(NamedTuple):
 
     @property
     def commands(self) -> dict[str, Fate]:
-        """What became of the commands that unlock and apply, by id; of several runs the last counts."""
+        """The fates of the commands that unlock and apply, by id; of several runs the last counts."""
         return {one.command: one.fate for one in self.requests if one.command}
 
     @property
     def told(self) -> str:
-        """The report in words: which registers and commands have which fate (many that were equal are counted)."""
+        """The report in words: registers and commands by fate (many that were equal are counted)."""
         groups = {fate: self.paths(fate) for fate in Fate if self.paths(fate)}
         parts = [f"{fate}: {_listed(fate, paths)}" for fate, paths in groups.items()]
         parts += [f"{command}: {_COMMAND[fate]}" for command, fate in self.commands.items()]
@@ -113,7 +114,6 @@ class WriteReport(NamedTuple):
 
 
 def _listed(fate: Fate, paths: tuple[str, ...]) -> str:
-    """The names; of many registers that were only looked at, how many they are."""
     return f"{len(paths)} registers" if fate is Fate.EQUAL and len(paths) > MOST_EQUAL else ", ".join(paths)
 
 
@@ -132,37 +132,23 @@ class Count(NamedTuple):
     spared: int = 0
 
 
-class Wear(Mapping[str, Count]):
+class Wear(UserDict[str, Count]):
     """Writes to the EEPROM by this driver since it was made: registers by path."""
-
-    __slots__ = ("_counts",)
-
-    def __init__(self) -> None:
-        self._counts: dict[str, Count] = {}
 
     @property
     def written(self) -> int:
         """Writes to the EEPROM that were sent."""
-        return sum(count.written for count in self._counts.values())
+        return sum(count.written for count in self.data.values())
 
     @property
     def spared(self) -> int:
         """Writes that were not sent, because the register held the value already."""
-        return sum(count.spared for count in self._counts.values())
+        return sum(count.spared for count in self.data.values())
 
     def add(self, path: str, *, written: int = 0, spared: int = 0) -> None:
         """Count writes of a register."""
-        now = self._counts.get(path, Count())
-        self._counts[path] = Count(now.written + written, now.spared + spared)
-
-    def __getitem__(self, path: str) -> Count:
-        return self._counts[path]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._counts)
-
-    def __len__(self) -> int:
-        return len(self._counts)
+        now = self.data.get(path, Count())
+        self.data[path] = Count(now.written + written, now.spared + spared)
 
     def __repr__(self) -> str:
         return f"Wear(written={self.written}, spared={self.spared})"
