@@ -1,4 +1,4 @@
-"""Frames in captured bytes, of every framing; requests and answers alike, and broken ones with what is wrong."""
+"""Frames in captured bytes, of every framing: requests, answers, and broken ones with a complaint."""
 
 import re
 from typing import NamedTuple
@@ -19,7 +19,7 @@ from regscribe_runtime.wire.framing import (
 from regscribe_runtime.wire.pdu import EXCEPTION_BIT
 
 _FUNCTIONS = frozenset({*range(1, 9), 11, 12, 15, 16, 17, *range(20, 25), 43})
-"""The public function codes: in captured bytes another one says that what looks like a header is none."""
+"""The public function codes; another one means that what looks like a header of Modbus TCP is none."""
 _LEAST = 3
 """Bytes of an ASCII frame: unit, function code, LRC."""
 
@@ -55,11 +55,7 @@ def frames(raw: bytes, framing: str = "") -> list[CapturedFrame]:
 def _kind(raw: bytes) -> str:
     if raw.startswith(COLON):
         return ASCII
-    return TCP if not _is_rtu(raw) and _mbap(raw) else RTU  # a header that fits by chance is likelier than a CRC
-
-
-def _is_rtu(raw: bytes) -> bool:
-    return len(raw) >= SHORTEST_RTU and has_crc(raw)
+    return TCP if not has_crc(raw) and _mbap(raw) else RTU  # a header that fits by chance is likelier than a CRC
 
 
 def _mbap(raw: bytes) -> list[CapturedFrame]:
@@ -72,12 +68,12 @@ def _mbap(raw: bytes) -> list[CapturedFrame]:
             return []
         found.append(CapturedFrame(TCP, unit, raw[MBAP_HEAD.size : end], raw[:end]))
         raw = raw[end:]
-    return [] if raw or any(one.function not in _FUNCTIONS for one in found) else found
+    return [] if raw or any(each.function not in _FUNCTIONS for each in found) else found
 
 
 def _rtu(raw: bytes) -> list[CapturedFrame]:
-    """A frame of RTU of any length, or several that follow each other without a mark, if the bytes are nothing else."""
-    if _is_rtu(raw):
+    """A frame of RTU of any length, or several without a pause between them, if the bytes are nothing else."""
+    if has_crc(raw):
         return [CapturedFrame(RTU, raw[0], raw[1:-2], raw)]
     found, at = [], 0
     while at < len(raw):
@@ -94,20 +90,20 @@ def _wrong_crc(raw: bytes) -> list[CapturedFrame]:
         return _broken(raw, RTU, "too short for a frame")
     unit, pdu = raw[0], raw[1:-2]
     should = build(RTU, unit, pdu)[-2:].hex(" ").upper()
-    said = f"its CRC is {raw[-2:].hex(' ').upper()}, but {should} would be right"
-    return [CapturedFrame(RTU, unit, pdu, raw, said)]
+    complaint = f"its CRC is {raw[-2:].hex(' ').upper()}, but {should} would be right"
+    return [CapturedFrame(RTU, unit, pdu, raw, complaint)]
 
 
-def _broken(raw: bytes, framing: str, said: str) -> list[CapturedFrame]:
-    return [CapturedFrame(framing, raw[0], raw[1:], raw, said)] if len(raw) > 1 else []
+def _broken(raw: bytes, framing: str, complaint: str) -> list[CapturedFrame]:
+    return [CapturedFrame(framing, raw[0], raw[1:], raw, complaint)] if len(raw) > 1 else []
 
 
 def _ascii(line: bytes) -> CapturedFrame:
     digits = line.removeprefix(COLON)
     if len(digits) % 2 or len(digits) < 2 * _LEAST or re.search(rb"[^0-9A-Fa-f]", digits):
-        said = "no frame of Modbus ASCII: a colon and pairs of hexadecimal digits"
-        return CapturedFrame(ASCII, 0, b"\0", line, said)
+        complaint = "no frame of Modbus ASCII: a colon and pairs of hexadecimal digits"
+        return CapturedFrame(ASCII, 0, b"\0", line, complaint)
     unit, *pdu, lrc = bytes.fromhex(digits.decode("ascii"))
     should = int(build(ASCII, unit, bytes(pdu))[-4:-2], 16)
-    said = f"its LRC is {lrc:02X}, but {should:02X} would be right" if lrc != should else ""
-    return CapturedFrame(ASCII, unit, bytes(pdu), line, said)
+    complaint = f"its LRC is {lrc:02X}, but {should:02X} would be right" if lrc != should else ""
+    return CapturedFrame(ASCII, unit, bytes(pdu), line, complaint)

@@ -1,4 +1,4 @@
-"""Where an answer begins and ends in the bytes that come to a client, and what an answer it waits for looks like."""
+"""Framing on the side of a client: the answer to a request in a stream of bytes."""
 
 from abc import ABC, abstractmethod
 
@@ -24,9 +24,9 @@ LONGEST = LONGEST_ASCII + len(LINE_END)
 
 
 class Framing(ABC):
-    """One kind of frame. `decisive`: an answer names its request, so one that does not fit needs no waiting.
+    """One kind of frame. `decisive`: an answer names its request, so after one that does not fit no other is awaited.
 
-    `transaction` is that of the last request, and of its answer; 0 where frames have none.
+    `transaction` is the id of the last request, and of its answer; 0 where frames have none.
     """
 
     decisive = False
@@ -62,7 +62,7 @@ class Mbap(Framing):
         return super().build(unit, pdu)
 
     def find(self, buffer: bytearray, unit: int, function: int) -> Frame | None:  # noqa: ARG002 (the id tells more)
-        """The next frame, whosever it is; ValueError for a header that is none."""
+        """The next frame, of any unit and function; ValueError for a header that is none."""
         if len(buffer) < MBAP_HEAD.size:
             return None
         transaction, protocol, length, sender = MBAP_HEAD.unpack_from(buffer)

@@ -1,9 +1,8 @@
 """Single frames of Modbus TCP (MBAP), RTU and ASCII, in both roles: built, measured and checked.
 
 The only module beside `link.clients` that imports pymodbus: its framers make frames and their checks (CRC, LRC), its
-tables say how long an RTU frame is. Where frames begin and end in a stream is for `client_framing` and
-`server_framing` to say: the framers drop what follows a frame, find the wrong length in noise, and wait for ever on a
-foreign header, so that header of seven bytes is packed here.
+tables have the lengths of RTU frames. `client_framing` and `server_framing` split streams into frames, because
+pymodbus' framers drop what follows a frame, find wrong lengths in noise, and wait for ever on a foreign header.
 """
 
 import struct
@@ -28,7 +27,7 @@ SHORTEST_ASCII, LONGEST_ASCII = 7, 2 * (LONGEST_PDU + 2) + 1
 """Characters of a line without its end: colon, unit, function code and LRC at least."""
 
 REQUESTS, ANSWERS = DecodePDU(is_server=True), DecodePDU(is_server=False)
-"""The two sides of each function, by which the length of an RTU frame is told."""
+"""The two sides of each function, which determine the length of an RTU frame."""
 
 _RTU, _ASCII = FramerRTU(ANSWERS), FramerAscii(ANSWERS)
 
@@ -43,7 +42,7 @@ class Frame(NamedTuple):
 
 
 def checked_framing(name: str) -> str:
-    """The name itself; ValueError if it is that of no framing."""
+    """Return the name of a framing unchanged; ValueError for another name."""
     if name not in FRAMINGS:
         message = f"framing {name!r} is none of {', '.join(FRAMINGS)}"
         raise ValueError(message)
@@ -77,8 +76,8 @@ def rtu_end(data: bytes | bytearray, at: int, side: DecodePDU) -> int:
 
 
 def has_crc(frame: bytes | bytearray) -> bool:
-    """Whether bytes end with their CRC."""
-    return FramerRTU.check_CRC(bytes(frame[:-2]), int.from_bytes(frame[-2:], "big"))
+    """Whether bytes are enough for an RTU frame and end with their CRC."""
+    return len(frame) >= SHORTEST_RTU and FramerRTU.check_CRC(bytes(frame[:-2]), int.from_bytes(frame[-2:], "big"))
 
 
 def ascii_frame(line: bytes) -> Frame | None:

@@ -1,4 +1,4 @@
-"""Where requests begin and end in the bytes that come to a server: pipelined, halved, garbled or foreign ones."""
+"""Framing on the side of a server: requests in a stream of bytes, pipelined, halved, garbled or foreign ones."""
 
 from abc import ABC, abstractmethod
 
@@ -151,12 +151,11 @@ def _next_sound(data: bytes) -> int:
 
 def _first_possible(data: bytes) -> int:
     """Return the first place where a frame may have begun whose rest is still to come."""
-    return next((at for at in range(len(data)) if not _is_over(data, at)), len(data))
-
-
-def _is_over(data: bytes, at: int) -> bool:
-    size = rtu_size(data, at, REQUESTS)
-    return size is None or 0 < size <= len(data) - at
+    for at in range(len(data)):
+        size = rtu_size(data, at, REQUESTS)
+        if size is not None and not 0 < size <= len(data) - at:
+            return at
+    return len(data)
 
 
 class SilenceFramer(RtuFramer):
