@@ -13,8 +13,8 @@ from regscribe.model import Register, RegisterMap, Space, View
 from regscribe.simulate.device.device import SimulatedDevice
 from regscribe_runtime import RegscribeError, ValueRefused
 from regscribe_runtime.driver import executor
+from regscribe_runtime.link.links import NEVER
 from regscribe_runtime.link.locks import Turns
-from regscribe_runtime.link.retry import NEVER
 from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.wire import pdu
 

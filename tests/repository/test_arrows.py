@@ -66,7 +66,7 @@ ROOMS = {
 """Which other rooms a room may import, besides the vocabulary in `regscribe_runtime.values`."""
 
 LINK = f"{RUNTIME}.link"
-LINK_OF_OPERATIONS = {f"{RUNTIME}.link.{name}" for name in ("links", "timing", "retry")}
+LINK_OF_OPERATIONS = {f"{RUNTIME}.link.{name}" for name in ("links", "timing")}
 """What operations may know of links: what they are like, not how they work."""
 
 LIBRARIES = {

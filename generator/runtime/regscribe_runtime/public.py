@@ -57,10 +57,10 @@ from regscribe_runtime.link.links import AsyncLink as AsyncLink
 from regscribe_runtime.link.links import ClientSettings as ClientSettings
 from regscribe_runtime.link.links import Link as Link
 from regscribe_runtime.link.links import LinkSettings as LinkSettings
+from regscribe_runtime.link.links import Retry as Retry
 from regscribe_runtime.link.links import SyncClient as SyncClient
-from regscribe_runtime.link.retry import Retry as Retry
-from regscribe_runtime.link.trace import Trace as Trace
-from regscribe_runtime.link.trace import Tracer as Tracer
+from regscribe_runtime.link.links import Trace as Trace
+from regscribe_runtime.link.links import Tracer as Tracer
 from regscribe_runtime.operations.snapshot import Snapshot as Snapshot
 from regscribe_runtime.registers.enums import Bit as Bit
 from regscribe_runtime.registers.enums import Choice as Choice

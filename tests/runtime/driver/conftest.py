@@ -16,8 +16,8 @@ from regscribe import checks, lower, schema, source
 from regscribe.emit import python
 from regscribe.model import RegisterMap, Severity
 from regscribe_runtime import LinkLost, NoAnswer, WrongAnswer
+from regscribe_runtime.link.links import NEVER
 from regscribe_runtime.link.locks import AsyncTurns, Turns
-from regscribe_runtime.link.retry import NEVER
 from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.wire import pdu
 from regscribe_runtime.wire.requests import Request

@@ -12,7 +12,7 @@ from regscribe.simulate import simulate
 from regscribe_runtime import NoAnswer, Retry, WrongAnswer, tcp
 from regscribe_runtime.link import connect
 from regscribe_runtime.link.links import Link
-from regscribe_runtime.link.stale_replies import LATE_SECONDS, StaleReplies
+from regscribe_runtime.link.pending import LATE_SECONDS, PendingRequest, StaleReplies
 from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.wire.requests import Request, verify
 
@@ -22,37 +22,41 @@ NOW = 100.0
 READ, OTHER, WRITE = Request(3, 28), Request(3, 29), Request(6, 28, 1, (7,))
 
 
+def pending(request: Request, unit: int = 1) -> PendingRequest:
+    return PendingRequest(unit, request, request, b"", 0.5)
+
+
 def owing(request: Request = READ) -> StaleReplies:
     late = StaleReplies()
-    late.owe(1, request, deadline=NOW, seconds=0.5)
+    late.owe(pending(request), NOW)
     return late
 
 
 def test_another_read_of_the_same_unit_waits_for_an_answer_that_is_owed() -> None:
-    assert owing().until(1, OTHER, NOW) == NOW + LATE_SECONDS
+    assert owing().until(pending(OTHER), NOW) == NOW + LATE_SECONDS
 
 
 def test_the_same_read_may_be_sent_again_at_once() -> None:
-    assert owing().until(1, READ, NOW) == 0
+    assert owing().until(pending(READ), NOW) == 0
 
 
 @pytest.mark.parametrize(("unit", "request_"), [(2, OTHER), (1, Request(4, 29)), (1, WRITE)])
 def test_whose_answer_cannot_be_mistaken_does_not_wait(unit: int, request_: Request) -> None:
-    assert owing().until(unit, request_, NOW) == 0
+    assert owing().until(pending(request_, unit), NOW) == 0
 
 
 def test_the_same_write_waits_since_it_is_another_one() -> None:
-    assert owing(WRITE).until(1, WRITE, NOW) > NOW
+    assert owing(WRITE).until(pending(WRITE), NOW) > NOW
 
 
 def test_after_the_answer_to_a_repeated_read_the_other_answer_is_still_owed() -> None:
     late = owing()
-    late.answered(1, READ, now=NOW + 0.9, seconds=0.5)
-    assert late.until(1, OTHER, NOW + 1.0) == NOW + 0.9 + LATE_SECONDS
+    late.answered(pending(READ), NOW + 0.9)
+    assert late.until(pending(OTHER), NOW + 1.0) == NOW + 0.9 + LATE_SECONDS
 
 
 def test_an_answer_is_not_waited_for_for_ever() -> None:
-    assert owing().until(1, OTHER, NOW + LATE_SECONDS + 0.1) == 0
+    assert owing().until(pending(OTHER), NOW + LATE_SECONDS + 0.1) == 0
 
 
 def serial(far: FarEnd, **more: Any) -> Link:
@@ -77,9 +81,7 @@ def test_a_late_answer_on_a_serial_line_is_dropped_before_the_next_request(far: 
 
 
 def test_a_late_answer_is_no_answer_to_a_write_either(far: FarEnd, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(
-        "regscribe_runtime.link.stale_replies.LATE_SECONDS", 3600.0
-    )  # waiting ends when the answer comes
+    monkeypatch.setattr("regscribe_runtime.link.pending.LATE_SECONDS", 3600.0)  # waiting ends when the answer comes
     far.plan = lambda request: [(0.8 if len(far.heard) == 1 else 0.0, request)]
     link = serial(far, timeout=0.5)
     with pytest.raises(NoAnswer):

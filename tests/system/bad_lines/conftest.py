@@ -7,5 +7,5 @@ from .world import LATE_SECONDS
 
 @pytest.fixture(autouse=True)
 def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("regscribe_runtime.link.stale_replies.LATE_SECONDS", LATE_SECONDS)
+    monkeypatch.setattr("regscribe_runtime.link.pending.LATE_SECONDS", LATE_SECONDS)
     monkeypatch.setattr("regscribe_runtime.operations.read_back.LOOKS", (0.0, 0.02))

@@ -19,7 +19,7 @@ from regscribe.simulate.line.line_faults import USUAL, LineFault, LineFaults
 from regscribe.simulate.line.service import Chunk, Patience
 from regscribe_runtime import AsyncBus, Bus, Retry
 from regscribe_runtime.link import connect
-from regscribe_runtime.link.trace import SENT, Trace
+from regscribe_runtime.link.links import SENT, Trace
 from regscribe_runtime.wire.pdu import EXCEPTION_BIT
 
 FURNACE = Path(__file__).parent / "furnace.yaml"

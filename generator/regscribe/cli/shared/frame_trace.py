@@ -8,7 +8,7 @@ from regscribe.tools.live.decode import Decoded, Decoder
 from regscribe.tools.live.names import Driver
 from regscribe.tools.live.target import Target
 from regscribe.visible import safe
-from regscribe_runtime.link.trace import Trace
+from regscribe_runtime.link.links import Trace
 from regscribe_runtime.wire.capture import frames
 
 ARROWS = {SENT: "->", RECEIVED: "<-"}

@@ -14,7 +14,7 @@ from regscribe.tools.live.link_names import LinkName
 from regscribe_runtime import BareDevice, Link, LinkLost, NoAnswer, identify, tcp
 from regscribe_runtime.driver.identify import Identification, Known, identity_of
 from regscribe_runtime.link.connect import serial
-from regscribe_runtime.link.trace import Tracer
+from regscribe_runtime.link.links import Tracer
 
 LAST_UNIT = 255
 MOST_DIGITS = 9

@@ -1,7 +1,7 @@
-"""Links over a pymodbus client of one's own: it opens, frames and waits, and what it answers is judged as on our links.
+"""Links over a user's own pymodbus client: it opens, frames and waits; its answers are verified as on other links.
 
 Each request is encoded once: the client, which would send it again after silence, then finds nothing to send. So a
-write is never sent twice, and what the client does for others stays as it is. Only this module knows pymodbus' clients.
+write is never sent twice, and the client's behaviour for others is unchanged.
 """
 
 import asyncio
@@ -9,7 +9,7 @@ import select
 import struct
 import time
 from collections.abc import Callable
-from typing import Any, NamedTuple, NoReturn, Unpack
+from typing import Any, NoReturn
 
 from pymodbus.client import ModbusBaseClient, ModbusBaseSyncClient
 from pymodbus.exceptions import ConnectionException, ModbusException, ModbusIOException
@@ -17,11 +17,9 @@ from pymodbus.framer import FramerAscii, FramerRTU
 from pymodbus.pdu import ModbusPDU
 
 from regscribe_runtime.errors import LinkLost, NoAnswer, WrongAnswer
-from regscribe_runtime.link.exchange import BROADCAST
-from regscribe_runtime.link.links import ClientSettings
+from regscribe_runtime.link.links import ClientSettings, Retry
 from regscribe_runtime.link.locks import AsyncTurns, Turns
-from regscribe_runtime.link.retry import Retry
-from regscribe_runtime.link.stale_replies import StaleReplies
+from regscribe_runtime.link.pending import PendingRequest, StaleReplies
 from regscribe_runtime.values.serial_line import MODBUS, LineChange, SerialLine, first_address
 from regscribe_runtime.wire import pdu
 from regscribe_runtime.wire.requests import Reply, Request
@@ -35,7 +33,7 @@ class _SentBefore(Exception):  # noqa: N818 (no error: how the client's second a
 
 
 class _Once(ModbusPDU):
-    """A request that is encoded, and so sent, only once; `before` is called ahead of it, while the client is ours."""
+    """A request that is encoded, and so sent, only once; `before` is called first, while no other request is sent."""
 
     def __init__(self, unit: int, data: bytes, before: Callable[[], None]) -> None:
         super().__init__(dev_id=unit)
@@ -51,37 +49,22 @@ class _Once(ModbusPDU):
         return self._data
 
 
-class _Sent(NamedTuple):
-    """A request as the caller made it and as it stands on the line, and the connection it goes over."""
-
-    unit: int
-    shown: Request
-    wire: Request
-    over: object
-
-    def __str__(self) -> str:
-        return f"unit {self.unit}, function {self.shown.function:02d}, address {self.shown.address}"
-
-    @property
-    def silent(self) -> bool:
-        """Whether nobody answers it."""
-        return self.unit == BROADCAST and not self.wire.reads
-
-
 class _Base:
-    """What both kinds of link have; see `Link` for the attributes."""
+    """Common parts of both kinds of link; see `LinkState` for the attributes."""
 
-    def __init__(self, client: Any, settings: ClientSettings) -> None:
+    def __init__(self, client: Any, framer: object, settings: ClientSettings) -> None:
         self._client, self._gap = client, settings.get("gap", 0.0)
+        self._decisive = not isinstance(framer, FramerRTU | FramerAscii)  # an answer names its request
         self.retry = settings.get("retry") or Retry()
         self.addressing = settings.get("addressing", MODBUS)
         self.retune(LineChange(addressing=self.addressing))
         self._late, self._silent_from = StaleReplies(), 0.0
         self._opened, self._last = 0, None
+        self._used: Any = None
 
     @property
     def timeout(self) -> float:
-        """The client's own: it waits, we cannot."""
+        """The client's own, which does the waiting."""
         return float(self._client.comm_params.timeout_connect)
 
     @property
@@ -104,14 +87,6 @@ class _Base:
         """The socket, port or transport that is open now, None if there is none."""
         raise NotImplementedError
 
-    def _framer(self) -> object:
-        raise NotImplementedError
-
-    @property
-    def _decisive(self) -> bool:
-        """Whether an answer names its request."""
-        return not isinstance(self._framer(), FramerRTU | FramerAscii)
-
     def retune(self, change: LineChange) -> None:
         """Count addresses otherwise from now on; the client's speed and format stay, as those of a gateway do."""
         if change.addressing is not None:
@@ -123,71 +98,69 @@ class _Base:
             message = f"{self._client} is not connected: connect it before a driver uses it"
             raise LinkLost(message)
 
-    def _sent(self, unit: int, request: Request) -> _Sent:
-        return _Sent(unit, request, request.shifted(first_address(self.addressing)), self._connection())
+    def _begin(self, unit: int, request: Request) -> PendingRequest:
+        self._used = self._connection()
+        shifted = request.shifted(first_address(self.addressing))
+        return PendingRequest(unit, request, shifted, pdu.encode_request(shifted), self.timeout)
 
-    def _pause(self, sent: _Sent) -> float:
-        """How long to wait for a silent line, and until no late answer could be taken for this one's, in seconds."""
+    def _pause(self, pending: PendingRequest) -> float:
+        """Seconds to wait for a silent line, and until no late answer could be taken for this request's."""
         now, line = time.monotonic(), self.line
         quiet = self._silent_from + (line.silence(self._gap) if line else 0.0)
-        until = max(quiet, self._late.busy, self._late.until(sent.unit, sent.wire, now))
-        return max(until - now, 0.0)
+        return max(max(quiet, self._late.busy, self._late.until(pending, now)) - now, 0.0)
 
-    def _heard(self, sent: _Sent, answer: Any) -> Reply:
-        """The answer as plain data, in its own bytes."""
+    def _reply(self, pending: PendingRequest, answer: Any) -> Reply:
+        """The answer as plain data, decoded from its own bytes."""
         self._silent_from = time.monotonic()
-        if sent.silent:
-            return Reply(sent.shown.function, sent.shown.words, sent.shown.address, len(sent.shown.words))
-        self._late.answered(sent.unit, sent.wire, now=time.monotonic(), seconds=self.timeout)
+        shown = pending.shown
+        if pending.is_broadcast:
+            return Reply(shown.function, shown.words, shown.address, len(shown.words))
+        self._late.answered(pending, self._silent_from)
         try:
-            reply = pdu.decode_reply(sent.wire, bytes([answer.function_code]) + answer.encode())
+            reply = pdu.decode_reply(pending.wire, bytes([answer.function_code]) + answer.encode())
         except (ModbusException, struct.error, ValueError, TypeError) as error:
-            message = f"{sent}: {answer} is no answer to it"
+            message = f"{pending}: {answer} is no answer to it"
             raise WrongAnswer(message) from error
-        moved = sent.wire.address - sent.shown.address
+        moved = pending.wire.address - shown.address
         return reply if reply.exception is not None else reply._replace(address=reply.address - moved)
 
-    def _failed(self, sent: _Sent, error: BaseException, began: float) -> NoReturn:
-        """Raise what became of a request; `began` is when it went out."""
+    def _fail(self, pending: PendingRequest, error: BaseException, began: float) -> NoReturn:
+        """Raise the error of a link for that of the client; `began` is when the request went out."""
         now = self._silent_from = time.monotonic()
         if isinstance(error, ModbusIOException) and isinstance(error.__cause__, asyncio.CancelledError):
             error = error.__cause__  # pymodbus 3.13 hides that a task was cancelled
         if not self._decisive:
             over = isinstance(error, Exception)  # else the client was interrupted, and the device may be answering yet
-            deadline = now if over else began + self.timeout
-            self._late.owe(sent.unit, sent.wire, deadline=deadline, seconds=self.timeout)
-        told = self._told(sent, error)
-        if told is error:
+            self._late.owe(pending, now if over else began + self.timeout)
+        own = self._link_error(pending, error)
+        if own is error:
             raise error
-        raise told from error
+        raise own from error
 
-    def _told(self, sent: _Sent, error: BaseException) -> BaseException:
+    def _link_error(self, pending: PendingRequest, error: BaseException) -> BaseException:
         if isinstance(error, ConnectionException | OSError) and not isinstance(error, TimeoutError):
-            return LinkLost(f"{sent}: the client lost its connection ({error})")
+            return LinkLost(f"{pending}: the client lost its connection ({error})")
         if not isinstance(error, ModbusException | TimeoutError | _SentBefore | struct.error | ValueError):
             return error
-        if sent.over is not None and sent.over is not self._connection():
-            return LinkLost(f"{sent}: the client lost its connection while it waited for the answer")
+        if self._used is not None and self._used is not self._connection():
+            return LinkLost(f"{pending}: the client lost its connection while it waited for the answer")
         if isinstance(error, TimeoutError | _SentBefore) or SILENT in str(error):
-            shown = sent.shown
-            return NoAnswer(unit=sent.unit, function=shown.function, address=shown.address, seconds=self.timeout)
-        return WrongAnswer(f"{sent}: {error}")
+            shown = pending.shown
+            return NoAnswer(unit=pending.unit, function=shown.function, address=shown.address, seconds=pending.seconds)
+        return WrongAnswer(f"{pending}: {error}")
 
 
 class ClientLink(_Base):
     """A `Link` over a synchronous client, for threads."""
 
-    def __init__(self, client: Any, **settings: Unpack[ClientSettings]) -> None:
+    def __init__(self, client: Any, settings: ClientSettings) -> None:
         if not isinstance(client, ModbusBaseSyncClient):
             raise TypeError(_not_one(client, "a synchronous", isinstance(client, ModbusBaseClient)))
-        super().__init__(client, settings)
+        super().__init__(client, client.framer, settings)
         self.lock = Turns()
 
     def _connection(self) -> Any:
         return self._client.socket
-
-    def _framer(self) -> object:
-        return self._client.framer
 
     def open(self) -> None:
         """LinkLost if the client is not connected; it is never opened here."""
@@ -199,17 +172,17 @@ class ClientLink(_Base):
     def call(self, unit: int, request: Request) -> Reply:
         """Send one request once; see `Link.call`."""
         with self.lock.line:
-            sent = self._sent(unit, request)
-            once = _Once(unit, pdu.encode_request(sent.wire), self._drain)
-            while pause := self._pause(sent):
+            pending = self._begin(unit, request)
+            once = _Once(unit, pending.frame, self._drain)
+            while pause := self._pause(pending):
                 time.sleep(pause)
             began = time.monotonic()
             try:
-                answer = self._client.execute(sent.silent, once)
-                time.sleep(request.seconds if sent.silent else 0)
-            except BaseException as error:  # noqa: BLE001 (it is raised again, or told otherwise)
-                self._failed(sent, error, began)
-            return self._heard(sent, answer)
+                answer = self._client.execute(pending.is_broadcast, once)
+                time.sleep(request.seconds if pending.is_broadcast else 0)
+            except BaseException as error:  # noqa: BLE001 (it is raised again, or as the link error that it is)
+                self._fail(pending, error, began)
+            return self._reply(pending, answer)
 
     def _drain(self) -> None:
         """Drop what came late over TCP, where the client would read it as the next answer; a serial client does so."""
@@ -220,17 +193,14 @@ class ClientLink(_Base):
 class AsyncClientLink(_Base):
     """An `AsyncLink` over an asyncio client, for the tasks of its event loop."""
 
-    def __init__(self, client: Any, **settings: Unpack[ClientSettings]) -> None:
+    def __init__(self, client: Any, settings: ClientSettings) -> None:
         if not isinstance(client, ModbusBaseClient):
             raise TypeError(_not_one(client, "an asyncio", isinstance(client, ModbusBaseSyncClient)))
-        super().__init__(client, settings)
+        super().__init__(client, client.ctx.framer, settings)
         self.lock = AsyncTurns()
 
     def _connection(self) -> Any:
         return self._client.ctx.transport
-
-    def _framer(self) -> object:
-        return self._client.ctx.framer
 
     async def open(self) -> None:
         """LinkLost if the client is not connected; it is never opened here."""
@@ -242,17 +212,17 @@ class AsyncClientLink(_Base):
     async def call(self, unit: int, request: Request) -> Reply:
         """Send one request once; see `Link.call`."""
         async with self.lock.line:
-            sent = self._sent(unit, request)
-            once = _Once(unit, pdu.encode_request(sent.wire), lambda: None)
-            while pause := self._pause(sent):  # noqa: ASYNC110 (it waits for time to pass, no event)
+            pending = self._begin(unit, request)
+            once = _Once(unit, pending.frame, lambda: None)
+            while pause := self._pause(pending):  # noqa: ASYNC110 (it waits for time to pass, no event)
                 await asyncio.sleep(pause)
             began = time.monotonic()
             try:
-                answer = await self._client.execute(sent.silent, once)
-                await asyncio.sleep(request.seconds if sent.silent else 0)
-            except BaseException as error:  # noqa: BLE001 (it is raised again, or told otherwise)
-                self._failed(sent, error, began)
-            return self._heard(sent, answer)
+                answer = await self._client.execute(pending.is_broadcast, once)
+                await asyncio.sleep(request.seconds if pending.is_broadcast else 0)
+            except BaseException as error:  # noqa: BLE001 (it is raised again, or as the link error that it is)
+                self._fail(pending, error, began)
+            return self._reply(pending, answer)
 
 
 def _not_one(client: object, kind: str, other: bool) -> str:  # noqa: FBT001 (which of two kinds it is)

@@ -1,14 +1,45 @@
-"""Links: what carries requests to a unit and answers back. The drivers know these protocols, not pymodbus."""
+"""Links, which carry requests to units and answers back: protocols, settings, traces; nothing of pymodbus."""
 
-from typing import Protocol, TypedDict
+from collections.abc import Callable
+from typing import NamedTuple, Protocol, TypedDict
 
 from regscribe_runtime.link.locks import AsyncTurns, Turns
-from regscribe_runtime.link.retry import Retry
-from regscribe_runtime.link.trace import Tracer
 from regscribe_runtime.values.serial_line import LineChange, SerialLine
 from regscribe_runtime.wire.requests import Reply, Request
 
 MODBUS_TCP_PORT = 502
+SENT, RECEIVED = "sent", "received"
+
+
+class Trace(NamedTuple):
+    """One frame as it stood on the line, with its CRC, LRC or MBAP header.
+
+    `seconds` is the clock's time (seconds since 1970), `direction` is sent or received, `unit` that of the request.
+    Bytes that are no frame (noise, an answer cut short, a repeated one) are received too, in the pieces they came in.
+    """
+
+    seconds: float
+    direction: str
+    unit: int
+    frame: bytes
+
+
+Tracer = Callable[[Trace], None]
+"""Called in the thread or task that talks, while it holds the line: it must be quick, and must not talk itself."""
+
+
+class Retry(NamedTuple):
+    """How often a read is sent again after NoAnswer, WrongAnswer or LinkLost, each time after `pause` seconds.
+
+    A write is never sent again, whatever stands here: it may have been carried out although its answer was lost.
+    """
+
+    reads: int = 2
+    pause: float = 0.05
+
+
+NEVER = Retry(reads=0)
+"""Every error shows at once."""
 
 
 class LinkSettings(TypedDict, total=False):
@@ -64,21 +95,12 @@ class AsyncClient(Protocol):
         raise NotImplementedError
 
 
-class Link(Protocol):
-    """A synchronous link, for any number of threads.
-
-    Requests go out one after the other, first come, first served; the lock of a unit (`link.lock.of(unit)`) is held for
-    a whole operation.
-    """
+class LinkState(Protocol):
+    """The settings and the state of a link, for threads or for asyncio."""
 
     @property
     def epoch(self) -> int:
         """How often it was opened."""
-        raise NotImplementedError
-
-    @property
-    def lock(self) -> Turns:
-        """Whose turn it is."""
         raise NotImplementedError
 
     @property
@@ -91,7 +113,7 @@ class Link(Protocol):
 
     @property
     def retry(self) -> Retry:
-        """What is tried again."""
+        """Which reads are sent again."""
         raise NotImplementedError
 
     @property
@@ -101,6 +123,19 @@ class Link(Protocol):
 
     def retune(self, change: LineChange) -> None:
         """Talk at another speed, in another format or with other addresses from the next request on."""
+
+
+class Link(LinkState, Protocol):
+    """A synchronous link, for any number of threads.
+
+    Requests go out one after the other, first come, first served; the lock of a unit (`link.lock.of(unit)`) is held for
+    a whole operation.
+    """
+
+    @property
+    def lock(self) -> Turns:
+        """The locks of the line and of its units."""
+        raise NotImplementedError
 
     def open(self) -> None:
         """Open it, if it is not open; LinkLost if that fails."""
@@ -117,39 +152,13 @@ class Link(Protocol):
         raise NotImplementedError
 
 
-class AsyncLink(Protocol):
+class AsyncLink(LinkState, Protocol):
     """An asyncio link, for any number of tasks of one event loop; otherwise as `Link`."""
 
     @property
-    def epoch(self) -> int:
-        """How often it was opened."""
-        raise NotImplementedError
-
-    @property
     def lock(self) -> AsyncTurns:
-        """Whose turn it is."""
+        """The locks of the line and of its units."""
         raise NotImplementedError
-
-    @property
-    def line(self) -> SerialLine | None:
-        """The serial line, None over TCP."""
-
-    @property
-    def timeout(self) -> float | None:
-        """The response timeout that overrides all others, in seconds."""
-
-    @property
-    def retry(self) -> Retry:
-        """What is tried again."""
-        raise NotImplementedError
-
-    @property
-    def addressing(self) -> str:
-        """How units count their addresses: modbus from 0, jbus from 1."""
-        raise NotImplementedError
-
-    def retune(self, change: LineChange) -> None:
-        """Talk at another speed, in another format or with other addresses from the next request on."""
 
     async def open(self) -> None:
         """Open it, if it is not open; LinkLost if that fails."""

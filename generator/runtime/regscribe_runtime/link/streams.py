@@ -1,4 +1,4 @@
-"""Bytes out and in: a socket or a serial port that never blocks, and waiting for bytes in a thread or in a task."""
+"""Streams of bytes: sockets and serial ports that never block, and waiting for bytes in a thread or in a task."""
 
 import asyncio
 import contextlib
@@ -8,7 +8,6 @@ import select
 import socket
 import sys
 import time
-from collections.abc import Iterator
 from typing import Any, Protocol
 
 import serial  # type: ignore[import-untyped]  # pyserial ships no types
@@ -48,7 +47,7 @@ class Stream(Protocol):
         """Close it; never fails."""
 
 
-class SocketWire:
+class _Socket:
     """A TCP connection."""
 
     def __init__(self, connection: socket.socket) -> None:
@@ -58,7 +57,6 @@ class SocketWire:
         self.descriptor = connection.fileno()
 
     def read(self) -> bytes:
-        """See `Wire.read`."""
         try:
             data = self._socket.recv(CHUNK)
         except (BlockingIOError, InterruptedError):
@@ -68,20 +66,17 @@ class SocketWire:
         return data
 
     def write(self, data: bytes) -> None:
-        """See `Wire.write`; a frame always fits into the buffer of a connection that is alive."""
-        if self._socket.send(data) < len(data):
+        if self._socket.send(data) < len(data):  # a frame always fits into the buffer of a connection that is alive
             raise BlockingIOError(errno.EAGAIN, "the other end takes no more bytes")
 
     def waiting(self) -> bool:
-        """See `Wire.waiting`."""
-        return bool(select.select([self._socket], [], [], 0)[0])
+        raise NotImplementedError  # the system waits for it
 
     def close(self) -> None:
-        """See `Wire.close`."""
         self._socket.close()
 
 
-class SerialWire:
+class _SerialPort:
     """A serial port of this machine, held by this process alone."""
 
     def __init__(self, port: serial.SerialBase) -> None:
@@ -89,7 +84,6 @@ class SerialWire:
         self.descriptor = port.fileno() if os.name == "posix" and hasattr(port, "fd") else -1
 
     def read(self) -> bytes:
-        """See `Wire.read`."""
         if self.descriptor >= 0:
             with contextlib.suppress(BlockingIOError, InterruptedError):
                 return os.read(self.descriptor, CHUNK)
@@ -97,22 +91,19 @@ class SerialWire:
         return bytes(self._port.read(self._port.in_waiting))
 
     def write(self, data: bytes) -> None:
-        """See `Wire.write`."""
         if (self._port.write(data) or 0) < len(data):
             raise BlockingIOError(errno.EAGAIN, "the port takes no more bytes")
 
     def waiting(self) -> bool:
-        """See `Wire.waiting`."""
         return bool(self._port.in_waiting)
 
     def close(self) -> None:
-        """See `Wire.close`."""
         with contextlib.suppress(OSError):  # an adapter that was pulled out
             self._port.close()
 
 
-def open_serial(line: SerialLine) -> SerialWire:
-    """Open a serial port for this process alone; LinkLost with what to do."""
+def open_serial(line: SerialLine) -> Stream:
+    """Open a serial port for this process alone; LinkLost with advice."""
     try:
         port = serial.serial_for_url(line.port, timeout=0, write_timeout=0, exclusive=True, **line.settings())
     except (OSError, ValueError) as error:
@@ -121,7 +112,7 @@ def open_serial(line: SerialLine) -> SerialWire:
     except Exception as error:  # pyserial lets the errors of termios through, which are not OSError
         message = f"cannot open {line.port} at {line.baud} baud {line.format}: {error}. Is it a serial port?"
         raise LinkLost(message) from error
-    return SerialWire(port)
+    return _SerialPort(port)
 
 
 def _why_not(line: SerialLine, error: OSError | ValueError) -> str:
@@ -136,22 +127,11 @@ def _why_not(line: SerialLine, error: OSError | ValueError) -> str:
     return f"{error}. Is it a serial port, and can it do {line.baud} baud {line.format}?"
 
 
-def addresses(host: str, port: int) -> list[tuple[Any, ...]]:
-    """What a host name stands for; LinkLost if it is unknown."""
-    try:
-        return list(socket.getaddrinfo(host, port, type=socket.SOCK_STREAM))
-    except (OSError, UnicodeError) as error:
-        raise unknown(host, port, error) from error
-
-
-def unknown(host: str, port: int, error: Exception) -> LinkLost:
-    """The error for a host without address."""
-    return LinkLost(f"cannot open tcp://{host}:{port}: the host {host!r} is unknown ({error}). Check its name")
-
-
-def refused(host: str, port: int, error: Exception) -> LinkLost:
-    """The error for a host that takes no connection."""
-    if isinstance(error, ConnectionRefusedError):
+def _unreachable(host: str, port: int, error: Exception) -> LinkLost:
+    """The error for a host without address, or one that takes no connection."""
+    if isinstance(error, socket.gaierror | UnicodeError):
+        why = f"the host {host!r} is unknown ({error}). Check its name"
+    elif isinstance(error, ConnectionRefusedError):
         why = "it refuses the connection, nobody answers there. Check the port, and that Modbus TCP is switched on"
     elif isinstance(error, TimeoutError):
         why = f"it did not answer within {CONNECT_SECONDS:g} s. Check power, cable, address and firewall"
@@ -160,31 +140,21 @@ def refused(host: str, port: int, error: Exception) -> LinkLost:
     return LinkLost(f"cannot open tcp://{host}:{port}: {why}")
 
 
-def open_tcp(host: str, port: int) -> SocketWire:
-    """Connect; LinkLost with what to do."""
-    failure: Exception = OSError("it has no address")
-    for family, kind, number, _, address in addresses(host, port):
-        connection = socket.socket(family, kind, number)
-        try:
-            connection.settimeout(CONNECT_SECONDS)
-            connection.connect(address)
-            return SocketWire(connection)
-        except OSError as error:
-            connection.close()
-            failure = error
-        except BaseException:
-            connection.close()
-            raise
-    raise refused(host, port, failure) from failure
+def open_tcp(host: str, port: int) -> Stream:
+    """Connect; LinkLost with advice."""
+    try:
+        return _Socket(socket.create_connection((host, port), CONNECT_SECONDS))
+    except (OSError, UnicodeError) as error:
+        raise _unreachable(host, port, error) from error
 
 
-async def open_tcp_async(host: str, port: int) -> SocketWire:
+async def open_tcp_async(host: str, port: int) -> Stream:
     """As `open_tcp`, for asyncio."""
     loop = asyncio.get_running_loop()
     try:
         found = await loop.getaddrinfo(host, port, type=socket.SOCK_STREAM)
     except (OSError, UnicodeError) as error:
-        raise unknown(host, port, error) from error
+        raise _unreachable(host, port, error) from error
     failure: Exception = OSError("it has no address")
     for family, kind, number, _, address in found:
         connection = socket.socket(family, kind, number)
@@ -192,33 +162,27 @@ async def open_tcp_async(host: str, port: int) -> SocketWire:
             connection.settimeout(0)
             async with asyncio.timeout(CONNECT_SECONDS):
                 await loop.sock_connect(connection, address)
-            return SocketWire(connection)
-        except OSError as error:  # TimeoutError is one
+            return _Socket(connection)
+        except BaseException as error:
             connection.close()
+            if not isinstance(error, OSError):  # TimeoutError is one
+                raise
             failure = error
-        except BaseException:
-            connection.close()
-            raise
-    raise refused(host, port, failure) from failure
+    raise _unreachable(host, port, failure) from failure
 
 
 def wait(wire: Stream, seconds: float) -> bool:
     """Wait in this thread until bytes are there (True), for `seconds` at most."""
     if wire.descriptor < 0:
-        return any(wire.waiting() for _ in _looks(seconds))
+        deadline = time.monotonic() + seconds
+        while not (there := wire.waiting()) and time.monotonic() < deadline:
+            time.sleep(POLL_SECONDS)
+        return there
     if wire.descriptor < MOST_SELECTED:  # to the microsecond, where poll counts in milliseconds
         return bool(select.select([wire.descriptor], [], [], max(seconds, 0.0))[0])
     poller = select.poll()
     poller.register(wire.descriptor, select.POLLIN)
     return bool(poller.poll(max(seconds, 0.0) * 1000))
-
-
-def _looks(seconds: float) -> Iterator[None]:
-    deadline = time.monotonic() + seconds
-    yield
-    while time.monotonic() < deadline:
-        time.sleep(POLL_SECONDS)
-        yield
 
 
 async def wait_async(wire: Stream, seconds: float) -> bool:

@@ -1,10 +1,10 @@
-"""How long an answer may take, from the manual's latencies and the line: pure figures, no clock.
+"""Response timeouts from the manual's latencies and the line: pure figures, no clock.
 
 On a serial line an answer is complete after the request's characters, the silence that ends it, the device's latency
-and the answer's characters. Over TCP nobody knows the line behind a gateway: the slowest of the manual is assumed.
+and the answer's characters. Over TCP the line behind a gateway is unknown: the slowest of the manual is assumed.
 """
 
-from regscribe_runtime.values.protocol import Latency, Protocol
+from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.wire.requests import Request, sizes
 
@@ -27,18 +27,16 @@ def characters(request: Request) -> tuple[int, int]:
     return asked + RTU_FRAME, answered + RTU_FRAME
 
 
-def longest_latency(latency: Latency, words: int, line: SerialLine) -> float:
-    """Seconds from the end of a request to the start of its answer, at most."""
-    return float(latency.longest(words)) / 1000 + float(latency.characters) * line.character
-
-
 def on_line(protocol: Protocol, request: Request, line: SerialLine) -> float:
     """Seconds from the first character of a request to the last of its answer, at most; without a margin.
 
     For a function whose latency the manual does not give, the protocol's `timeout` stands in.
     """
     latency = protocol.latency(request.function)
-    device = protocol.timeout if latency is None else longest_latency(latency, request.quantity, line)
+    if latency is None:
+        device = protocol.timeout
+    else:
+        device = float(latency.longest(request.quantity)) / 1000 + float(latency.characters) * line.character
     return sum(characters(request)) * line.character + line.silence(float(protocol.serial.gap)) + device
 
 
@@ -60,10 +58,10 @@ def response_seconds(
 
 
 def more_in_ascii(request: Request, line: SerialLine) -> float:
-    """What ASCII frames take longer than RTU ones: two characters for each, colon and line end."""
+    """Seconds that ASCII frames take longer than RTU ones: two characters for each, colon and line end."""
     return (sum(characters(request)) + ASCII_MARKS) * line.character
 
 
 def broadcast_seconds(protocol: Protocol, request: Request, line: SerialLine | None) -> float:
-    """How long all units need for a broadcast, counted from its first character: as for an answer, at most."""
+    """Seconds that all units need for a broadcast from its first character: as for an answer, at most."""
     return on_line(protocol, request, line or slowest(protocol))

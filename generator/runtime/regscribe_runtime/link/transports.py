@@ -1,22 +1,18 @@
 """Links over TCP and over serial ports, for threads and for asyncio: they open, close, wait and open again.
 
-What is said and understood is in `conversation`. After silence, noise or a cancelled call a TCP connection is closed
-and the next request opens a new one, so that nothing late can reach it; a serial port stays open, and the conversation
-sees to it (opening a port costs time and resets some devices).
+`exchange` has the protocol. After silence, noise or a cancelled call a TCP connection is closed and the next request
+opens a new one, so that nothing late can reach it; a serial port stays open, and its line discipline handles late
+answers (opening a port costs time and resets some devices).
 """
 
 import time
-from typing import Unpack
 
 from regscribe_runtime.errors import LinkLost, RegscribeError
 from regscribe_runtime.link.exchange import Conversation
-from regscribe_runtime.link.links import LinkSettings
+from regscribe_runtime.link.links import LinkSettings, Retry, Tracer
 from regscribe_runtime.link.locks import AsyncTurns, Turns
-from regscribe_runtime.link.pending import Steps
-from regscribe_runtime.link.retry import Retry
 from regscribe_runtime.link.streams import Stream, open_serial, open_tcp, open_tcp_async, wait, wait_async
 from regscribe_runtime.link.timing import more_in_ascii
-from regscribe_runtime.link.trace import Tracer
 from regscribe_runtime.values.serial_line import LineChange, SerialLine
 from regscribe_runtime.wire.requests import Reply, Request
 
@@ -24,16 +20,16 @@ USUAL_GAP = 3.5
 """Characters of silence between frames, by the standard."""
 
 TRUST_SECONDS = 0.01
-"""So long after an answer a connection is not looked at before a read: servers close idle ones."""
+"""How long after an answer a connection is not checked before a read: servers close idle ones only."""
 
 Place = tuple[str, int] | SerialLine
 """Host and port, or a serial line."""
 
 
 class _Base:
-    """What both kinds of link have; see `Link` for the attributes."""
+    """Common parts of both kinds of link; see `LinkState` for the attributes."""
 
-    def __init__(self, place: Place, **settings: Unpack[LinkSettings]) -> None:
+    def __init__(self, place: Place, settings: LinkSettings) -> None:
         self.timeout = settings.get("timeout")
         if self.timeout is not None and self.timeout <= 0:
             message = f"a timeout of {self.timeout} s lets nobody answer"
@@ -70,9 +66,9 @@ class _Base:
         self._place = line.checked()
 
     def retune(self, change: LineChange) -> None:
-        """Talk otherwise from the next request on; over TCP there is no speed and no format to change."""
+        """See `LinkState.retune`; over TCP there is no speed and no format to change."""
         if change.addressing is not None:
-            self._talk.number_from(change.addressing)
+            self._talk.set_addressing(change.addressing)
             self.addressing = change.addressing
         if change.line and self.line is not None:
             self.line = self.line._replace(**change.line)
@@ -87,7 +83,7 @@ class _Base:
         self._talk.trace = trace
 
     def _drop(self, *, renew: bool = False) -> None:
-        """Close the wire; `renew` if it was in order, so that opening it anew tells nothing of the devices."""
+        """Close the wire; `renew` if it was in order, so that opening it anew counts as no new epoch."""
         self._renewing = renew
         if self._wire is not None:
             self._wire.close()
@@ -96,15 +92,15 @@ class _Base:
     def _opened(self, wire: Stream) -> Stream:
         self._wire = wire
         self._talk.tainted = False
-        if self._talk.manners is not None and self.line is not None:
-            self._talk.manners.tune(self.line, echo=self._echo)
+        if self._talk.discipline is not None and self.line is not None:
+            self._talk.discipline.tune(self.line, echo=self._echo)
             self._tuned = self.line
         self.epoch += not self._renewing
         self._renewing = False
         return wire
 
     def _usable(self, request: Request) -> Stream | None:
-        """The open wire; None if there is none, it broke, or unasked bytes came since the last request.
+        """The open wire; None if there is none, it broke, or unexpected bytes came since the last request.
 
         A write to a connection that the server had closed before would leave open whether it was carried out.
         """
@@ -131,7 +127,7 @@ class _Base:
         return request
 
     def _failed(self, error: BaseException) -> LinkLost | None:
-        """Tidy up after an exchange that did not end well; the error to raise in place of one of the system."""
+        """Clean up after a failed exchange; returns the error to raise in place of one of the system."""
         if isinstance(error, OSError) and not isinstance(error, RegscribeError):
             self._drop()
             message = f"{self.name}: the link was lost ({error}). The next request tries to open it again"
@@ -152,8 +148,8 @@ class _Base:
 class SyncTransport(_Base):
     """A `Link` for threads."""
 
-    def __init__(self, place: Place, **settings: Unpack[LinkSettings]) -> None:
-        super().__init__(place, **settings)
+    def __init__(self, place: Place, settings: LinkSettings) -> None:
+        super().__init__(place, settings)
         self.lock = Turns()
 
     def open(self) -> None:
@@ -179,7 +175,12 @@ class SyncTransport(_Base):
             wire = self._usable(request) or self._connect()
             steps = self._talk.exchange(wire, unit, self._timed(request))
             try:
-                return _carried(steps, wire)
+                seconds = next(steps)
+                while True:
+                    seconds = steps.send(wait(wire, seconds))
+            except StopIteration as done:
+                reply: Reply = done.value
+                return reply
             except BaseException as error:
                 steps.close()
                 if lost := self._failed(error):
@@ -189,21 +190,11 @@ class SyncTransport(_Base):
                 self._finished()
 
 
-def _carried(steps: Steps[Reply], wire: Stream) -> Reply:
-    try:
-        seconds = next(steps)
-        while True:
-            seconds = steps.send(wait(wire, seconds))
-    except StopIteration as done:
-        reply: Reply = done.value
-        return reply
-
-
 class AsyncTransport(_Base):
     """An `AsyncLink`, for the tasks of one event loop."""
 
-    def __init__(self, place: Place, **settings: Unpack[LinkSettings]) -> None:
-        super().__init__(place, **settings)
+    def __init__(self, place: Place, settings: LinkSettings) -> None:
+        super().__init__(place, settings)
         self.lock = AsyncTurns()
 
     async def open(self) -> None:
@@ -229,7 +220,12 @@ class AsyncTransport(_Base):
             wire = self._usable(request) or await self._connect()
             steps = self._talk.exchange(wire, unit, self._timed(request))
             try:
-                return await _carried_async(steps, wire)
+                seconds = next(steps)
+                while True:
+                    seconds = steps.send(await wait_async(wire, seconds))
+            except StopIteration as done:
+                reply: Reply = done.value
+                return reply
             except BaseException as error:
                 steps.close()
                 if lost := self._failed(error):
@@ -237,13 +233,3 @@ class AsyncTransport(_Base):
                 raise
             finally:
                 self._finished()
-
-
-async def _carried_async(steps: Steps[Reply], wire: Stream) -> Reply:
-    try:
-        seconds = next(steps)
-        while True:
-            seconds = steps.send(await wait_async(wire, seconds))
-    except StopIteration as done:
-        reply: Reply = done.value
-        return reply

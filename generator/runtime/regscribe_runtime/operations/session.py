@@ -5,8 +5,7 @@ from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar
 
 from regscribe_runtime.errors import ExceptionAnswer, LinkLost, NoAnswer, WrongAnswer
-from regscribe_runtime.link.links import AsyncLink, Link
-from regscribe_runtime.link.retry import Retry
+from regscribe_runtime.link.links import LinkState, Retry
 from regscribe_runtime.link.timing import response_seconds, slowest
 from regscribe_runtime.operations.missing_registers import MissingRegisters
 from regscribe_runtime.planning.address_ranges import AddressRanges, ground_of
@@ -136,7 +135,7 @@ class Session:
         found: Terms = self.prepared[TERMS]
         return found
 
-    def begin(self, link: Link | AsyncLink) -> None:
+    def begin(self, link: LinkState) -> None:
         """Adopt the present state of the link before an operation."""
         self.at_epoch(link.epoch)
         self.addressing = link.addressing
