@@ -19,7 +19,7 @@ from regscribe.pipeline import compile_map
 from regscribe.simulate import SimulatedDevice
 from regscribe.simulate.line.service import Service, Transport
 from regscribe.simulate.line.serving import start
-from regscribe_runtime.wire.client_framing import Rtu
+from regscribe_runtime.wire.client_framing import framing_for
 
 MAPS = Path(__file__).parents[3] / "maps"
 Plan = Callable[[bytes], Iterable[tuple[float, bytes]]]
@@ -68,7 +68,7 @@ def units(athena: RegisterMap) -> list[SimulatedDevice]:
 
 
 def frame(unit: int, pdu: bytes) -> bytes:
-    return Rtu().build(unit, pdu)
+    return framing_for("rtu").build(unit, pdu)
 
 
 def words(unit: int, *values: int, function: int = 3) -> bytes:

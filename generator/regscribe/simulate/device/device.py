@@ -61,10 +61,9 @@ class SimulatedDevice:
         self._lock = RLock()
         self._functions: dict[int, Callable[[bytes], bytes]] = {
             **dict.fromkeys(READS, self._read),
-            **dict.fromkeys((functions.WRITE_COIL, functions.WRITE_REGISTER), self._write_one),
+            **dict.fromkeys(functions.WRITES, self._write),
             functions.READ_STATUS: self._status,
             functions.LOOPBACK: self._loopback,
-            **dict.fromkeys((functions.WRITE_COILS, functions.WRITE_REGISTERS), self._write_several),
             functions.MASK_REGISTER: self._mask_word,
             functions.WRITE_AND_READ: self._write_and_read,
         }
@@ -179,30 +178,20 @@ class SimulatedDevice:
         return request
 
     def _read(self, pdu: bytes) -> bytes:
+        """Read with the request's function, or with one that the map calls alike and whose space has the address."""
         request = self._request(pdu)
-        function = self._reading(request.function, request.address)
+        alike = (codes for codes in self.register_map.alike if request.function in codes)
+        candidates = (request.function, *(code for codes in alike for code in codes if code in READS))
+        documents = self.state.blueprint.layout.documents
+        function = next((code for code in candidates if documents(READS[code], request.address)), request.function)
         words = self._words.read(READS[function], function, request.address, request.quantity)
         return encode_reply(Reply(request.function, words))
 
-    def _reading(self, function: int, address: int) -> int:
-        """The function to read `address` with: this one, or an equivalent one whose space documents the address."""
-        documents = self.state.blueprint.layout.documents
-        others = (code for codes in self.register_map.alike if function in codes for code in codes if code in READS)
-        return next((code for code in (function, *others) if documents(READS[code], address)), function)
-
-    def _write(self, request: Request) -> int:
-        """Write what a request carries; returns how many values were written."""
-        space = functions.SPACES[request.function]
-        return self._words.write(space, request.function, request.address, request.words)
-
-    def _write_one(self, pdu: bytes) -> bytes:
-        self._write(self._request(pdu))
-        return pdu
-
-    def _write_several(self, pdu: bytes) -> bytes:
+    def _write(self, pdu: bytes) -> bytes:
         request = self._request(pdu)
-        done = self._write(request)
-        return encode_reply(Reply(request.function, (), request.address + self._tuning.first, done))
+        space = functions.SPACES[request.function]
+        done = self._words.write(space, request.function, request.address, request.words)
+        return encode_reply(Reply(request.function, request.words, request.address + self._tuning.first, done))
 
     def _mask_word(self, pdu: bytes) -> bytes:
         request = self._request(pdu)

@@ -28,16 +28,6 @@ class AddressSpan:
         return self.start + self.view.words
 
 
-@dataclass(frozen=True, slots=True)
-class Region:
-    """The rules for requests that start between `first` and `last`: alignment and function codes (empty: any)."""
-
-    first: int
-    last: int
-    align: int
-    functions: tuple[int, ...]
-
-
 class AddressIndex:
     """The address index of one model, which reads and writes consult; immutable once built."""
 
@@ -45,25 +35,29 @@ class AddressIndex:
 
     def __init__(self, model: Model, reserved: Iterable[tuple[Space, int, int]]) -> None:
         self._places: dict[Space, dict[int, AddressSpan]] = {space: {} for space in Space}
+        self._regions: dict[Space, dict[range, View]] = {space: {} for space in Space}
         for register in model.registers:
             for place in places_of(register):
                 self._places[place.view.space].update(dict.fromkeys(range(place.start, place.end), place))
+            for view in register.views:
+                if view.align > 1 or view.functions:
+                    first, last = view.region or (view.address(register.at), view.last(register.at))
+                    self._regions[view.space].setdefault(range(first, last + 1), view)
         self.reserved = _addresses(reserved)
         self.unused = _addresses(model.unused)
         steps = (step for command in model.commands for step in command.steps if step.words)
         self.command_addresses = _addresses(
             (step.space, step.address, step.address + len(step.words) - 1) for step in steps
         )
-        self._regions = {space: _regions(model, space) for space in Space}
         self._bounds = {space: self._bounds_of(space) for space in Space}
 
     def place(self, space: Space, address: int) -> AddressSpan | None:
         """Return the value that has a word at `address`; None if there is none."""
         return self._places[space].get(address)
 
-    def region(self, space: Space, address: int) -> Region | None:
-        """Return the rules for a request that starts at `address`; None if no view set speaks of it."""
-        return next((region for region in self._regions[space] if region.first <= address <= region.last), None)
+    def region(self, space: Space, address: int) -> View | None:
+        """Return the view whose alignment and functions bind a request that starts at `address`; None if none does."""
+        return next((view for addresses, view in self._regions[space].items() if address in addresses), None)
 
     def documents(self, space: Space, address: int) -> bool:
         """Whether `address` lies between the lowest and the highest that the map documents in that space."""
@@ -83,16 +77,6 @@ def places_of(register: Register) -> tuple[AddressSpan, ...]:
     """Every place where a register is transmitted: its views, then the aliases of the base view."""
     views = (AddressSpan(register, view, view.address(register.at)) for view in register.views)
     return (*views, *(AddressSpan(register, register.base, address) for address in register.aliases))
-
-
-def _regions(model: Model, space: Space) -> tuple[Region, ...]:
-    views = ((register.at, view) for register in model.registers for view in register.views if view.space is space)
-    found = (
-        Region(*(view.region or (view.address(at), view.last(at))), align=view.align, functions=view.functions)
-        for at, view in views
-        if view.align > 1 or view.functions
-    )
-    return tuple(dict.fromkeys(found))
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,7 +18,8 @@ def initial_value(register: Register, state: PresentMeaning) -> Fraction | str:
     identities = [each.identity for each in rules if state.blueprint.model.name in each.models]
     if register.kind is Kind.STRING:
         return _initial_text(register, identities)
-    tests = [test for identity in identities[:1] for test in identity.when.tests if _decides(test, register)]
+    tests = [test for identity in identities[:1] for test in identity.when.tests if test.register == register.path]
+    tests = [test for test in tests if test.codes and not test.negated]
     if tests:
         return _identifying(register, tests)
     stated = register.default if register.delivered is None else register.delivered
@@ -35,10 +36,6 @@ def initial_value(register: Register, state: PresentMeaning) -> Fraction | str:
 def _initial_text(register: Register, identities: list[Identity]) -> str:
     shown = [text for identity in identities for path, text in identity.texts if path == register.path]
     return next((text for text in (*shown, register.delivered, register.default) if isinstance(text, str)), "")
-
-
-def _decides(test: Is, register: Register) -> bool:
-    return test.register == register.path and bool(test.codes) and not test.negated
 
 
 def _identifying(register: Register, tests: list[Is]) -> Fraction:

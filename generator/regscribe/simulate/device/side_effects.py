@@ -3,7 +3,6 @@
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
-from typing import NamedTuple
 
 from regscribe.model import Command, Effect, Register
 from regscribe.reference import choose, holds, round_by
@@ -124,21 +123,15 @@ class Conduct:
                 self.controller.convert(register.path, float(factor), float(offset))
 
 
-class _Measured(NamedTuple):
-    register: Register
-    symbol: str
-    value: Fraction
-
-
-def _values_in(state: DeviceState, unit: str) -> Iterator[_Measured]:
-    """The values of use in a unit; faults and special values are in none."""
+def _values_in(state: DeviceState, unit: str) -> Iterator[tuple[Register, str, Fraction]]:
+    """Registers of a unit of measure with its symbol now and the value of use; not those with a fault or special value."""
     for register in state.blueprint.model.registers:
         stored = state.stored(register.path)
         if register.unit_id != unit or not isinstance(stored, Fraction) or stored in register.faults:
             continue
         value = state.to_value(register, stored)
         if value not in {state.special(register, each) for each in register.specials}:
-            yield _Measured(register, choose(register.unit, state) or "", value)
+            yield register, choose(register.unit, state) or "", value
 
 
 def _rounded(register: Register, stored: Fraction) -> Fraction:

@@ -48,11 +48,16 @@ class LineDiscipline:
         self._silent_from = time.monotonic()
 
     def before(self, wire: Stream, pending: PendingRequest) -> Steps[None]:
-        """Wait until the line is free for this request."""
+        """Wait until the line is free for this request, and probe its echo if an echo could pass for the answer."""
         yield from self._silence(wire, pending.unit)
         yield from self._await_late_answer(wire, pending)
         if self.echo is None and pending.resembles_its_answer:
-            yield from self._ask_echo(wire, pending.unit)
+            wire.write(ECHO_BYTE)
+            self.sent(len(ECHO_BYTE))
+            back = read_waiting(wire) if (yield ECHO_SECONDS) else b""
+            self._trace(pending.unit, back)
+            self.echo = back == ECHO_BYTE
+            yield from self._silence(wire, pending.unit)
 
     def _silence(self, wire: Stream, unit: int) -> Steps[None]:
         gap = self.line.silence(self.gap) if self.line else 0.0
@@ -84,14 +89,6 @@ class LineDiscipline:
                     break
         self.late.came(pending)
         yield from self._silence(wire, pending.unit)
-
-    def _ask_echo(self, wire: Stream, unit: int) -> Steps[None]:
-        wire.write(ECHO_BYTE)
-        self.sent(len(ECHO_BYTE))
-        back = read_waiting(wire) if (yield ECHO_SECONDS) else b""
-        self._trace(unit, back)
-        self.echo = back == ECHO_BYTE
-        yield from self._silence(wire, unit)
 
     def echoed(self, wire: Stream, pending: PendingRequest, deadline: float) -> Steps[bytearray]:
         """Read the echo of a request and return the bytes behind it; WrongAnswer if it differs (a collision)."""

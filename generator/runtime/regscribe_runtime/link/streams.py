@@ -40,14 +40,14 @@ class Stream(Protocol):
         """Send all of it; OSError if it is broken or takes no more."""
 
     def waiting(self) -> bool:
-        """Whether bytes have come; for ports that the system cannot wait for."""
-        raise NotImplementedError
+        """Whether bytes have come; asked only of ports that the system cannot wait for."""
+        return False
 
     def close(self) -> None:
         """Close it; never fails."""
 
 
-class _Socket:
+class _Socket(Stream):
     """A TCP connection."""
 
     def __init__(self, connection: socket.socket) -> None:
@@ -69,14 +69,11 @@ class _Socket:
         if self._socket.send(data) < len(data):  # a frame always fits into the buffer of a connection that is alive
             raise BlockingIOError(errno.EAGAIN, "the other end takes no more bytes")
 
-    def waiting(self) -> bool:
-        raise NotImplementedError  # the system waits for it
-
     def close(self) -> None:
         self._socket.close()
 
 
-class _SerialPort:
+class _SerialPort(Stream):
     """A serial port of this machine, held by this process alone."""
 
     def __init__(self, port: serial.SerialBase) -> None:

@@ -1,4 +1,4 @@
-"""Exact numbers: read from decimal text, rounded as a device rounds, shown as decimal text; never through a float."""
+"""Exact numbers: parsed from decimal text, rounded as a device rounds, shown as decimal text; never through a float."""
 
 import math
 from collections.abc import Callable
@@ -11,15 +11,15 @@ Number = int | Fraction
 """An exact number."""
 
 MOST_DIGITS = 400
-"""Beyond the largest and the smallest number of 64 bits; what has more digits would only cost time."""
+"""More than the largest and the smallest number of 64 bits have; longer numbers would only cost time."""
 _MOST_BITS = (10**MOST_DIGITS).bit_length()
 _LONGEST_SHOWN = 60
 _FLOAT32_DIGITS, _FEWER_DIGITS = range(6, 10), range(1, 10)
-"""Significant digits tried for a float32: 6 are always exact, 9 always suffice (IEEE 754 binary32); of subnormal
-numbers, which have fewer bits, fewer may do."""
+"""Significant digits tried for a float32: 6 are always exact, 9 always suffice (IEEE 754 binary32); subnormal numbers,
+which have fewer bits, may need fewer."""
 _SMALLEST_NORMAL = 2.0**-126
 _ABOVE = {2.0**-96: "1.2621775E-29", 2.0**87: "1.5474251E+26", 2.0**90: "1.2379401E+27"}
-"""The float32 whose shortest decimal is not the nearest one of its length: below a power of two they lie closer."""
+"""The powers of two whose shortest decimal is not the nearest of its length, as float32 lie closer below them."""
 
 
 def exact(value: float | Decimal | Fraction) -> Fraction:
@@ -57,13 +57,9 @@ def show(number: Number) -> str:
     """The number as decimal text without exponent, or `a/b` where no decimal text is exact."""
     if number.denominator == 1:
         return str(number.numerator)
-    twos_and_fives = number.denominator
-    for prime in (2, 5):
-        while twos_and_fives % prime == 0:
-            twos_and_fives //= prime
-    if twos_and_fives != 1:
+    digits = next((n for n in range(1, number.denominator.bit_length()) if 10**n % number.denominator == 0), 0)
+    if not digits:
         return f"{number.numerator}/{number.denominator}"
-    digits = next(n for n in range(1, number.denominator.bit_length() + 1) if 10**n % number.denominator == 0)
     whole = abs(number.numerator) * 10**digits // number.denominator
     text = f"{whole:0{digits + 1}d}"
     return f"{'-' if number < 0 else ''}{text[:-digits]}.{text[-digits:]}"

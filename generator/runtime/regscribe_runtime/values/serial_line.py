@@ -1,4 +1,4 @@
-"""A serial line: port, speed and character format, the times that follow from them, and what may change on the way."""
+"""Serial lines: port, speed, character format and the times that follow from them; changes of them; addressing."""
 
 from itertools import product
 from typing import Any, NamedTuple, Self
@@ -11,7 +11,7 @@ FORMATS = tuple(f"{data}{parity}{stop}" for data, parity, stop in product(DATA_B
 """Every character format as one text: 8N1, 7E2."""
 
 FRAMINGS = ("tcp", "rtu", "ascii")
-"""How a request is packed: with the header of Modbus TCP (MBAP), or as a line carries it."""
+"""Framings: with the header of Modbus TCP (MBAP), and those of serial lines."""
 
 MODBUS, JBUS = "modbus", "jbus"
 ADDRESSINGS = {MODBUS: 0, JBUS: 1}
@@ -22,7 +22,7 @@ FAST_BAUD, FAST_SILENCE = 19200, 0.00175
 
 
 def first_address(addressing: str) -> int:
-    """The number of the first address; ValueError for an unknown way to count."""
+    """The number of the first address; ValueError for an unknown addressing."""
     if addressing not in ADDRESSINGS:
         message = f"addressing {addressing!r} is none of {', '.join(ADDRESSINGS)}"
         raise ValueError(message)
@@ -68,7 +68,7 @@ class SerialLine(NamedTuple):
         return max(spaced, FAST_SILENCE) if spaced and self.baud > FAST_BAUD else spaced
 
     def checked(self) -> Self:
-        """The line itself; ValueError if no serial port can be set so."""
+        """Return the line unchanged; ValueError if no serial port has such settings."""
         if self.baud <= 0:
             message = f"{self.baud} baud is no speed of a serial line"
             raise ValueError(message)
@@ -83,7 +83,7 @@ class SerialLine(NamedTuple):
 
 
 class LineChange(NamedTuple):
-    """How the device talks from now on, so that the session and its link follow; None: as before.
+    """Changed communication settings of a device, for its session and link; None: unchanged.
 
     Over TCP speed and format are those of a gateway, which a link cannot set: they stay as they are.
     """
@@ -97,6 +97,7 @@ class LineChange(NamedTuple):
 
     @property
     def line(self) -> dict[str, Any]:
-        """What changes of the serial line."""
-        found = {"baud": self.baud, "data_bits": self.data_bits, "parity": self.parity, "stop_bits": self.stop_bits}
-        return {name: value for name, value in found.items() if value is not None}
+        """The changed fields of the serial line."""
+        return {
+            name: value for name, value in self._asdict().items() if name in SerialLine._fields and value is not None
+        }

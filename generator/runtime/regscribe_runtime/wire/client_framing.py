@@ -2,24 +2,11 @@
 
 from abc import ABC, abstractmethod
 
-from regscribe_runtime.wire.framing import (
-    ANSWERS,
-    ASCII,
-    LINE_END,
-    LONGEST_ASCII,
-    MBAP_HEAD,
-    RTU,
-    SHORTEST_RTU,
-    TCP,
-    Frame,
-    ascii_frame,
-    build,
-    checked_framing,
-    rtu_end,
-)
+from regscribe_runtime.wire import framing
+from regscribe_runtime.wire.framing import ANSWERS, MBAP_HEAD, SHORTEST_RTU, Frame, ascii_frame, rtu_end
 from regscribe_runtime.wire.pdu import EXCEPTION_BIT
 
-LONGEST = LONGEST_ASCII + len(LINE_END)
+LONGEST = framing.LONGEST_ASCII + len(framing.LINE_END)
 """Bytes of the longest frame; what does not become one by then is noise."""
 
 
@@ -35,34 +22,32 @@ class Framing(ABC):
 
     def build(self, unit: int, pdu: bytes) -> bytes:
         """The frame of a request."""
-        return build(self._NAME, unit, pdu, self.transaction)
+        return framing.build(self._NAME, unit, pdu, self.transaction)
 
     @abstractmethod
     def find(self, buffer: bytearray, unit: int, function: int) -> Frame | None:
-        """Take the next frame that may answer a request to `unit` out of the buffer, and what stands before it.
+        """Take the next frame that may answer a request to `unit` with `function` (or refuse it) out of the buffer.
 
-        None if there is none yet. ValueError if what stands there can never become one.
+        What stands before it goes as well. None if there is none yet. ValueError if the buffer can never become one.
         """
 
     @abstractmethod
     def stranger(self, buffer: bytes) -> int | None:
-        """The unit of a sound frame anywhere in bytes that are no answer."""
+        """The unit of the first sound frame in bytes that are no answer, None without one."""
 
 
-class Mbap(Framing):
+class _Mbap(Framing):
     """Frames of Modbus TCP: a header with a transaction id, which tells an answer from a late or repeated one."""
 
     decisive = True
-    _NAME = TCP
+    _NAME = framing.TCP
     _LENGTHS = range(3, 256)
 
     def build(self, unit: int, pdu: bytes) -> bytes:
-        """The frame of a request, with the next transaction id."""
         self.transaction = self.transaction % 0xFFFF + 1
         return super().build(unit, pdu)
 
     def find(self, buffer: bytearray, unit: int, function: int) -> Frame | None:  # noqa: ARG002 (the id tells more)
-        """The next frame, of any unit and function; ValueError for a header that is none."""
         if len(buffer) < MBAP_HEAD.size:
             return None
         transaction, protocol, length, sender = MBAP_HEAD.unpack_from(buffer)
@@ -77,17 +62,15 @@ class Mbap(Framing):
         return Frame(sender, raw[MBAP_HEAD.size :], transaction, raw)
 
     def stranger(self, buffer: bytes) -> int | None:  # noqa: ARG002 (as above)
-        """None: a frame of another transaction was dropped when it came."""
-        return None
+        return None  # a frame of another transaction was dropped when it came
 
 
-class Rtu(Framing):
+class _Rtu(Framing):
     """Frames with a CRC. They have no mark at the beginning, so a sound one of the right unit is looked for."""
 
-    _NAME = RTU
+    _NAME = framing.RTU
 
     def find(self, buffer: bytearray, unit: int, function: int) -> Frame | None:
-        """The first sound frame of `unit` with `function`, or with its exception."""
         for at in range(len(buffer) - SHORTEST_RTU + 1):
             mine = buffer[at] == unit and buffer[at + 1] & ~EXCEPTION_BIT == function
             if mine and (end := rtu_end(buffer, at, ANSWERS)):
@@ -98,33 +81,30 @@ class Rtu(Framing):
         return None
 
     def stranger(self, buffer: bytes) -> int | None:
-        """The unit of the first sound frame."""
         places = range(len(buffer) - SHORTEST_RTU + 1)
         return next((buffer[at] for at in places if rtu_end(buffer, at, ANSWERS)), None)
 
 
-class Ascii(Framing):
+class _Ascii(Framing):
     """Frames in hexadecimal text between a colon and a line end, with an LRC."""
 
-    _NAME = ASCII
+    _NAME = framing.ASCII
 
     def find(self, buffer: bytearray, unit: int, function: int) -> Frame | None:
-        """The first sound frame of `unit` with `function`, or with its exception."""
-        while (end := buffer.find(LINE_END)) >= 0:
+        while (end := buffer.find(framing.LINE_END)) >= 0:
             found = ascii_frame(bytes(buffer[:end]))
-            del buffer[: end + len(LINE_END)]
+            del buffer[: end + len(framing.LINE_END)]
             if found and found.unit == unit and found.pdu[0] & ~EXCEPTION_BIT == function:
                 return found
         del buffer[:-LONGEST]
         return None
 
     def stranger(self, buffer: bytes) -> int | None:
-        """The unit of the first sound frame."""
-        found = (ascii_frame(line) for line in buffer.split(LINE_END))
+        found = (ascii_frame(line) for line in buffer.split(framing.LINE_END))
         return next((one.unit for one in found if one), None)
 
 
 def framing_for(name: str) -> Framing:
     """A new framing; ValueError for an unknown name."""
-    kinds: dict[str, type[Framing]] = {TCP: Mbap, RTU: Rtu, ASCII: Ascii}
-    return kinds[checked_framing(name)]()
+    kinds: dict[str, type[Framing]] = {framing.TCP: _Mbap, framing.RTU: _Rtu, framing.ASCII: _Ascii}
+    return kinds[framing.checked_framing(name)]()

@@ -8,17 +8,7 @@ import struct
 from collections.abc import Sequence
 
 from regscribe_runtime.wire import requests as functions
-from regscribe_runtime.wire.requests import (
-    BIT_READS,
-    BITS_IN_BYTE,
-    BLOCK_HEAD_SIZE,
-    BLOCK_WRITES,
-    BYTES_IN_WORD,
-    WORD_READS,
-    Reply,
-    Request,
-    bytes_of_bits,
-)
+from regscribe_runtime.wire.requests import BIT_READS, BITS_IN_BYTE, WORD_READS, Reply, Request, bytes_of_bits
 
 EXCEPTION_BIT = 0x80
 ON, OFF = 0xFF00, 0x0000
@@ -74,7 +64,7 @@ def decode_request(pdu: bytes) -> Request:
     A coil's state is 0 or 1 in `words`. Function 23 is two requests behind one code, which a device takes apart.
     """
     function, data = pdu[0], pdu[1:]
-    if function in BLOCK_WRITES:
+    if function in functions.BLOCK_WRITES:
         return _block_write(function, data)
     if function not in _DATA_SIZES:
         message = f"function {function:02d} is not known"
@@ -89,12 +79,12 @@ def decode_request(pdu: bytes) -> Request:
 
 
 def _block_write(function: int, data: bytes) -> Request:
-    head, values = data[:BLOCK_HEAD_SIZE], data[BLOCK_HEAD_SIZE:]
-    expect_bytes(head, BLOCK_HEAD_SIZE)
-    expect_bytes(data, BLOCK_HEAD_SIZE + head[-1])
+    head, values = data[: functions.BLOCK_HEAD_SIZE], data[functions.BLOCK_HEAD_SIZE :]
+    expect_bytes(head, functions.BLOCK_HEAD_SIZE)
+    expect_bytes(data, functions.BLOCK_HEAD_SIZE + head[-1])
     address, quantity = unpack_words(head[:-1])
     bits = function == functions.WRITE_COILS
-    if len(values) != (bytes_of_bits(quantity) if bits else BYTES_IN_WORD * quantity):
+    if len(values) != (bytes_of_bits(quantity) if bits else functions.BYTES_IN_WORD * quantity):
         message = f"{quantity} {'bits' if bits else 'words'} are announced, but {len(values)} bytes"
         raise MalformedError(message)
     return Request(function, address, quantity, unpack_bits(values, quantity) if bits else unpack_words(values))
@@ -119,7 +109,7 @@ def encode_reply(reply: Reply) -> bytes:
     function, words, address, quantity, exception = reply
     if exception is not None:
         return bytes((function | EXCEPTION_BIT, exception))
-    if function in BLOCK_WRITES:
+    if function in functions.BLOCK_WRITES:
         return ADDRESSED.pack(function, address, quantity)
     if function == functions.READ_STATUS:
         return bytes((function, *words))
@@ -167,7 +157,7 @@ def _echoed(code: int, data: bytes) -> Reply:
     if len(words) < 2:  # noqa: PLR2004 (an address and a value or a quantity)
         return Reply(code)
     address, value = words[0], words[1]
-    if code in BLOCK_WRITES:
+    if code in functions.BLOCK_WRITES:
         return Reply(code, (), address, value)
     if code == functions.WRITE_COIL:
         value = {ON: 1, OFF: 0}.get(value, value)
@@ -182,7 +172,7 @@ def pack_words(words: Sequence[int]) -> bytes:
 
 def unpack_words(data: bytes) -> tuple[int, ...]:
     """The words of an even number of bytes."""
-    return struct.unpack(f">{len(data) // BYTES_IN_WORD}H", data)
+    return struct.unpack(f">{len(data) // functions.BYTES_IN_WORD}H", data)
 
 
 def pack_bits(bits: Sequence[int]) -> bytes:

@@ -2,26 +2,8 @@
 
 from abc import ABC, abstractmethod
 
-from regscribe_runtime.wire.framing import (
-    ASCII,
-    COLON,
-    LINE_END,
-    LONGEST_ASCII,
-    LONGEST_PDU,
-    LONGEST_RTU,
-    MBAP_HEAD,
-    REQUESTS,
-    RTU,
-    SHORTEST_RTU,
-    TCP,
-    Frame,
-    ascii_frame,
-    build,
-    checked_framing,
-    has_crc,
-    rtu_end,
-    rtu_size,
-)
+from regscribe_runtime.wire import framing
+from regscribe_runtime.wire.framing import MBAP_HEAD, REQUESTS, SHORTEST_RTU, Frame
 
 
 class Framer(ABC):
@@ -49,7 +31,7 @@ class Framer(ABC):
 
     def answer(self, request: Frame, pdu: bytes) -> bytes:
         """Return the frame that answers `request` with `pdu`."""
-        return build(self._NAME, request.unit, pdu, request.transaction)
+        return framing.build(self._NAME, request.unit, pdu, request.transaction)
 
 
 class MbapFramer(Framer):
@@ -60,8 +42,8 @@ class MbapFramer(Framer):
     """
 
     __slots__ = ()
-    _NAME = TCP
-    _LENGTHS = range(2, LONGEST_PDU + 2)
+    _NAME = framing.TCP
+    _LENGTHS = range(2, framing.LONGEST_PDU + 2)
 
     def feed(self, data: bytes) -> list[Frame]:
         """Add bytes and return every request that they complete."""
@@ -92,7 +74,7 @@ class RtuFramer(Framer):
     """
 
     __slots__ = ("_in_step",)
-    _NAME = RTU
+    _NAME = framing.RTU
 
     def __init__(self) -> None:
         super().__init__()
@@ -114,7 +96,7 @@ class RtuFramer(Framer):
         found: list[Frame] = []
         while len(self._buffer) >= SHORTEST_RTU:
             data = bytes(self._buffer)
-            if end := rtu_end(data, 0, REQUESTS) or self._end_of_unknown(data):
+            if end := framing.rtu_end(data, 0, REQUESTS) or self._end_of_unknown(data):
                 found.append(Frame(data[0], data[1 : end - 2]))
                 del self._buffer[:end]
                 self._in_step = True
@@ -130,29 +112,29 @@ class RtuFramer(Framer):
 
     def _end_of_unknown(self, data: bytes) -> int:
         """Where a frame with an unknown function code ends, by the first CRC that fits; else 0."""
-        if not self._in_step or rtu_size(data, 0, REQUESTS) is not None:
+        if not self._in_step or framing.rtu_size(data, 0, REQUESTS) is not None:
             return 0
-        ends = range(SHORTEST_RTU, min(len(data), LONGEST_RTU) + 1)
-        return next((end for end in ends if has_crc(data[:end])), 0)
+        ends = range(SHORTEST_RTU, min(len(data), framing.LONGEST_RTU) + 1)
+        return next((end for end in ends if framing.has_crc(data[:end])), 0)
 
 
 def _is_unfinished(data: bytes) -> bool:
-    size = rtu_size(data, 0, REQUESTS)
+    size = framing.rtu_size(data, 0, REQUESTS)
     if size is None:
-        return len(data) < LONGEST_RTU and not _next_sound(data)
+        return len(data) < framing.LONGEST_RTU and not _next_sound(data)
     return size == 0 or len(data) < size
 
 
 def _next_sound(data: bytes) -> int:
     """Return the first place behind the beginning where a sound frame stands, 0 if there is none."""
     places = range(1, len(data) - SHORTEST_RTU + 1)
-    return next((at for at in places if rtu_end(data, at, REQUESTS)), 0)
+    return next((at for at in places if framing.rtu_end(data, at, REQUESTS)), 0)
 
 
 def _first_possible(data: bytes) -> int:
     """Return the first place where a frame may have begun whose rest is still to come."""
     for at in range(len(data)):
-        size = rtu_size(data, at, REQUESTS)
+        size = framing.rtu_size(data, at, REQUESTS)
         if size is not None and not 0 < size <= len(data) - at:
             return at
     return len(data)
@@ -174,18 +156,18 @@ class AsciiFramer(Framer):
     """Requests in hexadecimal text between a colon and a line end, with an LRC."""
 
     __slots__ = ()
-    _NAME = ASCII
+    _NAME = framing.ASCII
 
     def feed(self, data: bytes) -> list[Frame]:
         """Add bytes and return every request that they complete."""
-        *lines, rest = (self._buffer + data).split(LINE_END)
-        start = rest.rfind(COLON)
-        kept = start >= 0 and len(rest) - start <= LONGEST_ASCII + len(LINE_END)
+        *lines, rest = (self._buffer + data).split(framing.LINE_END)
+        start = rest.rfind(framing.COLON)
+        kept = start >= 0 and len(rest) - start <= framing.LONGEST_ASCII + len(framing.LINE_END)
         self._buffer = rest[start:] if kept else bytearray()
-        return [Frame(found.unit, found.pdu) for line in lines if (found := ascii_frame(bytes(line)))]
+        return [Frame(found.unit, found.pdu) for line in lines if (found := framing.ascii_frame(bytes(line)))]
 
 
-def framer_for(framing: str) -> Framer:
+def framer_for(name: str) -> Framer:
     """Return a new framer, for one connection; ValueError for an unknown name."""
-    kinds: dict[str, type[Framer]] = {TCP: MbapFramer, RTU: RtuFramer, ASCII: AsciiFramer}
-    return kinds[checked_framing(framing)]()
+    kinds: dict[str, type[Framer]] = {framing.TCP: MbapFramer, framing.RTU: RtuFramer, framing.ASCII: AsciiFramer}
+    return kinds[framing.checked_framing(name)]()
