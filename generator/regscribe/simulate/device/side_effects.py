@@ -124,7 +124,7 @@ class Conduct:
 
 
 def _values_in(state: DeviceState, unit: str) -> Iterator[tuple[Register, str, Fraction]]:
-    """Registers of a unit of measure with its symbol now and the value of use; not those with a fault or special value."""
+    """Registers of a unit of measure with its present symbol and their values of use; none without a number."""
     for register in state.blueprint.model.registers:
         stored = state.stored(register.path)
         if register.unit_id != unit or not isinstance(stored, Fraction) or stored in register.faults:

@@ -98,6 +98,5 @@ class LineChange(NamedTuple):
     @property
     def line(self) -> dict[str, Any]:
         """The changed fields of the serial line."""
-        return {
-            name: value for name, value in self._asdict().items() if name in SerialLine._fields and value is not None
-        }
+        found = {"baud": self.baud, "data_bits": self.data_bits, "parity": self.parity, "stop_bits": self.stop_bits}
+        return {name: value for name, value in found.items() if value is not None}
