@@ -13,7 +13,7 @@ from regscribe.model import Register, RegisterMap, Space, View
 from regscribe.simulate.device.device import SimulatedDevice
 from regscribe_runtime import RegscribeError, ValueRefused
 from regscribe_runtime.driver import executor
-from regscribe_runtime.link.links import NEVER
+from regscribe_runtime.link.links import Retry
 from regscribe_runtime.link.locks import Turns
 from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.wire import pdu
@@ -63,7 +63,7 @@ class Wire:
 
     def __init__(self, answer: Callable[[bytes], bytes | None]) -> None:
         self.answer = answer
-        self.epoch, self.timeout, self.retry = 1, 1.0, NEVER
+        self.epoch, self.timeout, self.retry = 1, 1.0, Retry(reads=0)
         self.lock: Any = Turns()
         self.line: Any = SerialLine("", 9600)
         self.addressing = "modbus"

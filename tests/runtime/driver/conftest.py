@@ -16,7 +16,7 @@ from regscribe import checks, lower, schema, source
 from regscribe.emit import python
 from regscribe.model import RegisterMap, Severity
 from regscribe_runtime import LinkLost, NoAnswer, WrongAnswer
-from regscribe_runtime.link.links import NEVER
+from regscribe_runtime.link.links import Retry
 from regscribe_runtime.link.locks import AsyncTurns, Turns
 from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.wire import pdu
@@ -103,7 +103,7 @@ class DirectLink:
 
     def __init__(self, device: Any, *, fate: dict[int, str] | None = None, writes_only: bool = False) -> None:
         self.device, self.fate, self.writes_only = device, fate or {}, writes_only
-        self.epoch, self.timeout, self.retry = 1, 1.0, NEVER
+        self.epoch, self.timeout, self.retry = 1, 1.0, Retry(reads=0)
         self.lock: Any = Turns()
         self.line: Any = SerialLine("", 9600)
         self.addressing = "modbus"

@@ -1,4 +1,4 @@
-"""Words on the wire <-> the number that a view transmits, as a device has them that must send *something*.
+"""Codec of a device, which must send *something*: words on the wire <-> the number that a view transmits.
 
 A number that a view cannot carry is clipped to the view's limits (with or without `saturates`: only a driver can tell
 the difference), and what is no ASCII in a text is sent and kept as it is.
@@ -12,7 +12,7 @@ from regscribe.reference import bytes_in_order, sent_words, wire_number, words_i
 
 
 def encode(view: View, stored: Fraction | str | NotANumber, order: Order) -> tuple[int, ...]:
-    """Return the words (or the one bit, or the one status byte) that `view` shows while the device holds `stored`."""
+    """Return the words (or the one bit, or the one status byte) of `view` for a stored value."""
     if isinstance(stored, str) or view.type is WireType.STRING:
         size = 2 * view.words
         return words_in_order(view, list(str(stored).encode("latin-1", "replace")[:size].ljust(size, b"\0")), order)
@@ -20,7 +20,7 @@ def encode(view: View, stored: Fraction | str | NotANumber, order: Order) -> tup
 
 
 def decode(view: View, words: Sequence[int], order: Order) -> Fraction | str | None:
-    """Return the stored value that `words`, written through `view`, set; None if they spell no number (NaN, infinity).
+    """Return the stored value of `words` written through `view`; None if they are no number (NaN, infinity).
 
     A float stands for the shortest decimal that has its bits: 120.1 written is 120.1 stored, and 120.1 shown again.
     """

@@ -15,7 +15,7 @@ from regscribe_runtime.wire.requests import SPACES, Request
 NAMES = dict.fromkeys(READS, "read") | dict.fromkeys((5, 6, 15, 16), "write")
 NAMES |= {7: "read status", 8: "loopback", 22: "mask", 23: "write and read"}
 MOST_SHOWN = 6
-"""Registers that are told by name; of more, their number."""
+"""Registers that are named; of more, only their number is given."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -90,7 +90,7 @@ class PresentMeaning(ABC):
         return (scale.multiply * stored + scale.add) / self.power(scale.decimals)
 
     def usable(self, register: Register, stored: Stored) -> Stored:
-        """Turn what is stored into what `DeviceState.put` takes: a number into the value of use, else as it is."""
+        """Turn a stored number into the value of use; a text or NaN stays as it is (so that `put` takes it)."""
         return self.to_value(register, stored) if isinstance(stored, Fraction) else stored
 
     def from_value(self, register: Register, value: Fraction) -> Fraction:
@@ -117,7 +117,7 @@ class PresentMeaning(ABC):
         return view.order.order(self.look_up(view.order.register)) or first
 
     def quantise(self, register: Register, stored: Fraction) -> Fraction:
-        """Round `stored` to what the device can hold: to the scale's step, else to what its views can tell apart."""
+        """Round `stored` to the resolution of the device: the scale's step, else that of its finest view."""
         conversion = self.conversion(register)
         step = None if conversion.places else conversion.step
         if step is None:
@@ -127,7 +127,7 @@ class PresentMeaning(ABC):
         return _on_step(register, stored, Fraction(step))
 
     def kept(self, register: Register, stored: Fraction) -> Fraction:
-        """Round what comes in, written or measured, to what the device keeps of it as it is configured now.
+        """Round a written or measured number to the resolution that the device keeps under its present configuration.
 
         What it holds already stays when a register that says how many decimals it keeps changes.
         """

@@ -23,7 +23,7 @@ from regscribe.simulate.errors import SimulatorError
 from regscribe.simulate.givens import GivenValue, known_givens
 
 Value = Fraction | str
-"""A value of use: what a person would say the register is."""
+"""A value of use: the number in the unit of use, a text, or the id of a sentinel."""
 
 _BLUEPRINTS: dict[tuple[int, str, frozenset[object]], Blueprint] = {}
 """The latest blueprints by map (the id of the object, which the blueprint keeps alive), model and givens."""
@@ -67,7 +67,7 @@ class DeviceState(PresentMeaning):
         return cls(blueprint)
 
     def _begin(self) -> None:
-        """Fill the blueprint with what a new device holds and shows."""
+        """Fill the blueprint with the stored values and the image of a new device."""
         for register in self._model.registers:
             self.stored(register.path)
         for register in self._model.registers:
@@ -78,7 +78,7 @@ class DeviceState(PresentMeaning):
             self._show(register, self.blueprint.image)
 
     def words(self, space: Space, address: int, count: int) -> list[int | None]:
-        """Return what a read shows at each address; None where no readable register stands."""
+        """Return the word at each address as a read shows it; None where no readable register stands."""
         base = self.blueprint.image[space].get
         own = self._image.get(space)
         if own is None:
@@ -86,7 +86,7 @@ class DeviceState(PresentMeaning):
         return [own.get(each, base(each)) for each in range(address, address + count)]
 
     def stored(self, path: str) -> Stored:
-        """Return what the device holds for the register `path`."""
+        """Return the stored value of the register `path`."""
         for kept in (self._stored, self.blueprint.stored):
             if path in kept:
                 return kept[path]
@@ -94,7 +94,7 @@ class DeviceState(PresentMeaning):
         return first
 
     def store(self, path: str, stored: Stored) -> None:
-        """Set what the device holds for the register `path`, and with it all words that depend on it."""
+        """Set the stored value of the register `path`, and all words that depend on it."""
         register = self._model.register(path)
         self._stored[path] = self.quantise(register, stored) if isinstance(stored, Fraction) else stored
         self._show(register, self._image)
@@ -128,7 +128,7 @@ class DeviceState(PresentMeaning):
         return other
 
     def adopt(self, other: "DeviceState") -> None:
-        """Hold and show what another state of the model holds and shows."""
+        """Take over the stored values and the image of another state of the model."""
         stored, image, pending, self._driven = other._held()  # noqa: SLF001 - of its own kind
         self.touched.update(self._stored, stored)
         self._stored, self._pending = dict(stored), dict(pending)
@@ -203,7 +203,7 @@ class DeviceState(PresentMeaning):
         return next((each.id for each in register.sentinels if each.stored == stored), "")
 
     def meant(self, register: Register, stored: Stored) -> Value:
-        """Return the value of use of what is stored, or the id of the sentinel that it is (`nan` without one)."""
+        """Return the value of use of a stored value, or the id of the sentinel that it is (`nan` without one)."""
         if isinstance(stored, str):
             return stored.partition("\0")[0].rstrip(" ")
         fault = self.fault(register, stored)
@@ -246,7 +246,7 @@ class DeviceState(PresentMeaning):
         return self.usable(self._model.register(shadow.shadows), self.stored(shadow.shadows))
 
     def _changed(self, register: Register, field: BitField | None, value: Plain) -> Stored:
-        """Return what a register holds once it, or its bit field, is set to a value of use."""
+        """Return the stored value of a register after it, or its bit field, is set to a value of use."""
         stored = self.stored(register.path)
         if field is None or not isinstance(stored, Fraction):
             return self._to_stored(register, value)

@@ -20,7 +20,7 @@ MOST_BYTES = 8_000_000
 """A state of the largest device has 200 kB; a file beyond this is none."""
 
 PASSES = 2
-"""Values are set so often: in the first pass those that decide what the others mean may come late."""
+"""How often values are set: in the first pass scales and word orders may come after the values that need them."""
 
 
 def snapshot(state: DeviceState, unit: int, wear: Mapping[str, int]) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""Bit fields, names and versions: small, stateless steps between a stored number and what a person says."""
+"""Values as users give them: numbers, names and faults, and the bit fields of stored numbers."""
 
 from collections.abc import Mapping
 from decimal import Decimal
@@ -10,7 +10,7 @@ from regscribe.model import NAN, BitField, Enum, NotANumber, Register, exact, pa
 from regscribe.simulate.errors import SimulatorError
 
 Plain = str | float | Fraction | Decimal | NotANumber
-"""What a test may hand in for a value: a number (or what a float is that is none), a text that spells or names one."""
+"""A value that a user may give: a number or NaN, or a text that is a number or its name."""
 
 
 class Fault(StrEnum):

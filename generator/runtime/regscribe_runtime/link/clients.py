@@ -25,7 +25,7 @@ from regscribe_runtime.wire import pdu
 from regscribe_runtime.wire.requests import Reply, Request
 
 SILENT = "No response received"
-"""How pymodbus' error begins, or goes on after "ERROR:", when nothing came; its other errors are about what came."""
+"""Text of pymodbus' error when nothing came; its other errors concern the answer."""
 
 
 class _SentBefore(Exception):  # noqa: N818 (no error: how the client's second attempt ends)
@@ -52,15 +52,17 @@ class _Once(ModbusPDU):
 class _Base:
     """Common parts of both kinds of link; see `LinkState` for the attributes."""
 
-    def __init__(self, client: Any, framer: object, settings: ClientSettings) -> None:
+    def __init__(self, client: Any, framer: object, connection: Callable[[], object], settings: ClientSettings) -> None:
         self._client, self._gap = client, settings.get("gap", 0.0)
+        self._connection = connection  # the socket, port or transport that is open now, None if there is none
         self._decisive = not isinstance(framer, FramerRTU | FramerAscii)  # an answer names its request
         self.retry = settings.get("retry") or Retry()
         self.addressing = settings.get("addressing", MODBUS)
         self.retune(LineChange(addressing=self.addressing))
         self._late, self._silent_from = StaleReplies(), 0.0
-        self._opened, self._last = 0, None
-        self._used: Any = None
+        self._opened = 0
+        self._last: object = None
+        self._used: object = None
 
     @property
     def timeout(self) -> float:
@@ -82,10 +84,6 @@ class _Base:
         if connection is not None and connection is not self._last:
             self._last, self._opened = connection, self._opened + 1
         return self._opened
-
-    def _connection(self) -> Any:
-        """The socket, port or transport that is open now, None if there is none."""
-        raise NotImplementedError
 
     def retune(self, change: LineChange) -> None:
         """Count addresses otherwise from now on; the client's speed and format stay, as those of a gateway do."""
@@ -156,11 +154,8 @@ class ClientLink(_Base):
     def __init__(self, client: Any, settings: ClientSettings) -> None:
         if not isinstance(client, ModbusBaseSyncClient):
             raise TypeError(_not_one(client, "a synchronous", isinstance(client, ModbusBaseClient)))
-        super().__init__(client, client.framer, settings)
+        super().__init__(client, client.framer, lambda: self._client.socket, settings)
         self.lock = Turns()
-
-    def _connection(self) -> Any:
-        return self._client.socket
 
     def open(self) -> None:
         """LinkLost if the client is not connected; it is never opened here."""
@@ -185,7 +180,7 @@ class ClientLink(_Base):
             return self._reply(pending, answer)
 
     def _drain(self) -> None:
-        """Drop what came late over TCP, where the client would read it as the next answer; a serial client does so."""
+        """Drop late bytes of a TCP connection, which would pass for the next answer; a serial client does so itself."""
         while not self._decisive and self.line is None and select.select([self._client.socket], [], [], 0)[0]:
             self._client.recv(None)
 
@@ -196,11 +191,8 @@ class AsyncClientLink(_Base):
     def __init__(self, client: Any, settings: ClientSettings) -> None:
         if not isinstance(client, ModbusBaseClient):
             raise TypeError(_not_one(client, "an asyncio", isinstance(client, ModbusBaseSyncClient)))
-        super().__init__(client, client.ctx.framer, settings)
+        super().__init__(client, client.ctx.framer, lambda: self._client.ctx.transport, settings)
         self.lock = AsyncTurns()
-
-    def _connection(self) -> Any:
-        return self._client.ctx.transport
 
     async def open(self) -> None:
         """LinkLost if the client is not connected; it is never opened here."""

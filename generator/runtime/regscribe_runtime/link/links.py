@@ -38,17 +38,13 @@ class Retry(NamedTuple):
     pause: float = 0.05
 
 
-NEVER = Retry(reads=0)
-"""Every error shows at once."""
-
-
 class LinkSettings(TypedDict, total=False):
     """How to talk over a link.
 
     `framing` is tcp (MBAP), rtu or ascii, `addressing` modbus or jbus (for a unit that counts its addresses from 1).
-    `timeout` in seconds overrides the response timeouts that follow from the manual; `retry` says what is tried again.
+    `timeout` in seconds overrides the response timeouts that follow from the manual; `retry` is for reads alone.
     `trace` is called with every frame. On a serial line `gap` is the silence between frames in characters, and `echo`
-    whether the adapter gives back what is sent (None: find out).
+    whether the adapter echoes what is sent (None: find out).
     """
 
     framing: str
@@ -84,7 +80,6 @@ class SyncClient(Protocol):
 
     def connect(self) -> bool:
         """Connect; a driver never does."""
-        raise NotImplementedError
 
 
 class AsyncClient(Protocol):
@@ -92,7 +87,6 @@ class AsyncClient(Protocol):
 
     async def connect(self) -> bool:
         """Connect; a driver never does."""
-        raise NotImplementedError
 
 
 class LinkState(Protocol):
@@ -101,7 +95,6 @@ class LinkState(Protocol):
     @property
     def epoch(self) -> int:
         """How often it was opened."""
-        raise NotImplementedError
 
     @property
     def line(self) -> SerialLine | None:
@@ -114,12 +107,10 @@ class LinkState(Protocol):
     @property
     def retry(self) -> Retry:
         """Which reads are sent again."""
-        raise NotImplementedError
 
     @property
     def addressing(self) -> str:
         """How units count their addresses: modbus from 0, jbus from 1."""
-        raise NotImplementedError
 
     def retune(self, change: LineChange) -> None:
         """Talk at another speed, in another format or with other addresses from the next request on."""
@@ -135,7 +126,6 @@ class Link(LinkState, Protocol):
     @property
     def lock(self) -> Turns:
         """The locks of the line and of its units."""
-        raise NotImplementedError
 
     def open(self) -> None:
         """Open it, if it is not open; LinkLost if that fails."""
@@ -147,9 +137,8 @@ class Link(LinkState, Protocol):
         """Send one request once and wait for its answer; NoAnswer, WrongAnswer or LinkLost.
 
         A link that was lost is opened again first. A write to unit 0 is a broadcast: it returns after the request's
-        `seconds`, which the units have to carry it out, with an answer that nobody gave.
+        `seconds`, which the units have to carry it out, with a reply that no unit sent.
         """
-        raise NotImplementedError
 
 
 class AsyncLink(LinkState, Protocol):
@@ -158,7 +147,6 @@ class AsyncLink(LinkState, Protocol):
     @property
     def lock(self) -> AsyncTurns:
         """The locks of the line and of its units."""
-        raise NotImplementedError
 
     async def open(self) -> None:
         """Open it, if it is not open; LinkLost if that fails."""
@@ -168,4 +156,3 @@ class AsyncLink(LinkState, Protocol):
 
     async def call(self, unit: int, request: Request) -> Reply:
         """As `Link.call`; a task that is cancelled here leaves the link in order."""
-        raise NotImplementedError

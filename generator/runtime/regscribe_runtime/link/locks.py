@@ -1,4 +1,4 @@
-"""Whose turn it is on a link: requests one after the other, operations of one unit one after the other.
+"""Locks of a link: requests one after the other, operations of one unit one after the other.
 
 Two locks, both first come, first served. `line` is held for one request and its answer, so that a long operation of one
 unit lets the others in between. `of(unit)` is held for a whole operation of a unit, so that nobody comes between a read
@@ -28,7 +28,7 @@ class FairLock:
         self._queue: deque[threading.Lock] = deque()
 
     def __enter__(self) -> Self:
-        """Wait for one's turn."""
+        """Acquire the lock, in the order of asking."""
         me = threading.get_ident()
         if self._owner == me:
             self._depth += 1
@@ -47,7 +47,7 @@ class FairLock:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
-        """Let the next one in."""
+        """Release the lock to the next in the queue."""
         self._depth -= 1
         if not self._depth:
             self._owner = None

@@ -75,7 +75,7 @@ class _Base:
 
     @property
     def trace(self) -> Tracer | None:
-        """Called with every frame; None for nobody."""
+        """The tracer that is called with every frame, or None."""
         return self._talk.trace
 
     @trace.setter
@@ -153,7 +153,7 @@ class SyncTransport(_Base):
         self.lock = Turns()
 
     def open(self) -> None:
-        """Open it, if it is not open; LinkLost with what to do."""
+        """Open it, if it is not open; LinkLost with advice."""
         with self.lock.line:
             if self._wire is None:
                 self._connect()
@@ -198,7 +198,7 @@ class AsyncTransport(_Base):
         self.lock = AsyncTurns()
 
     async def open(self) -> None:
-        """Open it, if it is not open; LinkLost with what to do."""
+        """Open it, if it is not open; LinkLost with advice."""
         async with self.lock.line:
             if self._wire is None:
                 await self._connect()

@@ -1,4 +1,4 @@
-"""Conditions on the values of other registers, and things chosen by them."""
+"""Conditions on the values of other registers, and cases selected by them."""
 
 from collections.abc import Mapping
 from fractions import Fraction
@@ -12,14 +12,14 @@ State = Mapping[str, Any]
 """Known values of use by register path: numbers; an enum or a word of bits as its code."""
 
 Givens = Mapping[str, Any]
-"""The constructor's facts from other manuals: a set of codes or a bool by id."""
+"""Facts from other manuals, given to the driver's constructor: a set of codes or a bool by id."""
 
 
 class Is(NamedTuple):
     """A test: the value of `register` (or of its bit field `field`, at `bits`) lies in one of `codes`.
 
-    Codes are pairs of both ends, which are included. With `given`, the constructor's set of codes of that id is asked
-    instead; with an empty `register`, the given itself is the answer. `negated` turns the test round.
+    Codes are pairs of both ends, which are included. With `given`, the codes are those of the given of that id; with an
+    empty `register`, the given itself is the result. `negated` inverts the test.
     """
 
     register: str
@@ -31,7 +31,7 @@ class Is(NamedTuple):
 
     @property
     def subject(self) -> str:
-        """What is looked up: `register` or `register.field`."""
+        """The path to look up: `register` or `register.field`."""
         return f"{self.register}.{self.field}" if self.field else self.register
 
     def lists(self, value: Number) -> bool:
@@ -40,9 +40,9 @@ class Is(NamedTuple):
 
     def holds(self, state: State, givens: Givens) -> bool:
         """Tell whether the test is true; KeyError if the register's value is not in `state`."""
-        return self._found(state, givens) is not self.negated
+        return self._is_met(state, givens) is not self.negated
 
-    def _found(self, state: State, givens: Givens) -> bool:
+    def _is_met(self, state: State, givens: Givens) -> bool:
         if not self.register:
             return bool(givens[self.given])
         value = state[self.register]
@@ -64,12 +64,12 @@ class Condition(NamedTuple):
 
     @property
     def always(self) -> bool:
-        """Whether nothing is asked."""
+        """Whether it has no tests."""
         return not self.tests
 
     @property
     def registers(self) -> tuple[str, ...]:
-        """The registers that must be known, each once, in the order of the tests."""
+        """The registers of the tests, each once, in order."""
         return tuple(dict.fromkeys(test.register for test in self.tests if test.register))
 
     def holds(self, state: State, givens: Givens) -> bool:
@@ -81,7 +81,7 @@ ALWAYS = Condition()
 
 
 class Case(NamedTuple, Generic[T]):
-    """`then` is true under `when`; of a tuple of cases the first that holds counts."""
+    """A value `then` under the condition `when`; of a tuple of cases the first whose condition holds counts."""
 
     when: Condition
     then: T
@@ -91,12 +91,12 @@ Cases = tuple[Case[T], ...]
 
 
 def always(then: T) -> Cases[T]:
-    """The single case that holds under no condition."""
+    """A single case without a condition."""
     return (Case(ALWAYS, then),)
 
 
 def choose(cases: Cases[T], state: State, givens: Givens) -> T | None:
-    """What the first true case holds; None if none is true."""
+    """The value of the first case whose condition holds; None if none does."""
     for when, then in cases:
         if when.holds(state, givens):
             return then
@@ -104,5 +104,5 @@ def choose(cases: Cases[T], state: State, givens: Givens) -> T | None:
 
 
 def registers_of(cases: Cases[Any]) -> tuple[str, ...]:
-    """The registers whose values decide between the cases, each once."""
+    """The registers in the conditions of the cases, each once."""
     return tuple(dict.fromkeys(name for case in cases for name in case.when.registers))

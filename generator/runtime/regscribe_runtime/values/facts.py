@@ -1,4 +1,4 @@
-"""Facts about registers and commands: what sets the line, how a model shows itself, what a command sends."""
+"""Facts about registers and commands: communication settings, identification, write conditions, command steps."""
 
 from enum import StrEnum
 from typing import Any, NamedTuple
@@ -20,7 +20,7 @@ class Setting(StrEnum):
 
 
 class Governs(NamedTuple):
-    """A register that sets how the device talks: what each code of it sets, and from when that holds.
+    """A register that holds a communication setting: the setting of each code, and from when it applies.
 
     `codes` are pairs of a code and the setting as text ("9600", "E", "8N1", "jbus"); of an address the value itself
     counts. None where the manual does not print them. `since` is at_once (the answer to the write is lost),
@@ -32,19 +32,19 @@ class Governs(NamedTuple):
     since: str = ""
 
     def value(self, code: Any) -> str | None:
-        """What a code sets; None where the manual does not print it."""
+        """The setting of a code; None where the manual does not print it."""
         return next((text for known, text in self.codes if known == code), None)
 
 
 class WriteCondition(NamedTuple):
-    """When a write is accepted: the condition, and the manual's reason in own words."""
+    """The condition under which a write is accepted, and the manual's reason in own words."""
 
     when: Condition
     reason: str
 
 
 class Identity(NamedTuple):
-    """How a device shows its model: the condition holds, and each text register begins with the text beside it."""
+    """Identification of a model: the condition holds, and each text register begins with the text beside it."""
 
     when: Condition = ALWAYS
     texts: tuple[tuple[str, str], ...] = ()
@@ -54,9 +54,9 @@ class Identity(NamedTuple):
         return tuple(dict.fromkeys([*self.when.registers, *(path for path, _ in self.texts)]))
 
     def fits(self, state: State) -> bool:
-        """Tell whether the values read are those of the model."""
-        told = all(str(state[path]).startswith(text) for path, text in self.texts)
-        return told and self.when.holds(state, {})
+        """Tell whether the values read identify the model."""
+        texts_fit = all(str(state[path]).startswith(text) for path, text in self.texts)
+        return texts_fit and self.when.holds(state, {})
 
 
 class CommandStep(NamedTuple):
@@ -69,5 +69,5 @@ class CommandStep(NamedTuple):
 
     @property
     def space(self) -> Space:
-        """What the function writes."""
+        """The address space that the function writes."""
         return Space.COIL if self.function in Space.COIL.write_functions else Space.HOLDING

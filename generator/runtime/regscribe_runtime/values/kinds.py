@@ -1,10 +1,10 @@
-"""What the value of a register is to a program, and whether it can be read and written."""
+"""Kinds of values, and access to registers."""
 
 from enum import StrEnum
 
 
 class Kind(StrEnum):
-    """What a value is to a program.
+    """The kind of a register's value.
 
     `NUMBER` may have a fraction, `INTEGER` never has, `RAW` is a whole number whose scale the manual does not state;
     `FLAGS` is a word of single bits, `FIELDS` a word with at least one wider field; `VERSION` packs decimal digits.

@@ -1,4 +1,4 @@
-"""Setpoint programs (ramp and soak): which registers make one, and how it is run.
+"""Setpoint programs (ramp and soak): their registers, and the way to run them.
 
 A path has `{i}` for the number of the program and `{j}` for that of the segment; empty: there is no such register.
 """
@@ -11,17 +11,17 @@ from regscribe_runtime.values.numbers import Number
 
 PROGRAM = "{i}"
 SEGMENT = "{j}"
-"""What stands in a path for the numbers of the program and of the segment."""
+"""Placeholders in paths for the numbers of the program and of the segment."""
 
 Named = tuple[tuple[str, str], ...]
-"""Outputs: a name and the path of a register."""
+"""Outputs: pairs of a name and the path of a register."""
 
 Values = tuple[tuple[str, Number], ...]
-"""Paths of registers and the numbers that they are given."""
+"""Paths of registers and the numbers to write to them."""
 
 
 class ProgramCounts(StrEnum):
-    """Which segments a number of segments counts."""
+    """The segments that the register with their number counts."""
 
     ALL = "all"
     AFTER_FIRST = "after_first"
@@ -29,7 +29,7 @@ class ProgramCounts(StrEnum):
 
 
 class WhileRunning(StrEnum):
-    """What the manual says about writing a program that runs."""
+    """Whether a running program can be written, by the manual."""
 
     REFUSED = "refused"
     ALLOWED = "allowed"
@@ -37,7 +37,7 @@ class WhileRunning(StrEnum):
 
 
 class ProgramPart(StrEnum):
-    """The parts of a program, in the order in which they are written unless the device asks for another one."""
+    """The parts of a program, in the default order of writing."""
 
     TIME_UNIT = "time_unit"
     POWER_FAILURE = "power_failure"
@@ -66,7 +66,7 @@ class ProgramSegments(NamedTuple):
 
 
 class ProgramFinal(NamedTuple):
-    """What stays behind the last segment: a setpoint and outputs, no time."""
+    """The state behind the last segment: a setpoint and outputs, no time."""
 
     setpoint: str
     outputs: Named = ()
@@ -80,7 +80,7 @@ class ProgramTimeUnit(NamedTuple):
 
 
 class ProgramStates(NamedTuple):
-    """The register that tells whether a program runs: its codes while it runs, while it does not, while it is held."""
+    """The status register of a program: its codes while it runs, while it does not, while it is held."""
 
     register: str
     running: tuple[int, ...]
@@ -89,14 +89,14 @@ class ProgramStates(NamedTuple):
 
 
 class ProgramAction(NamedTuple):
-    """What makes the device act: numbers written one after the other, or a command; neither: there is no way."""
+    """The way to start, hold or stop a program: numbers written in order, or a command; neither: there is none."""
 
     writes: Values = ()
     command: str = ""
 
     @property
     def known(self) -> bool:
-        """Whether the manual names a way."""
+        """Whether the manual describes the action."""
         return bool(self.writes or self.command)
 
 

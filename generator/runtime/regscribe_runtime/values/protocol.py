@@ -1,4 +1,4 @@
-"""What a device accepts and how it answers: function codes, limits of requests, exceptions, times and serial line."""
+"""Protocol properties of a device: function codes, limits of requests, exceptions, latencies, serial line."""
 
 from fractions import Fraction
 from typing import NamedTuple
@@ -7,7 +7,7 @@ from regscribe_runtime.values.numbers import Number
 from regscribe_runtime.values.serial_line import SerialLine
 
 SHORTEST_TIMEOUT, MARGIN = 1.0, 0.5
-"""In seconds: the least timeout, and what is added to the longest latency for the frames themselves."""
+"""In seconds: the least timeout, and the time of the frames, which is added to the longest latency."""
 
 
 class ExceptionCode(NamedTuple):
@@ -19,7 +19,7 @@ class ExceptionCode(NamedTuple):
 
 
 class Latency(NamedTuple):
-    """Milliseconds from the end of a request to the start of its answer: a part that is fixed, and one for each word.
+    """Milliseconds from the end of a request to the start of its answer: a fixed part, and one for each word.
 
     `characters` character times at the speed of the line come on top.
     """
@@ -37,7 +37,7 @@ class Latency(NamedTuple):
 
 
 class SerialDefaults(NamedTuple):
-    """The serial line: speeds in baud and character formats (8N1) that it can be set to, and how it is delivered.
+    """The serial line: possible speeds in baud and character formats (8N1), and the settings as delivered.
 
     `modes` are the framings rtu and ascii, `gap` is the silence between frames in characters.
     """
@@ -56,7 +56,7 @@ class SerialDefaults(NamedTuple):
 
 
 class Protocol(NamedTuple):
-    """What the device accepts: function codes, unit ids, most words or bits in a request, and what it answers when.
+    """What a device accepts: function codes, unit ids, words or bits in a request; its exceptions and latencies.
 
     `read_holes`: whether a read may run over addresses of no register (a planner may then bridge gaps). `broadcast` are
     the functions that may be sent to all units at once. `absent` is the exception code by which the device refuses an
@@ -84,9 +84,9 @@ class Protocol(NamedTuple):
         return max(SHORTEST_TIMEOUT, longest / 1000 + MARGIN)
 
     def exception(self, code: int) -> ExceptionCode:
-        """What this device means by an exception code."""
+        """The name and meaning of an exception code of this device."""
         return next((one for one in self.exceptions if one.code == code), ExceptionCode(code, "", ""))
 
     def latency(self, function: int) -> Latency | None:
-        """How long a function takes; None where the manual does not say."""
+        """The latency of a function; None where the manual does not say."""
         return next((one for one in self.latencies if one.function == function), None)

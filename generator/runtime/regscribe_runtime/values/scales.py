@@ -1,4 +1,4 @@
-"""What a stored number means: scales, limits and the numbers that report faults."""
+"""Scales, limits, and stored numbers that report faults."""
 
 from enum import Enum
 from functools import cache
@@ -9,7 +9,7 @@ from regscribe_runtime.values.numbers import Number, show
 
 
 class Decimals(NamedTuple):
-    """A register holds the number of decimals: the divisor is 10 to the power of it, at most `at_most`."""
+    """A register that holds the number of decimals: the divisor is 10 to its power, of `at_most` at most."""
 
     register: str
     at_most: int | None = None
@@ -40,7 +40,7 @@ class Ref(NamedTuple):
 
 
 class Open(str):
-    """A limit that the manual names, in these words, but does not give: nothing is checked against it."""
+    """A limit that the manual names, in these words, without a number: nothing is checked against it."""
 
     __slots__ = ()
 
@@ -64,12 +64,12 @@ class Range(NamedTuple):
 
 @cache
 def within(low: Limit, high: Limit) -> Cases[Range]:
-    """The range of one interval that holds under no condition."""
+    """The range of one interval, without a condition."""
     return always(Range((Interval(low, high),)))
 
 
 class NotANumber(Enum):
-    """Any IEEE 754 pattern that is no number, as what a device sends in place of a value; no text equals it."""
+    """Any IEEE 754 pattern that is no number, sent in place of a value; unequal to every text."""
 
     NAN = "nan"
 

@@ -1,4 +1,4 @@
-"""How a value is transmitted: views, and the order of their words."""
+"""Views: the ways to transmit a value, and the order of their words."""
 
 from typing import Any, NamedTuple, Protocol
 
@@ -79,7 +79,7 @@ def word(view_type: WireType, **more: Any) -> tuple[View, ...]:
 
 
 class Placed(Protocol):
-    """What a plan must know of a register, be it one of a driver or of the compiler's model."""
+    """A register as planning sees it: one of a driver or of the compiler's model."""
 
     @property
     def path(self) -> str: ...  # noqa: D102 (a field)
@@ -94,7 +94,7 @@ class Placed(Protocol):
 
 
 class Scaled(Protocol):
-    """What decides what the words of a register mean and what may be written to it."""
+    """The views, scales and range of a register, which decode its words and limit its writes."""
 
     @property
     def views(self) -> tuple[View, ...]: ...  # noqa: D102 (a field)
@@ -111,30 +111,30 @@ class Readable(Placed, Scaled, Protocol):
 
 
 def preferred(views: tuple[View, ...]) -> View:
-    """The view that drivers use unless told otherwise."""
+    """The view that drivers use by default."""
     return next((view for view in views if view.preferred), views[0])
 
 
 def read_view(register: Placed) -> View:
-    """The view that drivers read: that to prefer, or else the first that its functions let be read."""
+    """The view that drivers read: the preferred one, or else the first that a read function may address."""
     wanted = preferred(register.views)
     return wanted if wanted.readable else next((view for view in register.views if view.readable), wanted)
 
 
 def scale_needs(register: Scaled) -> tuple[str, ...]:
-    """Registers that decide or set the scale, or that of special values."""
+    """Registers that select or contain the scale, or that of special values."""
     cases = (*register.scale, *register.special_scale)
     found = [*registers_of(cases), *(case.then.decimals.register for case in cases if case.then.decimals)]
     return tuple(dict.fromkeys(found))
 
 
 def needs(register: Scaled, view: View) -> tuple[str, ...]:
-    """Registers whose values the meaning of `view` depends on."""
+    """Registers that must be known to decode `view`."""
     return tuple(dict.fromkeys((*view.needs(), *scale_needs(register))))
 
 
 def limit_needs(register: Scaled) -> tuple[str, ...]:
-    """Registers that decide or are limits of a write."""
+    """Registers that select, scale or contain the limits of a write."""
     found = list(registers_of(register.range))
     found += [case.then.places.register for case in register.scale if case.then.places]
     for _, limits in register.range:

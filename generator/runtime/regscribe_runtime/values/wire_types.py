@@ -1,4 +1,4 @@
-"""How a number stands on the wire: address spaces, types, orders and roundings."""
+"""Numbers on the wire: address spaces, types, orders and roundings."""
 
 import math
 import struct
@@ -44,7 +44,7 @@ class Space(StrEnum):
 
 
 class WireType(StrEnum):
-    """The type of the number that the words (or the bit) of a view spell.
+    """The type of the number in the words (or the bit) of a view.
 
     A type is one row: its name, the code by which `struct` packs it, and its bits where they do not fill the words.
     `words` are the registers that one value takes (a bit takes one address; of a string, one of them), `minimum` and
@@ -107,7 +107,7 @@ class WireType(StrEnum):
         return float(min(finite, key=lambda each: (abs(Fraction(each) - number), _bits_of(each) & 1)))
 
     def carries(self, number: float) -> bool:
-        """Whether a float of a program is a number that the IEEE type has too."""
+        """Whether a float is exactly a number of this IEEE type."""
         try:
             return math.isfinite(number) and self.unpack(self.pack(number)) == number
         except OverflowError:
@@ -127,9 +127,9 @@ class Order(StrEnum):
 
 
 class Rounding(StrEnum):
-    """What the device does with a fraction that the view cannot carry.
+    """How the device rounds a fraction that the view cannot carry.
 
-    `HALF_UP` sends .5 upward (towards plus infinity), `HALF_AWAY` away from zero, `HALF_EVEN` to the even
+    `HALF_UP` rounds .5 upward (towards plus infinity), `HALF_AWAY` away from zero, `HALF_EVEN` to the even
     neighbour, `DOWN` drops it; `NONE`: the map does not say, so a value must be exact.
     """
 

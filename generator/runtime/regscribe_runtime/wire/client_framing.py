@@ -7,7 +7,7 @@ from regscribe_runtime.wire.framing import ANSWERS, MBAP_HEAD, SHORTEST_RTU, Fra
 from regscribe_runtime.wire.pdu import EXCEPTION_BIT
 
 LONGEST = framing.LONGEST_ASCII + len(framing.LINE_END)
-"""Bytes of the longest frame; what does not become one by then is noise."""
+"""Bytes of the longest frame; more without a frame are noise."""
 
 
 class Framing(ABC):

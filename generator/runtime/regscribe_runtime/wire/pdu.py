@@ -22,7 +22,7 @@ _DATA_SIZES = {
     functions.READ_STATUS: 0,
     functions.MASK_REGISTER: 6,
 }
-"""By function: the bytes of a request behind it; those of a block write follow from its head."""
+"""By function code: the bytes of a request behind it; those of a block write follow from its head."""
 
 
 class MalformedError(ValueError):
@@ -34,7 +34,7 @@ class CoilStateError(MalformedError):
 
 
 def encode_request(request: Request) -> bytes:
-    """Function code and data; ValueError for what no frame can carry."""
+    """Encode function code and data; ValueError for numbers beyond 16 bits."""
     function, address, quantity, words, _ = request
     try:
         if function in WORD_READS or function in BIT_READS:
@@ -59,7 +59,7 @@ def _write(function: int, address: int, words: tuple[int, ...]) -> bytes:
 
 
 def decode_request(pdu: bytes) -> Request:
-    """The request that `pdu` spells; MalformedError for an unknown function, or another length than it asks for.
+    """Decode a request; MalformedError for an unknown function, or a length that does not fit it.
 
     A coil's state is 0 or 1 in `words`. Function 23 is two requests behind one code, which a device takes apart.
     """
@@ -98,7 +98,7 @@ def _coil_state(word: int) -> int:
 
 
 def expect_bytes(data: bytes, expected: int) -> None:
-    """MalformedError if there are not so many bytes behind the function code."""
+    """Raise MalformedError unless so many bytes stand behind the function code."""
     if len(data) != expected:
         message = f"{len(data)} bytes after the function code, {expected} expected"
         raise MalformedError(message)
@@ -113,19 +113,14 @@ def encode_reply(reply: Reply) -> bytes:
         return ADDRESSED.pack(function, address, quantity)
     if function == functions.READ_STATUS:
         return bytes((function, *words))
-    if function in BIT_READS:
-        return _counted(function, pack_bits(words))
-    if function in WORD_READS or function == functions.WRITE_AND_READ:
-        return _counted(function, pack_words(words))
+    if function in BIT_READS or function in WORD_READS or function == functions.WRITE_AND_READ:
+        data = pack_bits(words) if function in BIT_READS else pack_words(words)
+        return bytes((function, len(data))) + data
     return _write(function, address, words)
 
 
-def _counted(function: int, data: bytes) -> bytes:
-    return bytes((function, len(data))) + data
-
-
 def decode_reply(request: Request, pdu: bytes) -> Reply:
-    """The answer that `pdu` spells; what has a wrong length or byte count has no words, so it fits no request."""
+    """Decode an answer; one of a wrong length or byte count gets no words, so it fits no request."""
     code = pdu[0]
     if code in WORD_READS:
         return _words_read(pdu)

@@ -1,4 +1,4 @@
-"""Requests and answers as plain data, and the test whether an answer fits its request.
+"""Requests and answers as plain data, and the comparison of an answer with its request.
 
 pymodbus matches unit and transaction only; a wrong function or length would pass as a good answer, so every answer is
 compared with its request here (Modbus Application Protocol V1.1b3, section 6).
@@ -20,7 +20,7 @@ SPACES = READ_SPACES | {function: space for space in Space for function in space
 """By function: the space that it reads or writes."""
 WORD_READS, BIT_READS = (READ_HOLDING, READ_INPUT), (READ_COILS, READ_DISCRETE_INPUTS)
 BLOCK_WRITES = (WRITE_COILS, WRITE_REGISTERS)
-"""What writes several values: a byte count announces them, and the answer tells only how many."""
+"""Writes of several values: a byte count announces them, and the answer has only their number."""
 UNADDRESSED = frozenset({READ_STATUS, LOOPBACK})
 
 BITS_IN_BYTE, BYTES_IN_WORD = 8, 2

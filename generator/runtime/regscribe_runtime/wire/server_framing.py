@@ -25,7 +25,7 @@ class Framer(ABC):
         """Add bytes and return every request that they complete, in order; garbage is skipped."""
 
     def expire(self) -> list[Frame]:
-        """Give up waiting for the rest of a frame; return what could be made out behind it."""
+        """Give up waiting for the rest of a frame; return the requests behind it."""
         self._buffer.clear()
         return []
 
@@ -141,7 +141,7 @@ def _first_possible(data: bytes) -> int:
 
 
 class SilenceFramer(RtuFramer):
-    """Requests whose end is marked by silence: what is fed is one frame, and bad if it is not one request."""
+    """Requests whose end is marked by silence: the bytes of each call must be exactly one request."""
 
     __slots__ = ()
 
