@@ -11,8 +11,7 @@ from typing import TypedDict, Unpack
 from regscribe.model import RegisterMap
 from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.simulate.device.state import Value
-from regscribe.simulate.device.value_arguments import Fault, Plain
-from regscribe.simulate.givens import GivenValue
+from regscribe.simulate.device.value_arguments import Fault, GivenValue, Plain
 from regscribe.simulate.line.server_context import Foreign
 from regscribe.simulate.line.servers import Server
 from regscribe.simulate.line.service import Arrival, Delivery, Patience, Service, Transport, Watcher

@@ -11,10 +11,9 @@ from regscribe.simulate.device import state_files
 from regscribe.simulate.device.commands import Commands
 from regscribe.simulate.device.side_effects import Conduct
 from regscribe.simulate.device.state import DeviceState, Value
-from regscribe.simulate.device.value_arguments import Plain
+from regscribe.simulate.device.value_arguments import GivenValue, Plain
 from regscribe.simulate.device.word_access import Refusal, WordAccess
 from regscribe.simulate.errors import SimulatorError
-from regscribe.simulate.givens import GivenValue
 from regscribe.simulate.line.line_settings import Tuning
 from regscribe.simulate.process.controller import controller_of
 from regscribe.simulate.process.thermal_process import ThermalProcess

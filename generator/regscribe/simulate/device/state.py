@@ -12,15 +12,16 @@ from regscribe.simulate.device.initial_values import initial_value
 from regscribe.simulate.device.present_meaning import PresentMeaning
 from regscribe.simulate.device.value_arguments import (
     Fault,
+    GivenValue,
     Plain,
     fault_named,
     field_value,
+    known_givens,
     number_of,
     sentinel_of,
     with_field,
 )
 from regscribe.simulate.errors import SimulatorError
-from regscribe.simulate.givens import GivenValue, known_givens
 
 Value = Fraction | str
 """A value of use: the number in the unit of use, a text, or the id of a sentinel."""

@@ -28,7 +28,6 @@ class FairLock:
         self._queue: deque[threading.Lock] = deque()
 
     def __enter__(self) -> Self:
-        """Acquire the lock, in the order of asking."""
         me = threading.get_ident()
         if self._owner == me:
             self._depth += 1
@@ -47,7 +46,6 @@ class FairLock:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
-        """Release the lock to the next in the queue."""
         self._depth -= 1
         if not self._depth:
             self._owner = None

@@ -9,8 +9,6 @@ from regscribe_runtime.wire.pdu import EXCEPTION_BIT
 
 _FUNCTIONS = frozenset({*range(1, 9), 11, 12, 15, 16, 17, *range(20, 25), 43})
 """The public function codes; another one means that what looks like a header of Modbus TCP is none."""
-_LEAST = 3
-"""Bytes of an ASCII frame: unit, function code, LRC."""
 
 
 class CapturedFrame(NamedTuple):
@@ -90,7 +88,7 @@ def _broken(raw: bytes, kind: str, complaint: str) -> list[CapturedFrame]:
 
 def _ascii(line: bytes) -> CapturedFrame:
     digits = line.removeprefix(framing.COLON)
-    if len(digits) % 2 or len(digits) < 2 * _LEAST or re.search(rb"[^0-9A-Fa-f]", digits):
+    if len(digits) % 2 or len(digits) < framing.SHORTEST_ASCII - 1 or re.search(rb"[^0-9A-Fa-f]", digits):
         complaint = "no frame of Modbus ASCII: a colon and pairs of hexadecimal digits"
         return CapturedFrame(ASCII, 0, b"\0", line, complaint)
     unit, *pdu, lrc = bytes.fromhex(digits.decode("ascii"))

@@ -89,13 +89,9 @@ def verify(request: Request, reply: Reply, *, unit: int, protocol: Protocol) -> 
     """The words of a reply that fits; ExceptionAnswer, PartialWrite or WrongAnswer otherwise."""
     if reply.exception is not None:
         found = protocol.exception(reply.exception)
+        function, address, code = request.function, request.address, reply.exception
         raise ExceptionAnswer(
-            unit=unit,
-            function=request.function,
-            address=request.address,
-            code=reply.exception,
-            name=found.name,
-            meaning=found.meaning,
+            unit=unit, function=function, address=address, code=code, name=found.name, meaning=found.meaning
         )
     if reply.function == request.function and request.function in READS and len(reply.words) == request.quantity:
         return reply.words
