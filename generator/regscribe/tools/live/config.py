@@ -36,12 +36,6 @@ class Config:
     packages: tuple[str, ...] = ()
 
 
-def home() -> Path:
-    """The path of the user's own configuration."""
-    base = os.environ.get("XDG_CONFIG_HOME") or "~/.config"
-    return Path(base, "regscribe", "devices.yaml").expanduser()
-
-
 def load(path: str | Path | None = None) -> Config:
     """The configuration at `path`, else of REGSCRIBE_CONFIG, ./regscribe.yaml or the user's own, else an empty one.
 
@@ -50,7 +44,8 @@ def load(path: str | Path | None = None) -> Config:
     named = path or os.environ.get(VARIABLE)
     if named:
         return _read(Path(named))
-    for one in (LOCAL, home()):
+    own = Path(os.environ.get("XDG_CONFIG_HOME") or "~/.config", "regscribe", "devices.yaml").expanduser()
+    for one in (LOCAL, own):
         if one.is_file():
             return _read(one)
     return Config()
