@@ -45,7 +45,7 @@ def _registers(owner: type) -> Iterator[tuple[str, Register[Any]]]:
             yield name, declared
         elif isinstance(declared, Array):
             inside = list(_registers(declared.element))
-            for place, index in enumerate(declared.numbers):
+            for place, index in enumerate(range(declared.first, declared.first + declared.count)):
                 for path, register in inside:
                     there = f"{name}[{index}].{path}"
                     yield there, register.moved(place * declared.stride, there)
@@ -127,8 +127,9 @@ class AsyncPart(_AnyPart["AsyncPart"]):
 class Elements(Generic[T]):
     """The elements of an array, by the manual's numbers."""
 
-    def __init__(self, make: Any, numbers: range) -> None:
-        self._make, self._numbers = make, numbers
+    def __init__(self, make: Any, first: int, count: int) -> None:
+        self._make, self.first, self.count = make, first, count
+        self._numbers = range(first, first + count)
 
     def __getitem__(self, index: int) -> T:
         if index not in self._numbers:
@@ -149,7 +150,7 @@ class Array(Generic[P, A]):
 
     def __init__(self, element: type[P], awaitable: type[A], *, first: int, count: int, stride: int) -> None:
         self.element, self.awaitable = element, awaitable
-        self.numbers, self.stride = range(first, first + count), stride
+        self.first, self.count, self.stride = first, count, stride
         self.id = ""
 
     def __set_name__(self, owner: type, name: str) -> None:
@@ -170,7 +171,7 @@ class Array(Generic[P, A]):
         def element(index: int) -> Any:
             return make(instance._device, f"{inside}{self.id}[{index}]")  # noqa: SLF001 (as above)
 
-        return Elements(element, self.numbers)
+        return Elements(element, self.first, self.count)
 
 
 class _Bound(Generic[B]):
