@@ -65,8 +65,10 @@ class Keys(dict[str, Value], Keyed):
 def present(node: Value, among: Models, every: Models) -> Models:
     """The models of `among` that a register, array, command, member or field is on; RS0314 for names of no model."""
     only = node.child("models")
-    listed = named_models(only.elements(), every) if only else among
     left_out = named_models(node.elements_of("except"), every)
+    if only is None and not left_out:
+        return among
+    listed = named_models(only.elements(), every) if only else among
     return tuple(model for model in among if model in listed and model not in left_out)
 
 
