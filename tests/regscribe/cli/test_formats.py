@@ -3,10 +3,8 @@ from pathlib import Path
 
 import pytest
 
-from regscribe.cli.shared.diagnostic_text import findings, tally
-from regscribe.cli.shared.json_report import as_github, as_json
-from regscribe.cli.shared.sarif import as_sarif
-from regscribe.cli.shared.source_excerpt import WIDTH, Sources
+from regscribe.cli.shared.diagnostic_text import WIDTH, excerpt, findings, read_lines, tally
+from regscribe.cli.shared.report_formats import as_github, as_json, as_sarif
 from regscribe.model import Diagnostic, Related, Rule, Severity, Span
 from regscribe.visible import safe
 
@@ -44,35 +42,35 @@ def test_text_shows_message_place_line_carets_other_party_and_help(source: str) 
 
 
 def test_carets_stand_under_their_text_behind_wide_characters(source: str) -> None:
-    excerpt = Sources().excerpt(Span(source, 2, 16, 2, 17))
-    assert excerpt is not None
-    assert excerpt.line[15] == "x"
-    assert excerpt.carets == " " * 16 + "^"
+    shown = excerpt(Span(source, 2, 16, 2, 17), read_lines(source))
+    assert shown is not None
+    assert shown[0][15] == "x"
+    assert shown[1] == " " * 16 + "^"
 
 
 def test_a_tab_takes_one_column(source: str) -> None:
-    excerpt = Sources().excerpt(Span(source, 3, 2, 3, 7))
-    assert excerpt is not None
-    assert (excerpt.line, excerpt.carets) == (" three", " ^^^^^")
+    shown = excerpt(Span(source, 3, 2, 3, 7), read_lines(source))
+    assert shown is not None
+    assert shown == (" three", " ^^^^^")
 
 
 def test_a_span_over_several_lines_is_marked_to_the_end_of_its_first_line(source: str) -> None:
-    excerpt = Sources().excerpt(Span(source, 1, 1, 3, 2))
-    assert excerpt is not None
-    assert excerpt.carets == "^^^^^^"
+    shown = excerpt(Span(source, 1, 1, 3, 2), read_lines(source))
+    assert shown is not None
+    assert shown[1] == "^^^^^^"
 
 
 def test_a_long_line_is_cut_around_its_carets(source: str) -> None:
-    excerpt = Sources().excerpt(Span(source, 4, 401, 4, 402))
-    assert excerpt is not None
-    assert excerpt.line.startswith("…")
-    assert excerpt.line[len(excerpt.carets) - 1] == "!"
-    assert len(excerpt.line) <= WIDTH + 2
+    shown = excerpt(Span(source, 4, 401, 4, 402), read_lines(source))
+    assert shown is not None
+    assert shown[0].startswith("…")
+    assert shown[0][len(shown[1]) - 1] == "!"
+    assert len(shown[0]) <= WIDTH + 2
 
 
 @pytest.mark.parametrize(("file", "line"), [("gone.yaml", 1), (".", 1), ("", 99), ("", 0)])
 def test_a_line_that_cannot_be_shown_is_left_out(source: str, file: str, line: int) -> None:
-    assert Sources().excerpt(Span(file or source, line)) is None
+    assert excerpt(Span(file or source, line), read_lines(file or source)) is None
 
 
 def test_escape_sequences_of_a_map_do_not_reach_the_terminal() -> None:

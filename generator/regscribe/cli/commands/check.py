@@ -1,14 +1,13 @@
 """`regscribe check`: report what is wrong in maps."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 import click
 
-from regscribe.cli.shared import diagnostic_text
-from regscribe.cli.shared.json_report import as_github, as_json
+from regscribe.cli.shared.diagnostic_text import count, findings, tally
 from regscribe.cli.shared.map_arguments import find_maps
 from regscribe.cli.shared.output import show, tell
-from regscribe.cli.shared.sarif import as_sarif
+from regscribe.cli.shared.report_formats import as_github, as_json, as_sarif
 from regscribe.model import Diagnostic
 from regscribe.pipeline import compile_map, has_errors
 
@@ -27,14 +26,11 @@ def command(*, paths: tuple[str, ...], form: str, strict: bool) -> int:
     PATH is a map file, a folder that is searched for *.yaml, or the id of a map (fdc/series-100). Without PATH: maps/.
     """
     maps = find_maps(paths, libraries=True)
-    found = _each_once(diagnostic for path in maps for diagnostic in compile_map(path).diagnostics)
+    repeated = [diagnostic for path in maps for diagnostic in compile_map(path).diagnostics]
+    first = {(one.rule, one.span, one.message): one for one in reversed(repeated)}  # each map repeats its library's
+    found = list(first.values())[::-1]
     _print(found, form=form, maps=len(maps))
     return int(has_errors(found) or (strict and bool(found)))
-
-
-def _each_once(found: Iterable[Diagnostic]) -> list[Diagnostic]:
-    """What is wrong in a library or a base is found again in each map that builds on it: the first one speaks."""
-    return list({(one.rule, one.span, one.message): one for one in reversed(list(found))}.values())[::-1]
 
 
 def _print(found: Sequence[Diagnostic], *, form: str, maps: int) -> None:
@@ -48,9 +44,5 @@ def _print(found: Sequence[Diagnostic], *, form: str, maps: int) -> None:
 
             tell(as_sarif(found, {rule.id: rule for rule in catalogue.all_rules()}))
         case _:
-            show(
-                [
-                    *diagnostic_text.findings(found),
-                    (f"{diagnostic_text.count(maps, 'map')} checked: {diagnostic_text.tally(found)}\n", ""),
-                ]
-            )
+            checked = f"{count(maps, 'map')} checked: {tally(found)}\n"
+            show([*findings(found), (checked, "")])

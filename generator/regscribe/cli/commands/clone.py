@@ -5,11 +5,11 @@ from typing import Any, NamedTuple
 import click
 
 from regscribe.cli.shared.completion_values import complete_target
-from regscribe.cli.shared.error_report import REFUSED, UNKNOWN_STATE, Failure, reported
+from regscribe.cli.shared.live_report import REFUSED, UNKNOWN_STATE, Failure, reported
+from regscribe.cli.shared.long_work import Shield, shielded
 from regscribe.cli.shared.output import print_json, remark
 from regscribe.cli.shared.settings_common import backup_of, include_option, plain_restored, restoring, show_restored
-from regscribe.cli.shared.sigint import Shield, shielded
-from regscribe.cli.shared.target_options import CONFIG, JSON, PACKAGE, confirm_option, opened
+from regscribe.cli.shared.target_options import confirm_option, driver_options, opened
 from regscribe.tools import settings
 from regscribe.tools.live.target import Target, named
 from regscribe.tools.settings import Backup
@@ -37,9 +37,7 @@ class CloneOptions(NamedTuple):
 @click.option("--stop", is_flag=True, help="Stop at the first device that does not take them.")
 @include_option
 @confirm_option
-@PACKAGE
-@CONFIG
-@JSON
+@driver_options
 def command(  # noqa: PLR0913 - the options of the command
     *,
     source: str,
@@ -72,7 +70,7 @@ def command(  # noqa: PLR0913 - the options of the command
 def _results(
     targets: list[Target], backup: Backup, options: CloneOptions, shield: Shield, *, stop: bool, quiet: bool
 ) -> list[dict[str, Any]]:
-    """What became of each device; after Ctrl-C, or with `stop` after a failure, the rest is not begun."""
+    """The result of each device; after Ctrl-C, or with `stop` after a failure, the rest is not begun."""
     results: list[dict[str, Any]] = []
     for target in targets:
         if shield.interrupted or (stop and results and "error" in results[-1]):
@@ -94,7 +92,7 @@ def _error(target: Target, message: str, kind: str, code: int, *, quiet: bool) -
 
 
 def _code(results: list[dict[str, Any]], shield: Shield) -> int:
-    """The exit code: what is worst for the one who looks after the devices."""
+    """The exit code of the worst result."""
     codes = {one["error"]["exit_code"] for one in results if "error" in one}
     if UNKNOWN_STATE in codes:
         return UNKNOWN_STATE

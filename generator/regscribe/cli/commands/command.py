@@ -3,11 +3,10 @@
 import click
 
 from regscribe.cli.shared.completion_values import complete_command
-from regscribe.cli.shared.error_report import reported
-from regscribe.cli.shared.live_output import heading, plain_requests, show_requests
+from regscribe.cli.shared.live_report import heading, plain_requests, reported, show_requests
+from regscribe.cli.shared.long_work import shielded
 from regscribe.cli.shared.output import print_json, remark, show_table
-from regscribe.cli.shared.sigint import shielded
-from regscribe.cli.shared.target_options import HELP, checked_identity, opened, target_options
+from regscribe.cli.shared.target_options import identity_option, opened, target_options
 from regscribe.tools.live import names
 from regscribe.tools.live import target as targets
 from regscribe.tools.live.dry_run import dry
@@ -18,7 +17,6 @@ from regscribe_runtime.operations import tasks
 
 @click.command(
     name="command",
-    help=f"Send a command of the map; without NAME list them (nothing is sent then).\n\n{HELP}",
     epilog="Example: regscribe command oven clear_latched_alarms\n\n"
     "Exit code 0: done, 1: refused (also for want of --confirm), 2: wrong usage, 3: nobody answers, 4: the "
     "answer was lost, and nobody knows whether it was carried out.",
@@ -27,9 +25,9 @@ from regscribe_runtime.operations import tasks
 @click.argument("name", required=False, shell_complete=complete_command)
 @click.option("--confirm", is_flag=True, help="Send a dangerous command, too.")
 @click.option("--dry-run", is_flag=True, help="Show the requests, send none that writes.")
-@checked_identity
+@identity_option
 def command(*, target: Target, as_json: bool, name: str | None, confirm: bool, dry_run: bool, identity: bool) -> int:
-    """Send a command of the map, or list them."""
+    """Send a command of the map; without NAME list them (nothing is sent then)."""
     if name is None:
         with reported():
             _list(targets.identified(target), as_json=as_json)

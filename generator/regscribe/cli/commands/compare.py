@@ -49,13 +49,19 @@ def command(
     them; docs/evidence.md tells more.
     """
     wanted = _columns(columns)
-    table = None if _is_map(other) else _table(other)
-    _refuse_foreign(table, model=model, pairs=pairs, partial=partial)
-    names = [map_name] if table else [map_name, other]
-    maps = [compiled for name in names if (compiled := _compiled(name))]
-    if len(maps) < len(names):
-        return 1
-    found = _compared(maps, table, pairs=pairs, columns=wanted, model=model, loose=loose, partial=partial)
+    try:
+        table = None if _is_map(other) else _table(other)
+        _refuse_foreign(table, model=model, pairs=pairs, partial=partial)
+        names = [map_name] if table else [map_name, other]
+        maps = [compiled for name in names if (compiled := _compiled(name))]
+        if len(maps) < len(names):
+            return 1
+        if table:
+            found = compare_table(maps[0], table, columns=wanted, model=model, loose=loose, partial=partial)
+        else:
+            found = compare_maps(maps[0], maps[1], pairs=_pairs(pairs, maps), columns=wanted, loose=loose)
+    except TableError as error:
+        raise click.UsageError(str(error)) from None
     _print(found, form)
     return int(not found.equal)
 
@@ -65,24 +71,6 @@ def _columns(text: str | None) -> list[str]:
         message = "--columns names no column: leave it out to compare all that the table has"
         raise click.UsageError(message)
     return [item.strip() for item in (text or "").split(",") if item.strip()]
-
-
-def _compared(
-    maps: list[RegisterMap],
-    table: Table | None,
-    *,
-    pairs: tuple[str, ...],
-    columns: list[str],
-    loose: bool,
-    model: str,
-    partial: bool,
-) -> Comparison:
-    try:
-        if table:
-            return compare_table(maps[0], table, columns=columns, model=model, loose=loose, partial=partial)
-        return compare_maps(maps[0], maps[1], pairs=_pairs(pairs, maps), columns=columns, loose=loose)
-    except TableError as error:
-        raise click.UsageError(str(error)) from None
 
 
 def _print(found: Comparison, form: str) -> None:
@@ -98,14 +86,10 @@ def _print(found: Comparison, form: str) -> None:
 def _is_map(other: str) -> bool:
     """Whether the second argument names a map: a YAML file, or what is no file and does not look like one."""
     path = Path(other)
-    return path.suffix in MAPS or (path.suffix.lower() not in TABLES and not _exists(path))
-
-
-def _exists(path: Path) -> bool:
     try:
-        return path.exists()
+        return path.suffix in MAPS or (path.suffix.lower() not in TABLES and not path.exists())
     except OSError:  # a name that is too long
-        return False
+        return True
 
 
 def _table(other: str) -> Table:
@@ -118,12 +102,10 @@ def _table(other: str) -> Table:
     except OSError as error:
         message = f"cannot read {other}: {error.strerror or error}"
         raise click.UsageError(message) from None
-    except TableError as error:
-        raise click.UsageError(str(error)) from None
 
 
 def _refuse_foreign(table: Table | None, *, model: str, pairs: tuple[str, ...], partial: bool) -> None:
-    """Refuse options of the other use."""
+    """Refuse options for tables with two maps, and those for two maps with a table."""
     if table and pairs:
         message = "--pair is for two maps; which models a table is about stands in its column `model`, or is --model"
         raise click.UsageError(message)

@@ -1,19 +1,19 @@
 """`regscribe decode`: frames in the names of a map, without a device."""
 
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import click
 
 from regscribe.cli.shared.completion_values import complete_model
 from regscribe.cli.shared.diagnostic_text import count
-from regscribe.cli.shared.error_report import REFUSED, reported
+from regscribe.cli.shared.live_report import REFUSED, reported
 from regscribe.cli.shared.output import print_json, remark, tell
-from regscribe.cli.shared.target_options import CONFIG, JSON, PACKAGE
+from regscribe.cli.shared.target_options import driver_options
 from regscribe.tools.live import catalogue, givens, names, value_text
 from regscribe.tools.live import config as configuration
-from regscribe.tools.live.capture import Captured, captured
+from regscribe.tools.live.capture import captured
 from regscribe.tools.live.decode import Decoded, DecodedItem, Decoder
 from regscribe.tools.live.errors import TargetError
 from regscribe.tools.live.target import given_texts
@@ -37,9 +37,7 @@ PAIR = 2
 @click.option("--addressing", type=click.Choice(ADDRESSINGS), default="modbus", help="jbus: counted from 1.")
 @click.option("--with", "state", multiple=True, metavar="NAME=VALUE", help="What a register holds that others need.")
 @click.option("--given", "given", multiple=True, metavar="ID=VALUE", help="A fact that the manual leaves to another.")
-@PACKAGE
-@CONFIG
-@JSON
+@driver_options
 def command(  # noqa: PLR0913 - the options of the command
     *,
     model: str,
@@ -63,19 +61,18 @@ def command(  # noqa: PLR0913 - the options of the command
         driver = catalogue.find(model, (*packages, *configuration.load(config).packages)).driver
         decoder = _decoder(driver, state, given, first=int(addressing == "jbus"))
     lines = _lines(digits) if digits else log or sys.stdin
-    found = list(_decoded(decoder, captured(lines, framing or "")))
+    decoded = [
+        (part.line, decoder.feed(frame, part.direction))
+        for part in captured(lines, framing or "")
+        for frame in part.frames
+    ]
     if as_json:
-        print_json(model=driver.model, map=driver.map_id, frames=[_plain(line, one) for line, one in found])
+        print_json(model=driver.model, map=driver.map_id, frames=[_plain(line, one) for line, one in decoded])
     else:
-        _show(one for _, one in found)
-    return _code([one for _, one in found])
-
-
-def _code(found: Sequence[Decoded]) -> int:
-    """The exit code; a remark where there is no frame."""
-    if not found:
+        _show(one for _, one in decoded)
+    if not decoded:
         remark("there is no frame in it: write pairs of hexadecimal digits")
-    return REFUSED if not found or any(one.complaint for one in found) else 0
+    return REFUSED if not decoded or any(one.complaint for _, one in decoded) else 0
 
 
 def _decoder(driver: type[BareDevice], state: Sequence[str], given: Sequence[str], *, first: int) -> Decoder:
@@ -91,41 +88,39 @@ def _decoder(driver: type[BareDevice], state: Sequence[str], given: Sequence[str
 
 
 def _lines(digits: Sequence[str]) -> list[str]:
-    """A frame in pairs is many arguments; frames that are quoted are one each."""
+    """Join the pairs of digits of one frame; arguments that are longer are a frame each."""
     return [" ".join(digits)] if all(len(one) <= PAIR for one in digits) else list(digits)
 
 
-def _decoded(decoder: Decoder, lines: Iterable[Captured]) -> Iterator[tuple[int, Decoded]]:
-    for one in lines:
-        for frame in one.frames:
-            yield one.line, decoder.feed(frame, one.direction)
-
-
-def _show(found: Iterable[Decoded]) -> None:
-    for one in found:
-        held = [item for item in one.items if item.words]
-        tell(f"{safe(line_of(one))}\n")
-        if len(held) > 1:
-            tell("".join(f"    {safe(item.spelled)}\n" for item in held))
-
-
-def line_of(one: Decoded) -> str:
-    """A frame in one line: `unit 1 -> read holding 4000: controller_type`; several values stand below it."""
-    held = [item for item in one.items if item.words]
-    names = ", ".join(item.name for item in one.items) if not held else ""
-    what = ": ".join(filter(None, (one.what, names, held[0].spelled if len(held) == 1 else "")))
-    wrong = f"  [{one.complaint}]" if one.complaint else ""
-    return f"unit {one.unit} {ARROWS[one.kind]} {what or count(len(held), 'value')}{wrong}"
+def _show(frames: Iterable[Decoded]) -> None:
+    """A line for each frame: `unit 1 -> read holding 4000: controller_type`; several values stand below it."""
+    for frame in frames:
+        values = [item.spelled for item in frame.items if item.words]
+        asked = "" if values else ", ".join(item.name for item in frame.items)
+        what = ": ".join(filter(None, (frame.what, asked, values[0] if len(values) == 1 else "")))
+        wrong = f"  [{frame.complaint}]" if frame.complaint else ""
+        head = f"unit {frame.unit} {ARROWS[frame.kind]} {what or count(len(values), 'value')}{wrong}"
+        tell(f"{safe(head)}\n")
+        if len(values) > 1:
+            tell("".join(f"    {safe(value)}\n" for value in values))
 
 
 def _plain(line: int, one: Decoded) -> dict[str, Any]:
-    found: dict[str, Any] = {"line": line, "kind": one.kind, "unit_id": one.unit, "function": one.function}
-    found |= {"what": one.what, "address": one.address, "exception": one.exception or None}
-    return {**found, "registers": [_item(item) for item in one.items], "complaint": one.complaint or None}
+    return {
+        "line": line,
+        "kind": one.kind,
+        "unit_id": one.unit,
+        "function": one.function,
+        "what": one.what,
+        "address": one.address,
+        "exception": one.exception or None,
+        "registers": [_plain_item(item) for item in one.items],
+        "complaint": one.complaint or None,
+    }
 
 
-def _item(item: DecodedItem) -> dict[str, Any]:
-    found: dict[str, Any] = {"name": item.name, "view": item.view}
-    if item.words:
-        found |= {"words": list(item.words), "value": item.value, "unit": item.unit, "problem": item.problem or None}
-    return found
+def _plain_item(item: DecodedItem) -> dict[str, Any]:
+    named = {"name": item.name, "view": item.view}
+    if not item.words:
+        return named
+    return {**named, "words": list(item.words), "value": item.value, "unit": item.unit, "problem": item.problem or None}

@@ -6,9 +6,9 @@ from typing import Any
 import click
 
 from regscribe.cli.shared.completion_values import complete_model
-from regscribe.cli.shared.error_report import REFUSED, reported
+from regscribe.cli.shared.live_report import REFUSED, reported
 from regscribe.cli.shared.output import print_json, remark, show_table
-from regscribe.cli.shared.target_options import CONFIG, JSON, PACKAGE
+from regscribe.cli.shared.target_options import driver_options
 from regscribe.tools.live import catalogue, givens, names
 from regscribe.tools.live import config as configuration
 from regscribe.tools.live.value_text import choices
@@ -24,9 +24,7 @@ ACCESS = {"r": "read", "w": "write", "rw": "read, write"}
 )
 @click.argument("search", nargs=-1, metavar="[WORD]...", shell_complete=complete_model)
 @click.option("--registers", is_flag=True, help="List the registers, groups and commands of the model.")
-@PACKAGE
-@CONFIG
-@JSON
+@driver_options
 def command(
     *, search: tuple[str, ...], registers: bool, packages: tuple[str, ...], config: str | None, as_json: bool
 ) -> int:

@@ -3,10 +3,10 @@
 import click
 
 from regscribe.cli.shared.completion_values import complete_target
-from regscribe.cli.shared.error_report import REFUSED, USAGE, Failure, reported
+from regscribe.cli.shared.live_report import REFUSED, USAGE, Failure, reported
 from regscribe.cli.shared.output import print_json, remark, show_table
 from regscribe.cli.shared.settings_common import backup_of
-from regscribe.cli.shared.target_options import CONFIG, JSON, PACKAGE
+from regscribe.cli.shared.target_options import driver_options
 from regscribe.tools import settings
 from regscribe.tools.live import catalogue
 from regscribe.tools.settings import Saved, SettingDifference, Side
@@ -23,9 +23,7 @@ FACTORY = "factory"
 @click.argument("left", shell_complete=complete_target)
 @click.argument("right", shell_complete=complete_target)
 @click.option("--all", "stays", is_flag=True, help="Compare address, line, calibration and the like, too.")
-@PACKAGE
-@CONFIG
-@JSON
+@driver_options
 def command(*, left: str, right: str, stays: bool, packages: tuple[str, ...], config: str | None, as_json: bool) -> int:
     """Show what differs between LEFT and RIGHT.
 

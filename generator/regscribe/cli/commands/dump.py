@@ -6,9 +6,9 @@ from typing import Any
 
 import click
 
-from regscribe.cli.shared.live_output import heading, plain
+from regscribe.cli.shared.live_report import heading, plain
 from regscribe.cli.shared.output import print_json, remark, show_table
-from regscribe.cli.shared.target_options import HELP, opened, target_options
+from regscribe.cli.shared.target_options import opened, target_options
 from regscribe.tools.live import names
 from regscribe.tools.live.errors import TargetError, unknown
 from regscribe.tools.live.reading import RegisterReading, readings
@@ -16,12 +16,11 @@ from regscribe.tools.live.target import Target
 from regscribe_runtime import BareDevice, Register
 
 UNGROUPED = "other"
-"""What stands in no group of the manual."""
+"""The group of registers that are in none of the manual's."""
 
 
 @click.command(
     name="dump",
-    help=f"Read everything that a device holds, group by group as the manual has it.\n\n{HELP}",
     epilog="Example: regscribe dump oven --group alarm --json\n\n"
     "Exit code 0: read (a sensor's fault is part of it), 2: wrong usage, 3: nobody answers.",
 )

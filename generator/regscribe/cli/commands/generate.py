@@ -1,6 +1,5 @@
 """`regscribe generate`: compile maps to drivers, docs, vectors and tests."""
 
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -8,10 +7,10 @@ from time import perf_counter
 
 import click
 
-from regscribe.cli.shared.diagnostic_text import count, findings, tally
+from regscribe.cli.shared.diagnostic_text import count, report
 from regscribe.cli.shared.map_arguments import find_maps
 from regscribe.cli.shared.map_builds import Made, make_all
-from regscribe.cli.shared.output import show, tell, warn
+from regscribe.cli.shared.output import tell
 from regscribe.emit import build_cache
 from regscribe.emit.build_cache import BuildRecord
 from regscribe.emit.docs_index import render_index
@@ -24,7 +23,7 @@ from regscribe.visible import safe_lines
 
 @dataclass(slots=True)
 class Build:
-    """One run: what is known of each map, the texts to write, and the maps that have warnings."""
+    """One run: the record of each map, the texts to write, and the maps that have warnings."""
 
     templates: Templates | None = None
     entries: dict[Path, BuildRecord] = field(default_factory=dict)
@@ -34,7 +33,7 @@ class Build:
     failed: bool = False
 
     def take(self, made: Made) -> None:
-        """Add what became of one map."""
+        """Add a map that was compiled and rendered."""
         self.diagnostics += made.diagnostics
         if made.entry is None:
             self.failed = True
@@ -75,21 +74,15 @@ def command(*, maps: tuple[str, ...], check: bool, out: Path, folder: Path | Non
     known = build_cache.Cache(out, "") if check else build_cache.load(out, templates.contents() if templates else ())
     try:
         build = _build(paths, known, templates)
-    except WriteError as error:
-        raise click.ClickException(str(error)) from None
-    show(findings(build.diagnostics), stream=sys.stderr)
-    if build.failed:
-        warn(f"nothing was written: {tally(build.diagnostics)}\n")
-        return 1
-    try:
-        report = _write(build, out, check=check, whole=not maps)
+        report(build.diagnostics, failed=build.failed, nothing="nothing was written")
+        written = _write(build, out, check=check, whole=not maps)
     except WriteError as error:
         raise click.ClickException(str(error)) from None
     if not check:
         _remember(build, known, whole=not maps)
-    tell(safe_lines(report.diff))
-    tell(safe_lines(_summary(build, report, out, seconds=perf_counter() - started, check=check)))
-    return int(check and bool(report.written or report.removed))
+    tell(safe_lines(written.diff))
+    tell(safe_lines(_summary(build, written, out, seconds=perf_counter() - started, check=check)))
+    return int(check and bool(written.written or written.removed))
 
 
 def _templates(folder: Path | None) -> Templates | None:
@@ -115,7 +108,7 @@ def _build(paths: Sequence[Path], known: build_cache.Cache, templates: Templates
 
 
 def _write(build: Build, out: Path, *, check: bool, whole: bool) -> Report:
-    """Write what was rendered; a run over the whole of maps/ owns all of `out`."""
+    """Write all texts; a run over the whole of maps/ owns all of `out`."""
     ids = {entry.id for entry in build.entries.values()}
     return write(
         build.rendered | _index(build, out, whole=whole),
@@ -127,10 +120,7 @@ def _write(build: Build, out: Path, *, check: bool, whole: bool) -> Report:
 
 
 def _makers(build: Build) -> dict[str, Path]:
-    """Return the map that makes each file; WriteError where two maps claim one.
-
-    What maps share, such as the module of a library or of a base, each of them makes with the same content.
-    """
+    """Return the map that makes each file; WriteError where two make one, unless it is shared and of equal content."""
     makers: dict[str, Path] = {}
     for path, entry in build.entries.items():
         for name, content in entry.files.items():
@@ -143,7 +133,7 @@ def _makers(build: Build) -> dict[str, Path]:
 
 
 def _index(build: Build, out: Path, *, whole: bool) -> dict[str, str]:
-    """Render the index, unless there are references of maps that are not of this run: then theirs is left as it is."""
+    """Render the index of the reference docs, unless `out` has references of maps that are not of this run."""
     pages = () if whole else (out / "docs").rglob("*.md")
     others = {origin_of(page) for page in pages} - {entry.id for entry in build.entries.values()} - {None}
     return {} if others else render_index(entry.card for entry in build.entries.values())

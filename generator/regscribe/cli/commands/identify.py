@@ -4,9 +4,9 @@ from typing import Any
 
 import click
 
-from regscribe.cli.shared.error_report import REFUSED, reported
+from regscribe.cli.shared.live_report import REFUSED, reported
 from regscribe.cli.shared.output import print_json, remark, show_table
-from regscribe.cli.shared.target_options import HELP, target_options
+from regscribe.cli.shared.target_options import target_options
 from regscribe.tools.live import catalogue
 from regscribe.tools.live import target as targets
 from regscribe.tools.live.target import Target
@@ -15,13 +15,12 @@ from regscribe_runtime.driver.identify import Evidence
 
 @click.command(
     name="identify",
-    help=f"Ask a device what it is; only reads are sent.\n\n{HELP}",
     epilog="Example: regscribe identify tcp:10.0.0.7:502?unit=1\n\n"
     "Exit code 0: one model fits, or several alike, 1: none, 2: wrong usage, 3: nobody answers.",
 )
 @target_options
 def command(*, target: Target, as_json: bool) -> int:
-    """Ask a device what it is."""
+    """Ask a device what it is; only reads are sent."""
     with reported():
         found = targets.identification(target)
         targets.answered(found)

@@ -2,7 +2,6 @@
 
 import keyword
 import re
-import sys
 from collections.abc import Sequence
 from importlib.resources import files
 from pathlib import Path
@@ -12,8 +11,8 @@ from string import Template
 import click
 
 from regscribe import plugins
-from regscribe.cli.shared.diagnostic_text import findings, tally
-from regscribe.cli.shared.output import show, tell, warn
+from regscribe.cli.shared.diagnostic_text import report
+from regscribe.cli.shared.output import tell
 from regscribe.map_files import data_folder
 from regscribe.model import Diagnostic, Severity
 from regscribe.plugins import IMPORTERS, PluginError
@@ -84,12 +83,8 @@ def _imported(origin: Path | None, form: str | None) -> str:
         raise click.UsageError(message)
     if origin is None:
         return ""
-    chosen = form or origin.suffix.removeprefix(".").lower()
-    text, found = _read(origin, chosen)
-    show(findings(found), stream=sys.stderr)
-    if any(one.severity is Severity.ERROR for one in found):
-        warn(f"nothing was written: {tally(found)}\n")
-        raise click.exceptions.Exit(1)
+    text, found = _read(origin, form or origin.suffix.removeprefix(".").lower())
+    report(found, failed=any(one.severity is Severity.ERROR for one in found), nothing="nothing was written")
     return text
 
 
@@ -108,19 +103,12 @@ def _read(origin: Path, form: str) -> tuple[str, Sequence[Diagnostic]]:
 
 
 def _text(maker: str, family: str, schema: str, imported: str) -> str:
-    skeleton = _skeleton(maker, family, schema=schema)
+    template = Template(files("regscribe.cli").joinpath("skeleton.yaml").read_text(encoding="utf-8"))
+    title, maker_name = (part.replace("-", " ").title() for part in (family, maker))
+    prefix = re.sub(r"[^A-Za-z0-9]", "", maker_name)
+    skeleton = template.substitute(id=f"{maker}/{family}", title=title, maker=maker_name, prefix=prefix, schema=schema)
     head = [line for line in skeleton.splitlines(keepends=True) if line.startswith(HEAD)]
     return "".join(head) + imported if imported else skeleton
-
-
-def _skeleton(maker: str, family: str, *, schema: str) -> str:
-    text = files("regscribe.cli").joinpath("skeleton.yaml").read_text(encoding="utf-8")
-    title = family.replace("-", " ").title()
-    maker_name = maker.replace("-", " ").title()
-    prefix = re.sub(r"[^A-Za-z0-9]", "", maker_name)
-    return Template(text).substitute(
-        id=f"{maker}/{family}", title=title, maker=maker_name, prefix=prefix, schema=schema
-    )
 
 
 def _schema_for(folder: Path) -> str:

@@ -7,11 +7,17 @@ from typing import Any, TypeVar, cast
 import click
 
 from regscribe import files
-from regscribe.cli.shared.error_report import REFUSED, UNKNOWN_STATE, Failure, code_of, kind_of, reported
-from regscribe.cli.shared.live_output import heading
+from regscribe.cli.shared.live_report import REFUSED, UNKNOWN_STATE, Failure, code_of, heading, kind_of, reported
 from regscribe.cli.shared.output import print_json, remark, show_table, tell
 from regscribe.cli.shared.program_text import show_program
-from regscribe.cli.shared.target_options import HELP, JSON, checked_identity, confirm_option, opened, target_options
+from regscribe.cli.shared.target_options import (
+    HELP,
+    confirm_option,
+    identity_option,
+    json_option,
+    opened,
+    target_options,
+)
 from regscribe.tools import programs
 from regscribe.tools.live import catalogue
 from regscribe.tools.live.errors import TargetError
@@ -132,7 +138,7 @@ def validate(*, target: Target, as_json: bool, name: str, file: Path, beyond_lim
 )
 @beyond
 @confirm_option
-@checked_identity
+@identity_option
 def write_command(
     *,
     target: Target,
@@ -181,7 +187,7 @@ def status_command(*, target: Target, as_json: bool, name: str) -> int:
 def _act(what: Act, about: str) -> None:
     @live(what, about)
     @confirm_option
-    @checked_identity
+    @identity_option
     def run(*, target: Target, as_json: bool, name: str, confirm: bool, identity: bool) -> int:
         with opened(target, identity=identity) as device:
             now = device.run(programs.act(programs.place(device, name), what, confirm=confirm))
@@ -202,7 +208,7 @@ _act("reset", "End a program that runs or is held.")
 )
 @file_argument
 @click.option("--svg", type=click.Path(path_type=Path), metavar="FILE", help="Write the picture here.")
-@JSON
+@json_option
 def draw(*, file: Path, svg: Path | None, as_json: bool) -> int:
     """Draw a file."""
     with reported():

@@ -5,10 +5,9 @@ from collections.abc import Sequence
 import click
 
 from regscribe.cli.shared.completion_values import complete_register
-from regscribe.cli.shared.error_report import REFUSED
-from regscribe.cli.shared.live_output import heading, plain
+from regscribe.cli.shared.live_report import REFUSED, heading, plain
 from regscribe.cli.shared.output import hexadecimal, print_json, remark, show_table, tell
-from regscribe.cli.shared.target_options import HELP, opened, target_options
+from regscribe.cli.shared.target_options import opened, target_options
 from regscribe.tools.live import names
 from regscribe.tools.live.reading import RegisterReading, readings
 from regscribe.tools.live.target import Target
@@ -19,7 +18,6 @@ from regscribe_runtime.operations import tasks
 
 @click.command(
     name="read",
-    help=f"Read registers, groups, arrays (segments) and their elements (segments[1]) in few requests.\n\n{HELP}",
     epilog="Example: regscribe read oven process_value alarm segments[1]\n\n"
     "Exit code 0: every register has a value, 1: one has none (a fault, a refusal), 2: wrong usage, 3: nobody answers.",
 )
@@ -28,7 +26,7 @@ from regscribe_runtime.operations import tasks
 @click.option("--value", "bare", is_flag=True, help="Print nothing but the values, one a line, without units.")
 @click.option("--raw", is_flag=True, help="Print the words of the view that is preferred, as they stand on the wire.")
 def command(*, target: Target, as_json: bool, wanted: tuple[str, ...], bare: bool, raw: bool) -> int:
-    """Read registers, groups, arrays and their elements in few requests."""
+    """Read registers, groups, arrays (segments) and their elements (segments[1]) in few requests."""
     with opened(target, check=lambda driver: names.chosen(driver, wanted)) as device:
         registers = names.chosen(type(device), wanted)
         if raw:

@@ -4,11 +4,11 @@ from pathlib import Path
 
 import click
 
-from regscribe.cli.shared.live_output import heading
+from regscribe.cli.shared.live_report import heading
+from regscribe.cli.shared.long_work import shielded
 from regscribe.cli.shared.output import print_json
 from regscribe.cli.shared.settings_common import include_option, loaded, plain_restored, restoring, show_restored
-from regscribe.cli.shared.sigint import shielded
-from regscribe.cli.shared.target_options import HELP, checked_identity, confirm_option, opened, target_options
+from regscribe.cli.shared.target_options import HELP, confirm_option, identity_option, opened, target_options
 from regscribe.tools import settings
 from regscribe.tools.live.target import Target
 
@@ -28,7 +28,7 @@ was. Address, line, calibration and the like stay as they are unless included.\n
 @click.option("--partial", is_flag=True, help="Write what fits, although the file is of another model or map.")
 @include_option
 @confirm_option
-@checked_identity
+@identity_option
 def command(
     *,
     target: Target,

@@ -6,11 +6,10 @@ from collections.abc import Iterator, Mapping, Sequence
 import click
 
 from regscribe.cli.shared.diagnostic_text import count
-from regscribe.cli.shared.error_report import REFUSED, failure, reported
+from regscribe.cli.shared.live_report import REFUSED, failure, reported
+from regscribe.cli.shared.long_work import INTERRUPTED, progress
 from regscribe.cli.shared.output import print_json, remark, show_table
-from regscribe.cli.shared.progress import progress
-from regscribe.cli.shared.sigint import INTERRUPTED
-from regscribe.cli.shared.target_options import CONFIG, JSON, PACKAGE, quiet
+from regscribe.cli.shared.target_options import driver_options, silence_loggers
 from regscribe.tools.live import catalogue
 from regscribe.tools.live import scan as scanning
 from regscribe.tools.live.link_names import LinkName
@@ -36,9 +35,7 @@ from regscribe_runtime import LinkLost
 @click.option("--address", type=click.IntRange(0, 0xFFFF), default=0, help="The holding register that is asked for.")
 @click.option("--all", "every", is_flag=True, help="Try the other speeds, too, when units answered at one.")
 @click.option("--names/--no-names", default=True, help="Ask those that answer what they are (on).")
-@PACKAGE
-@CONFIG
-@JSON
+@driver_options
 def command(  # noqa: PLR0913 - the options of the command
     *,
     link: str,
@@ -57,7 +54,7 @@ def command(  # noqa: PLR0913 - the options of the command
     LINK is rtu:/dev/ttyUSB0, ascii:/dev/ttyUSB0, tcp:HOST:PORT or a name of the configuration; ?timeout=0.2 says how
     long each unit is waited for.
     """
-    quiet()
+    silence_loggers()
     with reported():
         target = named(link, config, packages)
         catalogue.models(target.packages)  # a package that is none is told before the line is asked for minutes

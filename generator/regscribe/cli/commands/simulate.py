@@ -4,36 +4,23 @@ import asyncio
 import re
 import signal
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypedDict, Unpack
 
 import click
 
+from regscribe import simulate as simulator
+from regscribe.cli.shared import simulated_devices
 from regscribe.cli.shared.output import tell
 from regscribe.cli.shared.request_log import RequestLog, lines, table
-from regscribe.cli.shared.simulated_devices import (
-    WantedDevice,
-    device_of,
-    found_maps,
-    process_of,
-    wanted_device,
-    wanted_devices,
-)
-from regscribe.simulate import (
-    Foreign,
-    Patience,
-    SerialLine,
-    Server,
-    Service,
-    SimulatedDevice,
-    SimulatorError,
-    Transport,
-    serve,
-)
+from regscribe.cli.shared.simulated_devices import WantedDevice
+from regscribe.cli.shared.target_options import given_option
+from regscribe.simulate import Foreign, Server, Service, SimulatedDevice, SimulatorError, Transport
 from regscribe.simulate.line.server_context import factor_of
 from regscribe.simulate.line.serving import line_of
 from regscribe.visible import safe
-from regscribe_runtime.values.serial_line import ADDRESSINGS
+from regscribe_runtime.values.serial_line import ADDRESSINGS, SerialLine
 
 PTY = "pty"
 """In place of a serial device: make a pseudo terminal and print its path."""
@@ -55,7 +42,7 @@ class Options(TypedDict):
     paced: bool
     latency: str
     speed: float
-    foreign: str | None
+    foreign: Foreign | None
     connections: int
     idle: float | None
     save: str | None
@@ -70,13 +57,7 @@ class Options(TypedDict):
 @click.argument("map_name", metavar="[MAP]", required=False)
 @click.option("--model", metavar="M", help="The manual's name of the model.")
 @click.option("--unit", type=click.IntRange(0, 255), metavar="N", help="Unit id; without it the map's default.")
-@click.option(
-    "--given",
-    "givens",
-    multiple=True,
-    metavar="ID=VALUE",
-    help="A fact that the manual leaves to another: codes (1,4..6) or true or false. Repeat for several.",
-)
+@given_option
 @click.option(
     "--device",
     "devices",
@@ -123,25 +104,22 @@ def command(  # noqa: PLR0913 - one for each option that makes devices
     MAP is a map file or the id of a map (fdc/series-100). Requests are shown by the names of the map: in a table on a
     terminal, else one a line.
     """
-    _check_line(options)
-    common = {"addressing": addressing, "seed": seed, "process": process_of(process), "state": state or ""}
-    wanted = [WantedDevice(map=map_name, model=model, unit=unit, givens=givens)] if map_name is not None else []
-    wanted += [wanted_device(text) for text in devices]
-    wanted += wanted_devices(Path(file)) if file is not None else []
-    _check_count(len(wanted), alone=bool(state or options["save"]))
-    _check(options)
-    maps = found_maps(one.map for one in wanted)
-    made = [device_of(one.over(common), maps[one.map]) for one in wanted]
-    try:
-        return _run(made, _service(options, made), options)
-    except SimulatorError as error:
-        raise click.ClickException(str(error)) from None
-
-
-def _check_line(options: Options) -> None:
     if (options["tcp"] is None) == (options["rtu"] is None):
         message = "choose one of --tcp HOST:PORT and --rtu DEVICE"
         raise click.UsageError(message)
+    motion = simulated_devices.process_of(process)
+    common = {"addressing": addressing, "seed": seed, "process": motion, "state": state or ""}
+    wanted = [WantedDevice(map=map_name, model=model, unit=unit, givens=givens)] if map_name is not None else []
+    wanted += [simulated_devices.wanted_device(text) for text in devices]
+    wanted += simulated_devices.wanted_devices(Path(file)) if file is not None else []
+    _check_count(len(wanted), alone=bool(state or options["save"]))
+    service = _service(options)
+    maps = simulated_devices.compiled_by_name(one.map for one in wanted)
+    try:
+        made = [simulated_devices.device_of(one.over(common), maps[one.map]) for one in wanted]
+        return _run(made, service, options)
+    except SimulatorError as error:
+        raise click.ClickException(str(error)) from None
 
 
 def _check_count(devices: int, *, alone: bool) -> None:
@@ -154,10 +132,13 @@ def _check_count(devices: int, *, alone: bool) -> None:
 
 
 def _run(devices: list[SimulatedDevice], service: Service, options: Options) -> int:
+    usual = line_of(devices)
+    line = SerialLine.of("", options["baud"] or usual.baud, options["character"] or usual.format)
+    service = replace(service, line=line)
     requests = RequestLog(devices)
     drawn = not options["quiet"] and sys.stdout.isatty()
     if not options["quiet"]:
-        service = requests.of(service)
+        service = replace(service, watcher=requests.note)
         if not drawn:
             lines(requests)
     try:
@@ -170,7 +151,7 @@ def _run(devices: list[SimulatedDevice], service: Service, options: Options) -> 
 async def _serve(devices: list[SimulatedDevice], service: Service, drawn: RequestLog | None) -> int:
     """Serve until Ctrl-C (which is raised) or TERM; SimulatorError as `serve`."""
     loop, ended = asyncio.get_running_loop(), asyncio.Event()
-    task = loop.create_task(serve(devices, service, ready=lambda server: _announce(devices, server)))
+    task = loop.create_task(simulator.serve(devices, service, ready=lambda server: _announce(devices, server)))
     loop.add_signal_handler(signal.SIGTERM, ended.set)
     view = loop.create_task(table(drawn)) if drawn is not None else None
     stop = loop.create_task(ended.wait())
@@ -186,8 +167,8 @@ async def _serve(devices: list[SimulatedDevice], service: Service, drawn: Reques
     return STOPPED
 
 
-def _check(options: Options) -> None:
-    """Refuse what no service can be: UsageError."""
+def _service(options: Options) -> Service:
+    """The service that the options describe, but for its line; UsageError where they contradict each other."""
     try:
         factor_of(options["latency"])
         SerialLine.of("", options["baud"] or SerialLine().baud, options["character"] or SerialLine().format)
@@ -196,32 +177,20 @@ def _check(options: Options) -> None:
     if options["paced"] and options["rtu"] != PTY:
         message = f"--paced goes with --rtu {PTY} only: a serial device has its own speed, TCP has none"
         raise click.UsageError(message)
-    if options["tcp"] is not None:
-        _endpoint(options["tcp"])
-
-
-def _service(options: Options, devices: list[SimulatedDevice]) -> Service:
-    usual = line_of(devices)
-    line = SerialLine.of("", options["baud"] or usual.baud, options["character"] or usual.format)
-    patience = None if options["idle"] is None else Patience(idle=options["idle"])
-    foreign = None if options["foreign"] is None else Foreign(options["foreign"])
-    if options["tcp"] is not None:
-        host, port = _endpoint(options["tcp"])
-        where = {"transport": FRAMINGS[options["framing"]], "host": host, "port": port}
-    elif options["rtu"] == PTY:
-        where = {"transport": Transport.PTY}
-    else:
-        where = {"transport": Transport.SERIAL, "path": options["rtu"] or ""}
-    return Service(
-        **where,  # type: ignore[arg-type]  # three fields of three types
-        line=line,
+    service = Service(
         latency=options["latency"],
         paced=options["paced"],
         speed=options["speed"],
-        foreign=foreign,
+        foreign=options["foreign"],
         connections=options["connections"],
-        patience=patience,
+        patience=None if options["idle"] is None else simulator.Patience(idle=options["idle"]),
     )
+    if options["tcp"] is not None:
+        host, port = _endpoint(options["tcp"])
+        return replace(service, transport=FRAMINGS[options["framing"]], host=host, port=port)
+    if options["rtu"] == PTY:
+        return replace(service, transport=Transport.PTY)
+    return replace(service, transport=Transport.SERIAL, path=options["rtu"] or "")
 
 
 def _endpoint(text: str) -> tuple[str, int]:

@@ -9,10 +9,10 @@ from typing import Any
 import click
 
 from regscribe.cli.shared.completion_values import complete_register
-from regscribe.cli.shared.error_report import REFUSED, Failure, failure
+from regscribe.cli.shared.live_report import REFUSED, Failure, failure
 from regscribe.cli.shared.live_view import Screen, lines
 from regscribe.cli.shared.output import print_json_line, tell
-from regscribe.cli.shared.target_options import HELP, opened, target_options
+from regscribe.cli.shared.target_options import opened, target_options
 from regscribe.tools.live import log as logs
 from regscribe.tools.live import names
 from regscribe.tools.live.target import Target
@@ -25,10 +25,6 @@ USUAL_GIVE_UP = 5
 
 @click.command(
     name="watch",
-    help=f"""Read registers again and again: a live table with changes marked, on a pipe a line for each change.
-
-The line is never asked faster than it can answer: a round begins when the last is done and a tenth of its time passed.
-\n\n{HELP}""",
     epilog="Example: regscribe watch oven process_value alarm --every 2 --chart process_value --log oven.csv\n\n"
     "Exit code 0: --count rounds are done, 1: the log cannot be written any more, 2: wrong usage, 3: nobody answers, "
     "or not any more, 130: Ctrl-C (the log is whole).",
@@ -60,7 +56,11 @@ def command(
     log_path: Path | None,
     give_up: int,
 ) -> int:
-    """Read registers again and again."""
+    """Read registers again and again: a live table with changes marked, on a pipe a line for each change.
+
+    The line is never asked faster than it can answer: a round begins when the last is done and a tenth of its time
+    passed.
+    """
     every_name = (*wanted, *charts)
     with opened(target, check=lambda driver: names.chosen(driver, every_name)) as device, ExitStack() as stack:
         registers = names.chosen(type(device), every_name)

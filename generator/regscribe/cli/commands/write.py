@@ -5,10 +5,10 @@ from typing import Any
 import click
 
 from regscribe.cli.shared.completion_values import complete_register, complete_value
-from regscribe.cli.shared.live_output import heading, plain_requests, show_requests
+from regscribe.cli.shared.live_report import heading, plain_requests, show_requests
+from regscribe.cli.shared.long_work import shielded
 from regscribe.cli.shared.output import print_json, remark, show_table
-from regscribe.cli.shared.sigint import shielded
-from regscribe.cli.shared.target_options import HELP, checked_identity, confirm_option, opened, target_options
+from regscribe.cli.shared.target_options import HELP, confirm_option, identity_option, opened, target_options
 from regscribe.tools.live import names, value_text
 from regscribe.tools.live.dry_run import DryWrite, dry
 from regscribe.tools.live.errors import TargetError, unknown
@@ -40,7 +40,7 @@ of an enum by name, label or code, flags as names with commas.\n\n{HELP}""",
     default=None,
     help="Read it back, or not; without either, what the device keeps as its configuration is.",
 )
-@checked_identity
+@identity_option
 def command(  # noqa: PLR0913 - the options of the command
     *,
     target: Target,

@@ -6,7 +6,7 @@ from typing import Any
 
 HEIGHT = 12
 LEAST_WIDTH, MARGIN = 20, 16
-"""Columns that a curve has at least, and those of the scale beside it."""
+"""Least columns of a curve, and columns of the scale beside it."""
 
 
 def chart(title: str, seconds: Sequence[float], values: Sequence[float], *, unit: str, width: int) -> str:
@@ -24,7 +24,7 @@ def chart(title: str, seconds: Sequence[float], values: Sequence[float], *, unit
 
 
 def empty_figure(width: int, height: int, *, digits: int) -> Any:  # noqa: ANN401 - plotille ships no types
-    """A figure of plotille without colours and curves; its scales show so many digits of a number."""
+    """An empty figure of plotille without colours; its scales show numbers with that many significant digits."""
     import plotille  # type: ignore[import-untyped]  # noqa: PLC0415 - as above; only a curve needs it
 
     figure: Any = plotille.Figure()

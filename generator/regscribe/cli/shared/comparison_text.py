@@ -22,25 +22,21 @@ def as_text(found: Comparison) -> Iterator[Piece]:
     for title, places in ((found.ours, found.only_ours), (found.theirs, found.only_theirs)):
         if places:
             yield f"\n{count(len(places), 'row')} only in {safe(title)}:\n", "bold yellow"
-            yield from ((f"  {_place(place, models)}\n", "") for place, models in _folded(places))
+            folded: dict[Location, list[str]] = {}
+            for place in places:
+                folded.setdefault(replace(place, model=""), []).append(place.model)
+            yield from ((f"  {_place(place, models)}\n", "") for place, models in folded.items())
+    number = len(found.differences)
+    cells = f"{count(number, 'cell')} {'differs' if number == 1 else 'differ'}"
     if found.differences:
-        yield f"\n{count(len(found.differences), 'cell')} {_verb(len(found.differences))}:\n", "bold yellow"
+        yield f"\n{cells}:\n", "bold yellow"
         yield from _differences(found.differences)
-    yield f"\n{_sum(found)}\n", "bold green" if found.equal else "bold red"
-
-
-def _verb(number: int) -> str:
-    return "differs" if number == 1 else "differ"
-
-
-def _sum(found: Comparison) -> str:
     if found.equal:
-        return "nothing differs"
-    only = len(found.only_ours), len(found.only_theirs)
-    rows = f"{count(only[0], 'row')} only in {found.ours}, {only[1]} only in {safe(found.theirs)}; "
+        yield "\nnothing differs\n", "bold green"
+        return
     columns = ", ".join(f"{column} {number}" for column, number in found.counts.items())
-    cells = len(found.differences)
-    return f"{rows}{count(cells, 'cell')} {_verb(cells)}{f': {columns}' if columns else ''}"
+    rows = f"{count(len(found.only_ours), 'row')} only in {found.ours}, {len(found.only_theirs)} only in "
+    yield f"\n{rows}{safe(found.theirs)}; {cells}{f': {columns}' if columns else ''}\n", "bold red"
 
 
 def _differences(differences: Iterable[CellDifference]) -> Iterator[Piece]:
@@ -63,14 +59,6 @@ def _cell(text: str) -> str:
     return safe(f"`{text}`") if text else "nothing"
 
 
-def _folded(places: Iterable[Location]) -> Iterator[tuple[Location, list[str]]]:
-    """Yield each place once with all its models."""
-    folded: dict[Location, list[str]] = {}
-    for place in places:
-        folded.setdefault(replace(place, model=""), []).append(place.model)
-    yield from folded.items()
-
-
 def _place(place: Location, models: Iterable[str]) -> str:
     parts = (f"{place.space} {place.address}".strip(), place.id, f"“{place.name}”" if place.name else "")
     line = f" (line {place.line})" if place.line else ""
@@ -78,7 +66,7 @@ def _place(place: Location, models: Iterable[str]) -> str:
 
 
 def as_json(found: Comparison) -> str:
-    """Return one JSON object with everything; nothing is folded."""
+    """Return one JSON object with everything; models are not folded."""
     plain = {
         "format": 1,
         "ours": found.ours,
@@ -108,12 +96,12 @@ def as_csv(found: Comparison) -> str:
     writer = csv.writer(buffer, lineterminator="\n")
     writer.writerow(HEADER)
     for what, places in (("only_ours", found.only_ours), ("only_theirs", found.only_theirs)):
-        writer.writerows((what, *_head(place), "", "", "", place.line or "") for place in places)
+        writer.writerows(_csv_row(what, place, ("", "", "")) for place in places)
     for one in found.differences:
-        sides = (one.column, cell(one.ours), cell(one.theirs))
-        writer.writerow(("differs", *_head(one.place), *sides, one.place.line or ""))
+        writer.writerow(_csv_row("differs", one.place, (one.column, cell(one.ours), cell(one.theirs))))
     return buffer.getvalue()
 
 
-def _head(place: Location) -> tuple[str, ...]:
-    return tuple(map(cell, (place.model, place.space, place.address, place.id, place.name)))
+def _csv_row(what: str, place: Location, sides: tuple[str, str, str]) -> tuple[str | int, ...]:
+    texts = map(cell, (place.model, place.space, place.address, place.id, place.name))
+    return (what, *texts, *sides, place.line or "")

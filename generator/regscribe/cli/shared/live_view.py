@@ -1,4 +1,4 @@
-"""What is watched, on a terminal: a table that stays in place, changes marked, curves below; on a pipe, lines."""
+"""Watched values: on a terminal a table that stays in place, changes marked, curves below; on a pipe lines."""
 
 from collections import deque
 from collections.abc import Iterator, Sequence
@@ -30,11 +30,10 @@ class Screen:
         self.changed: dict[str, datetime] = {}
         self.points: dict[str, deque[tuple[float, float]]] = {name: deque(maxlen=MOST_POINTS) for name in curves}
         self.start: datetime | None = None
-        self.round: Round | None = None
 
     def take(self, one: Round) -> None:
-        """Keep what a round brought."""
-        self.round, self.start = one, self.start or one.time
+        """Keep the values of a round."""
+        self.start = self.start or one.time
         self.latest.update((each.name, each) for each in one.readings)
         self.changed.update(dict.fromkeys(one.changed, one.time))
         for each in one.readings:
@@ -43,12 +42,12 @@ class Screen:
 
     def drawn(self, width: int) -> str:
         """All curves as text."""
-        found = []
+        curves = ""
         for name, points in self.points.items():
             unit = self.latest[name].unit if name in self.latest else ""
             curve = chart(name, [x for x, _ in points], [y for _, y in points], unit=unit, width=width)
-            found.append(curve or f"{name}: no numbers to draw\n")
-        return "".join(found)
+            curves += curve or f"{name}: no numbers to draw\n"
+        return curves
 
     def follow(self, rounds: Iterator[Round]) -> None:
         """Show rounds in place on the terminal until they end."""
@@ -59,9 +58,9 @@ class Screen:
         with Live(console=console, auto_refresh=False) as live:
             for one in rounds:
                 self.take(one)
-                live.update(self._picture(console.width), refresh=True)
+                live.update(self._picture(one, console.width), refresh=True)
 
-    def _picture(self, width: int) -> "RenderableType":
+    def _picture(self, latest: Round, width: int) -> "RenderableType":
         from rich.console import Group  # noqa: PLC0415 - as above
         from rich.table import Table  # noqa: PLC0415 - as above
         from rich.text import Text  # noqa: PLC0415 - as above
@@ -70,28 +69,20 @@ class Screen:
         for name in ("REGISTER", "VALUE", "", "CHANGED"):
             table.add_column(name, header_style="bold")
         for name in self.names:
-            fresh = bool(self.round and name in self.round.changed)
+            fresh = name in latest.changed
             style = "bold yellow" if fresh else ""
             value = safe(self.latest[name].spelled) if name in self.latest else "?"
-            table.add_row(Text(name, "cyan"), Text(value, style), MARK if fresh else "", self._since(name))
-        return Group(table, Text(self._status(), "dim"), Text(self.drawn(width)))
-
-    def _since(self, name: str) -> str:
-        if name not in self.changed or self.round is None:
-            return ""
-        return f"{(self.round.time - self.changed[name]).total_seconds():.0f} s ago"
-
-    def _status(self) -> str:
-        one = self.round
-        if one is None:
-            return ""
-        late = ", slower than asked for: the line needs that long" if one.late else ""
-        error = f"; {one.error}" if one.error else ""
-        return safe(f"{self.device}: round {one.number} at {one.moment} took {one.seconds * 1000:.0f} ms{late}{error}")
+            since = latest.time - self.changed[name] if name in self.changed else None
+            age = f"{since.total_seconds():.0f} s ago" if since is not None else ""
+            table.add_row(Text(name, "cyan"), Text(value, style), MARK if fresh else "", age)
+        late = ", slower than asked for: the line needs that long" if latest.late else ""
+        error = f"; {latest.error}" if latest.error else ""
+        took = f"round {latest.number} at {latest.moment} took {latest.seconds * 1000:.0f} ms"
+        return Group(table, Text(safe(f"{self.device}: {took}{late}{error}"), "dim"), Text(self.drawn(width)))
 
 
 def lines(one: Round) -> Iterator[str]:
-    """A round as lines: all of the first, of others what changed (marked), and what went wrong."""
+    """A round as lines: its error, and all values of the first, of others those that changed (marked)."""
     if one.error is not None:
         yield f"{one.moment}  {safe(str(one.error))}\n"
     for each in one.readings:

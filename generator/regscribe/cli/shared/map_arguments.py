@@ -1,7 +1,7 @@
 """Which map files the arguments of a command name: a file, a folder of them, or the id of a map."""
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
 from pathlib import Path
 
@@ -13,14 +13,16 @@ from regscribe.map_files import ENDINGS, LIBRARY, LOCAL, MAP, file_of, ids_in, k
 def find_maps(arguments: Sequence[str], *, libraries: bool = False) -> list[Path]:
     """Return the files that the arguments name, each once, in a stable order; without arguments all of maps/.
 
-    Files that only hold names for maps are among them with `libraries`. Raises click.UsageError for what is neither a
+    Libraries are among them if `libraries` is set. Raises click.UsageError for what is neither a
     file, a folder with maps, nor the id of a map, and for a library where none is asked for.
     """
     if not arguments and not LOCAL.is_dir():
         message = "there is no folder maps/ here: name a map file, a folder or a map id"
         raise click.UsageError(message)
     kinds = (MAP, LIBRARY) if libraries else (MAP,)
-    found = [path for argument in arguments or [str(LOCAL)] for path in _files_of(argument, kinds)]
+    found: list[Path] = []
+    for argument in arguments or [str(LOCAL)]:
+        found += _files_below(Path(argument), kinds) if _is_folder(argument) else [_file_of(argument, kinds)]
     return list({os.path.realpath(path): path for path in found}.values())
 
 
@@ -36,10 +38,6 @@ def _is_folder(argument: str) -> bool:
     return bool(argument) and os.path.isdir(argument)  # noqa: PTH112 - Path.is_dir raises for names that are too long
 
 
-def _files_of(argument: str, kinds: Sequence[str]) -> list[Path]:
-    return _files_below(Path(argument), kinds) if _is_folder(argument) else [_file_of(argument, kinds)]
-
-
 def _file_of(argument: str, kinds: Sequence[str]) -> Path:
     if kind_of(argument) not in kinds:
         message = f"{argument} is a library: nothing is made of it alone, name a map that uses it"
@@ -48,8 +46,11 @@ def _file_of(argument: str, kinds: Sequence[str]) -> Path:
         return Path(argument)
     found = file_of(argument, kinds)
     if found is None:
-        near = get_close_matches(argument, sorted(_known()), n=1)
-        meant = f"; did you mean `{near[0]}`?" if near else ""
+        known: list[str] = []
+        for folder in (LOCAL, shipped()):
+            ids = ids_in([folder])
+            known += [*ids, *(f"{folder / map_id}{ENDINGS[MAP]}" for map_id in ids)]
+        meant = did_you_mean(argument, sorted(known))
         message = f"there is no map `{argument[:200]}`: neither a file nor a map id{meant}"
         raise click.UsageError(message)
     return found
@@ -68,8 +69,7 @@ def _files_below(folder: Path, kinds: Sequence[str]) -> list[Path]:
     return found
 
 
-def _known() -> Iterator[str]:
-    """Yield what may have been meant: the ids of all maps, and their paths."""
-    for folder in (LOCAL, shipped()):
-        for map_id in ids_in([folder]):
-            yield from (map_id, f"{folder / map_id}{ENDINGS[MAP]}")
+def did_you_mean(name: str, known: Iterable[str]) -> str:
+    """The end of a message about an unknown name: `; did you mean `x`?`, or nothing."""
+    near = get_close_matches(name, list(known), n=1)
+    return f"; did you mean `{near[0]}`?" if near else ""

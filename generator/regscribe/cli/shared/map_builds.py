@@ -1,4 +1,4 @@
-"""What becomes of each map of a build: compiled and rendered, several at once where there are cores for it."""
+"""Compiles and renders each map of a build, several at once where there are cores for it."""
 
 import os
 import re
@@ -22,12 +22,12 @@ if TYPE_CHECKING:
 
 
 HEAD = 10_000
-"""Bytes of a map in which it has said what it extends."""
+"""Bytes at the beginning of a map that are searched for `extends`."""
 
 
 @dataclass(frozen=True, slots=True)
 class Made:
-    """What one map gave: its diagnostics, and unless there is an error the texts and what the next run must know."""
+    """A map compiled and rendered: its diagnostics; without an error the texts, and the record for the next run."""
 
     path: Path
     diagnostics: tuple[Diagnostic, ...]
@@ -73,14 +73,15 @@ def _cores() -> int:
 
 
 def _at_once(paths: Sequence[Path], templates: Templates | None, workers: int) -> Iterator[Made]:
-    """Make the costliest maps first, so that none of them is left for the end; give them back in their order."""
+    """Start with the costliest maps, so that none of them is left for the end; yield all in the given order."""
     from concurrent.futures import ProcessPoolExecutor  # noqa: PLC0415 - a build of one map needs neither
     from multiprocessing import get_context  # noqa: PLC0415 - as above
 
     context = get_context("fork" if sys.platform == "linux" else "spawn")
     load_emitters()
     _load()
-    with ProcessPoolExecutor(workers, context, initializer=_worker) as pool:
+    default = (signal.SIGINT, signal.SIG_DFL)  # Ctrl-C ends a worker silently: its parent reports it
+    with ProcessPoolExecutor(workers, context, signal.signal, default) as pool:
         try:
             makings = {path: pool.submit(make, path, templates) for path in sorted(paths, key=_cost, reverse=True)}
             for path in paths:
@@ -90,18 +91,13 @@ def _at_once(paths: Sequence[Path], templates: Templates | None, workers: int) -
             raise
 
 
-def _worker() -> None:
-    """Let Ctrl-C end a worker at once, without a word: the process that started it speaks for all."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-
-
 def _cost(path: Path) -> tuple[bool, int]:
-    """Guess how long a map takes: one that extends another holds all of that one, else its size tells."""
+    """Estimate how long a map takes, for sorting: maps that extend another are the costliest, then by size."""
     try:
         if path.is_file():
             with path.open("rb") as file:
                 return re.search(rb"^extends:", file.read(HEAD), re.MULTILINE) is not None, path.stat().st_size
-    except (OSError, ValueError):  # which compiling it will tell
+    except (OSError, ValueError):  # compiling it reports it
         pass
     return False, 0
 

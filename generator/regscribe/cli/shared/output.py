@@ -1,4 +1,4 @@
-"""The door to the terminal, through which all that commands print goes; tables and colours on a terminal only."""
+"""Everything that commands print passes through here; tables and colours on a terminal only."""
 
 import os
 import sys
@@ -8,23 +8,23 @@ from typing import Any, TextIO
 from regscribe.visible import json_text, safe, tame
 
 Piece = tuple[str, str]
-"""A text and its style, as rich names styles (`bold red`); an empty style is plain."""
+"""A text and its style in the words of rich (`bold red`); an empty style is plain."""
 
 GAP = "  "
 
 
 def tell(text: str) -> None:
-    """Write to standard output; nothing of the text is obeyed by a terminal."""
+    """Write to standard output, with control characters spelled out."""
     sys.stdout.write(tame(text))
 
 
 def warn(text: str) -> None:
-    """As `tell`, to standard error."""
+    """Write to standard error, with control characters spelled out."""
     sys.stderr.write(tame(text))
 
 
 def show(pieces: Iterable[Piece], *, stream: TextIO | None = None) -> None:
-    """Write the pieces to `stream` (standard output) as `tell` does; nothing is added between or after them."""
+    """Write styled texts to `stream` (standard output), with control characters spelled out and nothing in between."""
     out = sys.stdout if stream is None else stream
     tamed = [(tame(text), style) for text, style in pieces]
     if not in_colour(out):
@@ -43,19 +43,15 @@ def in_colour(stream: TextIO) -> bool:
 
 
 def show_table(columns: Sequence[str], rows: Iterable[Sequence[str]], *, title: str = "") -> None:
-    """Print a table; nothing of a cell is taken for markup or for control of the terminal."""
+    """Print a table; cells are taken for neither markup nor control characters."""
     cells = [[safe(cell) for cell in row] for row in rows]
     if sys.stdout.isatty():
         _rich_table(columns, cells, title)
-    else:
-        _plain_table(cells, title)
-
-
-def _plain_table(rows: Sequence[Sequence[str]], title: str) -> None:
+        return
     if title:
         tell(f"# {safe(title)}\n")
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)] if rows else []
-    for row in rows:
+    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
+    for row in cells:
         line = GAP.join(cell.ljust(width) for cell, width in zip(row, widths, strict=True))
         tell(f"{line.rstrip()}\n")
 
@@ -74,22 +70,22 @@ def _rich_table(columns: Sequence[str], rows: Sequence[Sequence[str]], title: st
     Console(highlight=False).print(table)
 
 
-def print_json(**what: Any) -> None:  # noqa: ANN401 - anything that JSON can hold
-    """Print one object; every command's has `format`, the version of its shape."""
-    tell(json_text({"format": 1, **what}, indent=2) + "\n")
+def print_json(**members: Any) -> None:  # noqa: ANN401 - anything that JSON can hold
+    """Print one object, with `format`, the version of its shape, as the first member."""
+    tell(json_text({"format": 1, **members}, indent=2) + "\n")
 
 
-def print_json_line(**what: Any) -> None:  # noqa: ANN401 - as above
-    """Print one object in one line, at once: for what goes on and on."""
-    tell(json_text({"format": 1, **what}) + "\n")
+def print_json_line(**members: Any) -> None:  # noqa: ANN401 - as above
+    """Print one object on one line and flush: for output without an end."""
+    tell(json_text({"format": 1, **members}) + "\n")
     sys.stdout.flush()
 
 
 def remark(text: str) -> None:
-    """Tell a person something beside the result."""
+    """Write a line for people, beside the result, to standard error."""
     warn(f"{safe(text)}\n")
 
 
 def hexadecimal(words: Iterable[int]) -> str:
-    """Words of 16 bits as they stand on the wire: `0FA0 0001`."""
+    """Words of 16 bits as hexadecimal digits: `0FA0 0001`."""
     return " ".join(f"{word:04X}" for word in words)

@@ -12,7 +12,7 @@ from regscribe_runtime.values.protocol import Protocol
 
 @dataclass(frozen=True, slots=True)
 class PlannedModel:
-    """A model to plan for, its registers by path, and what the device accepts."""
+    """A model to plan for, its registers by path, and the protocol of its device."""
 
     model: compiled.Model
     registers: Mapping[str, compiled.Register]
@@ -30,6 +30,6 @@ class PlannedModel:
         return [path for path, register in self.registers.items() if register.access.readable]
 
     def terms(self, cost: Cost) -> Terms:
-        """What plans keep to, at a cost."""
+        """Limits, readable ground and cost that a plan is made under."""
         ground = ground_of(self.registers.values(), unused=self.model.unused, holes=self.protocol.read_holes)
         return Terms(RequestLimits.of(self.protocol), ground, cost)

@@ -12,13 +12,13 @@ from regscribe.tools.programs.program import RAW, SECONDS, Program
 from regscribe.tools.programs.program_file import plain
 
 BLANK = " \u2800"
-"""A blank, and the one of braille."""
+"""A space, and the empty braille pattern."""
 
 PIPED = 80
 """Columns where there is no terminal."""
 
 ROWS, COLUMNS, MARGIN, MOST = 16, 10, 16, 6
-"""Rows of the curve at most, columns between two marks, columns of the scale beside it, marks of a unit of time."""
+"""Most rows of the curve, columns between two marks, columns of the scale beside it, most marks of a unit of time."""
 
 
 def show_program(program: Program, *, first: int = 1) -> None:

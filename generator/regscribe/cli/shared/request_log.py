@@ -1,25 +1,25 @@
-"""Requests as they come: one a line, or the last ones in a table on a terminal."""
+"""Requests to a simulator, shown as they come: one a line, or the last ones in a table on a terminal."""
 
 import asyncio
 import sys
 import time
 from collections import Counter, deque
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from regscribe.cli.shared import output
-from regscribe.simulate import Exchange, Service, SimulatedDevice, Told, tell
+from regscribe.simulate import Exchange, SimulatedDevice, tell
 from regscribe.visible import safe
 
 if TYPE_CHECKING:
     from rich.table import Table
 
 ROWS = 18
-"""Requests that the table shows: the last ones."""
+"""Number of requests that the table shows."""
 
 REFRESH = 0.25
-"""Seconds between two looks of the table."""
+"""Seconds after which the table is drawn anew."""
 
 LONGEST = 200
 """Characters of a line at most."""
@@ -27,16 +27,12 @@ LONGEST = 200
 
 @dataclass(slots=True)
 class RequestLog:
-    """What was asked lately, and how often; `each` is told of every request as it comes."""
+    """The last requests and their number; `each` is called with every request as it comes."""
 
     devices: Sequence[SimulatedDevice]
     last: deque[tuple[float, Exchange]] = field(default_factory=lambda: deque(maxlen=ROWS))
     counts: Counter[str] = field(default_factory=Counter)
     each: Callable[[Exchange], None] | None = None
-
-    def of(self, service: Service) -> Service:
-        """The service, watched."""
-        return replace(service, watcher=self.note)
 
     def note(self, exchange: Exchange) -> None:
         """Keep one request."""
@@ -82,7 +78,7 @@ def _drawn(requests: RequestLog) -> "Table":
     title = f"{counts['requests']} requests, {counts['unanswered']} unanswered"
     drawn = Table("Time", "Unit", "Request", "Registers", "Answer", title=title, expand=True)
     for when, exchange in tuple(requests.last):
-        told: Told = tell(requests.devices, exchange)
+        told = tell(requests.devices, exchange)
         style = "" if told.good else "red"
         cells = (_clock(when), str(told.unit), told.verb, told.what[:LONGEST], told.outcome)
         drawn.add_row(*(Text(cell, style=style) for cell in cells))

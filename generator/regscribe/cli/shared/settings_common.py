@@ -1,4 +1,4 @@
-"""What the commands about settings share: a backup or a device as the source, restoring, and what came of it."""
+"""Shared by the commands about settings: a backup or a device as the source, restoring, and its result."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -7,10 +7,9 @@ from typing import Any
 
 import click
 
-from regscribe.cli.shared.error_report import REFUSED, UNKNOWN_STATE, USAGE, Failure, reported
+from regscribe.cli.shared.live_report import REFUSED, UNKNOWN_STATE, USAGE, Failure, reported
+from regscribe.cli.shared.long_work import Shield, progress
 from regscribe.cli.shared.output import remark, show_table
-from regscribe.cli.shared.progress import progress
-from regscribe.cli.shared.sigint import Shield
 from regscribe.cli.shared.target_options import opened
 from regscribe.tools import settings
 from regscribe.tools.live.target import named
@@ -27,7 +26,7 @@ include_option = click.option(
 
 
 class Stopped(KeyboardInterrupt):
-    """Ctrl-C during a write, noticed between two requests: what was under way is finished, the rest is not begun."""
+    """Ctrl-C during a write, noticed between two requests: the one under way is finished, the rest is not begun."""
 
 
 @contextmanager
@@ -59,7 +58,7 @@ def restoring(label: str, backup: settings.Backup, shield: Shield) -> Iterator[T
 
 
 def loaded(path: Path) -> settings.Backup:
-    """The backup in a file; Failure says what is wrong with it."""
+    """The backup in a file. Raises Failure."""
     with settings_reported():
         return settings.load(path)
 
@@ -71,7 +70,7 @@ def taken(device: BareDevice, link: str) -> settings.Backup:
 
 
 def backup_of(text: str, packages: tuple[str, ...], config: str | None) -> tuple[settings.Backup, str]:
-    """The settings that a text means, those of a backup file or of a device, and the name of the one or the other."""
+    """The settings of the backup file or of the device that `text` names, and the name of the file or device."""
     if text.endswith((".yaml", ".yml")) or Path(text).is_file():
         return loaded(Path(text)), text
     with reported():
@@ -81,7 +80,7 @@ def backup_of(text: str, packages: tuple[str, ...], config: str | None) -> tuple
 
 
 def show_restored(device: BareDevice, done: settings.Restored, *, dry_run: bool) -> None:
-    """A table of what was, or would be, written, and remarks on the rest: what was equal, left out, or does not fit."""
+    """Print a table of what was written (or would be), and remarks on what was equal, left out, or does not fit."""
     changes = [_plain_change(device, one) for one in done.report.changes if one.fate is not Fate.EQUAL]
     rows = [["?" if text is None else text for text in one.values()] for one in changes]
     show_table(("REGISTER", "BEFORE", "AFTER", ""), rows)
@@ -96,7 +95,7 @@ def show_restored(device: BareDevice, done: settings.Restored, *, dry_run: bool)
 
 
 def plain_restored(device: BareDevice, done: settings.Restored) -> dict[str, Any]:
-    """The same in JSON, all of it."""
+    """What became of each setting, in JSON."""
     return {
         "changes": [_plain_change(device, one) for one in done.report.changes],
         "stays": dict(done.fit.stays),

@@ -13,7 +13,7 @@ import click
 from regscribe import source
 from regscribe.cli.shared.compiled_maps import compiled_maps
 from regscribe.cli.shared.diagnostic_text import findings
-from regscribe.cli.shared.map_arguments import find_map
+from regscribe.cli.shared.map_arguments import did_you_mean, find_map
 from regscribe.cli.shared.output import show
 from regscribe.model import GivenKind, RegisterMap
 from regscribe.simulate import SimulatedDevice, SimulatorError, ThermalProcess
@@ -25,7 +25,7 @@ KEYS = ("map", "model", "unit", "given", "state", "process", "seed", "addressing
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WantedDevice:
-    """One device as it was asked for; what is None or empty is as the command line has it for all."""
+    """A device to make; where a field is None or empty, the options of the command count."""
 
     map: str
     model: str | None = None
@@ -37,7 +37,7 @@ class WantedDevice:
     addressing: str = ""
 
     def over(self, common: Mapping[str, Any]) -> "WantedDevice":
-        """The wanted with what counts for all devices where it says nothing itself."""
+        """The same with the options common to all devices where a field is None or empty."""
         return replace(self, **{key: value for key, value in common.items() if getattr(self, key) in (None, "")})
 
 
@@ -74,11 +74,11 @@ def _wanted(entry: object, where: str) -> WantedDevice:
         map=str(given["map"]),
         model=str(given["model"]),
         unit=unit,
-        givens=tuple(f"{name}={_spelled(value)}" for name, value in givens.items()),
-        state=_text(given, "state"),
+        givens=tuple(f"{name}={_option_text(value)}" for name, value in givens.items()),
+        state=str(given.get("state") or ""),
         process=_process(given.get("process"), where),
         seed=seed,
-        addressing=_text(given, "addressing"),
+        addressing=str(given.get("addressing") or ""),
     )
 
 
@@ -88,17 +88,13 @@ def _mapping(entry: object, where: str) -> dict[str, Any]:
         raise click.UsageError(message)
     for key in entry:
         if key not in KEYS:
-            message = f"{where} has the key `{key}`: known are {', '.join(KEYS)}{_near(str(key), KEYS)}"
+            message = f"{where} has the key `{key}`: known are {', '.join(KEYS)}{did_you_mean(str(key), KEYS)}"
             raise click.UsageError(message)
     return entry
 
 
-def _text(given: Mapping[str, Any], key: str) -> str:
-    return str(given.get(key) or "")
-
-
-def _spelled(value: object) -> str:
-    """A given as the command line writes it."""
+def _option_text(value: object) -> str:
+    """The value of a given in the form of the command line."""
     if isinstance(value, list):
         return ",".join(map(str, value))
     return str(value).lower() if isinstance(value, bool) else str(value)
@@ -119,7 +115,8 @@ def process_of(text: str | None, *, where: str = "--process") -> ThermalProcess 
     for part in text.split(",") if text != "on" else ():
         name, equals, value = part.partition("=")
         if not equals or name.strip() not in known:
-            message = f"{where} {text}: `{part}` is not NAME=NUMBER with one of {', '.join(known)}{_near(name, known)}"
+            wanted = f"NAME=NUMBER with one of {', '.join(known)}"
+            message = f"{where} {text}: `{part}` is not {wanted}{did_you_mean(name, known)}"
             raise click.UsageError(message)
         try:
             given[name.strip()] = float(value)
@@ -132,23 +129,13 @@ def process_of(text: str | None, *, where: str = "--process") -> ThermalProcess 
         raise click.UsageError(str(error)) from None
 
 
-def found_maps(names: Iterable[str]) -> dict[str, RegisterMap]:
-    """The maps by the names that were given; ends the command where one has mistakes."""
+def compiled_by_name(names: Iterable[str]) -> dict[str, RegisterMap]:
+    """The compiled maps by name, each once; ends the command where one has errors."""
     return {name: compiled_maps([find_map(name)], nothing="nothing is served")[0] for name in dict.fromkeys(names)}
 
 
 def device_of(wanted: WantedDevice, register_map: RegisterMap) -> SimulatedDevice:
-    """The device that was asked for; UsageError or ClickException where it cannot be."""
-    device = _made(wanted, register_map)
-    try:
-        if wanted.state:
-            device.load(wanted.state)
-    except SimulatorError as error:
-        raise click.ClickException(str(error)) from None
-    return device
-
-
-def _made(wanted: WantedDevice, register_map: RegisterMap) -> SimulatedDevice:
+    """Make a device; UsageError where the wish is at fault, SimulatorError where its state cannot be loaded."""
     model = _model(wanted.model, register_map)
     values = dict(_given(one, register_map) for one in wanted.givens)
     addressing = wanted.addressing or MODBUS
@@ -156,7 +143,7 @@ def _made(wanted: WantedDevice, register_map: RegisterMap) -> SimulatedDevice:
         message = f"addressing {addressing} is none of {', '.join(ADDRESSINGS)}"
         raise click.UsageError(message)
     try:
-        return SimulatedDevice(
+        device = SimulatedDevice(
             register_map,
             model,
             unit=wanted.unit,
@@ -170,6 +157,9 @@ def _made(wanted: WantedDevice, register_map: RegisterMap) -> SimulatedDevice:
         hint = f"\nOn the command line: --given {missing}=VALUE" if missing else ""
         message = f"{error}{hint}"
         raise click.UsageError(message) from None
+    if wanted.state:
+        device.load(wanted.state)
+    return device
 
 
 def _model(model: str | None, register_map: RegisterMap) -> str:
@@ -184,11 +174,6 @@ def _model(model: str | None, register_map: RegisterMap) -> str:
         message = f"{register_map.id} has no model `{model}`: it has {', '.join(names)}{hint}"
         raise click.UsageError(message)
     return model
-
-
-def _near(name: str, known: Iterable[str]) -> str:
-    near = get_close_matches(name, list(known), n=1)
-    return f"; did you mean `{near[0]}`?" if near else ""
 
 
 def _given(text: str, register_map: RegisterMap) -> tuple[str, bool | frozenset[int]]:

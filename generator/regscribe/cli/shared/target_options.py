@@ -5,52 +5,60 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import wraps
+from inspect import getdoc
 from typing import Any, TypeVar
 
 import click
 
 from regscribe.cli.shared.completion_values import complete_model, complete_target
-from regscribe.cli.shared.error_report import REFUSED, Failure, reported
-from regscribe.cli.shared.frame_trace import Tracing
+from regscribe.cli.shared.live_report import REFUSED, Failure, FrameTracer, reported
 from regscribe.tools.live import target as targets
 from regscribe.tools.live.errors import TargetError
 from regscribe.tools.live.target import Target
 from regscribe_runtime import BareDevice
 
 F = TypeVar("F", bound=Callable[..., Any])
+Decorator = Callable[[Any], Any]
 
-PACKAGE = click.option(
+HELP = """TARGET is a link (tcp:10.0.0.7:502?unit=1&model=16C, rtu:/dev/ttyUSB0?baud=9600&parity=E) or a name of the
+configuration. Without a model the device is asked what it is."""
+"""How a command's help explains TARGET."""
+
+
+def declared(*options: Decorator) -> Decorator:
+    """One decorator that declares several options or arguments, in this order."""
+
+    def declare(command: Any) -> Any:  # noqa: ANN401 - a function that becomes a command
+        for option in reversed(options):
+            command = option(command)
+        return command
+
+    return declare
+
+
+_package = click.option(
     "--package",
     "packages",
     multiple=True,
     metavar="NAME",
     help="A package of drivers of your own, or its folder. Repeat for several.",
 )
-CONFIG = click.option(
+_config = click.option(
     "--config",
     metavar="FILE",
     help="Devices by name; without it $REGSCRIBE_CONFIG, ./regscribe.yaml or ~/.config/regscribe/devices.yaml.",
 )
-JSON = click.option("--json", "as_json", is_flag=True, help="Print one JSON object for programs.")
-
-_OPTIONS = (
-    click.option("--unit", type=click.IntRange(0, 255), metavar="N", help="Unit id, in place of the target's."),
-    click.option("--model", metavar="M", shell_complete=complete_model, help="Model, in place of the target's."),
-    click.option(
-        "--given",
-        "givens",
-        multiple=True,
-        metavar="ID=VALUE",
-        help="A fact that the manual leaves to another: codes (1,4..6) or true or false. Repeat for several.",
-    ),
-    PACKAGE,
-    CONFIG,
-    click.option("--trace", is_flag=True, help="Tell of every frame on standard error, in hexadecimal and in names."),
-    JSON,
+json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON object for programs.")
+driver_options = declared(_package, _config, json_option)
+given_option = click.option(
+    "--given",
+    "givens",
+    multiple=True,
+    metavar="ID=VALUE",
+    help="A fact that the manual leaves to another: codes (1,4..6) or true or false. Repeat for several.",
 )
-
 confirm_option = click.option("--confirm", is_flag=True, help="Write where the map calls it dangerous, too.")
-checked_identity = click.option(
+identity_option = click.option(
     "--check-identity/--no-check-identity",
     "identity",
     default=True,
@@ -58,15 +66,23 @@ checked_identity = click.option(
 )
 """The option of commands that write: `identity: bool` for `opened`."""
 
-HELP = """TARGET is a link (tcp:10.0.0.7:502?unit=1&model=16C, rtu:/dev/ttyUSB0?baud=9600&parity=E) or a name of the
-configuration. Without a model the device is asked what it is."""
-"""How a command's help explains TARGET."""
+_target_options = declared(
+    click.option("--unit", type=click.IntRange(0, 255), metavar="N", help="Unit id, in place of the target's."),
+    click.option("--model", metavar="M", shell_complete=complete_model, help="Model, in place of the target's."),
+    given_option,
+    _package,
+    _config,
+    click.option("--trace", is_flag=True, help="Tell of every frame on standard error, in hexadecimal and in names."),
+    json_option,
+    click.argument("target_text", metavar="TARGET", shell_complete=complete_target),
+)
 
 
 def target_options(function: F) -> F:
-    """Give a command TARGET, --unit, --model, --given, --package, --config and --json.
+    """Give a command TARGET, --unit, --model, --given, --package, --config, --trace and --json.
 
-    The function is called with `target: Target` and `as_json: bool` in their place.
+    The function is called with `target: Target` and `as_json: bool` in their place. A docstring as the command's help
+    is followed by the explanation of TARGET.
     """
 
     @wraps(function)
@@ -84,13 +100,11 @@ def target_options(function: F) -> F:
         with reported():
             target = targets.named(target_text, config, packages)
             target = targets.override(target, unit=unit, model=model or "", given=targets.given_texts(givens))
-            target = replace(target, trace=Tracing(target)) if trace else target
+            target = replace(target, trace=FrameTracer(target)) if trace else target
         return function(*args, target=target, **more)
 
-    command: Any = click.argument("target_text", metavar="TARGET", shell_complete=complete_target)(with_target)
-    for option in reversed(_OPTIONS):
-        command = option(command)
-    result: F = command
+    with_target.__doc__ = f"{getdoc(function)}\n\n{HELP}"
+    result: F = _target_options(with_target)
     return result
 
 
@@ -104,26 +118,26 @@ def opened(
     is opened: it raises TargetError for names that the model does not have. With `identity`, a device that shows
     another model than the target's is refused before anything else is sent.
     """
-    quiet()
+    silence_loggers()
     with reported():
-        found = targets.identified(target)
-        driver = found.known().driver
+        identified = targets.identified(target)
+        driver = identified.known().driver
         if check is not None:
             check(driver)
-        if isinstance(target.trace, Tracing):
-            target.trace.tell(driver)
-        with targets.connect(found) as device:
+        if isinstance(target.trace, FrameTracer):
+            target.trace.decode_for(driver)
+        with targets.connect(identified) as device:
             if identity:
-                same_device(device, found)
+                _check_identity(device, identified)
             yield device
 
 
-def quiet() -> None:
-    """Keep what libraries log off the terminal: every error of the line is told here, once."""
+def silence_loggers() -> None:
+    """Keep what libraries log off the terminal: every error of the line is reported here, once."""
     logging.getLogger().addHandler(logging.NullHandler())
 
 
-def same_device(device: BareDevice, target: Target) -> None:
+def _check_identity(device: BareDevice, target: Target) -> None:
     """Ask the device whether it is of its driver's model; Failure if it shows to be another one."""
     try:
         targets.check_identity(device, target)

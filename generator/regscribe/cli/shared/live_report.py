@@ -1,0 +1,145 @@
+"""What live commands print alike: errors with an exit code for scripts, the heading of JSON, readings, unsent requests.
+
+Exit codes: 0 done, 1 the device refuses or something differs, 2 the command line or a name in it is wrong,
+3 nobody answers (or the link was lost, or the port cannot be opened), 4 a write broke off and what the device holds is
+not known, 130 Ctrl-C.
+"""
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from datetime import UTC, datetime
+from typing import IO, Any
+
+import click
+
+from regscribe.cli.shared.output import hexadecimal, print_json_line, remark, show_table, warn
+from regscribe.tools.live.capture import RECEIVED, SENT
+from regscribe.tools.live.decode import Decoded, Decoder
+from regscribe.tools.live.dry_run import DryWrite
+from regscribe.tools.live.errors import TargetError
+from regscribe.tools.live.reading import RegisterReading
+from regscribe.tools.live.target import Target
+from regscribe.tools.live.watch import rfc3339
+from regscribe.visible import safe
+from regscribe_runtime import BareDevice, ExceptionAnswer, LinkLost, NoAnswer, PartialWrite, RegscribeError
+from regscribe_runtime.errors import GATEWAY, LeftAt, NotApplied, NotConfigured, ReadBackDiffers, WriteUnknown
+from regscribe_runtime.link.links import Trace
+from regscribe_runtime.wire.capture import frames
+
+REFUSED, USAGE, SILENT, UNKNOWN_STATE = 1, 2, 3, 4
+
+ARROWS = {SENT: "->", RECEIVED: "<-"}
+
+UNSETTLED = (PartialWrite, WriteUnknown, ReadBackDiffers, NotApplied, NotConfigured, LeftAt)
+"""Errors after which the device does not hold what it held, or nobody knows; some of them are NoAnswer, too."""
+
+
+class Failure(click.ClickException):
+    """An error of a live command; `kind` is the word for it in JSON (`no-answer`)."""
+
+    def __init__(self, message: str, *, kind: str, code: int) -> None:
+        super().__init__(message)
+        self.kind = kind
+        self.exit_code = code  # type: ignore[misc]  # click's usual code is one of the class
+        context = click.get_current_context(silent=True)
+        self.as_json = bool(context and context.params.get("as_json"))
+
+    def show(self, file: IO[Any] | None = None) -> None:
+        """Print the message to standard error; with --json an object to standard output, too."""
+        if self.as_json:
+            print_json_line(error={"kind": self.kind, "message": self.message, "exit_code": self.exit_code})
+        super().show(file)
+
+
+@contextmanager
+def reported() -> Iterator[None]:
+    """Turn errors of targets and of drivers into a `Failure`; others pass."""
+    try:
+        yield
+    except TargetError as error:
+        raise Failure(str(error), kind="target", code=USAGE) from None
+    except RegscribeError as error:
+        raise failure(error) from None
+
+
+def failure(error: RegscribeError) -> Failure:
+    """The failure for an error of a driver, whose message names options in place of arguments."""
+    message = (
+        str(error).replace("pass confirm=True", "add --confirm").replace("rounded=True rounds", "--rounded rounds")
+    )
+    return Failure(message, kind=kind_of(error), code=code_of(error))
+
+
+def code_of(error: RegscribeError) -> int:
+    """The exit code of an error of a driver."""
+    if isinstance(error, UNSETTLED):
+        return UNKNOWN_STATE
+    behind_gateway = isinstance(error, ExceptionAnswer) and error.code in GATEWAY and not error.name
+    return SILENT if behind_gateway or isinstance(error, (LinkLost, NoAnswer)) else REFUSED
+
+
+def kind_of(error: RegscribeError) -> str:
+    """The class of an error in words: `no-answer`, `exception-answer`, `value-refused`, `sensor-fault`."""
+    name = type(error).__name__
+    return "".join(f"-{letter.lower()}" if letter.isupper() else letter for letter in name).lstrip("-")
+
+
+def heading(device: BareDevice, target: Target) -> dict[str, Any]:
+    """The first members of every JSON object of a live command: the device, and the time (RFC 3339, UTC)."""
+    about = {"device": str(target), "unit_id": target.unit, "model": device.model, "map": device.map_id}
+    return {**about, "time": rfc3339(datetime.now(UTC))}
+
+
+def plain(reading: RegisterReading) -> dict[str, Any]:
+    """A reading in JSON: value and unit, or the error in place of it."""
+    if reading.error is not None:
+        return {"error": {"kind": kind_of(reading.error), "message": str(reading.error)}}
+    return {"value": reading.value, "unit": reading.unit}
+
+
+def show_requests(unsent: Sequence[DryWrite]) -> None:
+    """List the requests that a dry run held back; a remark where there are none."""
+    if not unsent:
+        remark("nothing would be written: the device holds it already")
+        return
+    requests = [write.request for write in unsent]
+    rows = [(f"{one.function:02d}", str(one.address), hexadecimal(one.words)) for one in requests]
+    show_table(("FUNCTION", "ADDRESS", "WORDS"), rows)
+    remark("nothing was sent")
+
+
+def plain_requests(unsent: Sequence[DryWrite]) -> list[dict[str, Any]]:
+    """The requests that a dry run held back, in JSON."""
+    requests = [write.request for write in unsent]
+    return [{"function": one.function, "address": one.address, "words": list(one.words)} for one in requests]
+
+
+class FrameTracer:
+    """The tracer of `--trace`: prints every frame as it passes, with its meaning once `driver` is known."""
+
+    def __init__(self, target: Target) -> None:
+        self._link = target.link
+        self._decoder: Decoder | None = None
+
+    def decode_for(self, driver: type[BareDevice]) -> None:
+        """Decode in the names of this driver from now on."""
+        self._decoder = Decoder(driver, first=int(self._link.addressing == "jbus"))
+
+    def __call__(self, trace: Trace) -> None:
+        """Print one frame in hexadecimal (text in ASCII), and below it what it means."""
+        moment = datetime.fromtimestamp(trace.seconds, UTC).strftime("%H:%M:%S.%f")[:-3]
+        text = self._link.framing == "ascii"
+        raw = trace.frame.decode("ascii", "replace").strip() if text else trace.frame.hex(" ").upper()
+        lines = [f"{moment} {ARROWS[trace.direction]} {raw}"]
+        if self._decoder is not None:
+            for frame in frames(trace.frame, self._link.framing):
+                lines += _meaning(self._decoder.feed(frame, trace.direction))
+        warn("".join(f"{safe(line)}\n" for line in lines))
+
+
+def _meaning(decoded: Decoded) -> list[str]:
+    values = [item.spelled for item in decoded.items if item.words]
+    asked = "" if values else ", ".join(item.name for item in decoded.items)
+    head = ": ".join(filter(None, (decoded.what, asked)))
+    head += f"  [{decoded.complaint}]" if decoded.complaint else ""
+    return [f"    {line}" for line in (head, *values) if line]
