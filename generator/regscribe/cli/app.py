@@ -1,4 +1,4 @@
-"""The `regscribe` command: its table of commands, and what becomes of every exception.
+"""The `regscribe` command: its table of commands, and the exit code and message of every exception.
 
 Exit codes: 0 clean, 1 findings (or a device, port or directory that does not play along), 2 usage, 3 nobody answers,
 4 a write broke off and what the device holds is unknown (see `failure`), 130 Ctrl-C, 141 nobody reads the output.
@@ -54,13 +54,12 @@ INTERRUPTED, CLOSED_PIPE = 130, 141
 
 UNREADABLE = 2
 
-
 MOST_TEXT = 300
-"""Most characters of an internal error's own text: it may hold a whole map."""
+"""Most characters of an error's own text that are shown: it may hold a whole map."""
 
 
 class ClosedPipeError(Exception):
-    """Whoever read the output went away; click would hide a BrokenPipeError behind an exit code of its own."""
+    """The reader of the output went away; click would hide a BrokenPipeError behind an exit code of its own."""
 
 
 class LazyCommands(click.Group):
@@ -83,8 +82,8 @@ class LazyCommands(click.Group):
             formatter.write_dl(list(COMMANDS.items()))
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Refuse what no file, register or device is called: Python's own refusals are of many sorts."""
-        if any("\0" in one for one in args):
+        """Refuse the character NUL, which no name holds, before the many errors that Python raises for it."""
+        if any("\0" in argument for argument in args):
             message = "an argument holds the character NUL"
             raise click.UsageError(message, ctx)
         return super().parse_args(ctx, args)
@@ -100,8 +99,8 @@ class LazyCommands(click.Group):
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
         """Complete the commands from the table, without importing them."""
-        found = [CompletionItem(name, help=said) for name, said in COMMANDS.items() if name.startswith(incomplete)]
-        return found or click.Command.shell_complete(self, ctx, incomplete)
+        items = [CompletionItem(name, help=about) for name, about in COMMANDS.items() if name.startswith(incomplete)]
+        return items or click.Command.shell_complete(self, ctx, incomplete)
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]
@@ -134,12 +133,11 @@ def main() -> NoReturn:
 
 
 def run(arguments: Sequence[str]) -> int:
-    """Run one command line; return its exit code. No exception but SystemExit leaves it."""
-    closed = _stand_in_for_closed()
+    """Run one command line; return its exit code. Raises nothing but SystemExit."""
     for stream in (sys.stdout, sys.stderr):
         getattr(stream, "reconfigure", lambda **_: None)(errors="backslashreplace")  # a map may hold any character
     try:
-        _need_output(closed)
+        _replace_closed_streams()
         code = regscribe.main(list(arguments), prog_name="regscribe", standalone_mode=False)
         sys.stdout.flush()
     except click.ClickException as error:
@@ -158,18 +156,15 @@ def run(arguments: Sequence[str]) -> int:
     return code if isinstance(code, int) else 0
 
 
-def _stand_in_for_closed() -> list[str]:
-    """Put the null device in place of standard streams that are closed (Python has None for them); their names.
+def _replace_closed_streams() -> None:
+    """Open the null device for standard streams that are closed (None in Python); UsageError without an output.
 
     In this order each takes its own number, so that no port or file is opened under the number of a stream.
     """
     closed = [name for name in ("stdin", "stdout", "stderr") if getattr(sys, name) is None]
     for name in closed:
-        setattr(sys, name, Path(os.devnull).open("r" if name == "stdin" else "w"))  # noqa: SIM115 - open to the end
-    return closed
-
-
-def _need_output(closed: Sequence[str]) -> None:
+        mode = "r" if name == "stdin" else "w"
+        setattr(sys, name, Path(os.devnull).open(mode, errors="backslashreplace"))  # noqa: SIM115 - open to the end
     if "stdout" in closed:
         message = "standard output is closed, so nothing was done"
         raise click.UsageError(message)
@@ -182,7 +177,7 @@ def _forget_output() -> None:
 
 
 def _refused_by_the_system(error: OSError) -> int:
-    """A full disk, a name that is too long, a file that may not be read: where, and what the system says."""
+    """Print where the system refused, and why: a full disk, a name that is too long, a file that may not be read."""
     if error.filename is None:
         _forget_output()
     where = "standard output" if error.filename is None else os.fsdecode(error.filename)

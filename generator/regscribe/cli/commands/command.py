@@ -1,5 +1,7 @@
 """`regscribe command`: make a device act, or list what it can be told to do."""
 
+from functools import partial
+
 import click
 
 from regscribe.cli.shared.completion_values import complete_command
@@ -8,10 +10,8 @@ from regscribe.cli.shared.long_work import shielded
 from regscribe.cli.shared.output import print_json, remark, show_table
 from regscribe.cli.shared.target_options import identity_option, opened, target_options
 from regscribe.tools.live import names
-from regscribe.tools.live import target as targets
 from regscribe.tools.live.dry_run import dry
-from regscribe.tools.live.target import Target
-from regscribe_runtime import BareDevice, Command
+from regscribe.tools.live.target import Target, identified
 from regscribe_runtime.operations import tasks
 
 
@@ -30,16 +30,12 @@ def command(*, target: Target, as_json: bool, name: str | None, confirm: bool, d
     """Send a command of the map; without NAME list them (nothing is sent then)."""
     if name is None:
         with reported():
-            _list(targets.identified(target), as_json=as_json)
+            _list(identified(target), as_json=as_json)
         return 0
-
-    def check(driver: type[BareDevice]) -> Command:
-        return names.command_named(driver, name)
-
-    with opened(target, identity=identity, check=check) as device, shielded() as shield:
-        found = check(type(device))
+    find = partial(names.command_named, name=name)
+    with opened(target, identity=identity, check=find) as device, shielded() as shield:
         unsent = dry(device).written if dry_run else []
-        device.run(tasks.run(found, confirm=confirm))
+        device.run(tasks.run(find(type(device)), confirm=confirm))
     if as_json:
         requests = {"requests": plain_requests(unsent)} if dry_run else {}
         print_json(**heading(device, target), command=name, sent=not dry_run, **requests)
@@ -51,7 +47,7 @@ def command(*, target: Target, as_json: bool, name: str | None, confirm: bool, d
 
 
 def _list(target: Target, *, as_json: bool) -> None:
-    driver: type[BareDevice] = target.known().driver
+    driver = target.known().driver
     commands = names.commands_of(driver)
     if as_json:
         print_json(

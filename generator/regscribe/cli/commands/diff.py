@@ -38,7 +38,10 @@ def command(*, left: str, right: str, stays: bool, packages: tuple[str, ...], co
     second = _factory(first, packages) if factory else settings.side(*backup_of(right, packages, config))
     one, other = (second, first) if left == FACTORY else (first, second)
     found = settings.differences(one, other, stays=stays, missing=not factory)
-    blind = _without_default(first, second, stays=stays) if factory else []
+    blind: list[str] = []
+    if factory:
+        undefined = {path: one for path, one in first.settings.items() if path not in second.settings}
+        blind = [path for path, one in undefined.items() if stays or not one.stays]
     if as_json:
         plain = [{"register": each.path, "left": _json(each.left), "right": _json(each.right)} for each in found]
         print_json(left=one.name, right=other.name, differences=plain, not_compared=blind)
@@ -57,10 +60,6 @@ def _factory(side: Side, packages: tuple[str, ...]) -> Side:
         message = f"the manual of the {side.model} gives no defaults: compare with a backup of a device as delivered"
         raise Failure(message, kind="no-defaults", code=USAGE)
     return Side(f"{side.model} as delivered", side.map_id, side.model, defaults)
-
-
-def _without_default(side: Side, factory: Side, *, stays: bool) -> list[str]:
-    return [path for path, one in side.settings.items() if path not in factory.settings and (stays or not one.stays)]
 
 
 def _show(one: Side, other: Side, found: tuple[SettingDifference, ...]) -> None:

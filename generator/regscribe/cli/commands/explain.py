@@ -50,13 +50,9 @@ def _example(title: str, files: Example | None, *, other: Example | None, mark: 
     others = dict(other or ())
     for name, text in files or ():
         yield f"\n{title}{f', maps/{name}' if len(files or ()) > 1 else ''}:\n", "bold"
-        yield from _lines(text, None if other is None else others.get(name, ""), mark=mark, style=style)
-
-
-def _lines(text: str, other: str | None, *, mark: str, style: str) -> Iterator[Piece]:
-    lines = text.splitlines()
-    matcher = SequenceMatcher(None, lines, (other or "").splitlines(), autojunk=False)
-    same = {block.a + offset for block in matcher.get_matching_blocks() for offset in range(block.size)}
-    for number, line in enumerate(lines):
-        own = other is not None and number not in same
-        yield f"{mark if own else ' '} {line}\n", style if own else ""
+        lines = text.splitlines()
+        matcher = SequenceMatcher(None, lines, others.get(name, "").splitlines(), autojunk=False)
+        same = {block.a + offset for block in matcher.get_matching_blocks() for offset in range(block.size)}
+        for number, line in enumerate(lines):
+            own = other is not None and number not in same
+            yield f"{mark if own else ' '} {line}\n", style if own else ""

@@ -8,8 +8,7 @@ from regscribe.cli.shared.live_report import REFUSED, reported
 from regscribe.cli.shared.output import print_json, remark, show_table
 from regscribe.cli.shared.target_options import target_options
 from regscribe.tools.live import catalogue
-from regscribe.tools.live import target as targets
-from regscribe.tools.live.target import Target
+from regscribe.tools.live.target import Target, answered, identification
 from regscribe_runtime.driver.identify import Evidence
 
 
@@ -22,8 +21,8 @@ from regscribe_runtime.driver.identify import Evidence
 def command(*, target: Target, as_json: bool) -> int:
     """Ask a device what it is; only reads are sent."""
     with reported():
-        found = targets.identification(target)
-        targets.answered(found)
+        found = identification(target)
+        answered(found)
     titles = [(one.model, one.map_id, catalogue.title(one)) for one in found.models]
     if as_json:
         print_json(

@@ -94,16 +94,15 @@ def _chosen(subject: PlannedModel, ids: Sequence[str], groups: Sequence[str], *,
         raise click.UsageError(message)
     if everything:
         return subject.readable
-    found = [path for name in groups for path in _below(subject, _members(subject, name))]
-    found += [path for name in ids for path in _below(subject, [name]) or _refuse(subject, name)]
-    return list(dict.fromkeys(found))
-
-
-def _members(subject: PlannedModel, group: str) -> Sequence[str]:
-    known = {one.id: one.members for one in subject.model.groups}
-    if group not in known:
-        raise click.UsageError(unknown("group", group, known, where=f"of {subject.model.name}"))
-    return known[group]
+    members = {one.id: one.members for one in subject.model.groups}
+    paths: list[str] = []
+    for group in groups:
+        if group not in members:
+            raise click.UsageError(unknown("group", group, members, where=f"of {subject.model.name}"))
+        paths += _below(subject, members[group])
+    for name in ids:
+        paths += _below(subject, [name]) or _refuse(subject, name)
+    return list(dict.fromkeys(paths))
 
 
 def _below(subject: PlannedModel, members: Sequence[str]) -> list[str]:
@@ -152,11 +151,13 @@ class _PlanReport:
                 self.names[number].append(path)
 
     def print(self, title: str, also: Sequence[str]) -> None:
-        """The table, the totals, and what one request a register would cost."""
+        """Print the requests as a table, the totals, and the cost of one request for each register."""
         rows = [self._row(one, names) for one, names in zip(self.found.requests, self.names, strict=True)]
         head = [] if sys.stdout.isatty() else [COLUMNS]  # for people in any case: programs ask for --json
-        show_table(COLUMNS, [*head, *rows], title=f"{title}, {self._line()}")
-        found = self.found
+        cost, found = self.terms.cost, self.found
+        line, way = cost.line, "TCP" if cost.round_trip else ""
+        serial = f"{line.baud} baud, {line.bits} bits a character, {cost.framing.upper()}" if line else ""
+        show_table(COLUMNS, [*head, *rows], title=f"{title}, {' to '.join(filter(None, (way, serial)))}")
         total = f"{count(len(found.requests), 'request')}, {found.wanted} addresses wanted, {found.carried} carried"
         single = f"{count(len(self.paths), 'request')}, {self.single_ms:.1f} ms"
         ratio = self.single_ms / found.ms if found.ms else 1
@@ -180,14 +181,8 @@ class _PlanReport:
             ", ".join(names[:MOST_NAMED]) + more,
         )
 
-    def _line(self) -> str:
-        cost = self.terms.cost
-        line, way = cost.line, "TCP" if cost.round_trip else ""
-        serial = f"{line.baud} baud, {line.bits} bits a character, {cost.framing.upper()}" if line else ""
-        return " to ".join(filter(None, (way, serial)))
-
     def plain(self) -> dict[str, object]:
-        """The same for programs; times in milliseconds."""
+        """Members of the JSON object; times in milliseconds."""
         found, cost = self.found, self.terms.cost
         line = {"baud": cost.line.baud, "bits": cost.line.bits, "framing": cost.framing} if cost.line else {}
         return {

@@ -1,6 +1,7 @@
 """`regscribe program`: setpoint programs of controllers, shown, read, checked, written and run."""
 
 from collections.abc import Callable
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
@@ -115,7 +116,10 @@ def validate(*, target: Target, as_json: bool, name: str, file: Path, beyond_lim
         _fits(given, here)
         checked = device.run(programs.check(here, given.program, beyond_limits=beyond_limits))
     if as_json:
-        print_json(**heading(device, target), valid=not checked.problems, problems=_plain_problems(given, checked))
+        problems = [
+            {"at": given.place(one.where), "where": one.label, "message": one.message} for one in checked.problems
+        ]
+        print_json(**heading(device, target), valid=not problems, problems=problems)
     elif checked.problems:
         raise _refused(given, programs.ProgramRefused(here, checked.problems))
     else:
@@ -247,10 +251,6 @@ def _fits(given: programs.ProgramFile, here: programs.ProgramSlot) -> None:
         remark(f"the file was made for {' '.join(filter(None, made))}; this is {' '.join(own)}")
 
 
-def _plain_problems(given: programs.ProgramFile, checked: programs.Checked) -> list[dict[str, str]]:
-    return [{"at": given.place(one.where), "where": one.label, "message": one.message} for one in checked.problems]
-
-
 def _refused(given: programs.ProgramFile, error: programs.ProgramRefused) -> Failure:
     lines = [f"{given.place(one.where)}: {one}" for one in error.problems]
     count = f"{len(lines)} mistakes" if len(lines) > 1 else "a mistake"
@@ -258,13 +258,7 @@ def _refused(given: programs.ProgramFile, error: programs.ProgramRefused) -> Fai
 
 
 def _show_state(device: BareDevice, target: Target, now: programs.ProgramState, *, as_json: bool) -> None:
-    facts = {
-        "state": now.state,
-        "detail": now.detail,
-        "program": now.program,
-        "segment": now.segment,
-        "setpoint": None if now.setpoint is None else str(now.setpoint),
-    }
+    facts = asdict(now) | {"setpoint": None if now.setpoint is None else str(now.setpoint)}
     if as_json:
         print_json(**heading(device, target), **facts)
     else:

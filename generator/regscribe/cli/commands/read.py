@@ -1,7 +1,5 @@
 """`regscribe read`: values of registers, groups and array elements, with their units."""
 
-from collections.abc import Sequence
-
 import click
 
 from regscribe.cli.shared.completion_values import complete_register
@@ -9,7 +7,7 @@ from regscribe.cli.shared.live_report import REFUSED, heading, plain
 from regscribe.cli.shared.output import hexadecimal, print_json, remark, show_table, tell
 from regscribe.cli.shared.target_options import opened, target_options
 from regscribe.tools.live import names
-from regscribe.tools.live.reading import RegisterReading, readings
+from regscribe.tools.live.reading import readings
 from regscribe.tools.live.target import Target
 from regscribe.visible import safe
 from regscribe_runtime import BareDevice
@@ -37,17 +35,13 @@ def command(*, target: Target, as_json: bool, wanted: tuple[str, ...], bare: boo
     if as_json:
         print_json(**heading(device, target), registers={one.name: plain(one) for one in found})
     elif bare:
-        _show_values(found)
+        tell("".join(f"{safe(one.text)}\n" for one in found))
+        for one in found:
+            if one.error is not None:
+                remark(str(one.error))
     else:
         show_table(("REGISTER", "VALUE"), [(one.name, one.spelled) for one in found])
     return REFUSED if any(one.error for one in found) else 0
-
-
-def _show_values(found: Sequence[RegisterReading]) -> None:
-    tell("".join(f"{safe(one.text)}\n" for one in found))
-    for one in found:
-        if one.error is not None:
-            remark(str(one.error))
 
 
 def _show_words(words: dict[str, tuple[int, ...]], device: BareDevice, target: Target, *, as_json: bool) -> None:

@@ -1,5 +1,6 @@
 """`regscribe write`: one register, by name, in its own unit."""
 
+from functools import partial
 from typing import Any
 
 import click
@@ -55,12 +56,9 @@ def command(  # noqa: PLR0913 - the options of the command
     identity: bool,
 ) -> int:
     """Write one register."""
-
-    def check(driver: type[BareDevice]) -> Register[Any]:
-        return _writable(driver, name, view)
-
-    with opened(target, identity=identity, check=check) as device, shielded() as shield:
-        register = check(type(device))
+    find = partial(_writable, name=name, view=view)
+    with opened(target, identity=identity, check=find) as device, shielded() as shield:
+        register = find(type(device))
         unit = device.run(tasks.read_unit(register))
         meant = value_text.parse(register, value, current_unit=unit)
         if rounded:
@@ -71,19 +69,18 @@ def command(  # noqa: PLR0913 - the options of the command
         else:
             device.run(tasks.write(register, meant, view=view, rounded=rounded, confirm=confirm, verify=verify))
         spared = device.session.wear.spared > 0
-    said = {
-        "register": name,
-        "value": value_text.show(register, meant),
-        "unit": unit,
-        "written": not (dry_run or spared),
-    }
     if as_json:
-        print_json(**heading(device, target), **said, **({"requests": plain_requests(unsent)} if dry_run else {}))
+        written = {"value": value_text.show(register, meant), "unit": unit, "written": not (dry_run or spared)}
+        requests = {"requests": plain_requests(unsent)} if dry_run else {}
+        print_json(**heading(device, target), register=name, **written, **requests)
     elif dry_run:
         show_requests(unsent)
     else:
         show_table(("REGISTER", "VALUE"), [(name, f"{value_text.as_text(register, meant)} {unit}".rstrip())])
-        _remarks(register, spared=spared)
+        if spared:
+            remark("the device holds it already: its EEPROM was spared")
+        elif register.governs is not None:
+            remark("the device talks otherwise from now on: its name must say so")
     return shield.code
 
 
@@ -117,10 +114,3 @@ def _unsent(
     unsent = dry(device).written
     device.run(tasks.write(register, meant, view=view, rounded=rounded, confirm=confirm))
     return unsent
-
-
-def _remarks(register: Register[Any], *, spared: bool) -> None:
-    if spared:
-        remark("the device holds it already: its EEPROM was spared")
-    elif register.governs is not None:
-        remark("the device talks otherwise from now on: its name must say so")
