@@ -3,21 +3,17 @@
 Operations are tasks for both kinds of driver: `device.run(backup(type(device)))`, awaited for an asyncio driver.
 """
 
-from regscribe.tools.settings.backup import Backup, BackupError, BackupOrigin, Saved, UnfitError
+from regscribe.tools.settings.backup import Backup, BackupError, Saved, UnfitError
 from regscribe.tools.settings.backup_file import load, save, to_text
 from regscribe.tools.settings.compare import SettingDifference, Side, differences, side
-from regscribe.tools.settings.compatibility import KINDS, BackupFit, Misfit, fit
-from regscribe.tools.settings.factory import factory
+from regscribe.tools.settings.compatibility import KINDS
 from regscribe.tools.settings.restore import Restored, restore
-from regscribe.tools.settings.take import backup, saved
+from regscribe.tools.settings.take import backup, factory
 
 __all__ = [
     "KINDS",
     "Backup",
     "BackupError",
-    "BackupFit",
-    "BackupOrigin",
-    "Misfit",
     "Restored",
     "Saved",
     "SettingDifference",
@@ -26,11 +22,9 @@ __all__ = [
     "backup",
     "differences",
     "factory",
-    "fit",
     "load",
     "restore",
     "save",
-    "saved",
     "side",
     "to_text",
 ]

@@ -1,4 +1,4 @@
-"""What a backup holds: where it comes from, and each setting by group and name."""
+"""The contents of a backup: the device that it comes from, and each setting by group and name."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -7,11 +7,11 @@ from regscribe.tools.live.value_text import Plain, text_of
 
 FORMAT = 1
 NO_GROUP = "other"
-"""The group of settings that belong to none of the map's."""
+"""The group of settings that are in none of the map's."""
 
 
 class BackupError(Exception):
-    """A file that is no backup, cannot be read or cannot be written: what is wrong, and where."""
+    """A file that is no backup, cannot be read or cannot be written; the message says what is wrong, and where."""
 
 
 class UnfitError(BackupError):
@@ -22,8 +22,8 @@ class UnfitError(BackupError):
 class Saved:
     """One setting: a plain value in `unit`, and the words that transmit it in the view that drivers prefer.
 
-    `value` is None and `error` says why where the device held no value. `stays` is why the setting must not be copied
-    to another device ("": it may be).
+    Where the device held no value, `value` is None and `error` says why. `stays` is the kind of a setting that must not
+    be copied to another device, else empty.
     """
 
     value: Plain | None = None
@@ -34,7 +34,7 @@ class Saved:
 
     @property
     def spelled(self) -> str:
-        """For people: the value with its unit."""
+        """The value with its unit, or the error, for people."""
         if self.value is None:
             return f"({self.error})"
         return f"{text_of(self.value)} {self.unit}".rstrip()
@@ -44,7 +44,7 @@ class Saved:
 class BackupOrigin:
     """Which device was saved: map and its content hash, model, unit, link, and when (RFC 3339, UTC).
 
-    `identification` is what the device answered that tells its model, for the record.
+    `identification` are the values by which the device was identified, for the record.
     """
 
     map_id: str

@@ -13,7 +13,7 @@ _HEAD = "Settings of a device, written by regscribe; `regscribe restore` writes 
 
 
 def to_text(backup: Backup) -> str:
-    """A backup as YAML; BackupError if reading it would give another backup."""
+    """A backup as YAML; BackupError if parsing it would give another backup."""
     origin = backup.origin
     head = {
         "map": origin.map_id,
@@ -47,7 +47,7 @@ def _entry(saved: Saved) -> OneLine:
 
 
 def save(path: Path, text: str) -> None:
-    """Write a backup; where that fails (a full disk) BackupError, and a file that was there before is as it was."""
+    """Write the text of a backup, whole or not at all; BackupError where that fails (a full disk)."""
     try:
         files.save(path, text)
     except FileError as error:
@@ -55,7 +55,7 @@ def save(path: Path, text: str) -> None:
 
 
 def load(path: Path) -> Backup:
-    """The backup in a file; BackupError says with line and column what is wrong with one that is none."""
+    """The backup in a file. Raises BackupError with line and column of each mistake."""
     try:
         return _backup(read(path, language="backup", what="backup").data)
     except FileError as error:
@@ -82,10 +82,5 @@ def _backup(data: Mapping[str, Any]) -> Backup:
 
 def _saved(entry: Mapping[str, Any]) -> Saved:
     value = entry.get("value")
-    return Saved(
-        value=float(value) if isinstance(value, Decimal) else value,
-        unit=entry.get("unit", ""),
-        raw=tuple(entry.get("raw", ())),
-        stays=entry.get("stays", ""),
-        error=entry.get("error", ""),
-    )
+    value = float(value) if isinstance(value, Decimal) else value
+    return Saved(**{**entry, "value": value, "raw": tuple(entry.get("raw", ()))})

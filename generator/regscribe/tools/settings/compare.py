@@ -1,4 +1,4 @@
-"""What differs between two sets of settings: devices, backups, the manual's defaults."""
+"""Differences between two sets of settings: of devices, backups, the manual's defaults."""
 
 from collections.abc import Mapping
 from typing import NamedTuple
@@ -7,7 +7,7 @@ from regscribe.tools.settings.backup import Backup, Saved
 
 
 class Side(NamedTuple):
-    """One of the two: what it is called, which model it is of, and its settings by path."""
+    """One of the two sets: its name, its map and model, and its settings by path."""
 
     name: str
     map_id: str
@@ -16,7 +16,7 @@ class Side(NamedTuple):
 
 
 class SettingDifference(NamedTuple):
-    """A setting that is not the same: None on the side that does not have it."""
+    """A setting whose two values differ; None on the side that does not have it."""
 
     path: str
     left: Saved | None
@@ -37,26 +37,18 @@ def differences(left: Side, right: Side, *, stays: bool = False, missing: bool =
     """
     paths = dict.fromkeys((*left.settings, *right.settings))
     pairs = (SettingDifference(path, left.settings.get(path), right.settings.get(path)) for path in paths)
-    return tuple(
-        one
-        for one in pairs
-        if _differs(one) and (missing or (one.left and one.right)) and (stays or not _personal(one))
-    )
+    found = []
+    for one in pairs:
+        tied = any(saved is not None and saved.stays for saved in (one.left, one.right))
+        if _differ(one.left, one.right, missing=missing) and (stays or not tied):
+            found.append(one)
+    return tuple(found)
 
 
-def _personal(one: SettingDifference) -> bool:
-    return any(saved is not None and saved.stays for saved in (one.left, one.right))
-
-
-def _differs(one: SettingDifference) -> bool:
-    left, right = one.left, one.right
+def _differ(left: Saved | None, right: Saved | None, *, missing: bool) -> bool:
     if left is None or right is None:
-        return True
+        return missing
     if left.value is None or right.value is None:
         return (left.value, left.raw) != (right.value, right.raw)
-    return _value(left) != _value(right)
-
-
-def _value(saved: Saved) -> tuple[object, str]:
-    value = sorted(saved.value) if isinstance(saved.value, list) else saved.value
-    return value, saved.unit
+    values = [sorted(one.value) if isinstance(one.value, list) else one.value for one in (left, right)]
+    return (values[0], left.unit) != (values[1], right.unit)

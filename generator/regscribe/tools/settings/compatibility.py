@@ -1,4 +1,4 @@
-"""Whether a backup fits a device, and what of it does: nothing is written before this is known."""
+"""Checks which settings of a backup fit a device, before anything is written."""
 
 from collections.abc import Collection, Iterator, Mapping
 from typing import Any, NamedTuple
@@ -24,11 +24,11 @@ class Misfit(NamedTuple):
 
 
 class BackupFit(NamedTuple):
-    """What of a backup a device can take.
+    """The settings of a backup that a device can take, and those that it cannot.
 
-    `values` are what can be written, values of use by path, in the order of the file; `misfits` what cannot;
-    `stays` what is left out because it belongs to the saved device alone, by its kind. `strange` says in what the file
-    is of another device: each line is one difference.
+    `values` are decoded values by path that can be written, in the order of the file; `misfits` those that cannot;
+    `stays` are kinds by path of settings that are left out because they belong to the saved device alone. `strange` are
+    messages: in which respects the file is of another device.
     """
 
     values: Mapping[str, Any]
@@ -45,52 +45,41 @@ def fit(
     givens: Mapping[str, Any],
     include: Collection[str] = (),
 ) -> BackupFit:
-    """Hold a backup against a driver; `state` has the device's present values where the file has none.
+    """Compare a backup with a driver; `state` has the device's present values where the file has none.
 
     `include` names kinds of settings that are to be written although they stay with their device.
     """
-    meant, misfits = _meant(backup, driver)
-    stays = _stays(backup, driver, include)
-    values = {path: value for path, value in meant.items() if path not in stays}
-    world = _World({**state, **meant}, {**state, **values}, givens)
+    own = {path: one.stays for path, one in driver.registers.items()}
+    kinds = {path: saved.stays or own.get(path, "") for path, saved in backup.settings()}
+    stays = {path: kind for path, kind in kinds.items() if kind and kind not in include}
+    parsed: dict[str, Any] = {}
+    misfits: list[Misfit] = []
     for path, saved in backup.settings():
-        reason = _contradiction(driver.registers[path], saved, values[path], world) if path in values else ""
+        try:
+            parsed[path] = _value(path, saved, driver)
+        except ValueRefused as refusal:
+            misfits.append(Misfit(path, refusal.reason))
+    values = {path: value for path, value in parsed.items() if path not in stays}
+    context = _Context({**state, **parsed}, {**state, **values}, givens)
+    for path, saved in backup.settings():
+        reason = _contradiction(driver.registers[path], saved, values[path], context) if path in values else ""
         if reason:
             misfits.append(Misfit(path, reason))
             del values[path]
     left = tuple(one for one in misfits if one.path not in stays)
-    return BackupFit(values, left, stays, tuple(strangeness(backup, driver)))
+    return BackupFit(values, left, stays, tuple(_strangeness(backup, driver)))
 
 
-def _meant(backup: Backup, driver: Driver) -> tuple[dict[str, Any], list[Misfit]]:
-    """The values of use that the settings mean, and the settings that mean none here."""
-    meant: dict[str, Any] = {}
-    misfits: list[Misfit] = []
-    for path, saved in backup.settings():
-        try:
-            meant[path] = _value(path, saved, driver)
-        except ValueRefused as refusal:
-            misfits.append(Misfit(path, refusal.reason))
-    return meant, misfits
+class _Context(NamedTuple):
+    """The other settings: of the device that was saved, and of this one after the restore; and the givens."""
 
-
-class _World(NamedTuple):
-    """The values around a setting: on the device that was saved, and on this one when all is written."""
-
-    there: Mapping[str, Any]
-    here: Mapping[str, Any]
+    saved: Mapping[str, Any]
+    restored: Mapping[str, Any]
     givens: Mapping[str, Any]
 
 
-def _stays(backup: Backup, driver: Driver, include: Collection[str]) -> dict[str, str]:
-    """The settings that stay with the device that was saved, by the kind of each."""
-    own = {path: one.stays for path, one in driver.registers.items()}
-    kinds = {path: saved.stays or own.get(path, "") for path, saved in backup.settings()}
-    return {path: kind for path, kind in kinds.items() if kind and kind not in include}
-
-
-def strangeness(backup: Backup, driver: Driver) -> Iterator[str]:
-    """In what a backup is of another device than a driver's: map, model, version of the map."""
+def _strangeness(backup: Backup, driver: Driver) -> Iterator[str]:
+    """Yield the differences between a backup's device and a driver: map, version of the map, model."""
     origin = backup.origin
     if origin.map_id != driver.map_id:
         yield f"the file is of the map {origin.map_id}, the device of {driver.map_id}"
@@ -111,30 +100,29 @@ def _value(path: str, saved: Saved, driver: Driver) -> Any:  # noqa: ANN401 (a v
     return parse(register, saved.value, unit=saved.unit, current_unit=saved.unit)
 
 
-def _contradiction(register: Register[Any], saved: Saved, value: object, world: _World) -> str:
-    """Why a value cannot be meant: its unit is another here, or its words say something else."""
-    unit = unit_of(register, world.here, world.givens) if is_number(saved.value) else ""
+def _contradiction(register: Register[Any], saved: Saved, value: object, context: _Context) -> str:
+    """The reason why a value cannot be meant: its unit is another here, or its words decode to another value."""
+    unit = unit_of(register, context.restored, context.givens) if is_number(saved.value) else ""
     if saved.unit and saved.unit != unit:
         return f"it stands in {saved.unit}, but with these settings the device works in {unit or 'no unit'}"
     view = register.read_view()
-    if len(saved.raw) != view.words or not set(register.needs(view)) <= set(world.there):
+    if len(saved.raw) != view.words or not set(register.needs(view)) <= set(context.saved):
         return ""
     try:
-        spelled = codec.decode(register, view, saved.raw, world.there, world.givens)
+        decoded = codec.decode(register, view, saved.raw, context.saved, context.givens)
     except (ValueNotDecodable, ValueError) as error:
         return f"its words {list(saved.raw)} are no value ({error})"
-    if spelled != value:
-        return f"the file says {saved.spelled}, but its words {list(saved.raw)} mean {spelled}: which one is right?"
-    return _lost_in_a_float(register, view, saved, spelled, world)
+    if decoded != value:
+        return f"the file says {saved.spelled}, but its words {list(saved.raw)} mean {decoded}: which one is right?"
+    return _lost_in_a_float(register, view, saved, decoded, context)
 
 
-def _lost_in_a_float(register: Register[Any], view: View, saved: Saved, value: object, world: _World) -> str:
-    """Why writing a value would send other words than it was read from: a float has fewer digits than they."""
-    told = isinstance(value, float) and value and set(register.limit_needs) <= set(world.there)
-    if not told:
+def _lost_in_a_float(register: Register[Any], view: View, saved: Saved, value: object, context: _Context) -> str:
+    """The reason why writing a value would send other words than it was read from: a float has fewer digits."""
+    if not (isinstance(value, float) and value and set(register.limit_needs) <= set(context.saved)):
         return ""
     try:
-        words = codec.encode(register, view, value, world.there, world.givens)
+        words = codec.encode(register, view, value, context.saved, context.givens)
     except ValueRefused:
         return ""  # writing it says why
     if words == saved.raw:

@@ -1,4 +1,4 @@
-"""Writing a backup back: checked as a whole first, in the map's order, only what differs, and again after a break."""
+"""Writes a backup back: checked as a whole first, in the map's order, only what differs, resumable after a break."""
 
 from collections.abc import Collection, Mapping
 from typing import Any, NamedTuple
@@ -19,7 +19,7 @@ MOST_NAMED = 8
 
 
 class Restored(NamedTuple):
-    """What a restore did, or would do: how the file fits, and what became of each value."""
+    """The result of a restore or its dry run: how the file fits, and the fate of each value."""
 
     fit: BackupFit
     report: WriteReport
@@ -40,7 +40,7 @@ def restore(
     Settings that stay with their device are left out unless `include` names their kind. A file of another model or map,
     and one with values that the device cannot take, is refused (UnfitError) unless `partial`: then what fits is
     written. What the device holds already is not written; all is verified. Nothing is undone when it breaks off
-    (NotConfigured says what was written): run it again, and it goes on where it was.
+    (NotConfigured says what was written): run again, it resumes.
     """
 
     def task(session: Session) -> Operation[Restored]:
@@ -66,7 +66,7 @@ def restore(
 
 
 def _present(session: Session, driver: Driver) -> Operation[dict[str, Any]]:
-    """The values that units and scales of settings depend on, as the device has them now."""
+    """Read the values that units and scales of settings depend on."""
     paths: dict[str, None] = {}
     for register in writable(driver):
         paths.update(dict.fromkeys((*unit_needs(register), *register.needs(register.read_view()))))

@@ -1,33 +1,37 @@
-"""Reads all settings of a device in one snapshot, as a backup: by group and name."""
+"""The settings of a model: read from a device in one snapshot as a backup, or as its manual gives their defaults."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from datetime import UTC, datetime
+from fractions import Fraction
 from typing import Any
 
 from regscribe.tools.live.names import Driver, groups_of, readable
 from regscribe.tools.live.reading import read_with, reason, unit_needs, unit_of
 from regscribe.tools.live.value_text import is_number, show
 from regscribe.tools.settings.backup import NO_GROUP, Backup, BackupOrigin, Saved
-from regscribe_runtime import Register, RegscribeError, Snapshot
+from regscribe_runtime import Register, RegscribeError
 from regscribe_runtime.operations.session import Operation, Session, Task
+from regscribe_runtime.values.numbers import exact
+
+TEXTS = frozenset({"string", "version"})
 
 
 def writable(driver: Driver) -> list[Register[Any]]:
-    """The registers of a driver that can be read and written: what its settings are among."""
+    """The registers of a driver that can be read and written: its settings are among them."""
     return [register for register in readable(driver) if register.access == "rw"]
 
 
-def in_groups(driver: Driver) -> dict[str, list[Register[Any]]]:
+def _in_groups(driver: Driver) -> dict[str, list[Register[Any]]]:
     """The settings of a driver by the group that has them first; those of no group last."""
     left = {register.path: register for register in writable(driver)}
-    found = {
+    groups = {
         name: [left.pop(one.path) for one in group.registers(driver) if one.path in left]
         for name, group in groups_of(driver).items()
     }
-    return {name: members for name, members in {**found, NO_GROUP: list(left.values())}.items() if members}
+    return {name: members for name, members in {**groups, NO_GROUP: list(left.values())}.items() if members}
 
 
-def identity_of(driver: Driver) -> list[Register[Any]]:
+def _identity_of(driver: Driver) -> list[Register[Any]]:
     """The registers that tell the model of a device, and those that tell one device from another."""
     paths = [path for one in driver.identity for path in one.registers()]
     paths += [path for path, one in driver.registers.items() if one.stays == "identity" and one.access == "r"]
@@ -39,9 +43,19 @@ def backup(driver: Driver, *, link: str = "", now: datetime | None = None) -> Ta
 
     A setting that holds no value is kept with its words and the reason. Raises what reading raises.
     """
+    identity = _identity_of(driver)
+    registers = {register.path: register for register in (*writable(driver), *identity)}
 
     def task(session: Session) -> Operation[Backup]:
-        found = yield from saved([*writable(driver), *identity_of(driver)])(session)
+        snapshot = yield from read_with(list(registers.values()), unit_needs)(session)
+        state = snapshot.valid
+        saved: dict[str, Saved] = {}
+        for path, register in registers.items():
+            raw = snapshot.words.get(path, ())
+            try:
+                saved[path] = _saved(register, snapshot[path], state, session.givens, raw)
+            except RegscribeError as error:
+                saved[path] = Saved(error=reason(error, path), raw=raw, stays=register.stays)
         origin = BackupOrigin(
             map_id=driver.map_id,
             map_sha256=driver.map_sha256,
@@ -49,31 +63,41 @@ def backup(driver: Driver, *, link: str = "", now: datetime | None = None) -> Ta
             unit=session.unit,
             link=link,
             taken=(now or datetime.now(UTC)).strftime("%Y-%m-%dT%H:%M:%SZ"),
-            identification={register.path: found[register.path] for register in identity_of(driver)},
+            identification={register.path: saved[register.path] for register in identity},
         )
-        groups = {name: {one.path: found[one.path] for one in members} for name, members in in_groups(driver).items()}
+        groups = {name: {one.path: saved[one.path] for one in members} for name, members in _in_groups(driver).items()}
         return Backup(origin=origin, groups=groups)
 
     return task
 
 
-def saved(registers: Sequence[Register[Any]]) -> Task[dict[str, Saved]]:
-    """Read registers, and with them those that decide their units; plain values, units and words by path."""
-
-    def task(session: Session) -> Operation[dict[str, Saved]]:
-        snapshot = yield from read_with(registers, unit_needs)(session)
-        state = snapshot.valid
-        return {register.path: _saved(register, snapshot, state, session.givens) for register in registers}
-
-    return task
+def factory(driver: Driver) -> dict[str, Saved]:
+    """The settings of a model by path, where its manual gives a default."""
+    values = {one.path: _default_of(one) for one in writable(driver) if one.default is not None}
+    return {path: _saved(driver.registers[path], value, values, {}) for path, value in values.items()}
 
 
-def _saved(register: Register[Any], snapshot: Snapshot, state: Mapping[str, Any], givens: Mapping[str, Any]) -> Saved:
-    raw = snapshot.words.get(register.path, ())
-    try:
-        value = snapshot[register.path]
-    except RegscribeError as error:
-        return Saved(error=reason(error, register.path), raw=raw, stays=register.stays)
+def _default_of(register: Register[Any]) -> Any:  # noqa: ANN401 (a value of any register)
+    """The default as a driver would read it: a member of the enum, a special value, a number, a text."""
+    value_type, default = register.value_type, register.default
+    if register.kind in TEXTS or default is None:
+        return default
+    if value_type.coded:
+        return value_type.make(int(default))
+    number = Fraction(default) if isinstance(default, str) else exact(default)
+    for member in value_type.special or ():
+        if exact(member.value) == number:
+            return member
+    return value_type.make(number)
+
+
+def _saved(
+    register: Register[Any],
+    value: Any,  # noqa: ANN401 (as above)
+    state: Mapping[str, Any],
+    givens: Mapping[str, Any],
+    raw: tuple[int, ...] = (),
+) -> Saved:
     plain = show(register, value)
     unit = unit_of(register, state, givens) if is_number(plain) else ""
     return Saved(value=plain, unit=unit, raw=raw, stays=register.stays)
