@@ -1,4 +1,4 @@
-"""Where maps and libraries lie: the folder `maps/` here, then the maps that come with regscribe; ids to files."""
+"""Finds the files of maps and libraries by id: in the folder `maps/` here, then among those of regscribe itself."""
 
 import os
 import re
@@ -9,13 +9,13 @@ import regscribe
 
 MAP, LIBRARY = "map", "library"
 ENDINGS = {MAP: ".yaml", LIBRARY: ".library.yaml"}
-"""How the files of both kinds end; the kind is also the top-level key that tells them apart."""
+"""Endings of file names by kind; the kind is also the top-level key of the file."""
 
 LOCAL = Path("maps")
-"""Where maps are looked for first, in the working directory."""
+"""The folder of maps that is searched first, in the working directory."""
 
 ID = re.compile(r"[\w-]+(/[\w-]+)+")
-"""What may be the id of a map: names, and no step upwards."""
+"""The form of a map's id: names with slashes in between, no `..`."""
 
 
 def data_folder(name: str) -> Path:

@@ -17,10 +17,10 @@ from regscribe.source import Document
 
 @dataclass(frozen=True, slots=True)
 class Compiled:
-    """What became of one file: the map, unless an error was found, and all that was found, in the file's order.
+    """A compiled file: its map, None after an error and of a library, and all diagnostics in the file's order.
 
-    There is no map of a library either. `files` are all files that the map was made of, its own first, each with the
-    SHA-256 of its bytes; `empty` are paths where another file would have been taken, had there been one.
+    `files` are all files that the map was made of, its own first, each with the SHA-256 of its bytes; `empty` are paths
+    where a file would have been taken first, had there been one.
     """
 
     path: Path
@@ -32,50 +32,52 @@ class Compiled:
 
 def compile_map(path: Path) -> Compiled:
     """Read, validate, compose, lower and check the map at `path`; what is wrong is in the diagnostics."""
-    with _undisturbed():
-        document, found = source.load(path)
-        if document is None or has_errors(found):
-            return Compiled(path, None, _ordered(found))
-        return _compile(document, path, found)
+    found: list[Diagnostic] = []
+    with _without_garbage_collection():
+        compiled = _compile(path, found)
+    return replace(compiled, diagnostics=tuple(sorted(found, key=lambda one: (one.span, one.rule))))
 
 
 @contextmanager
-def _undisturbed() -> Iterator[None]:
-    """Let no search for cycles walk the growing trees again and again: they have none, and nearly all of them stays."""
-    searching = gc.isenabled()
+def _without_garbage_collection() -> Iterator[None]:
+    """Search for no cycles while trees grow: they have none, and nearly all of them stays."""
+    enabled = gc.isenabled()
     gc.disable()
     try:
         yield
     finally:
-        if searching:
+        if enabled:
             gc.enable()
 
 
-def _compile(document: Document, path: Path, found: list[Diagnostic]) -> Compiled:
-    found = [*found, *schema.validate(document)]
-    if has_errors(found):
-        return Compiled(path, None, _ordered(found))
+def _compile(path: Path, found: list[Diagnostic]) -> Compiled:
+    """Run the phases one after the other, each of which adds to `found`; the result has no diagnostics yet."""
+    without_map = Compiled(path, None)
+    document, syntax = source.load(path)
+    found += syntax
+    if document is not None and not has_errors(found):
+        found += schema.validate(document)
+    if document is None or has_errors(found):
+        return without_map
     if compose.is_library(document):
-        return Compiled(path, None, _ordered([*found, *_check_library(document, path)]))
+        found += _check_library(document, path)
+        return without_map
     composed = compose.compose(document, path)
-    found = [*found, *composed.diagnostics]
+    found += composed.diagnostics
     if composed.document is not None and composed.document is not document:
-        found = [*found, *schema.validate(composed.document)]
+        found += schema.validate(composed.document)
     if composed.document is None or has_errors(found):
-        return Compiled(path, None, _ordered(found))
-    register_map, checked = _meaning(composed)
-    found = [*found, *_told(checked, document)]
-    files = ((path, document.content_hash), *composed.files)
+        return without_map
+    register_map, checked = _lower_and_check(composed.document, composed)
+    found += _with_origin(checked, document)
     if register_map is None:
-        return Compiled(path, None, _ordered(found))
-    return Compiled(path, register_map, _ordered(found), files, composed.empty)
+        return without_map
+    files = ((path, document.content_hash), *composed.files)
+    return Compiled(path, register_map, files=files, empty=composed.empty)
 
 
-def _meaning(composed: compose.Composed) -> tuple[RegisterMap | None, list[Diagnostic]]:
-    """Lower and check what was composed."""
-    if composed.document is None:
-        return None, []
-    register_map, found = lower.lower(composed.document)
+def _lower_and_check(document: Document, composed: compose.Composed) -> tuple[RegisterMap | None, list[Diagnostic]]:
+    register_map, found = lower.lower(document)
     if register_map is None or has_errors(found):
         return None, found
     if composed.files:
@@ -88,14 +90,14 @@ def _meaning(composed: compose.Composed) -> tuple[RegisterMap | None, list[Diagn
 
 
 def _check_library(document: Document, path: Path) -> list[Diagnostic]:
-    """Look at a library alone: what it refers to must be in it, but for what each map adds."""
+    """Check a library alone: what it refers to must be in it, except what each map adds."""
     misplaced = compose.misplaced(document, path)
     _, found = lower.lower(compose.as_map(document))
     return [*misplaced, *(diagnostic for diagnostic in found if diagnostic.rule not in DEPENDS_ON_MAP)]
 
 
-def _told(found: Iterable[Diagnostic], document: Document) -> Iterable[Diagnostic]:
-    """Add to what is wrong in another file which map was being compiled."""
+def _with_origin(found: Iterable[Diagnostic], document: Document) -> Iterable[Diagnostic]:
+    """Add to diagnostics in other files which map was being compiled."""
     for diagnostic in found:
         if diagnostic.span.file in {document.name, ""}:
             yield diagnostic
@@ -107,7 +109,3 @@ def _told(found: Iterable[Diagnostic], document: Document) -> Iterable[Diagnosti
 def has_errors(found: Iterable[Diagnostic]) -> bool:
     """Whether one of them is an error."""
     return any(diagnostic.severity is Severity.ERROR for diagnostic in found)
-
-
-def _ordered(found: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
-    return tuple(sorted(found, key=lambda diagnostic: (diagnostic.span, diagnostic.rule)))

@@ -1,7 +1,7 @@
-"""Exporters and importers are plug-ins: what they must offer, and how they are found (docs/plugins.md).
+"""Finds and runs exporters and importers, which are plug-ins, and says what these must offer (docs/plugins.md).
 
 A package declares them as entry points; those of regscribe itself stand in its own pyproject.toml. A plug-in is an
-object or a module. One that is broken is told by its name: whatever it raises becomes a PluginError.
+object or a module. Whatever a broken one raises becomes a PluginError that names it.
 """
 
 import re
@@ -18,10 +18,10 @@ EXPORTERS, IMPORTERS = "regscribe.exporters", "regscribe.importers"
 KINDS = {EXPORTERS: "exporter", IMPORTERS: "importer"}
 
 OPTION = re.compile(r"(?!(format|out|help)$)[a-z][a-z0-9-]*")
-"""What an option may be called; three are options of `regscribe export` itself."""
+"""Names that an option may have; three are options of `regscribe export` itself."""
 
 MOST_TEXT = 300
-"""Most characters that are shown of what a plug-in says of itself."""
+"""Most characters of a plug-in's error that are shown."""
 
 
 class PluginError(Exception):
@@ -29,7 +29,7 @@ class PluginError(Exception):
 
 
 class OptionError(Exception):
-    """For exporters: what their options ask cannot be done; the message names the option and says what to write."""
+    """Raised by exporters for options that ask the impossible; the message names the option and what to write."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,8 +133,13 @@ def _found(group: str) -> Sequence[EntryPoint]:
 
 def _load(group: str, name: str) -> object:
     found = [one for one in _found(group) if one.name == name]
-    if len(found) != 1:
-        raise PluginError(safe(_no_single(group, name, found)))
+    if not found:
+        message = f"there is no {KINDS[group]} {name}; there are {', '.join(names(group))}"
+        raise PluginError(safe(message))
+    if len(found) > 1:
+        owners = " and ".join(sorted(map(_owner, found)))
+        message = f"{len(found)} plug-ins call themselves the {KINDS[group]} {name}, of {owners}: uninstall all but one"
+        raise PluginError(safe(message))
     with guarded(group, name):
         loaded = found[0].load()
         if fault := _fault(loaded, group, name):
@@ -142,29 +147,20 @@ def _load(group: str, name: str) -> object:
     return loaded
 
 
-def _no_single(group: str, name: str, found: Sequence[EntryPoint]) -> str:
-    if found:
-        owners = " and ".join(sorted(_owner(one) for one in found))
-        return f"{len(found)} plug-ins call themselves the {KINDS[group]} {name}, of {owners}: uninstall all but one"
-    return f"there is no {KINDS[group]} {name}; there are {', '.join(names(group))}"
-
-
 def _owner(found: EntryPoint) -> str:
     return f"{found.dist.name} {found.dist.version}" if found.dist else "nobody"
 
 
 def _fault(loaded: object, group: str, name: str) -> str:
-    """What an object lacks to be the plug-in that its entry point calls it; empty if nothing."""
+    """The member that an object lacks to be a plug-in of its group; empty if none."""
     if getattr(loaded, "name", None) != name or not isinstance(getattr(loaded, "summary", None), str):
         return f"it has no name `{name}` with a summary"
     method = "export" if group == EXPORTERS else "read"
     if not callable(getattr(loaded, method, None)):
         return f"it has no function `{method}`"
+    if group == IMPORTERS:
+        return ""
     options = getattr(loaded, "options", None)
-    if group == EXPORTERS and not (isinstance(options, tuple) and all(map(_is_option, options))):
-        return "its options are no tuple of Option with names in lower case"
-    return ""
-
-
-def _is_option(option: object) -> bool:
-    return isinstance(option, Option) and OPTION.fullmatch(option.name) is not None
+    if isinstance(options, tuple) and all(isinstance(one, Option) and OPTION.fullmatch(one.name) for one in options):
+        return ""
+    return "its options are no tuple of Option with names in lower case"

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class Simulated(Protocol):
-    """What the fixture `simulated` is: called with a map and a model, it serves a device until the test ends.
+    """The type of the fixture `simulated`: called with a map and a model, it serves a device until the test ends.
 
     The map is an id (`athena/series-c`), a file or a `RegisterMap`; the keywords are those of `regscribe.simulate`.
     """
