@@ -13,7 +13,6 @@ from regscribe.tools.live.target import Target
 
 
 @click.command(
-    name="backup",
     help=f"""Keep all settings of a device in FILE: values by name with their units, and the words that transmit them,
 in readable YAML; without FILE on standard output.\n\n{HELP}""",
     epilog="Example: regscribe backup oven oven.yaml\n\n"

@@ -13,7 +13,6 @@ from regscribe.pipeline import compile_map, has_errors
 
 
 @click.command(
-    name="check",
     epilog="Example: regscribe check maps/ --format github\n\n"
     "Exit code 0: no error (warnings do not count, unless --strict), 1: findings, 2: wrong usage.",
 )

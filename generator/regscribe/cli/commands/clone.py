@@ -25,7 +25,6 @@ class CloneOptions(NamedTuple):
 
 
 @click.command(
-    name="clone",
     epilog="Example: regscribe clone oven oven2 oven3 --dry-run\n\n"
     "Exit code 0: all done, 1: a device did not take them (each is told), 2: wrong usage or file, 3: the source is "
     "silent, 4: it broke off in a device (the message says what was written), 130: Ctrl-C between two devices.",
@@ -78,7 +77,7 @@ def _results(
             stop = True
             continue
         try:
-            results.append({"target": str(target), **_onto(target, backup, options, shield, quiet=quiet)})
+            results.append(_write(target, backup, options, shield, quiet=quiet))
         except Failure as error:
             results.append(_error(target, error.message, error.kind, error.exit_code, quiet=quiet))
     return results
@@ -99,10 +98,10 @@ def _code(results: list[dict[str, Any]], shield: Shield) -> int:
     return shield.code or (REFUSED if codes else 0)
 
 
-def _onto(target: Target, backup: Backup, options: CloneOptions, shield: Shield, *, quiet: bool) -> dict[str, Any]:
+def _write(target: Target, backup: Backup, options: CloneOptions, shield: Shield, *, quiet: bool) -> dict[str, Any]:
     with opened(target, identity=True) as device, restoring(f"cloning to {target}", backup, shield) as tell:
         done = device.run(settings.restore(type(device), backup, tell=tell, **options._asdict()))
         if not quiet:
             remark(f"{target}:")
             show_restored(device, done, dry_run=options.dry_run)
-        return plain_restored(device, done)
+        return {"target": str(target), **plain_restored(device, done)}

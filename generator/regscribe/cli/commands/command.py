@@ -16,7 +16,6 @@ from regscribe_runtime.operations import tasks
 
 
 @click.command(
-    name="command",
     epilog="Example: regscribe command oven clear_latched_alarms\n\n"
     "Exit code 0: done, 1: refused (also for want of --confirm), 2: wrong usage, 3: nobody answers, 4: the "
     "answer was lost, and nobody knows whether it was carried out.",

@@ -20,7 +20,6 @@ TABLES = {".csv", ".tsv", ".txt"}
 
 
 @click.command(
-    name="compare",
     epilog="Example: regscribe compare athena/series-c second.csv --columns address,access,default=factory\n\n"
     "Exit code 0: nothing differs, 1: something does (or the map has errors), 2: wrong usage, or a table that is none.",
 )

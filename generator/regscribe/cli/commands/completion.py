@@ -13,7 +13,6 @@ WHERE = {
 
 
 @click.command(
-    name="completion",
     epilog="Example: regscribe completion bash\n\n\b\nSwitch it on:\n"
     + "\n".join(f"  {line}" for line in WHERE.values()),
 )

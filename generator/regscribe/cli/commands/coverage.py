@@ -17,7 +17,6 @@ from regscribe.visible import safe
 
 
 @click.command(
-    name="coverage",
     epilog="Example: regscribe coverage athena/series-c --format json\n\n"
     "Exit code 0: done, 1: errors in a map (nothing is printed to standard output), 2: wrong usage.",
 )

@@ -26,7 +26,6 @@ PAIR = 2
 
 
 @click.command(
-    name="decode",
     epilog="Example: regscribe decode 16C 01 03 0F A0 00 01 87 3C\n\n"
     "Exit code 0: all frames are sound, 1: one is not, or there is none, 2: wrong usage.",
 )

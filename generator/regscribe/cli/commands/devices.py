@@ -1,6 +1,5 @@
 """`regscribe devices`: the models that drivers exist for, and what one of them has."""
 
-from collections.abc import Sequence
 from typing import Any
 
 import click
@@ -19,7 +18,6 @@ ACCESS = {"r": "read", "w": "write", "rw": "read, write"}
 
 
 @click.command(
-    name="devices",
     epilog="Example: regscribe devices athena\n\nExit code 0: found, 1: nothing found, 2: wrong usage.",
 )
 @click.argument("search", nargs=-1, metavar="[WORD]...", shell_complete=complete_model)
@@ -37,19 +35,15 @@ def command(
         found = [known for known in catalogue.models(everywhere) if _fits(known, search)]
         if registers and len(found) != 1:
             found = [catalogue.find(" ".join(search), everywhere)]
-    _show(found, registers=registers, as_json=as_json)
-    if not found:
-        remark(f"no model fits `{' '.join(search)}`")
-    return 0 if found else REFUSED
-
-
-def _show(found: Sequence[Known], *, registers: bool, as_json: bool) -> None:
     if registers:
         _show_registers(found[0], as_json=as_json)
     elif as_json:
         print_json(devices=[_plain(known) for known in found])
     else:
         show_table(("MODEL", "MAP", "WHAT IT IS"), [_row(known) for known in found])
+    if not found:
+        remark(f"no model fits `{' '.join(search)}`")
+    return 0 if found else REFUSED
 
 
 def _fits(known: Known, search: tuple[str, ...]) -> bool:
@@ -84,14 +78,14 @@ def _show_registers(known: Known, *, as_json: bool) -> None:
             commands={name: {"danger": one.danger} for name, one in commands.items()},
         )
         return
-    rows = [(one.path, ACCESS[one.access], one.kind, unit_text(one), one.section) for one in driver.registers.values()]
+    rows = [(one.path, ACCESS[one.access], one.kind, _units(one), one.section) for one in driver.registers.values()]
     show_table(("REGISTER", "ACCESS", "KIND", "UNIT", "SECTION"), rows, title=f"{known.model}: registers")
     show_table(("GROUP", "NAME"), [(name, one.name) for name, one in groups.items()], title="groups")
     show_table(("COMMAND", "DANGER"), [(name, one.danger) for name, one in commands.items()], title="commands")
 
 
-def unit_text(register: Register[Any]) -> str:
-    """The units that a register may stand in: `°F`, or `°F/°C` where another register decides."""
+def _units(register: Register[Any]) -> str:
+    """The units that a register may have: `°F`, or `°F/°C` where another register decides."""
     return "/".join(dict.fromkeys(unit for _, unit in register.unit if unit))
 
 
@@ -101,7 +95,7 @@ def _register(register: Register[Any]) -> dict[str, Any]:
         "name": register.path,
         "access": ACCESS[register.access],
         "kind": register.kind,
-        "unit": unit_text(register),
+        "unit": _units(register),
         "choices": list(choices(register)),
         "address": view.address(register.at),
         "space": view.space,

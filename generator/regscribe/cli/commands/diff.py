@@ -15,7 +15,6 @@ FACTORY = "factory"
 
 
 @click.command(
-    name="diff",
     epilog="Example: regscribe diff oven oven.yaml; regscribe diff old.yaml new.yaml; regscribe diff oven factory\n\n"
     "Exit code 0: nothing differs, 1: something does, 2: wrong usage or file, or a manual without defaults, 3: nobody "
     "answers.",

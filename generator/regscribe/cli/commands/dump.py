@@ -20,7 +20,6 @@ UNGROUPED = "other"
 
 
 @click.command(
-    name="dump",
     epilog="Example: regscribe dump oven --group alarm --json\n\n"
     "Exit code 0: read (a sensor's fault is part of it), 2: wrong usage, 3: nobody answers.",
 )

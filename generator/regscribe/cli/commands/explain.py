@@ -12,7 +12,7 @@ from regscribe.cli.shared.output import Piece, show
 from regscribe.model import Rule
 
 
-@click.command(name="explain", epilog="Example: regscribe explain RS0109")
+@click.command(epilog="Example: regscribe explain RS0109")
 @click.argument("rule_id", metavar="RULE")
 def command(*, rule_id: str) -> None:
     """Explain a rule: what it asks, why, and a bad and a good example.

@@ -70,7 +70,6 @@ def _default(option: Option) -> str:
 
 
 @click.command(
-    name="export",
     cls=ExportCommand,
     epilog="Example: regscribe export fdc/series-100 --format csv > series-100.csv\n\n"
     "regscribe export athena/series-c --format collectd --model 16C --at 10.0.0.7:502 > modbus.conf\n\n"

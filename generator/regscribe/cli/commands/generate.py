@@ -45,7 +45,6 @@ class Build:
 
 
 @click.command(
-    name="generate",
     epilog="Example: regscribe generate maps/acme/oven.yaml --out build/\n\n"
     "Exit code 0: done, 1: errors in a map, or with --check a difference, 2: wrong usage.",
 )

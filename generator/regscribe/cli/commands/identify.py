@@ -13,7 +13,6 @@ from regscribe_runtime.driver.identify import Evidence
 
 
 @click.command(
-    name="identify",
     epilog="Example: regscribe identify tcp:10.0.0.7:502?unit=1\n\n"
     "Exit code 0: one model fits, or several alike, 1: none, 2: wrong usage, 3: nobody answers.",
 )

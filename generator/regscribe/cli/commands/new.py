@@ -28,7 +28,6 @@ HEAD = ("# yaml-language-server:", "format:", "map:")
 
 
 @click.command(
-    name="new",
     epilog="Example: regscribe new acme/oven-3\n\n"
     "Exit code 0: done, 1: the file cannot be imported or the map not written, 2: wrong usage.",
 )

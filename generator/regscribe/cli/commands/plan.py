@@ -27,7 +27,6 @@ MOST_NAMED = 3
 
 
 @click.command(
-    name="plan",
     epilog="Example: regscribe plan fdc/series-100 --model C21 --group setpoints --baud 19200\n\n"
     "Exit code 0: done, 1: errors in the map, 2: wrong usage.",
 )

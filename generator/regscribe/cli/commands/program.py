@@ -30,14 +30,14 @@ from regscribe_runtime import BareDevice
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-which = click.option(
+program_option = click.option(
     "--program",
     "name",
     default="",
     metavar="NAME",
     help="Which program, where a device has several: its name or number.",
 )
-beyond = click.option(
+beyond_option = click.option(
     "--beyond-limits", is_flag=True, help="Allow setpoints beyond the controller's limits where its manual sets none."
 )
 file_argument = click.argument("file", type=click.Path(path_type=Path))
@@ -46,31 +46,31 @@ CODES = "Exit code 0: done, 1: refused, 2: wrong usage, 3: nobody answers, 4: wh
 
 
 @click.group(
-    name="program",
-    help="""Setpoint programs (ramp and soak) of controllers: read as YAML, drawn, checked, written and run.\n\nThe same
-file looks alike for every controller; its JSON Schema is schema/program.schema.json.""",
     epilog="Example: regscribe program write oven anneal.yaml && regscribe program start oven",
 )
 def command() -> None:
-    """Hold the commands about programs together."""
+    """Setpoint programs (ramp and soak) of controllers: read as YAML, drawn, checked, written and run.
+
+    The same file looks alike for every controller; its JSON Schema is schema/program.schema.json.
+    """
 
 
-def live(name: str, about: str, epilog: str = "") -> Callable[[F], F]:
-    """A command with TARGET and `--program`."""
+def live(name: str, example: str = "", about: str = "") -> Callable[[F], F]:
+    """Declare a command with TARGET and `--program`; its help is `about`, else the function's docstring."""
 
     def declare(function: F) -> F:
-        made: Any = which(target_options(function))
-        ending = f"{epilog}\n\n{CODES}" if epilog else CODES
-        result: Any = command.command(name=name, help=f"{about}\n\n{HELP}", epilog=ending)(made)
+        made: Any = program_option(target_options(function))
+        epilog = f"{example}\n\n{CODES}" if example else CODES
+        result: Any = command.command(name=name, help=f"{about}\n\n{HELP}" if about else None, epilog=epilog)(made)
         return cast("F", result)
 
     return declare
 
 
-@live("show", "Show a program: its settings, its segments and its profile.", "Example: regscribe program show oven")
+@live("show", "Example: regscribe program show oven")
 @click.option("--svg", type=click.Path(path_type=Path), metavar="FILE", help="Write the profile as a picture, too.")
 def show(*, target: Target, as_json: bool, name: str, svg: Path | None) -> int:
-    """Show a program of a device."""
+    """Show a program: its settings, its segments and its profile."""
     with opened(target) as device:
         here = programs.place(device, name)
         found = device.run(programs.read(here))
@@ -83,14 +83,10 @@ def show(*, target: Target, as_json: bool, name: str, svg: Path | None) -> int:
     return 0
 
 
-@live(
-    "read",
-    "Read a program as a YAML file that `write` takes.",
-    "Example: regscribe program read oven --out anneal.yaml",
-)
+@live("read", "Example: regscribe program read oven --out anneal.yaml")
 @click.option("--out", type=click.Path(path_type=Path), metavar="FILE", help="The file; without it standard output.")
 def read_command(*, target: Target, as_json: bool, name: str, out: Path | None) -> int:
-    """Read a program of a device."""
+    """Read a program as a YAML file that `write` takes."""
     with opened(target) as device:
         found = device.run(programs.read(programs.place(device, name)))
     if as_json:
@@ -104,11 +100,11 @@ def read_command(*, target: Target, as_json: bool, name: str, out: Path | None) 
     return 0
 
 
-@live("validate", "Hold a file against a device as it is configured now; nothing is written.")
+@live("validate")
 @file_argument
-@beyond
+@beyond_option
 def validate(*, target: Target, as_json: bool, name: str, file: Path, beyond_limits: bool) -> int:
-    """Check a file against a device."""
+    """Hold a file against a device as it is configured now; nothing is written."""
     with reported():
         given = programs.load(file)
     with opened(target) as device:
@@ -129,8 +125,8 @@ def validate(*, target: Target, as_json: bool, name: str, file: Path, beyond_lim
 
 @live(
     "write",
-    "Write a file to a device: checked first, only what differs, read back in the end. Refused while a program runs.",
     "Example: regscribe program write oven anneal.yaml",
+    "Write a file to a device: checked first, only what differs, read back in the end. Refused while a program runs.",
 )
 @file_argument
 @click.option(
@@ -140,7 +136,7 @@ def validate(*, target: Target, as_json: bool, name: str, file: Path, beyond_lim
     show_default=True,
     help="What to do about a program that runs: refuse, end it first, or write all the same.",
 )
-@beyond
+@beyond_option
 @confirm_option
 @identity_option
 def write_command(
@@ -167,9 +163,6 @@ def write_command(
             done = device.run(task)
         except programs.ProgramRefused as error:
             raise _refused(given, error) from None
-        except programs.ProgramRuns as error:
-            message = str(error).replace('pass while_running="reset"', "add --while-running reset")
-            raise Failure(message, kind=kind_of(error), code=code_of(error)) from None
         except programs.ProgramUnfinished as error:
             raise Failure(str(error), kind=kind_of(error), code=UNKNOWN_STATE) from None
     if as_json:
@@ -179,9 +172,9 @@ def write_command(
     return 0
 
 
-@live("status", "Tell whether a program runs, and where it is.")
+@live("status")
 def status_command(*, target: Target, as_json: bool, name: str) -> int:
-    """Read what a device does."""
+    """Tell whether a program runs, and where it is."""
     with opened(target) as device:
         now = device.run(programs.status(programs.place(device, name)))
     _show_state(device, target, now, as_json=as_json)
@@ -189,7 +182,7 @@ def status_command(*, target: Target, as_json: bool, name: str) -> int:
 
 
 def _act(what: Act, about: str) -> None:
-    @live(what, about)
+    @live(what, about=about)
     @confirm_option
     @identity_option
     def run(*, target: Target, as_json: bool, name: str, confirm: bool, identity: bool) -> int:
@@ -205,16 +198,12 @@ _act("resume", "Let a program that is held go on.")
 _act("reset", "End a program that runs or is held.")
 
 
-@command.command(
-    name="draw",
-    help="Draw the profile of a file, without a device: in the terminal, or as a picture.",
-    epilog="Example: regscribe program draw anneal.yaml --svg anneal.svg",
-)
+@command.command(name="draw", epilog="Example: regscribe program draw anneal.yaml --svg anneal.svg")
 @file_argument
 @click.option("--svg", type=click.Path(path_type=Path), metavar="FILE", help="Write the picture here.")
 @json_option
 def draw(*, file: Path, svg: Path | None, as_json: bool) -> int:
-    """Draw a file."""
+    """Draw the profile of a file, without a device: in the terminal, or as a picture."""
     with reported():
         given = programs.load(file).program
     first = _first(given)

@@ -15,7 +15,6 @@ from regscribe_runtime.operations import tasks
 
 
 @click.command(
-    name="read",
     epilog="Example: regscribe read oven process_value alarm segments[1]\n\n"
     "Exit code 0: every register has a value, 1: one has none (a fault, a refusal), 2: wrong usage, 3: nobody answers.",
 )

@@ -14,7 +14,6 @@ from regscribe.tools.live.target import Target
 
 
 @click.command(
-    name="restore",
     help=f"""Bring a device to the settings in FILE, a backup: checked as a whole first, written in the map's order,
 what the device holds already is skipped, everything is read back. When it breaks off, run it again: it goes on where it
 was. Address, line, calibration and the like stay as they are unless included.\n\n{HELP}""",

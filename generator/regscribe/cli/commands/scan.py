@@ -19,7 +19,6 @@ from regscribe_runtime import LinkLost
 
 
 @click.command(
-    name="scan",
     epilog="Example: regscribe scan rtu:/dev/ttyUSB0 --bauds 9600,19200 --formats 8N1,8E1\n\n"
     "Exit code 0: somebody answers, 1: nobody, 2: wrong usage, 3: the port cannot be opened or vanished, 130: Ctrl-C "
     "(what was found is printed).",

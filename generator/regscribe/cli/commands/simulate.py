@@ -13,7 +13,7 @@ import click
 from regscribe import simulate as simulator
 from regscribe.cli.shared import simulated_devices
 from regscribe.cli.shared.output import tell
-from regscribe.cli.shared.request_log import RequestLog, lines, table
+from regscribe.cli.shared.request_log import RequestLog, table
 from regscribe.cli.shared.simulated_devices import WantedDevice
 from regscribe.cli.shared.target_options import given_option
 from regscribe.simulate import Foreign, Server, Service, SimulatedDevice, SimulatorError, Transport
@@ -50,7 +50,6 @@ class Options(TypedDict):
 
 
 @click.command(
-    name="simulate",
     epilog="Example: regscribe simulate athena/series-c --model 16C --tcp 127.0.0.1:5020 --process on\n\n"
     "Exit code 130: stopped by Ctrl-C, 1: errors in the map, port in use or serial device absent, 2: wrong usage.",
 )
@@ -134,15 +133,11 @@ def _check_count(devices: int, *, alone: bool) -> None:
 def _run(devices: list[SimulatedDevice], service: Service, options: Options) -> int:
     usual = line_of(devices)
     line = SerialLine.of("", options["baud"] or usual.baud, options["character"] or usual.format)
-    service = replace(service, line=line)
-    requests = RequestLog(devices)
-    drawn = not options["quiet"] and sys.stdout.isatty()
-    if not options["quiet"]:
-        service = replace(service, watcher=requests.note)
-        if not drawn:
-            lines(requests)
+    shown, terminal = not options["quiet"], sys.stdout.isatty()
+    requests = RequestLog(devices, printed=not terminal)
+    service = replace(service, line=line, watcher=requests.note if shown else None)
     try:
-        return asyncio.run(_serve(devices, service, requests if drawn else None))
+        return asyncio.run(_serve(devices, service, requests if shown and terminal else None))
     finally:
         if options["save"]:
             devices[0].save(options["save"])

@@ -2,7 +2,7 @@
 
 import sys
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, closing
+from contextlib import closing, nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +24,6 @@ USUAL_GIVE_UP = 5
 
 
 @click.command(
-    name="watch",
     epilog="Example: regscribe watch oven process_value alarm --every 2 --chart process_value --log oven.csv\n\n"
     "Exit code 0: --count rounds are done, 1: the log cannot be written any more, 2: wrong usage, 3: nobody answers, "
     "or not any more, 130: Ctrl-C (the log is whole).",
@@ -62,13 +61,13 @@ def command(
     passed.
     """
     every_name = (*wanted, *charts)
-    with opened(target, check=lambda driver: names.chosen(driver, every_name)) as device, ExitStack() as stack:
+    with opened(target, check=lambda driver: names.chosen(driver, every_name)) as device:
         registers = names.chosen(type(device), every_name)
         curves = [one.path for one in names.chosen(type(device), charts)]
         rounds = watch(device, registers, every=every, count=count, give_up=give_up)
         try:
-            log = stack.enter_context(closing(logs.open_log(log_path, str(target)))) if log_path else None
-            _follow(_logged(rounds, log), registers, curves, str(target), as_json=as_json)
+            with closing(logs.open_log(log_path, str(target))) if log_path else nullcontext() as log:
+                _follow(_logged(rounds, log), registers, curves, str(target), as_json=as_json)
         except GaveUp as end:
             raise failure(end.error) from None
         except logs.LogError as error:

@@ -17,11 +17,12 @@ from regscribe.tools.live.reading import held_of
 from regscribe.tools.live.target import Target
 from regscribe_runtime import BareDevice, Register, ValueRefused
 from regscribe_runtime.operations import tasks
+from regscribe_runtime.operations.session import Task
+from regscribe_runtime.report import WriteReport
 from regscribe_runtime.wire.requests import Request
 
 
 @click.command(
-    name="write",
     help=f"""Write one register: a number (150.5, or with its unit "150.5 °F", which must be the device's own), a member
 of an enum by name, label or code, flags as names with commas.\n\n{HELP}""",
     epilog='Example: regscribe write oven setpoint "150.5 °F"\n\n'
@@ -63,11 +64,12 @@ def command(  # noqa: PLR0913 - the options of the command
         meant = value_text.parse(register, value, current_unit=unit)
         if rounded:
             meant = device.run(held_of(register, meant, view))
-        unsent: list[DryWrite] = []
-        if dry_run:
-            unsent = _unsent(device, register, meant, view=view, rounded=rounded, confirm=confirm)
+        if dry_run and register.governs is not None:
+            unsent = _unsent(device, tasks.configure({name: meant}, dry_run=True, confirm=confirm, rounded=rounded))
         else:
-            device.run(tasks.write(register, meant, view=view, rounded=rounded, confirm=confirm, verify=verify))
+            unsent = dry(device).written if dry_run else []
+            verified = None if dry_run else verify
+            device.run(tasks.write(register, meant, view=view, rounded=rounded, confirm=confirm, verify=verified))
         spared = device.session.wear.spared > 0
     if as_json:
         written = {"value": value_text.show(register, meant), "unit": unit, "written": not (dry_run or spared)}
@@ -97,20 +99,7 @@ def _writable(driver: type[BareDevice], name: str, view: str | None) -> Register
     return register
 
 
-def _unsent(
-    device: BareDevice,
-    register: Register[Any],
-    meant: Any,  # noqa: ANN401 - a value of any register
-    *,
-    view: str | None,
-    rounded: bool,
-    confirm: bool,
-) -> list[DryWrite]:
-    """The requests of a write, without sending one; of a register that governs the line, without following it."""
-    if register.governs is not None:
-        plan = tasks.configure({register.path: meant}, dry_run=True, confirm=confirm, rounded=rounded)
-        requests = (Request(one.function, one.address, len(one.words), one.words) for one in device.run(plan).requests)
-        return [DryWrite(device.session.unit, request) for request in requests]
-    unsent = dry(device).written
-    device.run(tasks.write(register, meant, view=view, rounded=rounded, confirm=confirm))
-    return unsent
+def _unsent(device: BareDevice, planned: Task[WriteReport]) -> list[DryWrite]:
+    """The requests of a planned change of the line, which a dry run of the driver could not follow."""
+    requests = (Request(one.function, one.address, len(one.words), one.words) for one in device.run(planned).requests)
+    return [DryWrite(device.session.unit, request) for request in requests]

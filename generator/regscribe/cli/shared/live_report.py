@@ -30,6 +30,13 @@ REFUSED, USAGE, SILENT, UNKNOWN_STATE = 1, 2, 3, 4
 
 ARROWS = {SENT: "->", RECEIVED: "<-"}
 
+OPTIONS = {
+    "pass confirm=True": "add --confirm",
+    "rounded=True rounds": "--rounded rounds",
+    'pass while_running="reset"': "add --while-running reset",
+}
+"""Advice of drivers about their arguments, and what it is for a command."""
+
 UNSETTLED = (PartialWrite, WriteUnknown, ReadBackDiffers, NotApplied, NotConfigured, LeftAt)
 """Errors after which the device does not hold what it held, or nobody knows; some of them are NoAnswer, too."""
 
@@ -64,9 +71,9 @@ def reported() -> Iterator[None]:
 
 def failure(error: RegscribeError) -> Failure:
     """The failure for an error of a driver, whose message names options in place of arguments."""
-    message = (
-        str(error).replace("pass confirm=True", "add --confirm").replace("rounded=True rounds", "--rounded rounds")
-    )
+    message = str(error)
+    for argument, option in OPTIONS.items():
+        message = message.replace(argument, option)
     return Failure(message, kind=kind_of(error), code=code_of(error))
 
 

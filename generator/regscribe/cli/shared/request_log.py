@@ -4,7 +4,7 @@ import asyncio
 import sys
 import time
 from collections import Counter, deque
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -27,36 +27,30 @@ LONGEST = 200
 
 @dataclass(slots=True)
 class RequestLog:
-    """The last requests and their number; `each` is called with every request as it comes."""
+    """The last requests and their number; with `printed`, each is written on a line as it comes."""
 
     devices: Sequence[SimulatedDevice]
     last: deque[tuple[float, Exchange]] = field(default_factory=lambda: deque(maxlen=ROWS))
     counts: Counter[str] = field(default_factory=Counter)
-    each: Callable[[Exchange], None] | None = None
+    printed: bool = False
 
     def note(self, exchange: Exchange) -> None:
         """Keep one request."""
         self.counts["requests"] += 1
         self.counts["unanswered" if exchange.answer is None else "answered"] += 1
         self.last.append((time.time(), exchange))
-        if self.each is not None:
-            self.each(exchange)
+        if self.printed:
+            self._print(exchange)
 
-
-def lines(requests: RequestLog) -> None:
-    """Write each request on a line as it comes."""
-
-    def write(exchange: Exchange) -> None:
-        told = tell(requests.devices, exchange)
+    def _print(self, exchange: Exchange) -> None:
+        told = tell(self.devices, exchange)
         mark = "" if told.good else f": {told.outcome}"
         try:
             line = f"{_clock(time.time())} unit {told.unit} {told.verb} {told.what}{mark}"
             output.tell(safe(line)[:LONGEST] + "\n")
             sys.stdout.flush()
         except BrokenPipeError:  # the reader went away; the clients stay
-            requests.each = None
-
-    requests.each = write
+            self.printed = False
 
 
 async def table(requests: RequestLog) -> None:
