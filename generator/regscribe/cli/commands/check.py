@@ -1,14 +1,11 @@
 """`regscribe check`: report what is wrong in maps."""
 
-from collections.abc import Sequence
-
 import click
 
 from regscribe.cli.shared.diagnostic_text import count, findings, tally
 from regscribe.cli.shared.map_arguments import find_maps
 from regscribe.cli.shared.output import show, tell
 from regscribe.cli.shared.report_formats import as_github, as_json, as_sarif
-from regscribe.model import Diagnostic
 from regscribe.pipeline import compile_map, has_errors
 
 
@@ -28,11 +25,6 @@ def command(*, paths: tuple[str, ...], form: str, strict: bool) -> int:
     repeated = [diagnostic for path in maps for diagnostic in compile_map(path).diagnostics]
     first = {(one.rule, one.span, one.message): one for one in reversed(repeated)}  # each map repeats its library's
     found = list(first.values())[::-1]
-    _print(found, form=form, maps=len(maps))
-    return int(has_errors(found) or (strict and bool(found)))
-
-
-def _print(found: Sequence[Diagnostic], *, form: str, maps: int) -> None:
     match form:
         case "json":
             tell(as_json(found))
@@ -43,5 +35,6 @@ def _print(found: Sequence[Diagnostic], *, form: str, maps: int) -> None:
 
             tell(as_sarif(found, {rule.id: rule for rule in catalogue.all_rules()}))
         case _:
-            checked = f"{count(maps, 'map')} checked: {tally(found)}\n"
+            checked = f"{count(len(maps), 'map')} checked: {tally(found)}\n"
             show([*findings(found), (checked, "")])
+    return int(has_errors(found) or (strict and bool(found)))

@@ -8,9 +8,8 @@ import click
 from regscribe.cli.shared.comparison_text import as_csv, as_json, as_text
 from regscribe.cli.shared.diagnostic_text import findings, tally
 from regscribe.cli.shared.map_arguments import find_map
-from regscribe.cli.shared.output import show, tell, warn
+from regscribe.cli.shared.output import raised_as, show, tell, warn
 from regscribe.evidence.compare import compare_maps, compare_table
-from regscribe.evidence.differences import Comparison
 from regscribe.evidence.table import Table, TableError, read
 from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map
@@ -48,7 +47,7 @@ def command(
     them; docs/evidence.md tells more.
     """
     wanted = _columns(columns)
-    try:
+    with raised_as(click.UsageError, TableError):
         table = None if _is_map(other) else _table(other)
         _refuse_foreign(table, model=model, pairs=pairs, partial=partial)
         names = [map_name] if table else [map_name, other]
@@ -59,9 +58,10 @@ def command(
             found = compare_table(maps[0], table, columns=wanted, model=model, loose=loose, partial=partial)
         else:
             found = compare_maps(maps[0], maps[1], pairs=_pairs(pairs, maps), columns=wanted, loose=loose)
-    except TableError as error:
-        raise click.UsageError(str(error)) from None
-    _print(found, form)
+    if form == "text":
+        show(as_text(found))
+    else:
+        tell(as_json(found) if form == "json" else as_csv(found))
     return int(not found.equal)
 
 
@@ -70,16 +70,6 @@ def _columns(text: str | None) -> list[str]:
         message = "--columns names no column: leave it out to compare all that the table has"
         raise click.UsageError(message)
     return [item.strip() for item in (text or "").split(",") if item.strip()]
-
-
-def _print(found: Comparison, form: str) -> None:
-    match form:
-        case "json":
-            tell(as_json(found))
-        case "csv":
-            tell(as_csv(found))
-        case _:
-            show(as_text(found))
 
 
 def _is_map(other: str) -> bool:

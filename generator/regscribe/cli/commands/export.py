@@ -8,7 +8,7 @@ import click
 from regscribe import plugins
 from regscribe.cli.shared.compiled_maps import compiled_maps
 from regscribe.cli.shared.map_arguments import find_maps
-from regscribe.cli.shared.output import tell
+from regscribe.cli.shared.output import raised_as, tell
 from regscribe.emit.write import WriteError, write
 from regscribe.plugins import EXPORTERS, Exporter, Option, OptionError, PluginError
 from regscribe.visible import safe
@@ -36,10 +36,8 @@ class ExportCommand(click.Command):
 
 
 def _parameters() -> list[click.Parameter]:
-    try:
+    with raised_as(click.ClickException, PluginError):
         names = plugins.names(EXPORTERS)
-    except PluginError as error:
-        raise click.ClickException(str(error)) from None
     if not names:
         message = "no exporter is installed, not even those of regscribe: install regscribe anew"
         raise click.ClickException(message)
@@ -51,7 +49,7 @@ def _parameters() -> list[click.Parameter]:
 
 
 def _loaded(name: str) -> Exporter | PluginError:
-    """Load an exporter; what is wrong with it if it is broken, which is told only where it matters."""
+    """The exporter of that name, or the error of one that is broken, which is not raised before it is asked for."""
     try:
         return plugins.exporter(name)
     except PluginError as error:
@@ -60,13 +58,16 @@ def _loaded(name: str) -> Exporter | PluginError:
 
 def _parameter(name: str, exporters: Mapping[str, Exporter]) -> click.Option:
     having = [(who, option) for who, one in exporters.items() for option in one.options if option.name == name]
-    said = "  ".join(safe(f"{who}: {option.help}{_default(option)}") for who, option in having)
-    metavar = safe(having[0][1].metavar)
-    return click.Option([f"--{name}", f"{OWN}{name.replace('-', '_')}"], multiple=True, metavar=metavar, help=said)
-
-
-def _default(option: Option) -> str:
-    return f"  [default: {option.default}]" if option.default else ""
+    help_texts = []
+    for exporter, option in having:
+        default = f"  [default: {option.default}]" if option.default else ""
+        help_texts.append(safe(f"{exporter}: {option.help}{default}"))
+    return click.Option(
+        [f"--{name}", f"{OWN}{name.replace('-', '_')}"],
+        multiple=True,
+        metavar=safe(having[0][1].metavar),
+        help="  ".join(help_texts),
+    )
 
 
 @click.command(
@@ -78,25 +79,21 @@ def _default(option: Option) -> str:
 )
 @click.argument("maps", nargs=-1, metavar="[MAP]...")
 @click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Where files go that an exporter makes.")
-def command(*, maps: tuple[str, ...], form: str, out: Path | None, **said: tuple[str, ...]) -> None:
+def command(*, maps: tuple[str, ...], form: str, out: Path | None, **own_options: tuple[str, ...]) -> None:
     """Print what maps say in the form of an exporter: every value as CSV, the whole model as JSON, and others.
 
     MAP is a map file, a folder that is searched for *.yaml, or the id of a map (fdc/series-100). Without MAP: maps/.
     The format collectd takes one MAP and a --model. Plug-ins bring further formats (docs/plugins.md).
     """
-    try:
-        options = _options(plugins.exporter(form), said)
+    with raised_as(click.ClickException, PluginError), raised_as(click.UsageError, OptionError):
+        options = _options(plugins.exporter(form), own_options)
         register_maps = compiled_maps(find_maps(maps), nothing="nothing was exported")
         _put(form, plugins.export(form, register_maps, options), out)
-    except PluginError as error:
-        raise click.ClickException(str(error)) from None
-    except OptionError as error:
-        raise click.UsageError(str(error)) from None
 
 
-def _options(exporter: Exporter, said: Mapping[str, Sequence[str]]) -> dict[str, str]:
+def _options(exporter: Exporter, parameters: Mapping[str, Sequence[str]]) -> dict[str, str]:
     """Return the value of each option of an exporter; those of others are refused."""
-    given = {name.removeprefix(OWN).replace("_", "-"): texts for name, texts in said.items() if texts}
+    given = {name.removeprefix(OWN).replace("_", "-"): texts for name, texts in parameters.items() if texts}
     own = {option.name: option for option in exporter.options}
     if foreign := [f"--{name}" for name in given if name not in own]:
         message = f"{', '.join(foreign)}: the format {exporter.name} takes no such option"

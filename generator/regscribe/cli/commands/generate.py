@@ -10,7 +10,7 @@ import click
 from regscribe.cli.shared.diagnostic_text import count, report
 from regscribe.cli.shared.map_arguments import find_maps
 from regscribe.cli.shared.map_builds import Made, make_all
-from regscribe.cli.shared.output import tell
+from regscribe.cli.shared.output import raised_as, tell
 from regscribe.emit import build_cache
 from regscribe.emit.build_cache import BuildRecord
 from regscribe.emit.docs_index import render_index
@@ -71,12 +71,10 @@ def command(*, maps: tuple[str, ...], check: bool, out: Path, folder: Path | Non
     paths = find_maps(maps)
     templates = _templates(folder)
     known = build_cache.Cache(out, "") if check else build_cache.load(out, templates.contents() if templates else ())
-    try:
+    with raised_as(click.ClickException, WriteError):
         build = _build(paths, known, templates)
         report(build.diagnostics, failed=build.failed, nothing="nothing was written")
         written = _write(build, out, check=check, whole=not maps)
-    except WriteError as error:
-        raise click.ClickException(str(error)) from None
     if not check:
         _remember(build, known, whole=not maps)
     tell(safe_lines(written.diff))

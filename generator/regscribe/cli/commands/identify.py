@@ -28,7 +28,7 @@ def command(*, target: Target, as_json: bool) -> int:
             device=str(target),
             certain=found.certain,
             models=[dict(zip(("model", "map", "title"), one, strict=True)) for one in titles],
-            evidence=[_evidence(one) for one in found.evidence],
+            evidence=[_plain(one) for one in found.evidence],
         )
     else:
         show_table(("MODEL", "MAP", "WHAT IT IS"), titles)
@@ -45,7 +45,7 @@ def _remarks(fitting: int, seen: list[Evidence]) -> None:
         remark("no driver exists for what answers there")
 
 
-def _evidence(one: Evidence) -> dict[str, Any]:
+def _plain(one: Evidence) -> dict[str, Any]:
     return {
         "maps": list(one.map_ids),
         "register": one.register,

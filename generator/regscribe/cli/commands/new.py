@@ -12,7 +12,7 @@ import click
 
 from regscribe import plugins
 from regscribe.cli.shared.diagnostic_text import report
-from regscribe.cli.shared.output import tell
+from regscribe.cli.shared.output import raised_as, tell
 from regscribe.map_files import data_folder
 from regscribe.model import Diagnostic, Severity
 from regscribe.plugins import IMPORTERS, PluginError
@@ -82,23 +82,23 @@ def _imported(origin: Path | None, form: str | None) -> str:
         raise click.UsageError(message)
     if origin is None:
         return ""
-    text, found = _read(origin, form or origin.suffix.removeprefix(".").lower())
+    with raised_as(click.ClickException, PluginError):
+        text, found = _read(origin, form or origin.suffix.removeprefix(".").lower())
     report(found, failed=any(one.severity is Severity.ERROR for one in found), nothing="nothing was written")
     return text
 
 
 def _read(origin: Path, form: str) -> tuple[str, Sequence[Diagnostic]]:
+    known = plugins.names(IMPORTERS)
+    if form not in known:
+        message = f"nothing imports {origin}: say with --format how, as {' or '.join(known)}"
+        raise click.UsageError(message)
     try:
-        known = plugins.names(IMPORTERS)
-        if form not in known:
-            message = f"nothing imports {origin}: say with --format how, as {' or '.join(known)}"
-            raise click.UsageError(message)
-        return plugins.read(form, origin.read_bytes(), str(origin))
+        data = origin.read_bytes()
     except OSError as error:
         message = f"cannot read {origin}: {error.strerror or error}"
         raise click.UsageError(message) from None
-    except PluginError as error:
-        raise click.ClickException(str(error)) from None
+    return plugins.read(form, data, str(origin))
 
 
 def _text(maker: str, family: str, schema: str, imported: str) -> str:

@@ -10,7 +10,6 @@ from regscribe.tools.live import names
 from regscribe.tools.live.reading import readings
 from regscribe.tools.live.target import Target
 from regscribe.visible import safe
-from regscribe_runtime import BareDevice
 from regscribe_runtime.operations import tasks
 
 
@@ -28,7 +27,11 @@ def command(*, target: Target, as_json: bool, wanted: tuple[str, ...], bare: boo
         registers = names.chosen(type(device), wanted)
         if raw:
             words = {one.path: device.run(tasks.read_raw(one, None)) for one in registers}
-            _show_words(words, device, target, as_json=as_json)
+            if as_json:
+                plain_words = {path: {"words": list(one)} for path, one in words.items()}
+                print_json(**heading(device, target), registers=plain_words)
+            else:
+                show_table(("REGISTER", "WORDS"), [(path, hexadecimal(one)) for path, one in words.items()])
             return 0
         found = device.run(readings(registers))
     if as_json:
@@ -41,10 +44,3 @@ def command(*, target: Target, as_json: bool, wanted: tuple[str, ...], bare: boo
     else:
         show_table(("REGISTER", "VALUE"), [(one.name, one.spelled) for one in found])
     return REFUSED if any(one.error for one in found) else 0
-
-
-def _show_words(words: dict[str, tuple[int, ...]], device: BareDevice, target: Target, *, as_json: bool) -> None:
-    if as_json:
-        print_json(**heading(device, target), registers={path: {"words": list(one)} for path, one in words.items()})
-    else:
-        show_table(("REGISTER", "WORDS"), [(path, hexadecimal(one)) for path, one in words.items()])

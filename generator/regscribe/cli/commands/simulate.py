@@ -12,7 +12,7 @@ import click
 
 from regscribe import simulate as simulator
 from regscribe.cli.shared import simulated_devices
-from regscribe.cli.shared.output import tell
+from regscribe.cli.shared.output import raised_as, tell
 from regscribe.cli.shared.request_log import RequestLog, table
 from regscribe.cli.shared.simulated_devices import WantedDevice
 from regscribe.cli.shared.target_options import given_option
@@ -114,11 +114,9 @@ def command(  # noqa: PLR0913 - one for each option that makes devices
     _check_count(len(wanted), alone=bool(state or options["save"]))
     service = _service(options)
     maps = simulated_devices.compiled_by_name(one.map for one in wanted)
-    try:
+    with raised_as(click.ClickException, SimulatorError):
         made = [simulated_devices.device_of(one.over(common), maps[one.map]) for one in wanted]
         return _run(made, service, options)
-    except SimulatorError as error:
-        raise click.ClickException(str(error)) from None
 
 
 def _check_count(devices: int, *, alone: bool) -> None:
@@ -164,11 +162,9 @@ async def _serve(devices: list[SimulatedDevice], service: Service, drawn: Reques
 
 def _service(options: Options) -> Service:
     """The service that the options describe, but for its line; UsageError where they contradict each other."""
-    try:
+    with raised_as(click.UsageError, SimulatorError, ValueError):
         factor_of(options["latency"])
         SerialLine.of("", options["baud"] or SerialLine().baud, options["character"] or SerialLine().format)
-    except (SimulatorError, ValueError) as error:
-        raise click.UsageError(str(error)) from None
     if options["paced"] and options["rtu"] != PTY:
         message = f"--paced goes with --rtu {PTY} only: a serial device has its own speed, TCP has none"
         raise click.UsageError(message)

@@ -19,9 +19,6 @@ from regscribe.tools.live.target import Target
 from regscribe.tools.live.watch import GaveUp, Round, watch
 from regscribe_runtime import Register
 
-MOST_EVERY = 86_400.0
-USUAL_GIVE_UP = 5
-
 
 @click.command(
     epilog="Example: regscribe watch oven process_value alarm --every 2 --chart process_value --log oven.csv\n\n"
@@ -30,7 +27,7 @@ USUAL_GIVE_UP = 5
 )
 @target_options
 @click.argument("wanted", nargs=-1, required=True, metavar="NAME...", shell_complete=complete_register)
-@click.option("--every", type=click.FloatRange(0, MOST_EVERY), default=1.0, show_default=True, metavar="SECONDS")
+@click.option("--every", type=click.FloatRange(0, 86_400.0), default=1.0, show_default=True, metavar="SECONDS")
 @click.option("--count", type=click.IntRange(0), default=0, help="Stop after so many rounds (0: never).")
 @click.option(
     "--chart", "charts", multiple=True, metavar="NAME", help="Draw the curve of a number. Repeat for several."
@@ -39,7 +36,7 @@ USUAL_GIVE_UP = 5
 @click.option(
     "--give-up",
     type=click.IntRange(0),
-    default=USUAL_GIVE_UP,
+    default=5,
     show_default=True,
     metavar="N",
     help="End after N rounds in a row without an answer (0: never).",

@@ -2,15 +2,25 @@
 
 import os
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any, TextIO
+
+import click
 
 from regscribe.visible import json_text, safe, tame
 
 Piece = tuple[str, str]
 """A text and its style in the words of rich (`bold red`); an empty style is plain."""
 
-GAP = "  "
+
+@contextmanager
+def raised_as(kind: type[click.ClickException], *errors: type[Exception]) -> Iterator[None]:
+    """Turn errors in the block into one that ends the command with the same message."""
+    try:
+        yield
+    except errors as error:
+        raise kind(str(error)) from None
 
 
 def tell(text: str) -> None:
@@ -52,7 +62,7 @@ def show_table(columns: Sequence[str], rows: Iterable[Sequence[str]], *, title: 
         tell(f"# {safe(title)}\n")
     widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
     for row in cells:
-        line = GAP.join(cell.ljust(width) for cell, width in zip(row, widths, strict=True))
+        line = "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True))
         tell(f"{line.rstrip()}\n")
 
 

@@ -36,20 +36,19 @@ def _plain(diagnostic: Diagnostic) -> Json:
 
 def as_github(diagnostics: Iterable[Diagnostic]) -> str:
     """Return one workflow command a diagnostic."""
-    return "".join(f"{_annotation(diagnostic)}\n" for diagnostic in diagnostics)
-
-
-def _annotation(diagnostic: Diagnostic) -> str:
-    span = diagnostic.span
-    place = {"file": span.file, "line": span.line, "endLine": max(span.line, span.end_line), "col": span.column}
-    if span.end_line == span.line:
-        place["endColumn"] = span.end_column
-    place["title"] = diagnostic.rule
-    values = {key: _escaped(str(value)).replace(":", "%3A").replace(",", "%2C") for key, value in place.items()}
-    properties = ",".join(f"{key}={value}" for key, value in values.items())
-    more = [f"{related.message} ({related.span})" for related in diagnostic.related]
-    message = "\n".join(filter(None, [diagnostic.message, *more, diagnostic.help]))
-    return f"::{diagnostic.severity.value} {properties}::{_escaped(message)}"
+    annotations = ""
+    for diagnostic in diagnostics:
+        span = diagnostic.span
+        place = {"file": span.file, "line": span.line, "endLine": max(span.line, span.end_line), "col": span.column}
+        if span.end_line == span.line:
+            place["endColumn"] = span.end_column
+        place["title"] = diagnostic.rule
+        values = {key: _escaped(str(value)).replace(":", "%3A").replace(",", "%2C") for key, value in place.items()}
+        properties = ",".join(f"{key}={value}" for key, value in values.items())
+        more = [f"{related.message} ({related.span})" for related in diagnostic.related]
+        message = "\n".join(filter(None, [diagnostic.message, *more, diagnostic.help]))
+        annotations += f"::{diagnostic.severity.value} {properties}::{_escaped(message)}\n"
+    return annotations
 
 
 def _escaped(text: str) -> str:

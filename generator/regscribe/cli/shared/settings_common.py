@@ -25,10 +25,6 @@ include_option = click.option(
 )
 
 
-class Stopped(KeyboardInterrupt):
-    """Ctrl-C during a write, noticed between two requests: the one under way is finished, the rest is not begun."""
-
-
 @contextmanager
 def settings_reported() -> Iterator[None]:
     """Turn errors of settings into a `Failure`; others pass."""
@@ -45,13 +41,13 @@ def settings_reported() -> Iterator[None]:
 
 @contextmanager
 def restoring(label: str, backup: settings.Backup, shield: Shield) -> Iterator[Teller]:
-    """A bar while settings are written, whose errors are reported; Ctrl-C breaks off between two requests."""
+    """Show a bar while settings are written and report their errors; Ctrl-C breaks off between two requests."""
     with settings_reported(), progress(sum(1 for _ in backup.settings()), label) as advance:
 
         def tell(state: Progress) -> None:
             if shield.interrupted:
                 message = "stopped by Ctrl-C"
-                raise Stopped(message)
+                raise KeyboardInterrupt(message)
             advance(f"{state.done} of {state.total}: {state.what}")
 
         yield tell

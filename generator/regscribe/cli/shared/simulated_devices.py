@@ -14,7 +14,7 @@ from regscribe import source
 from regscribe.cli.shared.compiled_maps import compiled_maps
 from regscribe.cli.shared.diagnostic_text import findings
 from regscribe.cli.shared.map_arguments import did_you_mean, find_map
-from regscribe.cli.shared.output import show
+from regscribe.cli.shared.output import raised_as, show
 from regscribe.model import GivenKind, RegisterMap
 from regscribe.simulate import SimulatedDevice, SimulatorError, ThermalProcess
 from regscribe.tools.live.givens import codes_in, flag_of
@@ -123,10 +123,8 @@ def process_of(text: str | None, *, where: str = "--process") -> ThermalProcess 
         except ValueError:
             message = f"{where} {text}: `{value}` is no number"
             raise click.UsageError(message) from None
-    try:
+    with raised_as(click.UsageError, SimulatorError):
         return ThermalProcess(**given)
-    except SimulatorError as error:
-        raise click.UsageError(str(error)) from None
 
 
 def compiled_by_name(names: Iterable[str]) -> dict[str, RegisterMap]:
