@@ -1,27 +1,18 @@
 """`regscribe clone`: copy the settings of one device, or of a backup, to others."""
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import click
 
+from regscribe.cli.shared import settings_common
 from regscribe.cli.shared.completion_values import complete_target
 from regscribe.cli.shared.live_report import REFUSED, UNKNOWN_STATE, Failure, reported
 from regscribe.cli.shared.long_work import Shield, shielded
 from regscribe.cli.shared.output import print_json, remark
-from regscribe.cli.shared.settings_common import backup_of, include_option, plain_restored, restoring, show_restored
+from regscribe.cli.shared.settings_common import RestoreOptions, include_option
 from regscribe.cli.shared.target_options import confirm_option, driver_options, opened
-from regscribe.tools import settings
 from regscribe.tools.live.target import Target, named
 from regscribe.tools.settings import Backup
-
-
-class CloneOptions(NamedTuple):
-    """How a clone writes."""
-
-    include: tuple[str, ...]
-    partial: bool
-    dry_run: bool
-    confirm: bool
 
 
 @click.command(
@@ -57,8 +48,8 @@ def command(  # noqa: PLR0913 - the options of the command
     """
     with reported():
         wanted = [named(text, config, packages) for text in targets]
-    backup, _ = backup_of(source, packages, config)
-    options = CloneOptions(include, partial, dry_run, confirm)
+    backup, _ = settings_common.backup_of(source, packages, config)
+    options = RestoreOptions(include, partial, dry_run, confirm)
     with shielded() as shield:
         results = _results(wanted, backup, options, shield, stop=stop, quiet=as_json)
     if as_json:
@@ -67,7 +58,7 @@ def command(  # noqa: PLR0913 - the options of the command
 
 
 def _results(
-    targets: list[Target], backup: Backup, options: CloneOptions, shield: Shield, *, stop: bool, quiet: bool
+    targets: list[Target], backup: Backup, options: RestoreOptions, shield: Shield, *, stop: bool, quiet: bool
 ) -> list[dict[str, Any]]:
     """The result of each device; after Ctrl-C, or with `stop` after a failure, the rest is not begun."""
     results: list[dict[str, Any]] = []
@@ -98,10 +89,10 @@ def _code(results: list[dict[str, Any]], shield: Shield) -> int:
     return shield.code or (REFUSED if codes else 0)
 
 
-def _write(target: Target, backup: Backup, options: CloneOptions, shield: Shield, *, quiet: bool) -> dict[str, Any]:
-    with opened(target, identity=True) as device, restoring(f"cloning to {target}", backup, shield) as tell:
-        done = device.run(settings.restore(type(device), backup, tell=tell, **options._asdict()))
+def _write(target: Target, backup: Backup, options: RestoreOptions, shield: Shield, *, quiet: bool) -> dict[str, Any]:
+    with opened(target, identity=True) as device:
+        done = settings_common.restored(f"cloning to {target}", device, backup, options, shield)
         if not quiet:
             remark(f"{target}:")
-            show_restored(device, done, dry_run=options.dry_run)
-        return {"target": str(target), **plain_restored(device, done)}
+            settings_common.show_restored(device, done, dry_run=options.dry_run)
+        return {"target": str(target), **settings_common.plain_restored(device, done)}

@@ -8,7 +8,7 @@ import click
 from regscribe.cli.shared.comparison_text import as_csv, as_json, as_text
 from regscribe.cli.shared.diagnostic_text import findings, tally
 from regscribe.cli.shared.map_arguments import find_map
-from regscribe.cli.shared.output import raised_as, show, tell, warn
+from regscribe.cli.shared.output import raised_as, refuse, show, tell, warn
 from regscribe.evidence.compare import compare_maps, compare_table
 from regscribe.evidence.table import Table, TableError, read
 from regscribe.model import RegisterMap
@@ -67,8 +67,7 @@ def command(
 
 def _columns(text: str | None) -> list[str]:
     if text is not None and not text.strip(" ,"):
-        message = "--columns names no column: leave it out to compare all that the table has"
-        raise click.UsageError(message)
+        refuse("--columns names no column: leave it out to compare all that the table has")
     return [item.strip() for item in (text or "").split(",") if item.strip()]
 
 
@@ -84,23 +83,19 @@ def _is_map(other: str) -> bool:
 def _table(other: str) -> Table:
     path = Path(other)
     if path.is_dir():
-        message = f"{other} is a folder: name one table (CSV) or one map"
-        raise click.UsageError(message)
+        refuse(f"{other} is a folder: name one table (CSV) or one map")
     try:
         return read(path.read_bytes(), other)
     except OSError as error:
-        message = f"cannot read {other}: {error.strerror or error}"
-        raise click.UsageError(message) from None
+        refuse(f"cannot read {other}: {error.strerror or error}")
 
 
 def _refuse_foreign(table: Table | None, *, model: str, pairs: tuple[str, ...], partial: bool) -> None:
     """Refuse options for tables with two maps, and those for two maps with a table."""
     if table and pairs:
-        message = "--pair is for two maps; which models a table is about stands in its column `model`, or is --model"
-        raise click.UsageError(message)
+        refuse("--pair is for two maps; which models a table is about stands in its column `model`, or is --model")
     if not table and (model or partial):
-        message = f"--{'model' if model else 'partial'} is for a table; of two maps choose the models with --pair A=B"
-        raise click.UsageError(message)
+        refuse(f"--{'model' if model else 'partial'} is for a table; of two maps choose the models with --pair A=B")
 
 
 def _compiled(name: str) -> RegisterMap | None:
@@ -116,16 +111,11 @@ def _pairs(pairs: tuple[str, ...], maps: list[RegisterMap]) -> dict[str, str]:
     for pair in pairs:
         names = [name.strip() for name in pair.split("=")]
         if len(names) != len(maps):
-            message = f"--pair {pair}: write one model of each map, for example --pair 16C=CN8200"
-            raise click.UsageError(message)
+            refuse(f"--pair {pair}: write one model of each map, for example --pair 16C=CN8200")
         for one, name in zip(maps, names, strict=True):
             if not one.has(name):
-                message = (
-                    f"--pair {pair}: {one.id} has no model `{name}`: it has {', '.join(m.name for m in one.models)}"
-                )
-                raise click.UsageError(message)
+                refuse(f"--pair {pair}: {one.id} has no model `{name}`: it has {', '.join(m.name for m in one.models)}")
         if names[0] in found or names[1] in found.values():
-            message = f"--pair {pair}: one of these models has its partner already"
-            raise click.UsageError(message)
+            refuse(f"--pair {pair}: one of these models has its partner already")
         found[names[0]] = names[1]
     return found

@@ -8,7 +8,7 @@ import click
 from regscribe.checks import catalogue
 from regscribe.checks.catalogue import Example
 from regscribe.cli.shared.diagnostic_text import STYLES
-from regscribe.cli.shared.output import Piece, show
+from regscribe.cli.shared.output import Piece, refuse, show
 from regscribe.model import Rule
 
 
@@ -22,8 +22,7 @@ def command(*, rule_id: str) -> None:
     rules = {rule.id: rule for rule in catalogue.all_rules()}
     rule = rules.get(rule_id.upper())
     if rule is None:
-        message = f"there is no rule `{rule_id}`{_meant(rule_id, rules)}"
-        raise click.UsageError(message)
+        refuse(f"there is no rule `{rule_id}`{_meant(rule_id, rules)}")
     show(_explanation(rule))
 
 

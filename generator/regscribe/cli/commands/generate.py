@@ -10,7 +10,7 @@ import click
 from regscribe.cli.shared.diagnostic_text import count, report
 from regscribe.cli.shared.map_arguments import find_maps
 from regscribe.cli.shared.map_builds import Made, make_all
-from regscribe.cli.shared.output import raised_as, tell
+from regscribe.cli.shared.output import raised_as, refuse, tell
 from regscribe.emit import build_cache
 from regscribe.emit.build_cache import BuildRecord
 from regscribe.emit.docs_index import render_index
@@ -69,7 +69,9 @@ def command(*, maps: tuple[str, ...], check: bool, out: Path, folder: Path | Non
     """
     started = perf_counter()
     paths = find_maps(maps)
-    templates = _templates(folder)
+    templates = Templates(folder) if folder else None
+    if templates and not templates.names:
+        refuse(f"--templates {folder}: there is no template (*.j2) in this folder")
     known = build_cache.Cache(out, "") if check else build_cache.load(out, templates.contents() if templates else ())
     with raised_as(click.ClickException, WriteError):
         build = _build(paths, known, templates)
@@ -80,14 +82,6 @@ def command(*, maps: tuple[str, ...], check: bool, out: Path, folder: Path | Non
     tell(safe_lines(written.diff))
     tell(safe_lines(_summary(build, written, out, seconds=perf_counter() - started, check=check)))
     return int(check and bool(written.written or written.removed))
-
-
-def _templates(folder: Path | None) -> Templates | None:
-    templates = Templates(folder) if folder else None
-    if templates and not templates.names:
-        message = f"--templates {folder}: there is no template (*.j2) in this folder"
-        raise click.UsageError(message)
-    return templates
 
 
 def _build(paths: Sequence[Path], known: build_cache.Cache, templates: Templates | None) -> Build:

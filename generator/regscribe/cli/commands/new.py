@@ -12,7 +12,7 @@ import click
 
 from regscribe import plugins
 from regscribe.cli.shared.diagnostic_text import report
-from regscribe.cli.shared.output import raised_as, tell
+from regscribe.cli.shared.output import raised_as, refuse, tell
 from regscribe.map_files import data_folder
 from regscribe.model import Diagnostic, Severity
 from regscribe.plugins import IMPORTERS, PluginError
@@ -52,8 +52,7 @@ def command(*, map_id: str, folder: Path, origin: Path | None, form: str | None)
         with path.open("x", encoding="utf-8") as file:
             file.write(_text(maker, family, _schema_for(folder), imported))
     except FileExistsError:
-        message = f"{path} exists; nothing was changed. Choose another name or edit that map"
-        raise click.UsageError(message) from None
+        refuse(f"{path} exists; nothing was changed. Choose another name or edit that map")
     except OSError as error:
         message = f"cannot write {path}: {error.strerror}; choose another folder with --dir"
         raise click.ClickException(message) from None
@@ -63,23 +62,20 @@ def command(*, map_id: str, folder: Path, origin: Path | None, form: str | None)
 def _parts(map_id: str) -> tuple[str, str]:
     parts = map_id.split("/")
     if len(parts) != 2:  # noqa: PLR2004 - maker and family
-        message = f"`{map_id}` is no map id: write MAKER/FAMILY, for example acme/oven-3"
-        raise click.UsageError(message)
+        refuse(f"`{map_id}` is no map id: write MAKER/FAMILY, for example acme/oven-3")
     for part in parts:
         if not WORD.fullmatch(part) or keyword.iskeyword(part):
-            message = (
+            refuse(
                 f"`{part}` in `{map_id}` becomes a Python module: write lower-case letters, digits and single "
                 "hyphens, a letter first, and no keyword of Python"
             )
-            raise click.UsageError(message)
     return parts[0], parts[1]
 
 
 def _imported(origin: Path | None, form: str | None) -> str:
     """Return the text of a map that an importer makes of a file, empty without a file; ends the command on errors."""
     if origin is None and form is not None:
-        message = "--format says how a file is read: name the file with --from"
-        raise click.UsageError(message)
+        refuse("--format says how a file is read: name the file with --from")
     if origin is None:
         return ""
     with raised_as(click.ClickException, PluginError):
@@ -91,13 +87,11 @@ def _imported(origin: Path | None, form: str | None) -> str:
 def _read(origin: Path, form: str) -> tuple[str, Sequence[Diagnostic]]:
     known = plugins.names(IMPORTERS)
     if form not in known:
-        message = f"nothing imports {origin}: say with --format how, as {' or '.join(known)}"
-        raise click.UsageError(message)
+        refuse(f"nothing imports {origin}: say with --format how, as {' or '.join(known)}")
     try:
         data = origin.read_bytes()
     except OSError as error:
-        message = f"cannot read {origin}: {error.strerror or error}"
-        raise click.UsageError(message) from None
+        refuse(f"cannot read {origin}: {error.strerror or error}")
     return plugins.read(form, data, str(origin))
 
 

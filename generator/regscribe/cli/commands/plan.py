@@ -2,14 +2,13 @@
 
 import sys
 from collections.abc import Sequence
-from typing import NoReturn
 
 import click
 
 from regscribe.cli.shared.compiled_maps import compiled_maps
 from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.map_arguments import find_map
-from regscribe.cli.shared.output import print_json, remark, show_table, tell
+from regscribe.cli.shared.output import print_json, refuse, remark, show_table, tell
 from regscribe.cli.shared.planned_model import PlannedModel
 from regscribe.model import RegisterMap
 from regscribe.tools.live.errors import unknown
@@ -66,41 +65,46 @@ def command(  # noqa: PLR0913 - one parameter an option
     """
     (register_map,) = compiled_maps([find_map(map_name)], nothing="nothing is planned")
     subject = _subject(register_map, model)
-    wanted = _chosen(subject, ids, groups, everything=everything)
+    wanted = _selected(subject, ids, groups, everything=everything)
     terms = subject.terms(_cost(subject, baud, form, framing, tcp=tcp))
-    chosen = [subject.registers[path] for path in wanted]
-    layout, asked, _ = laid_out(subject.registers, chosen, terms, fresh=not remembered)
-    alone = [read_places(register)[0].span for register in asked.values()]
-    single = sum(terms.cost.tariff(item.space).of(item.words) for item in alone)
-    also = list(asked)[len(wanted) :]
-    told = _PlanReport(layout, list(asked), terms, milliseconds(single))
+    selected = [subject.registers[path] for path in wanted]
+    layout, read, _ = laid_out(subject.registers, selected, terms, fresh=not remembered)
+    spans = [read_places(register)[0].span for register in read.values()]
+    single = sum(terms.cost.tariff(span.space).of(span.words) for span in spans)
+    also = list(read)[len(wanted) :]
+    report = _PlanReport(layout, list(read), terms, milliseconds(single))
     if as_json:
-        print_json(map=register_map.id, model=subject.model.name, also=also, **told.plain())
+        print_json(map=register_map.id, model=subject.model.name, also=also, **report.plain())
     else:
-        told.print(f"{register_map.title} {subject.model.name}", also)
+        report.print(f"{register_map.title} {subject.model.name}", also)
 
 
 def _subject(register_map: RegisterMap, model: str) -> PlannedModel:
     names = {one.name.casefold(): one.name for one in register_map.models}
     if model.casefold() not in names:
-        raise click.UsageError(unknown("model", model, names.values(), where=f"in {register_map.id}"))
+        refuse(unknown("model", model, names.values(), where=f"in {register_map.id}"))
     return PlannedModel.of(register_map, names[model.casefold()])
 
 
-def _chosen(subject: PlannedModel, ids: Sequence[str], groups: Sequence[str], *, everything: bool) -> list[str]:
+def _selected(subject: PlannedModel, ids: Sequence[str], groups: Sequence[str], *, everything: bool) -> list[str]:
     if everything == bool(ids or groups):
-        message = "say what to read: --all, --group ID, or ids of registers"
-        raise click.UsageError(message)
+        refuse("say what to read: --all, --group ID, or ids of registers")
     if everything:
         return subject.readable
     members = {one.id: one.members for one in subject.model.groups}
     paths: list[str] = []
     for group in groups:
         if group not in members:
-            raise click.UsageError(unknown("group", group, members, where=f"of {subject.model.name}"))
+            refuse(unknown("group", group, members, where=f"of {subject.model.name}"))
         paths += _below(subject, members[group])
     for name in ids:
-        paths += _below(subject, [name]) or _refuse(subject, name)
+        below = _below(subject, [name])
+        if not below and any(_within(path, [name]) for path in subject.registers):
+            refuse(f"`{name}` of {subject.model.name} can only be written")
+        if not below:
+            known = [*subject.readable, *(path.partition("[")[0] for path in subject.readable)]
+            refuse(unknown("register", name, known, where=f"of {subject.model.name}"))
+        paths += below
     return list(dict.fromkeys(paths))
 
 
@@ -112,19 +116,10 @@ def _within(path: str, members: Sequence[str]) -> bool:
     return any(path == one or path.startswith((f"{one}[", f"{one}.")) for one in members)
 
 
-def _refuse(subject: PlannedModel, name: str) -> NoReturn:
-    if any(_within(path, [name]) for path in subject.registers):
-        message = f"`{name}` of {subject.model.name} can only be written"
-        raise click.UsageError(message)
-    arrays = {path.partition("[")[0] for path in subject.readable}
-    raise click.UsageError(unknown("register", name, [*subject.readable, *arrays], where=f"of {subject.model.name}"))
-
-
 def _cost(subject: PlannedModel, baud: int | None, form: str | None, framing: str, *, tcp: bool) -> Cost:
     protocol, serial = subject.protocol, subject.protocol.serial
     if form is not None and form not in FORMATS:
-        message = f"--format {form}: write data bits (7, 8), parity (N, E, O) and stop bits (1, 2), for example 8E1"
-        raise click.UsageError(message)
+        refuse(f"--format {form}: write data bits (7, 8), parity (N, E, O) and stop bits (1, 2), for example 8E1")
     _remark_unlisted("baud", baud, serial.bauds)
     _remark_unlisted("characters", form, serial.formats)
     if not tcp:

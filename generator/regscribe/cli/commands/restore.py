@@ -4,12 +4,12 @@ from pathlib import Path
 
 import click
 
+from regscribe.cli.shared import settings_common
 from regscribe.cli.shared.live_report import heading
 from regscribe.cli.shared.long_work import shielded
 from regscribe.cli.shared.output import print_json
-from regscribe.cli.shared.settings_common import include_option, loaded, plain_restored, restoring, show_restored
+from regscribe.cli.shared.settings_common import RestoreOptions, include_option
 from regscribe.cli.shared.target_options import HELP, confirm_option, identity_option, opened, target_options
-from regscribe.tools import settings
 from regscribe.tools.live.target import Target
 
 
@@ -40,15 +40,17 @@ def command(
     identity: bool,
 ) -> int:
     """Bring a device to the settings of a backup."""
-    backup = loaded(path)
+    backup = settings_common.loaded(path)
     with opened(target, identity=identity) as device, shielded() as shield:
-        with restoring(f"restoring {target}", backup, shield) as tell:
-            task = settings.restore(
-                type(device), backup, include=include, partial=partial, dry_run=dry_run, confirm=confirm, tell=tell
-            )
-            done = device.run(task)
+        options = RestoreOptions(include, partial, dry_run, confirm)
+        done = settings_common.restored(f"restoring {target}", device, backup, options, shield)
         if as_json:
-            print_json(**heading(device, target), file=str(path), dry_run=dry_run, **plain_restored(device, done))
+            print_json(
+                **heading(device, target),
+                file=str(path),
+                dry_run=dry_run,
+                **settings_common.plain_restored(device, done),
+            )
         else:
-            show_restored(device, done, dry_run=dry_run)
+            settings_common.show_restored(device, done, dry_run=dry_run)
     return shield.code

@@ -8,7 +8,7 @@ import click
 from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.live_report import REFUSED, failure, reported
 from regscribe.cli.shared.long_work import INTERRUPTED, progress
-from regscribe.cli.shared.output import print_json, remark, show_table
+from regscribe.cli.shared.output import print_json, refuse, remark, show_table
 from regscribe.cli.shared.target_options import driver_options, silence_loggers
 from regscribe.tools.live import catalogue
 from regscribe.tools.live import scan as scanning
@@ -107,6 +107,5 @@ def _numbers(text: str) -> list[int]:
     parts = [one.strip() for one in text.split(",") if one.strip()]
     wrong = next((one for one in parts if not (one.isascii() and one.isdigit() and len(one) < 9)), "")  # noqa: PLR2004
     if wrong:
-        message = f"--bauds: `{wrong[:40]}` is no speed; write 9600,19200"
-        raise click.UsageError(message)
+        refuse(f"--bauds: `{wrong[:40]}` is no speed; write 9600,19200")
     return [int(one) for one in parts]

@@ -6,13 +6,13 @@ import signal
 import sys
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, TypedDict, Unpack
+from typing import TypedDict, Unpack
 
 import click
 
 from regscribe import simulate as simulator
 from regscribe.cli.shared import simulated_devices
-from regscribe.cli.shared.output import raised_as, tell
+from regscribe.cli.shared.output import raised_as, refuse, tell
 from regscribe.cli.shared.request_log import RequestLog, table
 from regscribe.cli.shared.simulated_devices import WantedDevice
 from regscribe.cli.shared.target_options import given_option
@@ -104,28 +104,21 @@ def command(  # noqa: PLR0913 - one for each option that makes devices
     terminal, else one a line.
     """
     if (options["tcp"] is None) == (options["rtu"] is None):
-        message = "choose one of --tcp HOST:PORT and --rtu DEVICE"
-        raise click.UsageError(message)
+        refuse("choose one of --tcp HOST:PORT and --rtu DEVICE")
     motion = simulated_devices.process_of(process)
     common = {"addressing": addressing, "seed": seed, "process": motion, "state": state or ""}
     wanted = [WantedDevice(map=map_name, model=model, unit=unit, givens=givens)] if map_name is not None else []
     wanted += [simulated_devices.wanted_device(text) for text in devices]
     wanted += simulated_devices.wanted_devices(Path(file)) if file is not None else []
-    _check_count(len(wanted), alone=bool(state or options["save"]))
+    if not wanted:
+        refuse("name a MAP with its --model, or devices by --device MAP:MODEL:UNIT or --devices FILE")
+    if len(wanted) > 1 and (state or options["save"]):
+        refuse(f"--state and --save are for one device, not for {len(wanted)}: give states in a file of --devices")
     service = _service(options)
     maps = simulated_devices.compiled_by_name(one.map for one in wanted)
     with raised_as(click.ClickException, SimulatorError):
         made = [simulated_devices.device_of(one.over(common), maps[one.map]) for one in wanted]
         return _run(made, service, options)
-
-
-def _check_count(devices: int, *, alone: bool) -> None:
-    if not devices:
-        message = "name a MAP with its --model, or devices by --device MAP:MODEL:UNIT or --devices FILE"
-        raise click.UsageError(message)
-    if devices > 1 and alone:
-        message = f"--state and --save are for one device, not for {devices}: give states in a file of --devices"
-        raise click.UsageError(message)
 
 
 def _run(devices: list[SimulatedDevice], service: Service, options: Options) -> int:
@@ -143,20 +136,18 @@ def _run(devices: list[SimulatedDevice], service: Service, options: Options) -> 
 
 async def _serve(devices: list[SimulatedDevice], service: Service, drawn: RequestLog | None) -> int:
     """Serve until Ctrl-C (which is raised) or TERM; SimulatorError as `serve`."""
-    loop, ended = asyncio.get_running_loop(), asyncio.Event()
-    task = loop.create_task(simulator.serve(devices, service, ready=lambda server: _announce(devices, server)))
-    loop.add_signal_handler(signal.SIGTERM, ended.set)
-    view = loop.create_task(table(drawn)) if drawn is not None else None
-    stop = loop.create_task(ended.wait())
+    loop = asyncio.get_running_loop()
+    serving = loop.create_task(simulator.serve(devices, service, ready=lambda server: _announce(devices, server)))
+    loop.add_signal_handler(signal.SIGTERM, serving.cancel)
+    tasks = [serving, *([loop.create_task(table(drawn))] if drawn is not None else [])]
     try:
-        await asyncio.wait((task, stop), return_when=asyncio.FIRST_COMPLETED)
-        if task.done():
-            task.result()
+        await asyncio.wait([serving])
+        if not serving.cancelled():
+            serving.result()
     finally:
-        every: list[asyncio.Task[Any]] = [each for each in (task, stop, view) if each is not None]
-        for each in every:
-            each.cancel()
-        await asyncio.gather(*every, return_exceptions=True)
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
     return STOPPED
 
 
@@ -166,8 +157,7 @@ def _service(options: Options) -> Service:
         factor_of(options["latency"])
         SerialLine.of("", options["baud"] or SerialLine().baud, options["character"] or SerialLine().format)
     if options["paced"] and options["rtu"] != PTY:
-        message = f"--paced goes with --rtu {PTY} only: a serial device has its own speed, TCP has none"
-        raise click.UsageError(message)
+        refuse(f"--paced goes with --rtu {PTY} only: a serial device has its own speed, TCP has none")
     service = Service(
         latency=options["latency"],
         paced=options["paced"],
@@ -187,8 +177,7 @@ def _service(options: Options) -> Service:
 def _endpoint(text: str) -> tuple[str, int]:
     host, colon, port = text.rpartition(":")
     if not colon or not re.fullmatch(r"[0-9]{1,5}", port) or int(port) > 0xFFFF:  # noqa: PLR2004 - the last port
-        message = f"--tcp {text}: write HOST:PORT with a port from 0 to 65535, for example 127.0.0.1:5020"
-        raise click.UsageError(message)
+        refuse(f"--tcp {text}: write HOST:PORT with a port from 0 to 65535, for example 127.0.0.1:5020")
     return host.removeprefix("[").removesuffix("]") or "127.0.0.1", int(port)
 
 

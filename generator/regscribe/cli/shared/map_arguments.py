@@ -5,8 +5,7 @@ from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
 from pathlib import Path
 
-import click
-
+from regscribe.cli.shared.output import refuse
 from regscribe.map_files import ENDINGS, LIBRARY, LOCAL, MAP, file_of, ids_in, kind_of, shipped
 
 
@@ -17,8 +16,7 @@ def find_maps(arguments: Sequence[str], *, libraries: bool = False) -> list[Path
     file, a folder with maps, nor the id of a map, and for a library where none is asked for.
     """
     if not arguments and not LOCAL.is_dir():
-        message = "there is no folder maps/ here: name a map file, a folder or a map id"
-        raise click.UsageError(message)
+        refuse("there is no folder maps/ here: name a map file, a folder or a map id")
     kinds = (MAP, LIBRARY) if libraries else (MAP,)
     found: list[Path] = []
     for argument in arguments or [str(LOCAL)]:
@@ -29,8 +27,7 @@ def find_maps(arguments: Sequence[str], *, libraries: bool = False) -> list[Path
 def find_map(argument: str) -> Path:
     """Return the one file that the argument names. Raises click.UsageError if that is none or a folder."""
     if _is_folder(argument):
-        message = f"{argument} is a folder: name one map in it"
-        raise click.UsageError(message)
+        refuse(f"{argument} is a folder: name one map in it")
     return _file_of(argument, (MAP,))
 
 
@@ -40,8 +37,7 @@ def _is_folder(argument: str) -> bool:
 
 def _file_of(argument: str, kinds: Sequence[str]) -> Path:
     if kind_of(argument) not in kinds:
-        message = f"{argument} is a library: nothing is made of it alone, name a map that uses it"
-        raise click.UsageError(message)
+        refuse(f"{argument} is a library: nothing is made of it alone, name a map that uses it")
     if argument and os.path.exists(argument):  # noqa: PTH110 - as above
         return Path(argument)
     found = file_of(argument, kinds)
@@ -51,8 +47,7 @@ def _file_of(argument: str, kinds: Sequence[str]) -> Path:
             ids = ids_in([folder])
             known += [*ids, *(f"{folder / map_id}{ENDINGS[MAP]}" for map_id in ids)]
         meant = did_you_mean(argument, sorted(known))
-        message = f"there is no map `{argument[:200]}`: neither a file nor a map id{meant}"
-        raise click.UsageError(message)
+        refuse(f"there is no map `{argument[:200]}`: neither a file nor a map id{meant}")
     return found
 
 
@@ -64,8 +59,7 @@ def _files_below(folder: Path, kinds: Sequence[str]) -> list[Path]:
         maps += [Path(root, name) for name in names if name.endswith(ENDINGS[MAP]) and not name.startswith(".")]
     found = sorted(path for path in maps if kind_of(path.name) in kinds)
     if not found:
-        message = f"there is no map (*.yaml) in the folder {folder}"
-        raise click.UsageError(message)
+        refuse(f"there is no map (*.yaml) in the folder {folder}")
     return found
 
 

@@ -4,7 +4,7 @@ import os
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any, TextIO
+from typing import Any, NoReturn, TextIO
 
 import click
 
@@ -12,6 +12,11 @@ from regscribe.visible import json_text, safe, tame
 
 Piece = tuple[str, str]
 """A text and its style in the words of rich (`bold red`); an empty style is plain."""
+
+
+def refuse(message: str) -> NoReturn:
+    """End the command as wrongly used. Raises click.UsageError."""
+    raise click.UsageError(message)
 
 
 @contextmanager

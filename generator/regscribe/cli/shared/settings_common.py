@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import click
 
@@ -15,7 +15,7 @@ from regscribe.tools import settings
 from regscribe.tools.live.target import named
 from regscribe.tools.live.value_text import as_text
 from regscribe_runtime import BareDevice, NotConfigured
-from regscribe_runtime.report import Change, Fate, Progress, Teller
+from regscribe_runtime.report import Change, Fate, Progress
 
 include_option = click.option(
     "--include",
@@ -39,9 +39,19 @@ def settings_reported() -> Iterator[None]:
         raise Failure(message, kind="broken-off", code=UNKNOWN_STATE) from None
 
 
-@contextmanager
-def restoring(label: str, backup: settings.Backup, shield: Shield) -> Iterator[Teller]:
-    """Show a bar while settings are written and report their errors; Ctrl-C breaks off between two requests."""
+class RestoreOptions(NamedTuple):
+    """How settings are written."""
+
+    include: tuple[str, ...]
+    partial: bool
+    dry_run: bool
+    confirm: bool
+
+
+def restored(
+    label: str, device: BareDevice, backup: settings.Backup, options: RestoreOptions, shield: Shield
+) -> settings.Restored:
+    """Write settings behind a progress bar and report errors; Ctrl-C breaks off between two requests."""
     with settings_reported(), progress(sum(1 for _ in backup.settings()), label) as advance:
 
         def tell(state: Progress) -> None:
@@ -50,7 +60,7 @@ def restoring(label: str, backup: settings.Backup, shield: Shield) -> Iterator[T
                 raise KeyboardInterrupt(message)
             advance(f"{state.done} of {state.total}: {state.what}")
 
-        yield tell
+        return device.run(settings.restore(type(device), backup, tell=tell, **options._asdict()))
 
 
 def loaded(path: Path) -> settings.Backup:

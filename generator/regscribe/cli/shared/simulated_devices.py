@@ -14,7 +14,7 @@ from regscribe import source
 from regscribe.cli.shared.compiled_maps import compiled_maps
 from regscribe.cli.shared.diagnostic_text import findings
 from regscribe.cli.shared.map_arguments import did_you_mean, find_map
-from regscribe.cli.shared.output import raised_as, show
+from regscribe.cli.shared.output import raised_as, refuse, show
 from regscribe.model import GivenKind, RegisterMap
 from regscribe.simulate import SimulatedDevice, SimulatorError, ThermalProcess
 from regscribe.tools.live.givens import codes_in, flag_of
@@ -45,8 +45,7 @@ def wanted_device(text: str) -> WantedDevice:
     """The device of `MAP:MODEL:UNIT`, or `MAP:MODEL`."""
     found = re.fullmatch(r"(.+?):([^:]+)(?::([0-9]{1,3}))?", text, re.DOTALL)
     if not found:
-        message = f"--device {text}: write MAP:MODEL:UNIT, for example athena/series-c:16C:3"
-        raise click.UsageError(message)
+        refuse(f"--device {text}: write MAP:MODEL:UNIT, for example athena/series-c:16C:3")
     return WantedDevice(map=found[1], model=found[2], unit=int(found[3]) if found[3] else None)
 
 
@@ -55,12 +54,10 @@ def wanted_devices(path: Path) -> list[WantedDevice]:
     document, found = source.load(path)
     if document is None:
         show(findings(found), stream=sys.stderr)
-        message = f"--devices {path}: it cannot be read as YAML"
-        raise click.UsageError(message)
+        refuse(f"--devices {path}: it cannot be read as YAML")
     listed = document.data.get("devices") if isinstance(document.data, dict) else None
     if not isinstance(listed, list) or not listed:
-        message = f"--devices {path}: write `devices:` with a list of mappings that have `map`, `model` and `unit`"
-        raise click.UsageError(message)
+        refuse(f"--devices {path}: write `devices:` with a list of mappings that have `map`, `model` and `unit`")
     return [_wanted(each, f"--devices {path}: device {number}") for number, each in enumerate(listed, start=1)]
 
 
@@ -68,8 +65,7 @@ def _wanted(entry: object, where: str) -> WantedDevice:
     given = _mapping(entry, where)
     givens, unit, seed = given.get("given") or {}, given.get("unit"), given.get("seed")
     if not isinstance(givens, dict) or not all(isinstance(each, int | None) for each in (unit, seed)):
-        message = f"{where}: `given` is a mapping, `unit` and `seed` are whole numbers"
-        raise click.UsageError(message)
+        refuse(f"{where}: `given` is a mapping, `unit` and `seed` are whole numbers")
     return WantedDevice(
         map=str(given["map"]),
         model=str(given["model"]),
@@ -84,12 +80,10 @@ def _wanted(entry: object, where: str) -> WantedDevice:
 
 def _mapping(entry: object, where: str) -> dict[str, Any]:
     if not isinstance(entry, dict) or not {"map", "model"} <= entry.keys():
-        message = f"{where} is no mapping with `map` and `model`"
-        raise click.UsageError(message)
+        refuse(f"{where} is no mapping with `map` and `model`")
     for key in entry:
         if key not in KEYS:
-            message = f"{where} has the key `{key}`: known are {', '.join(KEYS)}{did_you_mean(str(key), KEYS)}"
-            raise click.UsageError(message)
+            refuse(f"{where} has the key `{key}`: known are {', '.join(KEYS)}{did_you_mean(str(key), KEYS)}")
     return entry
 
 
@@ -116,13 +110,11 @@ def process_of(text: str | None, *, where: str = "--process") -> ThermalProcess 
         name, equals, value = part.partition("=")
         if not equals or name.strip() not in known:
             wanted = f"NAME=NUMBER with one of {', '.join(known)}"
-            message = f"{where} {text}: `{part}` is not {wanted}{did_you_mean(name, known)}"
-            raise click.UsageError(message)
+            refuse(f"{where} {text}: `{part}` is not {wanted}{did_you_mean(name, known)}")
         try:
             given[name.strip()] = float(value)
         except ValueError:
-            message = f"{where} {text}: `{value}` is no number"
-            raise click.UsageError(message) from None
+            refuse(f"{where} {text}: `{value}` is no number")
     with raised_as(click.UsageError, SimulatorError):
         return ThermalProcess(**given)
 
@@ -138,8 +130,7 @@ def device_of(wanted: WantedDevice, register_map: RegisterMap) -> SimulatedDevic
     values = dict(_given(one, register_map) for one in wanted.givens)
     addressing = wanted.addressing or MODBUS
     if addressing not in ADDRESSINGS:
-        message = f"addressing {addressing} is none of {', '.join(ADDRESSINGS)}"
-        raise click.UsageError(message)
+        refuse(f"addressing {addressing} is none of {', '.join(ADDRESSINGS)}")
     try:
         device = SimulatedDevice(
             register_map,
@@ -153,8 +144,7 @@ def device_of(wanted: WantedDevice, register_map: RegisterMap) -> SimulatedDevic
     except SimulatorError as error:
         missing = next((given.id for given in register_map.givens if given.id not in values), "")
         hint = f"\nOn the command line: --given {missing}=VALUE" if missing else ""
-        message = f"{error}{hint}"
-        raise click.UsageError(message) from None
+        refuse(f"{error}{hint}")
     if wanted.state:
         device.load(wanted.state)
     return device
@@ -163,14 +153,12 @@ def device_of(wanted: WantedDevice, register_map: RegisterMap) -> SimulatedDevic
 def _model(model: str | None, register_map: RegisterMap) -> str:
     names = [one.name for one in register_map.models]
     if model is None:
-        message = f"--model is missing: {register_map.id} has {', '.join(names)}"
-        raise click.UsageError(message)
+        refuse(f"--model is missing: {register_map.id} has {', '.join(names)}")
     if model not in names:
         folded = {name.casefold(): name for name in names}
         near = get_close_matches(model.casefold(), folded, n=1)
         hint = f"; did you mean `{folded[near[0]]}`?" if near else ""
-        message = f"{register_map.id} has no model `{model}`: it has {', '.join(names)}{hint}"
-        raise click.UsageError(message)
+        refuse(f"{register_map.id} has no model `{model}`: it has {', '.join(names)}{hint}")
     return model
 
 
@@ -178,11 +166,9 @@ def _given(text: str, register_map: RegisterMap) -> tuple[str, bool | frozenset[
     name, equals, value = text.partition("=")
     kinds = {given.id: given.kind for given in register_map.givens}
     if not equals or name not in kinds:
-        message = f"--given {text}: write ID=VALUE; {register_map.id} has the givens {', '.join(kinds) or '(none)'}"
-        raise click.UsageError(message)
+        refuse(f"--given {text}: write ID=VALUE; {register_map.id} has the givens {', '.join(kinds) or '(none)'}")
     try:
         codes = kinds[name] is GivenKind.CODES
         return name, codes_in(value.split(",")) if codes else flag_of(name, value)
     except ValueError as error:
-        message = f"--given {text}: {error}"
-        raise click.UsageError(message) from None
+        refuse(f"--given {text}: {error}")
