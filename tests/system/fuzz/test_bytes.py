@@ -24,8 +24,7 @@ from regscribe.tools.live.decode import Decoded, Decoder
 from regscribe.tools.live.errors import TargetError
 from regscribe.tools.programs import program_file as programs
 from regscribe.tools.settings import backup_file as backups
-from regscribe.tools.settings.backup import BackupError
-from regscribe.tools.settings.compare import differences, side
+from regscribe.tools.settings.backup import BackupError, differences, side
 from regscribe.tools.settings.compatibility import fit
 from regscribe_runtime import RegscribeError
 from regscribe_runtime.link.exchange import Conversation

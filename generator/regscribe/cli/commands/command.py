@@ -33,8 +33,9 @@ def command(*, target: Target, as_json: bool, name: str | None, confirm: bool, d
         return 0
     find = partial(names.command_named, name=name)
     with opened(target, identity=identity, check=find) as device, shielded() as shield:
-        unsent = dry(device).written if dry_run else []
+        held_back = dry(device).written if dry_run else []
         device.run(tasks.run(find(type(device)), confirm=confirm))
+        unsent = [one.request for one in held_back]
     if as_json:
         requests = {"requests": plain_requests(unsent)} if dry_run else {}
         print_json(**heading(device, target), command=name, sent=not dry_run, **requests)

@@ -45,12 +45,8 @@ def command(
         options = RestoreOptions(include, partial, dry_run, confirm)
         done = settings_common.restored(f"restoring {target}", device, backup, options, shield)
         if as_json:
-            print_json(
-                **heading(device, target),
-                file=str(path),
-                dry_run=dry_run,
-                **settings_common.plain_restored(device, done),
-            )
+            plain = settings_common.plain_restored(device, done)
+            print_json(**heading(device, target), file=str(path), dry_run=dry_run, **plain)
         else:
             settings_common.show_restored(device, done, dry_run=dry_run)
     return shield.code

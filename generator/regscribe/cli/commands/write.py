@@ -6,20 +6,17 @@ from typing import Any
 import click
 
 from regscribe.cli.shared.completion_values import complete_register, complete_value
-from regscribe.cli.shared.live_report import heading, plain_requests, show_requests
+from regscribe.cli.shared.live_report import Unsent, heading, plain_requests, show_requests
 from regscribe.cli.shared.long_work import shielded
 from regscribe.cli.shared.output import print_json, remark, show_table
 from regscribe.cli.shared.target_options import HELP, confirm_option, identity_option, opened, target_options
 from regscribe.tools.live import names, value_text
-from regscribe.tools.live.dry_run import DryWrite, dry
+from regscribe.tools.live.dry_run import dry
 from regscribe.tools.live.errors import TargetError, unknown
 from regscribe.tools.live.reading import held_of
 from regscribe.tools.live.target import Target
 from regscribe_runtime import BareDevice, Register, ValueRefused
 from regscribe_runtime.operations import tasks
-from regscribe_runtime.operations.session import Task
-from regscribe_runtime.report import WriteReport
-from regscribe_runtime.wire.requests import Request
 
 
 @click.command(
@@ -65,11 +62,13 @@ def command(  # noqa: PLR0913 - the options of the command
         if rounded:
             meant = device.run(held_of(register, meant, view))
         if dry_run and register.governs is not None:
-            unsent = _unsent(device, tasks.configure({name: meant}, dry_run=True, confirm=confirm, rounded=rounded))
+            planned = device.run(tasks.configure({name: meant}, dry_run=True, confirm=confirm, rounded=rounded))
+            unsent: Unsent = planned.requests
         else:
-            unsent = dry(device).written if dry_run else []
+            held_back = dry(device).written if dry_run else []
             verified = None if dry_run else verify
             device.run(tasks.write(register, meant, view=view, rounded=rounded, confirm=confirm, verify=verified))
+            unsent = [one.request for one in held_back]
         spared = device.session.wear.spared > 0
     if as_json:
         written = {"value": value_text.show(register, meant), "unit": unit, "written": not (dry_run or spared)}
@@ -97,9 +96,3 @@ def _writable(driver: type[BareDevice], name: str, view: str | None) -> Register
     except ValueError as error:  # its functions do not write
         raise TargetError(str(error)) from None
     return register
-
-
-def _unsent(device: BareDevice, planned: Task[WriteReport]) -> list[DryWrite]:
-    """The requests of a planned change of the line, which a dry run of the driver could not follow."""
-    requests = (Request(one.function, one.address, len(one.words), one.words) for one in device.run(planned).requests)
-    return [DryWrite(device.session.unit, request) for request in requests]

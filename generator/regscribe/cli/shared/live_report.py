@@ -15,7 +15,6 @@ import click
 from regscribe.cli.shared.output import hexadecimal, print_json_line, remark, show_table, warn
 from regscribe.tools.live.capture import RECEIVED, SENT
 from regscribe.tools.live.decode import Decoded, Decoder
-from regscribe.tools.live.dry_run import DryWrite
 from regscribe.tools.live.errors import TargetError
 from regscribe.tools.live.reading import RegisterReading
 from regscribe.tools.live.target import Target
@@ -24,7 +23,12 @@ from regscribe.visible import safe
 from regscribe_runtime import BareDevice, ExceptionAnswer, LinkLost, NoAnswer, PartialWrite, RegscribeError
 from regscribe_runtime.errors import GATEWAY, LeftAt, NotApplied, NotConfigured, ReadBackDiffers, WriteUnknown
 from regscribe_runtime.link.links import Trace
+from regscribe_runtime.report import Sent
 from regscribe_runtime.wire.capture import frames
+from regscribe_runtime.wire.requests import Request
+
+Unsent = Sequence[Request | Sent]
+"""Requests that a dry run did not send."""
 
 REFUSED, USAGE, SILENT, UNKNOWN_STATE = 1, 2, 3, 4
 
@@ -104,21 +108,19 @@ def plain(reading: RegisterReading) -> dict[str, Any]:
     return {"value": reading.value, "unit": reading.unit}
 
 
-def show_requests(unsent: Sequence[DryWrite]) -> None:
+def show_requests(unsent: Unsent) -> None:
     """List the requests that a dry run held back; a remark where there are none."""
     if not unsent:
         remark("nothing would be written: the device holds it already")
         return
-    requests = [write.request for write in unsent]
-    rows = [(f"{one.function:02d}", str(one.address), hexadecimal(one.words)) for one in requests]
+    rows = [(f"{one.function:02d}", str(one.address), hexadecimal(one.words)) for one in unsent]
     show_table(("FUNCTION", "ADDRESS", "WORDS"), rows)
     remark("nothing was sent")
 
 
-def plain_requests(unsent: Sequence[DryWrite]) -> list[dict[str, Any]]:
+def plain_requests(unsent: Unsent) -> list[dict[str, Any]]:
     """The requests that a dry run held back, in JSON."""
-    requests = [write.request for write in unsent]
-    return [{"function": one.function, "address": one.address, "words": list(one.words)} for one in requests]
+    return [{"function": one.function, "address": one.address, "words": list(one.words)} for one in unsent]
 
 
 class FrameTracer:

@@ -3,9 +3,17 @@
 Operations are tasks for both kinds of driver: `device.run(backup(type(device)))`, awaited for an asyncio driver.
 """
 
-from regscribe.tools.settings.backup import Backup, BackupError, Saved, UnfitError
+from regscribe.tools.settings.backup import (
+    Backup,
+    BackupError,
+    Saved,
+    SettingDifference,
+    Side,
+    UnfitError,
+    differences,
+    side,
+)
 from regscribe.tools.settings.backup_file import load, save, to_text
-from regscribe.tools.settings.compare import SettingDifference, Side, differences, side
 from regscribe.tools.settings.compatibility import KINDS
 from regscribe.tools.settings.restore import Restored, restore
 from regscribe.tools.settings.take import backup, factory
