@@ -47,7 +47,7 @@ def backup(driver: Driver, *, link: str = "", now: datetime | None = None) -> Ta
     registers = {register.path: register for register in (*writable(driver), *identity)}
 
     def task(session: Session) -> Operation[Backup]:
-        snapshot = yield from read_with(list(registers.values()), unit_needs)(session)
+        snapshot = yield from read_with(registers.values(), unit_needs)(session)
         state = snapshot.valid
         saved: dict[str, Saved] = {}
         for path, register in registers.items():
