@@ -24,7 +24,7 @@ from regscribe.tools.live.decode import Decoded, Decoder
 from regscribe.tools.live.errors import TargetError
 from regscribe.tools.programs import program_file as programs
 from regscribe.tools.settings import backup_file as backups
-from regscribe.tools.settings.backup import BackupError, differences, side
+from regscribe.tools.settings.backup import BackupError, Side, differences
 from regscribe.tools.settings.compatibility import fit
 from regscribe_runtime import RegscribeError
 from regscribe_runtime.link.exchange import Conversation
@@ -368,7 +368,7 @@ def test_any_file_is_read_or_refused(kind: str, data: Any, tmp_path: Path) -> No
     if kind == "backup" and found is not None:
         driver = catalogue.find(MODEL).driver
         fit(found, driver, state={}, givens={})
-        assert list(differences(side(found, "a"), side(found, "b"))) == []
+        assert list(differences(Side.of(found, "a"), Side.of(found, "b"))) == []
         backups.to_text(found)
 
 

@@ -33,8 +33,8 @@ def command(*, left: str, right: str, stays: bool, packages: tuple[str, ...], co
         message = "compare the factory's defaults with a device or a file"
         raise Failure(message, kind="usage", code=USAGE)
     factory = FACTORY in (left, right)
-    first = settings.side(*backup_of(right if left == FACTORY else left, packages, config))
-    second = _factory(first, packages) if factory else settings.side(*backup_of(right, packages, config))
+    first = settings.Side.of(*backup_of(right if left == FACTORY else left, packages, config))
+    second = _factory(first, packages) if factory else settings.Side.of(*backup_of(right, packages, config))
     one, other = (second, first) if left == FACTORY else (first, second)
     found = settings.differences(one, other, stays=stays, missing=not factory)
     blind: list[str] = []

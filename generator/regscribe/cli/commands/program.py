@@ -3,7 +3,6 @@
 from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any, TypeVar, cast
 
 import click
 
@@ -11,14 +10,7 @@ from regscribe import files
 from regscribe.cli.shared.live_report import REFUSED, UNKNOWN_STATE, Failure, code_of, heading, kind_of, reported
 from regscribe.cli.shared.output import print_json, remark, show_table, tell
 from regscribe.cli.shared.program_text import show_program
-from regscribe.cli.shared.target_options import (
-    HELP,
-    confirm_option,
-    identity_option,
-    json_option,
-    opened,
-    target_options,
-)
+from regscribe.cli.shared.target_options import confirm_option, identity_option, json_option, opened, target_options
 from regscribe.tools import programs
 from regscribe.tools.live import catalogue
 from regscribe.tools.live.errors import TargetError
@@ -27,8 +19,6 @@ from regscribe.tools.programs.picture import picture
 from regscribe.tools.programs.run import Act
 from regscribe.tools.programs.write import WhileRunning
 from regscribe_runtime import BareDevice
-
-F = TypeVar("F", bound=Callable[..., Any])
 
 program_option = click.option(
     "--program",
@@ -45,9 +35,7 @@ file_argument = click.argument("file", type=click.Path(path_type=Path))
 CODES = "Exit code 0: done, 1: refused, 2: wrong usage, 3: nobody answers, 4: what the device holds is unknown."
 
 
-@click.group(
-    epilog="Example: regscribe program write oven anneal.yaml && regscribe program start oven",
-)
+@click.group(epilog="Example: regscribe program write oven anneal.yaml && regscribe program start oven")
 def command() -> None:
     """Setpoint programs (ramp and soak) of controllers: read as YAML, drawn, checked, written and run.
 
@@ -55,14 +43,13 @@ def command() -> None:
     """
 
 
-def live(name: str, example: str = "", about: str = "") -> Callable[[F], F]:
+def live(name: str, example: str = "", about: str = "") -> Callable[[Callable[..., int]], click.Command]:
     """Declare a command with TARGET and `--program`; its help is `about`, else the function's docstring."""
 
-    def declare(function: F) -> F:
-        made: Any = program_option(target_options(function))
+    def declare(function: Callable[..., int]) -> click.Command:
+        function.__doc__ = about or function.__doc__
         epilog = f"{example}\n\n{CODES}" if example else CODES
-        result: Any = command.command(name=name, help=f"{about}\n\n{HELP}" if about else None, epilog=epilog)(made)
-        return cast("F", result)
+        return command.command(name=name, epilog=epilog)(program_option(target_options(function)))
 
     return declare
 

@@ -3,16 +3,7 @@
 Operations are tasks for both kinds of driver: `device.run(backup(type(device)))`, awaited for an asyncio driver.
 """
 
-from regscribe.tools.settings.backup import (
-    Backup,
-    BackupError,
-    Saved,
-    SettingDifference,
-    Side,
-    UnfitError,
-    differences,
-    side,
-)
+from regscribe.tools.settings.backup import Backup, BackupError, Saved, SettingDifference, Side, UnfitError, differences
 from regscribe.tools.settings.backup_file import load, save, to_text
 from regscribe.tools.settings.compatibility import KINDS
 from regscribe.tools.settings.restore import Restored, restore
@@ -33,6 +24,5 @@ __all__ = [
     "load",
     "restore",
     "save",
-    "side",
     "to_text",
 ]

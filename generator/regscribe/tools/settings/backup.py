@@ -77,6 +77,11 @@ class Side(NamedTuple):
     model: str
     settings: Mapping[str, Saved]
 
+    @classmethod
+    def of(cls, backup: Backup, name: str) -> "Side":
+        """A backup as one side."""
+        return cls(name, backup.origin.map_id, backup.origin.model, dict(backup.settings()))
+
 
 class SettingDifference(NamedTuple):
     """A setting whose two values differ; None on the side that does not have it."""
@@ -84,11 +89,6 @@ class SettingDifference(NamedTuple):
     path: str
     left: Saved | None
     right: Saved | None
-
-
-def side(backup: Backup, name: str) -> Side:
-    """A backup as one side."""
-    return Side(name, backup.origin.map_id, backup.origin.model, dict(backup.settings()))
 
 
 def differences(left: Side, right: Side, *, stays: bool = False, missing: bool = True) -> tuple[SettingDifference, ...]:

@@ -38,7 +38,7 @@ def bring(driver: Any, backup: Backup, **options: Any) -> Any:
 
 
 def same(one: Backup, other: Backup) -> bool:
-    return not settings.differences(settings.side(one, "one"), settings.side(other, "other"))
+    return not settings.differences(settings.Side.of(one, "one"), settings.Side.of(other, "other"))
 
 
 def edited(backup: Backup, **values: Any) -> Backup:
@@ -74,7 +74,7 @@ def test_what_one_device_was_set_to_another_of_its_model_holds_after_a_restore(
         bring(one.driver, moved(one.driver, before), partial=True)
         kept = take(one.driver)
         settings.save(file, settings.to_text(kept))
-    changed = settings.differences(settings.side(before, "before"), settings.side(kept, "kept"))
+    changed = settings.differences(settings.Side.of(before, "before"), settings.Side.of(kept, "kept"))
     assert len(changed) > 10
     assert settings.load(file) == kept
     with serve(name, model) as other:
@@ -234,7 +234,7 @@ def test_what_was_changed_since_the_factory_is_what_differs_from_the_manuals_def
     with serve("athena/series-c", "16C") as bench:
         driver = type(bench.driver)
         bench.device.poke("input_filter", 9)
-        left = settings.side(take(bench.driver), "now")
+        left = settings.Side.of(take(bench.driver), "now")
         right = settings.Side("factory", driver.map_id, driver.model, settings.factory(driver))
         found = settings.differences(left, right, missing=False)
     assert [(one.path, one.left.value, one.right.value) for one in found if one.left and one.right] == [
