@@ -47,10 +47,10 @@ COMMANDS = {
     "decode": "Say in names what captured frames mean.",
     "completion": "Let a shell complete commands, devices and registers.",
 }
-"""Name and help of each command; `regscribe.cli.<name>` holds it and is imported when it is called for."""
+"""Name and help of each command, whose module `regscribe.cli.commands.<name>` is imported only to run it."""
 
 INTERRUPTED, CLOSED_PIPE = 130, 141
-"""128 + SIGINT or SIGPIPE, as a shell counts; nothing is said of a reader that went away (`| head`)."""
+"""128 + SIGINT or SIGPIPE, as in a shell; a reader that went away (`| head`) is no error."""
 
 UNREADABLE = 2
 

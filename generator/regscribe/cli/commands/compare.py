@@ -72,7 +72,7 @@ def _columns(text: str | None) -> list[str]:
 
 
 def _is_map(other: str) -> bool:
-    """Whether the second argument names a map: a YAML file, or what is no file and does not look like one."""
+    """Whether the second argument names a map: a YAML file, or neither a file nor a name with the ending of a table."""
     path = Path(other)
     try:
         return path.suffix in MAPS or (path.suffix.lower() not in TABLES and not path.exists())

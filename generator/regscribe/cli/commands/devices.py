@@ -17,9 +17,7 @@ from regscribe_runtime.driver.identify import Known
 ACCESS = {"r": "read", "w": "write", "rw": "read, write"}
 
 
-@click.command(
-    epilog="Example: regscribe devices athena\n\nExit code 0: found, 1: nothing found, 2: wrong usage.",
-)
+@click.command(epilog="Example: regscribe devices athena\n\nExit code 0: found, 1: nothing found, 2: wrong usage.")
 @click.argument("search", nargs=-1, metavar="[WORD]...", shell_complete=complete_model)
 @click.option("--registers", is_flag=True, help="List the registers, groups and commands of the model.")
 @driver_options

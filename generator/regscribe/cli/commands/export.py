@@ -21,13 +21,13 @@ class ExportCommand(click.Command):
     """The command with a choice of all exporters, and with their options."""
 
     def get_params(self, ctx: click.Context) -> list[click.Parameter]:
-        """Return the parameters, those of the exporters among them, found once a run."""
+        """Return the parameters, with those of the exporters, which are loaded once a run."""
         found: list[click.Parameter] = ctx.meta.setdefault(__name__, []) or _parameters()
         ctx.meta[__name__] = found
         return [*found, *super().get_params(ctx)]
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Beside an unknown option, tell which exporters are broken: it may be one of theirs."""
+        """Parse the arguments; the error for an unknown option names broken exporters, which may have it."""
         try:
             return super().parse_args(ctx, args)
         except click.NoSuchOption as error:

@@ -221,7 +221,7 @@ def _save(path: Path, text: str) -> None:
 
 
 def _fits(given: programs.ProgramFile, here: programs.ProgramSlot) -> None:
-    """Say so if a file was made for another device; it may fit nevertheless, which the check tells."""
+    """Print a remark if a file was made for another device; whether it fits nevertheless, the check decides."""
     made, own = (given.program.map_id, given.program.model), (here.map_id, here.model)
     if any(one and one != other for one, other in zip(made, own, strict=True)):
         remark(f"the file was made for {' '.join(filter(None, made))}; this is {' '.join(own)}")

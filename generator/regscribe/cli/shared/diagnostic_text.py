@@ -105,7 +105,7 @@ def excerpt(span: Span, lines: Sequence[str]) -> tuple[str, str] | None:
 
 
 def _one_column_each(text: str) -> str:
-    """Replace tabs and what is not printable, so that carets stay under their text."""
+    """Replace tabs and unprintable characters, so that carets stay under their text."""
     return "".join(
         " " if char == "\t" else char if char.isprintable() else "\N{REPLACEMENT CHARACTER}" for char in text
     )

@@ -39,7 +39,7 @@ OPTIONS = {
     "rounded=True rounds": "--rounded rounds",
     'pass while_running="reset"': "add --while-running reset",
 }
-"""Advice of drivers about their arguments, and what it is for a command."""
+"""Advice of drivers about their arguments, and the same about options."""
 
 UNSETTLED = (PartialWrite, WriteUnknown, ReadBackDiffers, NotApplied, NotConfigured, LeftAt)
 """Errors after which the device does not hold what it held, or nobody knows; some of them are NoAnswer, too."""

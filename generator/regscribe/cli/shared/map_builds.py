@@ -52,7 +52,7 @@ def make(path: Path, templates: Templates | None = None) -> Made:
 
 
 def _load() -> "tuple[Callable[[Path], Compiled], Callable[[RegisterMap], Card]]":
-    """Import what compiles a map and what tells the index of it."""
+    """Import the compiler, and the function that makes a map's row of the index."""
     from regscribe.evidence.index_row import card  # noqa: PLC0415 - a build without change needs neither
     from regscribe.pipeline import compile_map  # noqa: PLC0415 - 100 ms that a build without change does not need
 

@@ -1,4 +1,4 @@
-"""Devices to simulate, from the command line or a file: which map and model, what it is given, how it begins."""
+"""Devices to simulate, from the command line or a file: map and model, unit, givens, initial state, process."""
 
 import re
 import sys
