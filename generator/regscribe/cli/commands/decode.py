@@ -11,12 +11,10 @@ from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.live_report import REFUSED, reported
 from regscribe.cli.shared.output import print_json, remark, tell
 from regscribe.cli.shared.target_options import driver_options
-from regscribe.tools.live import catalogue, givens, names, value_text
+from regscribe.tools.live import capture, catalogue, givens, names, target, value_text
 from regscribe.tools.live import config as configuration
-from regscribe.tools.live.capture import captured
 from regscribe.tools.live.decode import Decoded, DecodedItem, Decoder
 from regscribe.tools.live.errors import TargetError
-from regscribe.tools.live.target import given_texts
 from regscribe.visible import safe
 from regscribe_runtime import BareDevice
 from regscribe_runtime.values.serial_line import ADDRESSINGS, FRAMINGS
@@ -62,7 +60,7 @@ def command(  # noqa: PLR0913 - the options of the command
     lines = _lines(digits) if digits else log or sys.stdin
     decoded = [
         (part.line, decoder.feed(frame, part.direction))
-        for part in captured(lines, framing or "")
+        for part in capture.captured(lines, framing or "")
         for frame in part.frames
     ]
     if as_json:
@@ -82,7 +80,7 @@ def _decoder(driver: type[BareDevice], state: Sequence[str], given: Sequence[str
             message = f"--with {text}: write NAME=VALUE, for example input_type=RTD"
             raise TargetError(message)
         known[name] = value_text.parse(names.register_named(driver, name), value)
-    texts = given_texts(given)
+    texts = target.given_texts(given)
     return Decoder(driver, givens=givens.understood(driver, texts) if texts else {}, state=known, first=first)
 
 

@@ -8,9 +8,8 @@ from regscribe.cli.shared.completion_values import complete_model
 from regscribe.cli.shared.live_report import REFUSED, reported
 from regscribe.cli.shared.output import print_json, remark, show_table
 from regscribe.cli.shared.target_options import driver_options
-from regscribe.tools.live import catalogue, givens, names
+from regscribe.tools.live import catalogue, givens, names, value_text
 from regscribe.tools.live import config as configuration
-from regscribe.tools.live.value_text import choices
 from regscribe_runtime import Register
 from regscribe_runtime.driver.identify import Known
 
@@ -94,7 +93,7 @@ def _register(register: Register[Any]) -> dict[str, Any]:
         "access": ACCESS[register.access],
         "kind": register.kind,
         "unit": _units(register),
-        "choices": list(choices(register)),
+        "choices": list(value_text.choices(register)),
         "address": view.address(register.at),
         "space": view.space,
         "words": view.words,

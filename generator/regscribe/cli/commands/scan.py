@@ -10,10 +10,8 @@ from regscribe.cli.shared.live_report import REFUSED, failure, reported
 from regscribe.cli.shared.long_work import INTERRUPTED, progress
 from regscribe.cli.shared.output import print_json, refuse, remark, show_table
 from regscribe.cli.shared.target_options import driver_options, silence_loggers
-from regscribe.tools.live import catalogue
-from regscribe.tools.live import scan as scanning
+from regscribe.tools.live import catalogue, scan
 from regscribe.tools.live.link_names import LinkName
-from regscribe.tools.live.scan import Probe
 from regscribe.tools.live.target import named
 from regscribe_runtime import LinkLost
 
@@ -57,18 +55,18 @@ def command(  # noqa: PLR0913 - the options of the command
     with reported():
         target = named(link, config, packages)
         catalogue.models(target.packages)  # a package that is none is told before the line is asked for minutes
-        asked = scanning.units(units)
-        links = scanning.settings(target.link, _numbers(bauds), [one for one in formats.split(",") if one])
-        probes = scanning.scan(links, asked, address=address, packages=target.packages, names=names, every=every)
+        asked = scan.units(units)
+        links = scan.settings(target.link, _numbers(bauds), [one for one in formats.split(",") if one])
+        probes = scan.scan(links, asked, address=address, packages=target.packages, names=names, every=every)
     return _run(probes, links, asked, as_json=as_json)
 
 
-def _run(probes: Iterator[Probe], links: Sequence[LinkName], asked: Sequence[int], *, as_json: bool) -> int:
-    found: list[Probe] = []
+def _run(probes: Iterator[scan.Probe], links: Sequence[LinkName], asked: Sequence[int], *, as_json: bool) -> int:
+    found: list[scan.Probe] = []
     noise: dict[str, str] = {}
     ended = ""
     code = 0
-    most = math.ceil(scanning.longest(links, asked))
+    most = math.ceil(scan.longest(links, asked))
     remark(f"asking {count(len(asked), 'unit')} with {count(len(links), 'setting')}: at most {most} s")
     try:
         with progress(len(links) * len(asked), "scanning") as advance:
@@ -85,7 +83,7 @@ def _run(probes: Iterator[Probe], links: Sequence[LinkName], asked: Sequence[int
     return code or (0 if found else REFUSED)
 
 
-def _show(found: Sequence[Probe], noise: Mapping[str, str], ended: str, *, as_json: bool) -> None:
+def _show(found: Sequence[scan.Probe], noise: Mapping[str, str], ended: str, *, as_json: bool) -> None:
     if as_json:
         plain = [
             {"unit_id": one.unit, "link": str(one.link), "answer": one.answer, "models": list(one.models)}

@@ -14,7 +14,6 @@ from regscribe.cli.shared.completion_values import complete_model, complete_targ
 from regscribe.cli.shared.live_report import REFUSED, Failure, FrameTracer, reported
 from regscribe.tools.live import target as targets
 from regscribe.tools.live.errors import TargetError
-from regscribe.tools.live.target import Target
 from regscribe_runtime import BareDevice
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -110,7 +109,7 @@ def target_options(function: F) -> F:
 
 @contextmanager
 def opened(
-    target: Target, *, identity: bool = False, check: Callable[[type[BareDevice]], object] | None = None
+    target: targets.Target, *, identity: bool = False, check: Callable[[type[BareDevice]], object] | None = None
 ) -> Iterator[BareDevice]:
     """The open driver of a target while the block runs; errors in it, too, become one message and an exit code.
 
@@ -137,7 +136,7 @@ def silence_loggers() -> None:
     logging.getLogger().addHandler(logging.NullHandler())
 
 
-def _check_identity(device: BareDevice, target: Target) -> None:
+def _check_identity(device: BareDevice, target: targets.Target) -> None:
     """Ask the device whether it is of its driver's model; Failure if it shows to be another one."""
     try:
         targets.check_identity(device, target)
