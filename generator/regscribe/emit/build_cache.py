@@ -1,9 +1,9 @@
-"""What the last run wrote, so that an unchanged map need not be compiled again.
+"""A record of what the last run wrote, so that an unchanged map is not compiled again.
 
-A map counts as unchanged only if its own bytes, those of the files that it builds on, the whole generator and every
-file written from it are what they were; only maps without any finding are remembered, so that no warning goes unseen.
-The record lies in the user's cache directory, not in the output: the output stays reproducible, and losing the record
-costs one full build.
+A map is unchanged only if its own bytes, those of the files that it builds on, the whole generator and every file
+written from it are; only maps without any finding are recorded, so that each run shows all warnings. The record lies
+in the user's cache directory, not in the output: the output stays reproducible, and losing the record costs one full
+build.
 """
 
 import hashlib
@@ -22,7 +22,7 @@ import regscribe_runtime
 from regscribe.emit.docs_index import Card, card_of
 
 NOTHING = ""
-"""In place of a hash: there must be no file. One that appears there would be taken instead of another."""
+"""In place of a hash: there must be no file, since the map would build on it instead of another one."""
 
 LIBRARIES = ("jinja2", "yaml", "jsonschema")
 """Another version of these may read or render something differently."""
@@ -30,7 +30,7 @@ LIBRARIES = ("jinja2", "yaml", "jsonschema")
 
 @dataclass(frozen=True, slots=True)
 class Counts:
-    """How much a map holds; registers and enums count once, however many models have them."""
+    """Numbers of models, registers and enums of a map; each register and enum counts once, not for each model."""
 
     models: int = 0
     registers: int = 0
@@ -64,12 +64,9 @@ class Cache:
         """Return the entry of the map at `path` if compiling it again would change nothing."""
         entry = self.entries.get(key(path))
         with suppress(OSError, ValueError):
-            if entry is not None and _same(entry.sources) and self._written(entry):
+            if entry is not None and _same(entry.sources) and _same(entry.files, self.out):
                 return entry
         return None
-
-    def _written(self, entry: BuildRecord) -> bool:
-        return all(digest((self.out / path).read_bytes()) == known for path, known in entry.files.items())
 
     def save(self) -> None:
         """Keep the record for the next run; a cache that cannot be written is no error."""
@@ -83,9 +80,9 @@ class Cache:
 
 
 def load(out: Path, more: Iterable[tuple[str, bytes]] = ()) -> Cache:
-    """Return the record of the last run into `out`; an empty one if there is none as this generator wrote it.
+    """Return the record of the last run into `out`; an empty one without a sound record of this generator.
 
-    `more` are names and contents of what decides about the texts besides the generator: templates.
+    `more` are names and contents of further inputs: templates.
     """
     empty = Cache(out, fingerprint(more))
     try:
@@ -106,16 +103,16 @@ def _entry(plain: Mapping[str, object]) -> BuildRecord:
     return BuildRecord(str(fields["id"]), sources, files, Counts(**counts), card_of(fields["card"]))
 
 
-def _same(sources: Mapping[str, str]) -> bool:
-    """Whether a map and all that it builds on are what they were."""
+def _same(digests: Mapping[str, str], folder: Path = Path()) -> bool:
+    """Tell whether the files below `folder` have these digests; with NOTHING, whether there is none."""
     return all(
-        digest(Path(source).read_bytes()) == known if known else not os.path.lexists(source)
-        for source, known in sources.items()
+        digest((folder / path).read_bytes()) == known if known else not os.path.lexists(folder / path)
+        for path, known in digests.items()
     )
 
 
 def key(path: Path) -> str:
-    """Return what a file stands under: as it is named, since a link may lead elsewhere next time."""
+    """Return the key of a file: its path with links unresolved, since a link may lead elsewhere next time."""
     return os.path.abspath(path)  # noqa: PTH100 - resolve() would follow links
 
 
@@ -125,7 +122,7 @@ def digest(content: bytes) -> str:
 
 
 def fingerprint(more: Iterable[tuple[str, bytes]] = ()) -> str:
-    """Return a hash of all that decides what a map becomes: the package, the schema, Python, the libraries, `more`."""
+    """Return a hash of all inputs beside the map: the package, the schema, Python, the libraries, `more`."""
     total = hashlib.sha256(sys.version.encode())
     for name, content in chain(_ingredients(), more):
         total.update(f"{name}\0{len(content)}\0".encode())

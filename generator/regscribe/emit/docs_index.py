@@ -90,7 +90,7 @@ def _cells(plain: Iterable[object]) -> tuple[str, ...]:
 def render_index(cards: Iterable[Card]) -> dict[str, str]:
     """Return the list of all references, ordered by id, with their coverage."""
     ordered = sorted(cards, key=lambda card: card.id)
-    families = "\n".join(table(FAMILIES, [card.family for card in ordered]))
+    families = _table(FAMILIES, [card.family for card in ordered])
     parts = [HEADER, "# Register references", families, coverage_text(ordered).removesuffix("\n")]
     return {PATH: "\n\n".join(parts) + "\n"}
 
@@ -100,24 +100,23 @@ def coverage_text(cards: Sequence[Card]) -> str:
     parts = [
         "## Coverage",
         ABOUT_FACTS,
-        "\n".join(table(FACTS, [row for card in cards for row in card.facts])),
+        _table(FACTS, [row for card in cards for row in card.facts]),
         "### Addresses",
         ABOUT_ADDRESSES,
-        "\n".join(table(ADDRESSES, [row for card in cards for row in card.addresses])),
+        _table(ADDRESSES, [row for card in cards for row in card.addresses]),
         "### Errata and worked examples",
-        "\n".join(table(SUMS, [card.sums for card in cards])),
+        _table(SUMS, [card.sums for card in cards]),
     ]
     remarks = [row for card in cards for row in card.remarks]
     if remarks:
         parts += [
             "### Inferred and open",
             "What the manual does not say outright, and what it leaves open.",
-            "\n".join(table(REMARKS, remarks)),
+            _table(REMARKS, remarks),
         ]
     return "\n\n".join(parts) + "\n"
 
 
-def table(headers: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
-    """Return the lines of a table of ready cells."""
+def _table(headers: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     lines = [headers, ["---"] * len(headers), *rows]
-    return [f"| {' | '.join(line)} |".replace("|  |", "| |") for line in lines]
+    return "\n".join(f"| {' | '.join(line)} |".replace("|  |", "| |") for line in lines)

@@ -94,17 +94,12 @@ def aliases(register: Register) -> tuple[View, ...]:
 
 def formula(view: View, at: int, arrays: Sequence[Array]) -> str:
     """Return the address of any element: `8004 + 2*(i - 1)`; the plain address outside arrays."""
-    terms = (
-        _term(view.stride * array.stride, letter, array.first) for array, letter in zip(arrays, LETTERS, strict=False)
-    )
-    return " + ".join([str(view.address(at)), *terms])
-
-
-def _term(stride: int, letter: str, first: int) -> str:
-    if first == 0:
-        return letter if stride == 1 else f"{stride}*{letter}"
-    steps = f"({letter} - {first})" if first > 0 else f"({letter} + {-first})"
-    return steps if stride == 1 else f"{stride}*{steps}"
+    terms = [str(view.address(at))]
+    for array, letter in zip(arrays, LETTERS, strict=False):
+        stride = view.stride * array.stride
+        steps = f"({letter} {'-' if array.first > 0 else '+'} {abs(array.first)})" if array.first else letter
+        terms.append(steps if stride == 1 else f"{stride}*{steps}")
+    return " + ".join(terms)
 
 
 def last_address(view: View, at: int, arrays: Sequence[Array]) -> int:

@@ -1,8 +1,8 @@
 """Jinja's sandbox for a user's templates: text of a template, or an error with file, line and what is wrong."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
-from types import TracebackType
+from traceback import walk_tb
 
 from jinja2 import FileSystemLoader, StrictUndefined, TemplateNotFound, TemplateSyntaxError
 from jinja2.sandbox import ImmutableSandboxedEnvironment
@@ -11,7 +11,7 @@ from regscribe.emit.write import WriteError
 from regscribe.visible import safe
 
 MOST_TEXT = 300
-"""Most characters that are shown of what an expression in a template says."""
+"""Most characters of an error that are shown."""
 
 
 class Sandbox:
@@ -30,7 +30,7 @@ class Sandbox:
         del self._environment.filters["random"], self._environment.globals["lipsum"]  # the same text every time
 
     def text(self, name: str, known: Mapping[str, object]) -> str:
-        """Render the template `name` with what is known to it. Raises WriteError."""
+        """Render the template `name` with the variables in `known`. Raises WriteError."""
         try:
             text = self._environment.get_template(name).render(known)
             text.encode()  # raises for what no file can hold
@@ -40,17 +40,12 @@ class Sandbox:
         return text
 
     def _where(self, name: str, error: Exception) -> str:
-        """File and line of an error; the file alone where no line is to blame."""
+        """Return file and line of an error; the file alone if the error is at no line of a template."""
         if isinstance(error, TemplateSyntaxError):
             return f"{self._folder / (error.name or name)}:{error.lineno}"
-        lines = [(path, line) for path, line in _lines(error.__traceback__) if path.is_relative_to(self._folder)]
-        return f"{lines[-1][0]}:{lines[-1][1]}" if lines else str(self._folder / name)
-
-
-def _lines(traceback: TracebackType | None) -> Iterator[tuple[Path, int]]:
-    while traceback is not None:
-        yield Path(traceback.tb_frame.f_code.co_filename), traceback.tb_lineno
-        traceback = traceback.tb_next
+        steps = [(Path(frame.f_code.co_filename), line) for frame, line in walk_tb(error.__traceback__)]
+        lines = [f"{path}:{line}" for path, line in steps if path.is_relative_to(self._folder)]
+        return lines[-1] if lines else str(self._folder / name)
 
 
 def _what(error: Exception) -> str:

@@ -135,9 +135,8 @@ def _labels(test: Is, model: Model | None) -> dict[int, str]:
     return labels_of(enum)
 
 
-def words_of_test(test: Is, model: Model | None = None, wording: Wording | None = None) -> str:
+def words_of_test(test: Is, model: Model | None = None, wording: Wording = PLAIN) -> str:
     """Return one test: `input_type is 0 to 12`, `inpt is one of linear_inputs`; labels come from the model's enums."""
-    wording = wording or PLAIN
     given = wording.text(test.given)
     if not test.register:
         return f"not {given}" if test.negated else given
@@ -148,7 +147,7 @@ def words_of_test(test: Is, model: Model | None = None, wording: Wording | None 
     return f"{subject} is {'not ' if test.negated else ''}{codes}"
 
 
-def condition_words(condition: Condition, model: Model | None = None, wording: Wording | None = None) -> str:
+def condition_words(condition: Condition, model: Model | None = None, wording: Wording = PLAIN) -> str:
     """Return all tests of a condition joined by `and`; `always` without tests."""
     return " and ".join(words_of_test(test, model, wording) for test in condition.tests) or "always"
 

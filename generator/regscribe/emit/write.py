@@ -60,13 +60,16 @@ def write(
     changed = {path: text for path, text in files.items() if before[path] != text.encode()}
     tops = {path.partition("/")[0] if "/" in path else "" for path in targets}
     stale = stale_files(targets, sorted(tops, key=lambda top: (not top, top)), out, owned)  # "" last
-    if not check:
+    diffs: list[str] = []
+    if check:
+        diffs += [_unified(path, before[path], text.encode()) for path, text in sorted(changed.items())]
+        diffs += [_unified(path, _read(out / path), None) for path in stale]
+    else:
         _replace({targets[path]: text for path, text in changed.items()})
         for path in stale:
             _remove(path, out)
     unchanged = tuple(path for path in targets if path not in changed)
-    diff = _difference(changed, stale, before, out) if check else ""
-    return Report(tuple(sorted(changed)), tuple(stale), unchanged, diff)
+    return Report(tuple(sorted(changed)), tuple(stale), unchanged, "".join(diffs))
 
 
 def with_package_files(files: Mapping[str, str], kept: Iterable[str] = ()) -> dict[str, str]:
@@ -99,11 +102,6 @@ def _read(target: Path) -> bytes | None:
         return None
     except OSError as error:
         raise _refusal(target, error) from None
-
-
-def _difference(changed: Mapping[str, str], stale: Iterable[str], before: Mapping[str, bytes | None], out: Path) -> str:
-    diffs = [_unified(path, before[path], text.encode()) for path, text in sorted(changed.items())]
-    return "".join([*diffs, *(_unified(path, _read(out / path), None) for path in stale)])
 
 
 def _unified(path: str, old: bytes | None, new: bytes | None) -> str:

@@ -5,7 +5,7 @@ from fractions import Fraction
 from itertools import groupby, product
 from typing import NamedTuple, TypeVar
 
-from regscribe.model import Interval, Kind, Number, Register, WireType
+from regscribe.model import Kind, Number, Register, WireType
 from regscribe.reference.settled_scales import forms, widest
 
 K = TypeVar("K", bound=Hashable)
@@ -54,14 +54,14 @@ def _of_number(register: Register) -> tuple[Stretch, ...]:
     intervals = [interval for case in register.range for interval in case.then.intervals]
     if not intervals or any(case.then.decimals for case in register.range):
         return (Stretch(low, high),)
-    stretches = [_stretch(interval, low, high) for interval in intervals]
+    stretches = [
+        Stretch(
+            Fraction(interval.low if isinstance(interval.low, Number) else low),
+            Fraction(interval.high if isinstance(interval.high, Number) else high),
+        )
+        for interval in intervals
+    ]
     return (*stretches, *(Stretch(special.value, special.value) for special in register.specials))
-
-
-def _stretch(interval: Interval, low: Fraction, high: Fraction) -> Stretch:
-    first = interval.low if isinstance(interval.low, Number) else low
-    last = interval.high if isinstance(interval.high, Number) else high
-    return Stretch(Fraction(first), Fraction(last))
 
 
 def _without_faults(register: Register, stretches: tuple[Stretch, ...]) -> tuple[Stretch, ...]:

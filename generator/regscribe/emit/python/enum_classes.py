@@ -26,8 +26,8 @@ class Origin(NamedTuple):
 class NamedClasses:
     """Class names by content.
 
-    Of a name that models define differently, the definition that most models share keeps the plain name; the others
-    get their models' names behind it. What a library has under the same key is imported from its module.
+    If models define a name differently, the definition that most models share keeps the plain name, and the names of
+    the others end with those of their models. A class that a library offers under the same key is imported.
     """
 
     register_map: RegisterMap
@@ -48,7 +48,8 @@ class NamedClasses:
             self._collect(register, model)
         for register, model in found:  # their enums were collected for all models before
             if register.kind is Kind.FIELDS:
-                self._want(register.id, word_content(register), model, self._word_body(register))
+                body = self._word_body(register)
+                self._note(register.id, word_content(register), word_key(register), model, body)
 
     def declare(self, enum: Enum, owner: str) -> None:
         """Note an enum of a library, which no register needs to have; without members it is no class."""
@@ -56,33 +57,26 @@ class NamedClasses:
             self._enum(enum, owner, f"{enum.id.replace('_', ' ').capitalize()}.")
 
     def _enum(self, enum: Enum, model: str, about: str) -> None:
-        content = enum_content(enum)
-        self._know(content, enum_key(enum))
-        self._want(enum.id, content, model, _enum_body(enum, about))
+        self._note(enum.id, enum_content(enum), enum_key(enum), model, _enum_body(enum, about))
 
     def _collect(self, register: Register, model: str) -> None:
         """Note the classes that a register of a model needs, but for that of a word of bit fields."""
         for enum in (register.enum, *(part.enum for part in register.fields)):
             if enum:
                 self._enum(enum, model, _about(register))
-        if register.kind in {Kind.FLAGS, Kind.FIELDS}:
-            self._know(word_content(register), word_key(register))
         if register.kind is Kind.FLAGS:
-            self._want(register.id, word_content(register), model, _flags_body(register))
+            self._note(register.id, word_content(register), word_key(register), model, _flags_body(register))
         if specials(register):
             content = special_content(register)
-            self._know(content, str(content))
-            self._want(f"{register.id}_special", content, model, _special_body(register))
+            self._note(f"{register.id}_special", content, str(content), model, _special_body(register))
 
-    def _know(self, content: Content, key: str) -> None:
-        if content in self.keys:
-            return
-        self.keys[content] = key
-        origin = self.offered.get(key)
-        if origin and origin.name not in self.taken | self.imported:
-            self.imports[content] = origin
-
-    def _want(self, name: str, content: Content, model: str, body: list[str]) -> None:
+    def _note(self, name: str, content: Content, key: str, model: str, body: list[str]) -> None:
+        """Note a class that a model needs: the id that names it, and the key under which a library may offer it."""
+        if content not in self.keys:
+            self.keys[content] = key
+            origin = self.offered.get(key)
+            if origin and origin.name not in self.taken | self.imported:
+                self.imports[content] = origin
         models = self.wanted.setdefault(camel(name), {}).setdefault(content, [])
         if model not in models:
             models.append(model)
@@ -146,17 +140,17 @@ def _registers(members: Sequence[Register | Array]) -> list[Register]:
 
 
 def enum_content(enum: Enum) -> Content:
-    """What makes two enums the same class."""
+    """Identity of an enum's class in a module: ids, codes, labels and cells."""
     return ("enum", enum.id, tuple((member.code, member.id, member.label, member.cells) for member in enum.members))
 
 
 def enum_key(enum: Enum) -> str:
-    """What makes two enums the same class in whichever module: their contents and what is said of each member."""
+    """Identity of an enum's class in all modules: its content and the descriptions of its members."""
     return f"enum {enum_content(enum)} {[member_words(member, enum) for member in enum.members]}"
 
 
 def word_content(register: Register) -> Content:
-    """What makes two words the same class."""
+    """Identity of a word's class in a module: ids, labels and bits of its parts, and their enums."""
     parts = tuple(
         (part.id, part.label, part.low, part.high, part.enum and enum_content(part.enum)) for part in register.fields
     )
@@ -164,7 +158,7 @@ def word_content(register: Register) -> Content:
 
 
 def word_key(register: Register) -> str:
-    """What makes two words the same class in whichever module: their contents and what is said of each part."""
+    """Identity of a word's class in all modules: its content and the descriptions of its parts."""
     parts = [
         (part.id, part.label, part.low, part.high, one_line(part.description), part.enum and enum_key(part.enum))
         for part in register.fields
@@ -178,7 +172,7 @@ def specials(register: Register) -> list[tuple[Fraction, str, str]]:
 
 
 def special_content(register: Register) -> Content:
-    """What makes two sets of special values the same class."""
+    """Identity of a class of special values."""
     return ("special", register.id, tuple(specials(register)))
 
 

@@ -64,15 +64,11 @@ class Specs:
         match value:
             case Condition(tests, name) if tests and name:
                 return self.pool.share(expression(value), name, f"{name}_{self.model.name}")
-            case (Case(when, then),) if when.always:
-                return self._always(then)
-        return None
-
-    def _always(self, then: object) -> Call:
-        match then:
-            case Range((interval,), None):
+            case (Case(when, Range((interval,), None)),) if when.always:
                 return call(self.pool.helper("within"), self.of(interval.low), self.of(interval.high))
-        return call(self.pool.helper("always"), self.of(then))
+            case (Case(when, then),) if when.always:
+                return call(self.pool.helper("always"), self.of(then))
+        return None
 
     def shared(self, register: Register, use: str, fact: object) -> Expression | None:
         """The constant of a fact of a register; None where the fact is None or empty."""

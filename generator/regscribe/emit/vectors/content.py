@@ -6,7 +6,6 @@ from typing import Any
 
 from regscribe.emit.vectors import offered_values
 from regscribe.emit.vectors.candidates import Proposal, wire_bits
-from regscribe.emit.vectors.domain import TEXTS, domain
 from regscribe.emit.vectors.scale import Scale, scale_now
 from regscribe.emit.vectors.situations import Situation
 from regscribe.model import Kind, Order, Register, View, WireType, show
@@ -99,7 +98,7 @@ def _named(register: Register, value: Fraction, known: Surroundings) -> Json:
 def _writes(register: Register, view: View, scale: Scale | None, situation: Situation) -> Json:
     known, encodes, refuses = situation.known, [], []
     offered: Iterable[tuple[Fraction | str, str]]
-    if register.kind in TEXTS:
+    if register.kind in offered_values.TEXTS:
         offered = offered_values.texts(register, view)
     else:
         offered = _once(offered_values.numbers(register, view, scale, known, full=situation.full)).items()
@@ -113,7 +112,7 @@ def _writes(register: Register, view: View, scale: Scale | None, situation: Situ
         encodes += _rounded(register, view, scale, known)
     found: Json = {"encode": encodes, "refuse": refuses}
     if situation.full and word_order(view, known) is not None:
-        found["domain"] = list(domain(register, view, scale, known))
+        found["domain"] = list(offered_values.domain(register, view, scale, known))
     return found
 
 

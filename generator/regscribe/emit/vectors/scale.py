@@ -6,7 +6,7 @@ from fractions import Fraction
 from math import ceil, floor, gcd, lcm
 
 from regscribe.model import Range, Register, View, WireType
-from regscribe.reference import Surroundings, choose, decimal_factor, ieee_number, limits, shortest
+from regscribe.reference import Known, choose, decimal_factor, ieee_number, limits, shortest
 
 LARGEST = {
     WireType.FLOAT32: shortest(ieee_number(0x7F7FFFFF, WireType.FLOAT32), WireType.FLOAT32),
@@ -93,12 +93,12 @@ class Scale:
         )
 
 
-def range_now(register: Register, known: Surroundings) -> Range | None:
+def range_now(register: Register, known: Known) -> Range | None:
     """Return the range that holds for writing in this situation; None if nothing can be written or no case holds."""
     return choose(register.range, known) if register.access.writable else None
 
 
-def scale_now(register: Register, view: View, known: Surroundings) -> Scale | None:
+def scale_now(register: Register, view: View, known: Known) -> Scale | None:
     """Return the scale in this situation; None if no case holds or the decimals are no number of decimals."""
     conversion = choose(register.scale, known)
     if conversion is None:

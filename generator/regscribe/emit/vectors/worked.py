@@ -5,7 +5,7 @@ from typing import Any
 
 from regscribe.emit.vectors.scale import scale_now
 from regscribe.model import FrameExample, GivenKind, Outcome, Register, RegisterMap, ValueExample, View, show
-from regscribe.reference import RefusedError, Surroundings, UnknownValueError, decode, encode, number_of
+from regscribe.reference import RefusedError, UnknownValueError, decode, encode, number_of
 
 Json = dict[str, Any]
 Pairs = tuple[tuple[str, Fraction], ...]
@@ -33,14 +33,14 @@ def _value(register_map: RegisterMap, example: ValueExample) -> Json:
     known = _ExampleState(register_map, example.model, example.state)
     encodes = False
     try:
-        scale_now(register, view, known.surroundings)  # asks also where a fault or a clipped view decides first
-        decode(register, view, words, known.surroundings)
+        scale_now(register, view, known)  # asks also where a fault or a clipped view decides first
+        decode(register, view, words, known)
         if isinstance(example.value, Fraction) and not example.lossy and register.access.writable:
-            encodes = encode(register, view, example.value, known.surroundings) == words
+            encodes = encode(register, view, example.value, known) == words
     except (RefusedError, UnknownValueError):
         encodes = False  # a limit or a condition that the example leaves open
     found: Json = {"source": example.source, "model": example.model, "register": example.register, "view": view.name}
-    found |= {"words": list(words), **known.facts(), **_outcome(example)}
+    found |= {"words": list(words), **known.as_json(), **_outcome(example)}
     return found | ({"encodes": True} if encodes else {})
 
 
@@ -61,12 +61,12 @@ def _frame(register_map: RegisterMap, example: FrameExample) -> Json:
     known = _ExampleState(register_map, example.model, example.state, example.writes)
     places = ((_place(register_map, example.model, path, example.view), value) for path, value in example.writes)
     try:
-        encodes = bool([encode(register, view, value, known.surroundings) for (register, view), value in places])
+        encodes = bool([encode(register, view, value, known) for (register, view), value in places])
     except (RefusedError, UnknownValueError):
         encodes = False
     found: Json = {"source": example.source, "model": example.model, "frame": example.frame.hex(" ").upper()}
     found |= {"crc": example.crc, "answer": example.answer, "unit": example.unit, "function": example.function}
-    found |= _request_facts(example) | (known.facts() if example.writes else {})
+    found |= _request_facts(example) | (known.as_json() if example.writes else {})
     return found | ({"encodes": True} if encodes else {})
 
 
@@ -79,22 +79,11 @@ def _request_facts(example: FrameExample) -> Json:
     return found | {name: getattr(example, name) for name in ("view", "command") if getattr(example, name)}
 
 
-class _RecordedValues(dict[str, Fraction]):
-    """Values that record which of them were read."""
-
-    def __init__(self, values: dict[str, Fraction]) -> None:
-        super().__init__(values)
-        self.read: dict[str, None] = {}
-
-    def __getitem__(self, name: str) -> Fraction:
-        self.read[name] = None
-        return super().__getitem__(name)
-
-
 class _ExampleState:
-    """State of the device in an example: what the example states, else the defaults.
+    """State of the device in an example, for the reference: what the example states, else the defaults.
 
-    An example may name a given: then that is the only code of the given (a boolean: true unless 0).
+    An example may name a given: then that is the only code of the given (a boolean: true unless 0). The values that
+    the reference looks up are recorded.
     """
 
     def __init__(self, register_map: RegisterMap, model: str, stated: Pairs, writes: Pairs = ()) -> None:
@@ -110,21 +99,28 @@ class _ExampleState:
                 self._owners[name] = register.path
                 if register.path in values:
                     fields[name] = Fraction(int(values[register.path]) >> bits.low & ((1 << bits.width) - 1))
-        self._values = _RecordedValues(fields | values)
+        self._values = fields | values
+        self._read: dict[str, None] = {}
         kinds = {given.id: given.kind for given in register_map.givens}
-        self._codes = {
+        self.codes = {
             name: frozenset({values[name]} if name in values else ())
             for name, kind in kinds.items()
             if kind is GivenKind.CODES
         }
-        self._facts = {name: bool(values.get(name, 0)) for name, kind in kinds.items() if kind is GivenKind.BOOLEAN}
-        self.surroundings = Surroundings(self._values, self._codes, self._facts)
+        self.facts = {name: bool(values.get(name, 0)) for name, kind in kinds.items() if kind is GivenKind.BOOLEAN}
 
-    def facts(self) -> Json:
+    def look_up(self, subject: str) -> Fraction:
+        """Return the value of `subject`; raises UnknownValueError if there is none."""
+        if subject not in self._values:
+            raise UnknownValueError(subject)
+        self._read[subject] = None
+        return self._values[subject]
+
+    def as_json(self) -> Json:
         """Return `state` as the example states it, `assumed` for defaults that were read so far, and `givens`."""
-        givens: Json = {name: [show(code) for code in sorted(codes)] for name, codes in self._codes.items()}
-        givens |= self._facts
-        read = dict.fromkeys(self._owners.get(name, name) for name in self._values.read)
+        givens: Json = {name: [show(code) for code in sorted(codes)] for name, codes in self.codes.items()}
+        givens |= self.facts
+        read = dict.fromkeys(self._owners.get(name, name) for name in self._read)
         state = {name: show(value) for name, value in self._stated.items() if name not in givens}
         assumed = {name: show(self._values.get(name, Fraction(0))) for name in read if name not in self._known}
         found = {"state": state, "assumed": assumed, "givens": givens}
