@@ -3,6 +3,11 @@
 A rule is a pure function under a decorator of `rule`, in the module of its subject. `check` runs them all.
 """
 
+import re
+from collections import defaultdict
+from collections.abc import Iterator
+from typing import NamedTuple
+
 from regscribe.checks import (  # noqa: F401 (each declares its rules)
     addresses,
     commands,
@@ -23,16 +28,95 @@ from regscribe.checks import (  # noqa: F401 (each declares its rules)
     worked_values,
     write_order,
 )
-from regscribe.checks.rule import entries
-from regscribe.checks.run import WAIVER_RULES, run
-from regscribe.model import Diagnostic, RegisterMap, Rule
-
-RULES: tuple[Rule, ...] = tuple(sorted((*(entry.rule for entry in entries()), *WAIVER_RULES), key=lambda rule: rule.id))
-"""All rules of this room."""
+from regscribe.checks.rule import Finding, RuleScope, entries
+from regscribe.model import Diagnostic, RegisterMap, Rule, Severity, Span, Waiver
 
 __all__ = ["RULES", "check"]
 
+NOTHING_WAIVED = Rule(
+    "RS0467", "Waiver that waives nothing", "What it excused is gone; it would hide the next one.", Severity.WARNING
+)
+UNKNOWN_RULE = Rule(
+    "RS0468", "Waiver of a rule that cannot be waived", "Only findings of a map's meaning can be excused."
+)
+NO_REASON = Rule("RS0469", "Waiver without a reason", "Whoever reads the map must be able to judge the exception.")
+
+RULES: tuple[Rule, ...] = tuple(
+    sorted((*(entry.rule for entry in entries()), NOTHING_WAIVED, UNKNOWN_RULE, NO_REASON), key=lambda rule: rule.id)
+)
+"""All rules of this room."""
+
+INDEX = re.compile(r"\[\d+\]")
+
+
+class LocatedFinding(NamedTuple):
+    """A finding with its rule and the model it was made on (empty: the map)."""
+
+    rule: Rule
+    model: str
+    finding: Finding
+
 
 def check(register_map: RegisterMap) -> list[Diagnostic]:
-    """All that is wrong with a map, less what it waives, sorted by place."""
-    return run(register_map, entries())
+    """All that is wrong with a map, less what it waives, each place once, sorted by place and rule."""
+    rules = entries()
+    scopes = tuple(RuleScope.of(register_map, model) for model in register_map.models)
+    found = [LocatedFinding(entry.rule, *each) for entry in rules for each in entry.run(scopes)] if scopes else []
+    used: set[Waiver] = set()
+    kept = [one for one in found if not _waived(one, register_map, used)]
+    waivable = frozenset(entry.rule.id for entry in rules)
+    kept += [LocatedFinding(rule, "", finding) for rule, finding in _useless(register_map, used, waivable)]
+    return sorted(_merge(kept, len(register_map.models)), key=lambda diagnostic: (diagnostic.span, diagnostic.rule))
+
+
+def _waived(found: LocatedFinding, register_map: RegisterMap, used: set[Waiver]) -> bool:
+    """Whether a waiver with a reason names the subject of a finding; a path may lack its indexes."""
+    subject = found.finding.subject
+    subjects = {subject, INDEX.sub("", subject)}
+    matching = [one for one in register_map.waivers if one.rule == found.rule.id and one.at in subjects]
+    valid = [waiver for waiver in matching if waiver.reason.strip()]
+    used.update(valid)
+    return bool(valid)
+
+
+def _useless(register_map: RegisterMap, used: set[Waiver], waivable: frozenset[str]) -> Iterator[tuple[Rule, Finding]]:
+    """What is wrong with the waivers themselves; `used` have removed a finding, `waivable` are the ids of all rules."""
+    for waiver in register_map.waivers:
+        if waiver.rule not in waivable:
+            message = f"the waiver at `{waiver.at}` names {waiver.rule}, which is no rule that can be waived"
+            help_text = "correct the id; `regscribe explain` knows all"
+            yield UNKNOWN_RULE, Finding(waiver.at, waiver.span, message, help_text)
+        elif not waiver.reason.strip():
+            message = f"the waiver of {waiver.rule} at `{waiver.at}` gives no reason"
+            yield NO_REASON, Finding(waiver.at, waiver.span, message, "say why the map is right nevertheless")
+        elif waiver not in used:
+            message = f"nothing at `{waiver.at}` is against {waiver.rule}"
+            yield NOTHING_WAIVED, Finding(waiver.at, waiver.span, message, "remove the waiver, or correct `at`")
+
+
+def _merge(found: list[LocatedFinding], models: int) -> Iterator[Diagnostic]:
+    """One diagnostic for all findings of one rule at one place: the first speaks, the others are counted."""
+    places: defaultdict[tuple[str, Span], list[LocatedFinding]] = defaultdict(list)
+    for one in found:
+        places[one.rule.id, one.finding.span].append(one)
+    for together in places.values():
+        rule, _, first = together[0]
+        message = first.message + _others(together) + _models(together, models)
+        related = (first.related,) if first.related else ()
+        yield Diagnostic(rule.id, message, first.span, first.help, rule.severity, related)
+
+
+def _others(together: list[LocatedFinding]) -> str:
+    """The further findings of the first one's model: their messages, or how many if they are many."""
+    mine = dict.fromkeys(one.finding.message for one in together if one.model == together[0].model)
+    more = list(mine)[1:]
+    if len(more) > 2:  # noqa: PLR2004 (two more still make a readable line)
+        return f" (and {len(more)} more like it)"
+    return "".join(f"; {message}" for message in more)
+
+
+def _models(together: list[LocatedFinding], models: int) -> str:
+    names = list(dict.fromkeys(one.model for one in together if one.model))
+    if not names or models == 1:
+        return ""
+    return " (on every model)" if len(names) == models else f" (on {', '.join(names)})"

@@ -63,7 +63,8 @@ def _at(command: Command, message: str, help_text: str, related: Related | None 
 
 def touched(sent: SentStep, scope: RuleScope) -> Iterator[TakenAddresses]:
     """The addresses of registers that a step writes to, in whole or in part."""
-    every = scope.once(("stretches", sent.space), lambda: _stretches(sent.space, scope))
+    in_space = (one for register in scope.model.registers for one in stretches(register) if one.space is sent.space)
+    every = scope.once(("stretches", sent.space), lambda: sorted(in_space, key=attrgetter("first", "last")))
     start = bisect_left(every, sent.step.address - LONGEST, key=attrgetter("first"))
     for place in range(start, len(every)):
         stretch = every[place]
@@ -73,21 +74,15 @@ def touched(sent: SentStep, scope: RuleScope) -> Iterator[TakenAddresses]:
             yield stretch
 
 
-def _stretches(space: Space, scope: RuleScope) -> list[TakenAddresses]:
-    every = (one for register in scope.model.registers for one in stretches(register) if one.space is space)
-    return sorted(every, key=attrgetter("first", "last"))
-
-
 def _around(sent: SentStep, scope: RuleScope) -> Iterator[View]:
     """Views in whose region a step begins, one for each region with its own alignment and functions."""
-    for view in scope.once("regions", lambda: _regions(scope)):
+    views = (view for register in scope.model.registers for view in register.views if view.region)
+    distinct = scope.once(
+        "regions", lambda: {(view.space, view.region, view.align, view.functions): view for view in views}
+    )
+    for view in distinct.values():
         if view.region and view.space is sent.space and view.region[0] <= sent.step.address <= view.region[1]:
             yield view
-
-
-def _regions(scope: RuleScope) -> list[View]:
-    views = (view for register in scope.model.registers for view in register.views if view.region)
-    return list({(view.space, view.region, view.align, view.functions): view for view in views}.values())
 
 
 @step_rule("RS0478", "Command writes a read-only register")

@@ -25,7 +25,13 @@ def wrong_sort(register: Register, value: Fraction | str) -> str:
         return "which is neither 0 nor 1"
     if not isinstance(value, str):
         return ""
-    return _no_version(register, value) if register.kind is Kind.VERSION else _no_text(register, value)
+    if register.kind is Kind.VERSION:
+        return _no_version(register, value)
+    room = 2 * register.base.words
+    problem = f"which is {len(value)} characters with room for {room}" if len(value) > room else ""
+    if value.endswith(" "):
+        problem = "whose blanks at the end are never read"
+    return problem if value.isascii() else "which is no ASCII text"
 
 
 def _no_version(register: Register, text: str) -> str:
@@ -36,15 +42,6 @@ def _no_version(register: Register, text: str) -> str:
         pattern = ".".join(["n" * size] * (register.version_digits // (size or 1)))
         return f"which is not written as {pattern}" if register.version_digits else ""
     return ""
-
-
-def _no_text(register: Register, text: str) -> str:
-    room = 2 * register.base.words
-    if not text.isascii():
-        return "which is no ASCII text"
-    if text.endswith(" "):
-        return "whose blanks at the end are never read"
-    return f"which is {len(text)} characters with room for {room}" if len(text) > room else ""
 
 
 def outside_type(register: Register, value: Fraction | str) -> bool:

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 
 from regscribe.checks.held_values import impossible, impossible_part, shown
 from regscribe.checks.rule import Finding, Problem, RuleScope, model_rule, register_rule
-from regscribe.model import BitField, Effect, Kind, Process, Register, Related, WireType
+from regscribe.model import BitField, Effect, Kind, Process, Register, Related, WireType, registers_of
 
 RAM = "ram"
 NO_NUMBERS = frozenset({Kind.STRING, Kind.FLAGS, Kind.FIELDS, Kind.VERSION})
@@ -16,11 +16,10 @@ ProcessRole = tuple[str, str, bool]
 
 def _sources(register: Register) -> set[str]:
     """The registers that decide what a register, or one of its bits, is."""
-    followed = {case.then for case in register.follows}
-    conditions = [case.when for case in register.follows]
-    conditions += [field.follows for field in register.fields if field.follows is not None]
     shadowed = {register.shadows} if register.shadows else set()
-    return followed | shadowed | {path for condition in conditions for path in condition.registers}
+    conditions = [field.follows for field in register.fields if field.follows is not None]
+    of_bits = {path for condition in conditions for path in condition.registers}
+    return {case.then for case in register.follows}.union(registers_of(register.follows), of_bits, shadowed)
 
 
 @model_rule("RS0431", "Registers follow or shadow each other")
@@ -118,11 +117,10 @@ def _numbers(part: object, prefix: str, *names: str) -> Iterator[ProcessRole]:
 def impossible_effect(scope: RuleScope) -> Iterator[Finding]:
     """A register without a default cannot return to it, and none can be set to what its words cannot spell."""
     for command in scope.model.commands:
-        for effect in command.effects:
-            for register, problem in _impossible(effect, scope):
-                related = Related(f"`{register.path}` stands here", register.span)
-                message = f"command `{command.id}` {problem}"
-                yield Finding(command.id, command.span, message, "correct the effect, or the register", related)
+        for register, problem in (each for effect in command.effects for each in _impossible(effect, scope)):
+            related = Related(f"`{register.path}` stands here", register.span)
+            message = f"command `{command.id}` {problem}"
+            yield Finding(command.id, command.span, message, "correct the effect, or the register", related)
 
 
 def _impossible(effect: Effect, scope: RuleScope) -> Iterator[tuple[Register, str]]:

@@ -8,7 +8,7 @@ from math import ceil, floor
 from regscribe.checks.held_values import NUMBERS
 from regscribe.checks.representable import HELP_TYPE, Fit, end_values, ends_of, listed, numbers, unfit_limits, values_of
 from regscribe.checks.rule import Problem, RuleScope, doubled, register_rule
-from regscribe.model import Interval, Number, Range, Register, Special, show
+from regscribe.model import Interval, Number, Range, Register, show
 from regscribe.reference import RefusedError, UnknownValueError, choose, limits, within
 from regscribe.reference.settled_scales import Form, forms, widest
 from regscribe.reference.surroundings import Limits
@@ -41,13 +41,11 @@ def intervals_overlap(register: Register, _: RuleScope) -> Iterator[Problem]:
 @register_rule("RS0437", "Special values not told apart")
 def specials_twice(register: Register, _: RuleScope) -> Iterator[Problem]:
     """Two special values of one code, id or label cannot both be meant."""
-    for other, one in doubled(register.specials, _keys):
+    for other, one in doubled(
+        register.specials, lambda one: (("code", one.code), ("id", one.id), ("label", one.label.casefold()))
+    ):
         message = f'has special values {show(other.code)} ("{other.label}") and {show(one.code)} ("{one.label}")'
         yield f"{message}, which cannot be told apart", "correct one of them"
-
-
-def _keys(special: Special) -> tuple[tuple[str, object], ...]:
-    return ("code", special.code), ("id", special.id), ("label", special.label.casefold())
 
 
 @register_rule("RS0438", "Sentinels not told apart")
@@ -93,7 +91,8 @@ def default_outside_range(register: Register, scope: RuleScope) -> Iterator[Prob
     ends = _limits_at_defaults(register, scope) if judged else ()
     for what, value in judged if ends else ():
         if isinstance(value, Fraction) and value not in named and not within(ends, value):
-            text = " or ".join(f"{_end(low)}..{_end(high)}" for low, high in ends)
+            parts = [["open" if end is None else show(end) for end in part] for part in ends]
+            text = " or ".join(map("..".join, parts))
             message = f"has {what} {show(value)}, outside {text} with all other registers at their defaults"
             yield message, f"correct one of them, or add the {what} under `special`"
 
@@ -105,10 +104,6 @@ def _limits_at_defaults(register: Register, scope: RuleScope) -> Limits:
         return limits(now, scope.at_defaults) if now else ()
     except (UnknownValueError, RefusedError):
         return ()
-
-
-def _end(number: Fraction | None) -> str:
-    return "open" if number is None else show(number)
 
 
 @register_rule("RS0424", "Limit outside the type")

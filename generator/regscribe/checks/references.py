@@ -132,12 +132,9 @@ def order_codes(register: Register, scope: RuleScope) -> Iterator[Problem]:
     """With that code set, no long value could be read or written."""
     for view, order, other in _ordering(register, scope):
         stated = {code for code, _ in order.codes}
-        codes = [code for stretch in domain(other) for code in _codes(stretch.low, stretch.high)]
+        few = [stretch for stretch in domain(other) if stretch.high - stretch.low < CODES_LISTED]
+        codes = [code for stretch in few for code in range(int(stretch.low), int(stretch.high) + 1)]
         lacking = ", ".join(str(code) for code in codes if code not in stated)
         if lacking:
             message = f"has view {view.name} without a word order for {lacking} of `{other.path}`"
             yield message, "list the order of every code under `codes`"
-
-
-def _codes(low: Fraction, high: Fraction) -> range:
-    return range(int(low), int(high) + 1) if high - low < CODES_LISTED else range(0)

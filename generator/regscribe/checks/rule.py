@@ -119,20 +119,23 @@ def model_rule(rule_id: str, title: str, *, warns: bool = False) -> Callable[[Mo
 def header_rule(rule_id: str, title: str, *, warns: bool = False) -> Callable[[HeaderCheck], HeaderCheck]:
     """Declare a rule whose function looks at what all models share; findings stand at the map."""
 
-    def walk(check: HeaderCheck, scopes: Scopes) -> Findings:
+    def walk(check: HeaderCheck, scopes: Scopes) -> Iterator[Finding]:
         register_map = scopes[0].register_map
-        yield from (("", Finding(MAP, register_map.span, *problem)) for problem in check(register_map))
+        return (Finding(MAP, register_map.span, *problem) for problem in check(register_map))
 
-    return _declare(rule_id, title, walk, warns=warns)
+    return rule_of_map(rule_id, title, walk, warns=warns)
 
 
 def map_rule(rule_id: str, title: str, *, warns: bool = False) -> Callable[[MapCheck], MapCheck]:
     """Declare a rule whose function looks at the whole map, and at the scopes of all its models."""
+    return rule_of_map(rule_id, title, lambda check, scopes: check(scopes[0].register_map, scopes), warns=warns)
 
-    def walk(check: MapCheck, scopes: Scopes) -> Findings:
-        yield from (("", finding) for finding in check(scopes[0].register_map, scopes))
 
-    return _declare(rule_id, title, walk, warns=warns)
+def rule_of_map(
+    rule_id: str, title: str, walk: Callable[[Check, Scopes], Iterable[Finding]], *, warns: bool = False
+) -> Callable[[Check], Check]:
+    """Declare a rule whose function `walk` calls for each subject in the map."""
+    return _declare(rule_id, title, lambda check, scopes: (("", one) for one in walk(check, scopes)), warns=warns)
 
 
 def rule_of_models(
@@ -141,8 +144,7 @@ def rule_of_models(
     """Declare a rule whose function `walk` calls for each subject in one model."""
 
     def walk_all(check: Check, scopes: Scopes) -> Findings:
-        for scope in scopes:
-            yield from ((scope.model.name, finding) for finding in walk(check, scope))
+        return ((scope.model.name, finding) for scope in scopes for finding in walk(check, scope))
 
     return _declare(rule_id, title, walk_all, warns=warns)
 

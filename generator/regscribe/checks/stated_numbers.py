@@ -131,13 +131,9 @@ def _of_parts(register: Register) -> Iterator[Problem]:
         yield f"is of kind {register.kind} but its bits say otherwise", "correct `kind` or the bits"
     elif register.kind is Kind.VERSION and not register.version_digits:
         yield "is of kind version, but has no digits", "give them under `version`, as nn.nn"
-    elif not register.fractional:
-        yield from _parts_of_wholes(register)
-
-
-def _parts_of_wholes(register: Register) -> Iterator[Problem]:
-    for special in register.specials:
-        for number in (special.code, special.means):
+    else:
+        numbers = [(one, number) for one in register.specials for number in (one.code, one.means)]
+        for special, number in numbers if not register.fractional else ():
             if number is not None and number.denominator != 1:
                 what = f"is of kind {register.kind}, so whole"
                 message = f'{what}, but its special value "{special.label}" is {show(number)}'

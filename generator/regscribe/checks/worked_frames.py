@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 
-from regscribe.checks.rule import MAP, Finding, RuleScope, Scopes, map_rule
-from regscribe.checks.worked_values import compare, hexadecimal, in_example, judged, printed
-from regscribe.model import FrameExample, Register, RegisterMap, Space, View
+from regscribe.checks.rule import RuleScope
+from regscribe.checks.worked_values import compare, example_rule, hexadecimal, in_example, judged
+from regscribe.model import FrameExample, Register, Space, View
 from regscribe.reference import Surroundings
 from regscribe_runtime.wire.pdu import (
     EXCEPTION_BIT,
@@ -92,36 +92,24 @@ def _request(head: FrameFields, pdu: bytes) -> FrameFields:
     return replace(head, words=words, carried=request.words)
 
 
-Alike = tuple[tuple[int, ...], ...]
-"""Functions that do the same, as the map has them."""
+def _parsed(example: FrameExample) -> FrameFields:
+    body = example.frame[:-CRC_LENGTH] if example.crc else example.frame
+    return parse(body, answer=example.answer)
 
 
-def _frames(register_map: RegisterMap) -> Iterator[FrameExample]:
-    for example in register_map.examples:
-        if isinstance(example, FrameExample):
-            yield example
+HELP_FRAME = "correct the bytes or the field; `crc: false` if it has no CRC"
 
 
-def _body(example: FrameExample) -> bytes:
-    return example.frame[:-CRC_LENGTH] if example.crc else example.frame
-
-
-@map_rule("RS0447", "Frame of a worked example is not what the map says of it")
-def frame_fields(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
+@example_rule(
+    "RS0447", "Frame of a worked example is not what the map says of it", FrameExample, "the frame", HELP_FRAME
+)
+def frame_fields(example: FrameExample, _: RuleScope) -> Iterator[str]:
     """A frame proves addresses and functions."""
-    for example in _frames(register_map):
-        for problem in _problems(example):
-            message = f"{printed('the frame', example)}: {problem}"
-            yield Finding(MAP, example.span, message, "correct the bytes or the field; `crc: false` if it has no CRC")
-
-
-def _problems(example: FrameExample) -> Iterator[str]:
-    body = _body(example)
     if example.crc and (wrong := _wrong_crc(example.frame)):
         yield wrong
         return
     try:
-        frame = parse(body, answer=example.answer)
+        frame = _parsed(example)
     except MalformedError as malformed:
         yield str(malformed)
         return
@@ -145,29 +133,23 @@ def _wrong_crc(frame: bytes) -> str:
     return f"its CRC is {told}, computed {computed}" if told != computed else ""
 
 
-@map_rule("RS0448", "Values of a worked frame are not reproduced")
-def frame_values(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
+@example_rule("RS0448", "Values of a worked frame are not reproduced", FrameExample, "the frame")
+def frame_values(example: FrameExample, scope: RuleScope) -> Iterator[str]:
     """The printed words prove scales, types and commands."""
-    by_name = {scope.model.name: scope for scope in scopes}
-    for example in _frames(register_map):
-        scope = by_name.get(example.model, scopes[0])
-        try:
-            frame = parse(_body(example), answer=example.answer)
-        except MalformedError:
-            continue
-        for problem in (*_values(example, frame, scope), *_command(example, frame, scope)):
-            help_text = "correct the map; if the manual errs, tell in `errata`"
-            yield Finding(MAP, example.span, f"{printed('the frame', example)}: {problem}", help_text)
-
-
-def _values(example: FrameExample, frame: FrameFields, scope: RuleScope) -> Iterator[str]:
+    try:
+        frame = _parsed(example)
+    except MalformedError:
+        return
     known = in_example(scope, (*example.state, *example.writes))
+    same = {frame.function, *(code for codes in scope.register_map.alike if frame.function in codes for code in codes)}
+    spaces = {SPACES[code] for code in same if code in SPACES}
     for path, value in example.writes:
         register = scope.registers.get(path)
         if register is None:
             yield f"model {scope.model.name} has no `{path}`"
-        elif problem := _value(example, frame, register, value, known, scope.register_map.alike):
+        elif problem := _value(example, frame, register, value, known, spaces):
             yield f"`{path}`: {problem}"
+    yield from _command(example, frame, scope)
 
 
 def _value(
@@ -176,34 +158,23 @@ def _value(
     register: Register,
     value: Fraction,
     known: Surroundings,
-    alike: Alike,
+    spaces: set[Space],
 ) -> str:
+    """Why a frame does not carry a value of a register; `spaces` are those that its function reads or writes."""
     start = frame.address if frame.address is not None else example.address
     if start is None:
         return "the frame has no address; say it under `address`"
     words = frame.carried
     for view, address in _places(register, example.view):
         offset = address - start
-        if 0 <= offset <= len(words) - view.words:
-            there = words[offset : offset + view.words]
-            wrong = partial(compare, register, view, there, value, known)
-            return _unaddressed(view, frame.function, alike) or judged(wrong)
+        if not 0 <= offset <= len(words) - view.words:
+            continue
+        if view.space not in spaces:
+            return f"it stands in space {view.space}, which function {frame.function:02d} does not address"
+        if not view.allows(frame.function):
+            return f"its {view.name} view is by functions {list(view.functions)}, not {frame.function:02d}"
+        return judged(partial(compare, register, view, words[offset : offset + view.words], value, known))
     return f"it is not among the addresses {start}..{start + len(words) - 1} of the frame"
-
-
-def _unaddressed(view: View, function: int, alike: Alike) -> str:
-    """Why a function does not address a view; empty if it does."""
-    if view.space not in _spaces(function, alike):
-        return f"it stands in space {view.space}, which function {function:02d} does not address"
-    if not view.allows(function):
-        return f"its {view.name} view is by functions {list(view.functions)}, not {function:02d}"
-    return ""
-
-
-def _spaces(function: int, alike: Alike) -> set[Space]:
-    """The spaces that a function, or another that does the same, reads or writes."""
-    same = {function, *(code for codes in alike if function in codes for code in codes)}
-    return {SPACES[code] for code in same if code in SPACES}
 
 
 def _places(register: Register, name: str) -> Iterator[tuple[View, int]]:

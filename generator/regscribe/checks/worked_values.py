@@ -2,17 +2,16 @@
 
 from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
+from typing import TypeVar
 
 from regscribe.checks.assumed_values import with_fields
-from regscribe.checks.rule import MAP, Finding, RuleScope, Scopes, map_rule
+from regscribe.checks.rule import MAP, Finding, RuleScope, Scopes, rule_of_map
 from regscribe.model import (
-    FrameExample,
+    Example,
     GivenKind,
     Kind,
     Outcome,
-    Protocol,
     Register,
-    RegisterMap,
     TimingExample,
     ValueExample,
     View,
@@ -35,15 +34,35 @@ HALF_A_CENT = Fraction(1, 200)
 
 MEANINGS = {Outcome.FAULT: Meaning.FAULT, Outcome.SATURATED: Meaning.SATURATED}
 
+HELP_EXAMPLE = "correct the map; if the manual errs, tell in `errata`"
+
+OneExample = TypeVar("OneExample", bound=Example)
+ExampleCheck = Callable[[OneExample, RuleScope], Iterator[str]]
+
+
+def example_rule(
+    rule_id: str, title: str, kind: type[OneExample], what: str, help_text: str = HELP_EXAMPLE
+) -> Callable[[ExampleCheck[OneExample]], ExampleCheck[OneExample]]:
+    """Declare a rule whose function yields what is wrong with one worked example; `what` names it in messages.
+
+    The scope is that of the example's model, or of the first model where the example names none of the map.
+    """
+
+    def walk(check: ExampleCheck[OneExample], scopes: Scopes) -> Iterator[Finding]:
+        by_name = {scope.model.name: scope for scope in scopes}
+        for example in (one for one in scopes[0].register_map.examples if isinstance(one, kind)):
+            owner = example.register if isinstance(example, ValueExample) else ""
+            source = f" of {example.source}" if example.source else ""
+            named = f"{what}{source} for `{owner}`" if owner else f"{what}{source}"
+            for problem in check(example, by_name.get(getattr(example, "model", ""), scopes[0])):
+                yield Finding(owner or MAP, example.span, f"{named}: {problem}", help_text)
+
+    return rule_of_map(rule_id, title, walk)
+
 
 def hexadecimal(words: tuple[int, ...]) -> str:
     """Words for a message."""
     return " ".join(f"{word:04X}" for word in words)
-
-
-def printed(what: str, example: ValueExample | FrameExample | TimingExample) -> str:
-    """What an example is and, where the map says so, where the manual prints it."""
-    return f"{what} of {example.source}" if example.source else what
 
 
 def shown(value: Fraction | str) -> str:
@@ -75,29 +94,21 @@ def in_example(scope: RuleScope, state: Iterable[tuple[str, Fraction]]) -> Surro
     return Surroundings(with_fields(scope.model, values), codes, facts)
 
 
-@map_rule("RS0446", "Worked example of a value is not reproduced")
-def value_examples(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
+@example_rule("RS0446", "Worked example of a value is not reproduced", ValueExample, "the example")
+def value_example(example: ValueExample, scope: RuleScope) -> Iterator[str]:
     """The manual's own figures prove the transcription: where they disagree, the map or the manual is wrong."""
-    by_name = {scope.model.name: scope for scope in scopes}
-    for example in register_map.examples:
-        if not isinstance(example, ValueExample) or example.model not in by_name:
-            continue
-        problem = _judge(example, by_name[example.model])
-        if problem:
-            message = f"{printed('the example', example)} for `{example.register}`: {problem}"
-            help_text = "correct the map; if the manual errs, tell in `errata`"
-            yield Finding(example.register, example.span, message, help_text)
-
-
-def _judge(example: ValueExample, scope: RuleScope) -> str:
+    if example.model != scope.model.name:
+        return
     register = scope.registers.get(example.register)
     view = next((view for view in register.views if view.name == example.view), None) if register else None
     if register is None or view is None:
-        return f"model {example.model} has no view {example.view} of it"
-    if len(example.words) != view.words:
-        return f"{len(example.words)} words, but view {view.name} has {view.words}"
-    known = in_example(scope, example.state)
-    return judged(lambda: _sent(example, view, known) or _read(example, register, view, known))
+        yield f"model {example.model} has no view {example.view} of it"
+    elif len(example.words) != view.words:
+        yield f"{len(example.words)} words, but view {view.name} has {view.words}"
+    else:
+        known = in_example(scope, example.state)
+        wrong = judged(lambda: _sent(example, view, known) or _read(example, register, view, known))
+        yield from [wrong] if wrong else []
 
 
 def judged(judge: Callable[[], str]) -> str:
@@ -156,7 +167,10 @@ def compare(
     """What is wrong with words that should mean `value` (and, unless `lossy`, come from it); empty if nothing is."""
     if any(case.then.multiply == 0 for case in register.scale):
         return ""  # RS0430 speaks of it: nothing can be computed back
-    wanted = _number(register, value)
+    wanted = value
+    if register.kind is Kind.ENUM and register.enum and isinstance(value, str):
+        codes = [member.code for member in register.enum.members if member.id.lower() == value.lower()]
+        wanted = Fraction(codes[0]) if codes else value
     reading = decode(register, view, words, known)
     if reading.meaning not in {Meaning.VALUE, Meaning.UNKNOWN_MEMBER} or reading.value != wanted:
         return f"{hexadecimal(words)} is {described(reading)}, the manual says {shown(value)}"
@@ -166,25 +180,13 @@ def compare(
     return ""
 
 
-def _number(register: Register, value: Fraction | str) -> Fraction | str:
-    """An enum's member as its code; everything else as it is."""
-    if register.kind is Kind.ENUM and register.enum and isinstance(value, str):
-        codes = [member.code for member in register.enum.members if member.id.lower() == value.lower()]
-        return Fraction(codes[0]) if codes else value
-    return value
+HELP_TIMES = "correct `serial.gap_characters` or `latency`"
 
 
-@map_rule("RS0449", "Worked example of a time is not reproduced")
-def timing_examples(register_map: RegisterMap, _: Scopes) -> Iterator[Finding]:
+@example_rule("RS0449", "Worked example of a time is not reproduced", TimingExample, "the timing example", HELP_TIMES)
+def timing_example(example: TimingExample, scope: RuleScope) -> Iterator[str]:
     """Gap and latency decide timeouts, so they must agree."""
-    for example in register_map.examples:
-        if isinstance(example, TimingExample):
-            for problem in _times(example, register_map.protocol):
-                message = f"{printed('the timing example', example)}: {problem}"
-                yield Finding(MAP, example.span, message, "correct `serial.gap_characters` or `latency`")
-
-
-def _times(example: TimingExample, protocol: Protocol) -> Iterator[str]:
+    protocol = scope.register_map.protocol
     character = Fraction(SerialLine.of("", example.baud, example.format).bits * 1000, example.baud)
     gap = protocol.serial.gap * character
     latency = protocol.latency(example.function)
