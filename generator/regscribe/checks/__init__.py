@@ -28,7 +28,7 @@ from regscribe.checks import (  # noqa: F401 (each declares its rules)
     worked_values,
     write_order,
 )
-from regscribe.checks.rule import Finding, RuleScope, entries
+from regscribe.checks.rule import DECLARED, Finding, RuleScope
 from regscribe.model import Diagnostic, RegisterMap, Rule, Severity, Span, Waiver
 
 __all__ = ["RULES", "check"]
@@ -41,9 +41,7 @@ UNKNOWN_RULE = Rule(
 )
 NO_REASON = Rule("RS0469", "Waiver without a reason", "Whoever reads the map must be able to judge the exception.")
 
-RULES: tuple[Rule, ...] = tuple(
-    sorted((*(entry.rule for entry in entries()), NOTHING_WAIVED, UNKNOWN_RULE, NO_REASON), key=lambda rule: rule.id)
-)
+RULES: tuple[Rule, ...] = tuple(sorted((*DECLARED, NOTHING_WAIVED, UNKNOWN_RULE, NO_REASON), key=lambda rule: rule.id))
 """All rules of this room."""
 
 INDEX = re.compile(r"\[\d+\]")
@@ -59,13 +57,12 @@ class LocatedFinding(NamedTuple):
 
 def check(register_map: RegisterMap) -> list[Diagnostic]:
     """All that is wrong with a map, less what it waives, each place once, sorted by place and rule."""
-    rules = entries()
     scopes = tuple(RuleScope.of(register_map, model) for model in register_map.models)
-    found = [LocatedFinding(entry.rule, *each) for entry in rules for each in entry.run(scopes)] if scopes else []
+    rules = [rule for rule in RULES if rule in DECLARED] if scopes else []
+    found = [LocatedFinding(rule, *each) for rule in rules for each in DECLARED[rule](scopes)]
     used: set[Waiver] = set()
     kept = [one for one in found if not _waived(one, register_map, used)]
-    waivable = frozenset(entry.rule.id for entry in rules)
-    kept += [LocatedFinding(rule, "", finding) for rule, finding in _useless(register_map, used, waivable)]
+    kept += [LocatedFinding(rule, "", finding) for rule, finding in _useless(register_map, used)]
     return sorted(_merge(kept, len(register_map.models)), key=lambda diagnostic: (diagnostic.span, diagnostic.rule))
 
 
@@ -79,8 +76,9 @@ def _waived(found: LocatedFinding, register_map: RegisterMap, used: set[Waiver])
     return bool(valid)
 
 
-def _useless(register_map: RegisterMap, used: set[Waiver], waivable: frozenset[str]) -> Iterator[tuple[Rule, Finding]]:
-    """What is wrong with the waivers themselves; `used` have removed a finding, `waivable` are the ids of all rules."""
+def _useless(register_map: RegisterMap, used: set[Waiver]) -> Iterator[tuple[Rule, Finding]]:
+    """What is wrong with the waivers themselves; `used` are those that removed a finding."""
+    waivable = {rule.id for rule in DECLARED}
     for waiver in register_map.waivers:
         if waiver.rule not in waivable:
             message = f"the waiver at `{waiver.at}` names {waiver.rule}, which is no rule that can be waived"

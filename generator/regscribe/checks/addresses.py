@@ -47,7 +47,7 @@ def stretches(register: Register) -> Iterator[TakenAddresses]:
         yield TakenAddresses(view.space, view.address(register.at), view.last(register.at), register, by, view)
     for alias in dict.fromkeys(register.aliases):
         if alias == register.address:
-            continue  # RS0403 speaks of it
+            continue  # RS0403 reports it
         base = register.base
         yield TakenAddresses(base.space, alias, alias + base.words - 1, register, "alias", base)
 

@@ -47,7 +47,6 @@ def _example(folder: Traversable, name: str) -> Example | None:
 
 
 def _files(folder: Traversable, prefix: str) -> list[tuple[str, str]]:
-    """All files below a folder."""
     found = []
     for entry in folder.iterdir():
         name = f"{prefix}{entry.name}"

@@ -10,9 +10,9 @@ from regscribe.model import Condition, Identity, Kind, OrderFrom, Register, Regi
 
 @dataclass(slots=True)
 class CaseSet:
-    """The conditions of one set of cases, what they decide, the first register that has them, and how they come out.
+    """The conditions of one set of cases, what they decide, the first register that has them, and their verdict.
 
-    What can hold on one model can hold: `possible`, `reached` and `uncovered` are those of all models together.
+    `possible`, `reached` and `uncovered` (see `Verdict`) are those of all models together.
     `faulty`: whatever has the cases can report a fault, which needs no scale.
     """
 
@@ -28,10 +28,10 @@ class CaseSet:
 
 def _case_sets(scopes: Scopes) -> list[CaseSet]:
     """All sets of cases of the map, each once; kept for all rules."""
-    return scopes[0].once("case sets", lambda: _collected(scopes))
+    return scopes[0].once("case sets", lambda: _collect_case_sets(scopes))
 
 
-def _collected(scopes: Scopes) -> list[CaseSet]:
+def _collect_case_sets(scopes: Scopes) -> list[CaseSet]:
     every: dict[tuple[str, tuple[Condition, ...]], CaseSet] = {}
     for scope in scopes:
         for register in scope.model.registers:
@@ -76,27 +76,27 @@ def never_holds(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
 def _identities(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
     for identity in register_map.identity:
         mine = [scope for scope in scopes if scope.model.name in identity.models]
-        unmet = [_unmet(identity.identity, scope) for scope in mine]
+        unmet = [_why_never_met(identity.identity, scope) for scope in mine]
         if mine and all(unmet):
             message = f"`identify` for {', '.join(identity.models)} {unmet[0]}"
             yield Finding(MAP, mine[0].model.span, message, "compare the codes and texts with what the register can be")
 
 
-def _unmet(identity: Identity, scope: RuleScope) -> str:
+def _why_never_met(identity: Identity, scope: RuleScope) -> str:
     """Why a model never shows an identity; empty if it may."""
-    asked = (*identity.when.registers, *(path for path, _ in identity.texts))
-    unknown = next(filter(None, map(_unknown, scope.named(asked))), "")
+    tested_paths = (*identity.when.registers, *(path for path, _ in identity.texts))
+    unknown = next(filter(None, map(_why_unknown, scope.named(tested_paths))), "")
     if unknown:
         return unknown
     if not verdict((identity.when,), scope).possible:
         return "has a condition that can never hold on them"
     for path, text in identity.texts:
-        if path in scope.registers and (why := _never_begins(scope.registers[path], text)):
+        if path in scope.registers and (why := _why_never_begins(scope.registers[path], text)):
             return f"asks `{path}` for the text {text!r}, {why}"
     return ""
 
 
-def _unknown(register: Register) -> str:
+def _why_unknown(register: Register) -> str:
     """Why the value of a register is not known while a device is identified; empty if it is."""
     if not register.access.readable:
         return f"asks for `{register.path}`, which can only be written"
@@ -107,7 +107,7 @@ def _unknown(register: Register) -> str:
     return ""
 
 
-def _never_begins(register: Register, text: str) -> str:
+def _why_never_begins(register: Register, text: str) -> str:
     """Why what is read of a register never begins with a text; empty if it may."""
     room = 2 * max(view.words for view in register.views)
     whys = {

@@ -43,7 +43,7 @@ def _label(member: Member) -> str:
     return " ".join(member.label.casefold().split())
 
 
-def _together(enum: Enum, key: Callable[[Member], str]) -> Iterator[tuple[str, list[Member]]]:
+def _sharing(enum: Enum, key: Callable[[Member], str]) -> Iterator[tuple[str, list[Member]]]:
     """Members of an enum that share a key, in the order of the first."""
     groups: defaultdict[str, list[Member]] = defaultdict(list)
     for member in enum.members:
@@ -58,14 +58,14 @@ def _codes(members: list[Member]) -> str:
 @enum_rule("RS0441", "Label used twice in an enum")
 def label_twice(enum: Enum) -> Iterator[Problem]:
     """Two codes of one meaning: one of them was misread."""
-    for label, members in _together(enum, _label):
+    for label, members in _sharing(enum, _label):
         yield f'has the label "{label}" for codes {_codes(members)}', "correct a label, or say what tells them apart"
 
 
 @enum_rule("RS0442", "Enum members of one id")
 def member_id_twice(enum: Enum) -> Iterator[Problem]:
     """Labels that differ in signs only become one Python name."""
-    for name, members in _together(enum, lambda member: normalised(member.id)):
+    for name, members in _sharing(enum, lambda member: normalised(member.id)):
         if len({_label(member) for member in members}) == len(members):  # equal labels are RS0441's
             message = f"gives codes {_codes(members)} one id, {name.upper()}"
             yield message, "give one of them an `id`: {label: ..., id: ...}"
@@ -107,7 +107,7 @@ def member_no_name(enum: Enum) -> Iterator[Problem]:
             yield message, "give the member another `id`"
 
 
-def _where(bits: BitField) -> str:
+def _bits(bits: BitField) -> str:
     return f"`{bits.id}` (bit {bits.low})" if bits.width == 1 else f"`{bits.id}` (bits {bits.low}..{bits.high})"
 
 
@@ -116,7 +116,7 @@ def bits_overlap(register: Register, _: RuleScope) -> Iterator[Problem]:
     """One bit has one meaning: a row of the bit table was misread."""
     for one, other in combinations(register.fields, 2):
         if one.low <= other.high and other.low <= one.high:
-            yield f"has bit fields {_where(one)} and {_where(other)} that overlap", "correct the bits of one of them"
+            yield f"has bit fields {_bits(one)} and {_bits(other)} that overlap", "correct the bits of one of them"
 
 
 @register_rule("RS0451", "Bit outside the word")
@@ -124,7 +124,7 @@ def bit_outside_word(register: Register, _: RuleScope) -> Iterator[Problem]:
     """A bit beyond the word's width can never be read."""
     for bits in register.fields:
         if bits.low < 0 or bits.high >= register.bits:
-            message = f"has bit field {_where(bits)} in a word of bits 0..{register.bits - 1}"
+            message = f"has bit field {_bits(bits)} in a word of bits 0..{register.bits - 1}"
             yield message, "correct the bits or the type"
 
 
@@ -135,7 +135,7 @@ def enum_wider_than_field(register: Register, _: RuleScope) -> Iterator[Problem]
         outside = [m.code for m in bits.enum.members if not 0 <= m.code < 1 << bits.width] if bits.enum else []
         if outside:
             codes = ", ".join(map(str, outside))
-            message = f"has bit field {_where(bits)} with codes {codes}, outside 0..{(1 << bits.width) - 1}"
+            message = f"has bit field {_bits(bits)} with codes {codes}, outside 0..{(1 << bits.width) - 1}"
             yield message, "correct the codes or the bits"
 
 
@@ -145,7 +145,7 @@ def bits_of_one_name(register: Register, _: RuleScope) -> Iterator[Problem]:
     for one, other in combinations(register.fields, 2):
         same_label = one.label and one.label.casefold() == other.label.casefold()
         if normalised(one.id) == normalised(other.id) or same_label:
-            yield f'has bit fields {_where(one)} and {_where(other)} both called "{other.label}"', "correct one of them"
+            yield f'has bit fields {_bits(one)} and {_bits(other)} both called "{other.label}"', "correct one of them"
 
 
 @register_rule("RS0655", "Default with bits that mean nothing")

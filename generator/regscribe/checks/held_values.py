@@ -1,15 +1,32 @@
-"""Whether a register can hold what a map says it does: the default, what it is delivered with, what an effect sets."""
+"""Values that a map gives to registers: the defaults by path, and whether a register can hold a value at all."""
 
 from fractions import Fraction
 
 from regscribe.checks.representable import Fit, best_fit, ends_of, is_meant, tells_apart
-from regscribe.model import BitField, Kind, Register, show
+from regscribe.model import BitField, Kind, Model, Register, show
 from regscribe.reference import RefusedError, number_of, version_number
 from regscribe.reference.settled_scales import forms
 
 TEXTS = frozenset({Kind.STRING, Kind.VERSION})
 NUMBERS = frozenset({Kind.NUMBER, Kind.INTEGER, Kind.RAW})
 PATTERNS = frozenset({Kind.FLAGS, Kind.FIELDS})
+
+
+def default_values(model: Model) -> dict[str, Fraction]:
+    """The defaults of all registers of a model that are numbers, by path."""
+    found = {register.path: number_of(register, register.default) for register in model.registers}
+    return {path: number for path, number in found.items() if number is not None}
+
+
+def with_fields(model: Model, values: dict[str, Fraction]) -> dict[str, Fraction]:
+    """The values by path, and those of the bit fields in them by `path.field`, unless `values` has these as well."""
+    fields = {
+        f"{register.path}.{bits.id}": Fraction((int(values[register.path]) >> bits.low) % (1 << bits.width))
+        for register in model.registers
+        if register.fields and register.path in values
+        for bits in register.fields
+    }
+    return fields | values
 
 
 def shown(value: Fraction | str) -> str:

@@ -9,19 +9,19 @@ from regscribe.checks.rule import RuleScope
 from regscribe.model import Condition, Is, show
 from regscribe.reference.states import ANYTHING, combinations, domain, representatives
 
-MOST_WORLDS = 10_000
-"""Beyond this product nothing is said about the conditions: no manual comes near it."""
+MOST_STATES = 10_000
+"""Conditions with more states than this are not judged: no manual comes near it."""
 
 Atom = tuple[str, str]
 """What varies: a register or field (`subject`, ""), or whether its value is among a given's codes (`subject`, id)."""
 
-World = dict[Atom, Fraction]
+State = dict[Atom, Fraction]
 
 
 class Verdict(NamedTuple):
-    """Of several conditions in order: which can hold, which is ever the first that holds, and a state that none covers.
+    """Verdict on conditions in order: places of those that can hold and of those that are ever the first to hold.
 
-    All hold where there are too many states to look at.
+    `uncovered` describes a state in which none holds. Of more than MOST_STATES states, all count as possible.
     """
 
     possible: frozenset[int]
@@ -37,19 +37,19 @@ def verdict(conditions: tuple[Condition, ...], scope: RuleScope) -> Verdict:
 def _judge(conditions: tuple[Condition, ...], scope: RuleScope) -> Verdict:
     choices = _choices([test for condition in conditions for test in condition.tests], scope)
     everything = frozenset(range(len(conditions)))
-    if prod(map(len, choices.values())) > MOST_WORLDS:
+    if prod(map(len, choices.values())) > MOST_STATES:
         return Verdict(everything, everything, "")
     possible: set[int] = set()
     reached: set[int] = set()
     uncovered = ""
-    for world in combinations(choices):
+    for state in combinations(choices):
         held = [
-            place for place, condition in enumerate(conditions) if all(_passes(test, world) for test in condition.tests)
+            place for place, condition in enumerate(conditions) if all(_passes(test, state) for test in condition.tests)
         ]
         possible.update(held)
         reached.update(held[:1])
         if not held and not uncovered:
-            uncovered = _describe(world)
+            uncovered = _describe(state)
     return Verdict(frozenset(possible), frozenset(reached), uncovered)
 
 
@@ -67,15 +67,15 @@ def _choices(tests: list[Is], scope: RuleScope) -> dict[Atom, tuple[Fraction, ..
     return choices
 
 
-def _passes(test: Is, world: World) -> bool:
-    value = world[test.subject, test.given]
+def _passes(test: Is, state: State) -> bool:
+    value = state[test.subject, test.given]
     found = bool(value) if test.given else test.lists(value)
     return found is not test.negated
 
 
-def _describe(world: World) -> str:
+def _describe(state: State) -> str:
     parts = []
-    for (subject, given), value in world.items():
+    for (subject, given), value in state.items():
         if not given:
             parts.append(f"{subject} = {show(value)}")
         elif subject:

@@ -67,15 +67,15 @@ def roles(scope: RuleScope) -> Iterator[Finding]:
     """A bit tells yes or no, and a value is a number."""
     process = scope.model.process
     for name, path, bit in _roles(process) if process else ():
-        for register, field in _found(path, scope):
-            problem = _mismatch(register, field, bit=bit)
+        for register, field in _resolve(path, scope):
+            problem = _why_unfit(register, field, bit=bit)
             if process and problem:
                 message = f"`process` has `{path}` as `{name}`, which is {problem}"
                 related = Related(f"`{register.path}` stands here", register.span)
                 yield Finding("process", process.span, message, HELP_BIT if bit else HELP_NUMBER, related)
 
 
-def _found(path: str, scope: RuleScope) -> Sequence[tuple[Register, BitField | None]]:
+def _resolve(path: str, scope: RuleScope) -> Sequence[tuple[Register, BitField | None]]:
     """The register of a path, or the register and its bit field; empty if the model has neither."""
     if path in scope.registers:
         return [(scope.registers[path], None)]
@@ -83,7 +83,7 @@ def _found(path: str, scope: RuleScope) -> Sequence[tuple[Register, BitField | N
     return [(register, field) for register in scope.named([owner]) for field in register.fields if field.id == name][:1]
 
 
-def _mismatch(register: Register, field: BitField | None, *, bit: bool) -> str:
+def _why_unfit(register: Register, field: BitField | None, *, bit: bool) -> str:
     """Why a register or a field is no bit, or else no number; empty if it is one."""
     wanted = "bit" if bit else "number"
     if field is not None:
@@ -117,18 +117,18 @@ def _numbers(part: object, prefix: str, *names: str) -> Iterator[ProcessRole]:
 def impossible_effect(scope: RuleScope) -> Iterator[Finding]:
     """A register without a default cannot return to it, and none can be set to what its words cannot spell."""
     for command in scope.model.commands:
-        for register, problem in (each for effect in command.effects for each in _impossible(effect, scope)):
+        for register, problem in (each for effect in command.effects for each in _effect_problems(effect, scope)):
             related = Related(f"`{register.path}` stands here", register.span)
             message = f"command `{command.id}` {problem}"
             yield Finding(command.id, command.span, message, "correct the effect, or the register", related)
 
 
-def _impossible(effect: Effect, scope: RuleScope) -> Iterator[tuple[Register, str]]:
+def _effect_problems(effect: Effect, scope: RuleScope) -> Iterator[tuple[Register, str]]:
     for register in scope.named(effect.defaults):
         if register.default is None:
             yield register, f"returns `{register.path}` to its default, which it has not"
     for path, value in effect.sets:
-        for register, field in _found(path, scope):
+        for register, field in _resolve(path, scope):
             problem = impossible_part(field, value) if field is not None else impossible(register, value)
             if problem:
                 yield register, f"sets `{path}` to {shown(value)}, {problem}"

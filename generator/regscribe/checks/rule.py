@@ -6,7 +6,7 @@ from fractions import Fraction
 from functools import partial
 from typing import TypeVar, cast
 
-from regscribe.checks.assumed_values import default_values, with_fields
+from regscribe.checks.held_values import default_values, with_fields
 from regscribe.model import Model, Register, RegisterMap, Related, Rule, Severity, Span
 from regscribe.reference import Surroundings
 
@@ -84,20 +84,8 @@ MapCheck = Callable[[RegisterMap, Scopes], Iterable[Finding]]
 Check = TypeVar("Check", bound=Callable[..., object])
 
 
-@dataclass(frozen=True, slots=True)
-class RuleEntry:
-    """A rule, and the function that finds all violations of it in the scopes of all models."""
-
-    rule: Rule
-    run: Callable[[Scopes], Findings]
-
-
-_ENTRIES: list[RuleEntry] = []
-
-
-def entries() -> tuple[RuleEntry, ...]:
-    """All rules that were declared, in the order of their ids."""
-    return tuple(sorted(_ENTRIES, key=lambda entry: entry.rule.id))
+DECLARED: dict[Rule, Callable[[Scopes], Findings]] = {}
+"""All declared rules, each with the function that finds its violations in the scopes of all models."""
 
 
 def register_rule(rule_id: str, title: str, *, warns: bool = False) -> Callable[[RegisterCheck], RegisterCheck]:
@@ -156,7 +144,7 @@ def _declare(
 
     def declare(check: Check) -> Check:
         severity = Severity.WARNING if warns else Severity.ERROR
-        _ENTRIES.append(RuleEntry(Rule(rule_id, title, check.__doc__ or "", severity), partial(walk, check)))
+        DECLARED[Rule(rule_id, title, check.__doc__ or "", severity)] = partial(walk, check)
         return check
 
     return declare

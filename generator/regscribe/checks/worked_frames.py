@@ -129,8 +129,8 @@ def _wrong_crc(frame: bytes) -> str:
     from regscribe_runtime.wire.framing import RTU, build  # noqa: PLC0415 (pymodbus loads only for a map with frames)
 
     should = build(RTU, frame[0], frame[1:-CRC_LENGTH])
-    told, computed = (one[-CRC_LENGTH:].hex(" ").upper() for one in (frame, should))
-    return f"its CRC is {told}, computed {computed}" if told != computed else ""
+    stated, computed = (one[-CRC_LENGTH:].hex(" ").upper() for one in (frame, should))
+    return f"its CRC is {stated}, computed {computed}" if stated != computed else ""
 
 
 @example_rule("RS0448", "Values of a worked frame are not reproduced", FrameExample, "the frame")
@@ -192,5 +192,5 @@ def _command(example: FrameExample, frame: FrameFields, scope: RuleScope) -> Ite
         return
     steps = [(step.function, step.address, step.words) for step in command.steps if step.words]
     if (frame.function, frame.address, frame.carried) not in steps:
-        told = "; ".join(f"function {code:02d} at {address}: {hexadecimal(words)}" for code, address, words in steps)
-        yield f"no step of command `{command.id}` sends it ({told})"
+        listed = "; ".join(f"function {code:02d} at {address}: {hexadecimal(words)}" for code, address, words in steps)
+        yield f"no step of command `{command.id}` sends it ({listed})"

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
 from typing import TypeVar
 
-from regscribe.checks.assumed_values import with_fields
+from regscribe.checks.held_values import with_fields
 from regscribe.checks.rule import MAP, Finding, RuleScope, Scopes, rule_of_map
 from regscribe.model import (
     Example,
@@ -166,7 +166,7 @@ def compare(
 ) -> str:
     """What is wrong with words that should mean `value` (and, unless `lossy`, come from it); empty if nothing is."""
     if any(case.then.multiply == 0 for case in register.scale):
-        return ""  # RS0430 speaks of it: nothing can be computed back
+        return ""  # RS0430 reports it: nothing can be computed back
     wanted = value
     if register.kind is Kind.ENUM and register.enum and isinstance(value, str):
         codes = [member.code for member in register.enum.members if member.id.lower() == value.lower()]

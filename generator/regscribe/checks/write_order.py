@@ -99,7 +99,7 @@ def write_facts_of_read_only(register: Register, _: RuleScope) -> Iterator[Probl
     """A register that cannot be written needs no permission."""
     if register.access.writable:
         return
-    told = {
+    facts = {
         "writable": register.writable is not None,
         "unlock": bool(register.unlock),
         "apply": bool(register.apply),
@@ -109,7 +109,7 @@ def write_facts_of_read_only(register: Register, _: RuleScope) -> Iterator[Probl
         "governs": register.governs is not None,
         "settle": bool(register.settle),
     }
-    keys = [key for key, is_told in told.items() if is_told]
+    keys = [key for key, is_stated in facts.items() if is_stated]
     if keys:
         message = f"has access {register.access} but {', '.join(keys)}"
         yield message, "correct `access`, or remove what speaks of writing"

@@ -1,9 +1,9 @@
 """Finds the columns of the export in the header of a table; docs/evidence.md lists their other names."""
 
 import re
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from difflib import get_close_matches
+from typing import NamedTuple
 
 from regscribe.evidence.table import Table, TableError
 from regscribe.export.csv import COLUMNS
@@ -34,17 +34,11 @@ PLACES = frozenset({"map", "model"})
 """Columns that are equal in every pair of matched rows, so there is nothing to compare."""
 
 
-@dataclass(frozen=True, slots=True)
-class Columns:
-    """Where the columns stand in a table: `at` is name and index of those in use, `compared` those held together."""
+class Columns(NamedTuple):
+    """The columns in use of a table: index in its rows by name of the export, and the names of those to compare."""
 
-    at: tuple[tuple[str, int], ...]
+    at: dict[str, int]
     compared: tuple[str, ...]
-
-    @property
-    def names(self) -> frozenset[str]:
-        """The columns that the table has, of those in use."""
-        return frozenset(name for name, _ in self.at)
 
 
 def fold(name: str) -> str:
@@ -66,13 +60,19 @@ def choose(table: Table, wanted: Sequence[str], notations: Sequence[str]) -> Col
             f"address,name,access; known are {', '.join(COLUMNS)}"
         )
         raise TableError(message)
-    requested = dict(_requested(wanted, known))
+    requested: dict[str, str] = {}
+    for item in wanted:
+        name, _, head = (part.strip() for part in item.partition("="))
+        if fold(name) not in known:
+            message = f"there is no column `{name}`{_meant(name, known)}"
+            raise TableError(message)
+        requested[known[fold(name)]] = head or name
     at = _places(table, requested, known)
     if missing := [f"`{head}`" for name, head in requested.items() if name not in at]:
         message = f"{table.name} has no column {', '.join(missing)}: it has {', '.join(dict.fromkeys(table.header))}"
         raise TableError(message)
     compared = tuple(name for name in (requested or at) if name not in PLACES)
-    return Columns(tuple(at.items()), compared)
+    return Columns(at, compared)
 
 
 def _known(notations: Sequence[str]) -> dict[str, str]:
@@ -83,7 +83,7 @@ def _known(notations: Sequence[str]) -> dict[str, str]:
 
 
 def _places(table: Table, requested: dict[str, str], known: dict[str, str]) -> dict[str, int]:
-    """Where the columns stand; without `requested`, every header that has something below it must be known."""
+    """Index of each column in use; without `requested`, every header that has something below it must be known."""
     at: dict[str, int] = {}
     for index, head in enumerate(table.header):
         name = _name_of(head, requested, known)
@@ -93,18 +93,15 @@ def _places(table: Table, requested: dict[str, str], known: dict[str, str]) -> d
         if name:
             at[name] = index
         elif not requested and (head or any(row.cells[index].strip() for row in table.rows)):
-            raise TableError(_unknown(table, head, index, known))
-    return at
-
-
-def _requested(wanted: Sequence[str], known: dict[str, str]) -> Iterable[tuple[str, str]]:
-    """Yield the column of the export and the table's name of it, for each item of --columns."""
-    for item in wanted:
-        name, _, head = (part.strip() for part in item.partition("="))
-        if fold(name) not in known:
-            message = f"there is no column `{name}`{_meant(name, known)}"
+            message = (
+                f"{table.name}: there is no column `{head}`{_meant(head, known)}; choose the columns to compare with "
+                f"--columns (name=header where the table calls it otherwise)"
+            )
+            if not head:
+                column = f"{table.name}: column {index + 1}"
+                message = f"{column} has no name in the header, but content: name it or choose with --columns"
             raise TableError(message)
-        yield known[fold(name)], head or name
+    return at
 
 
 def _name_of(head: str, requested: dict[str, str], known: dict[str, str]) -> str:
@@ -118,16 +115,6 @@ def _name_of(head: str, requested: dict[str, str], known: dict[str, str]) -> str
     if name in requested and known.get(fold(requested[name])) == name:
         return name  # requested by another of its names
     return name if name in KEYS and name not in requested else ""
-
-
-def _unknown(table: Table, head: str, index: int, known: dict[str, str]) -> str:
-    if not head:
-        column = f"{table.name}: column {index + 1}"
-        return f"{column} has no name in the header, but content: name it or choose with --columns"
-    return (
-        f"{table.name}: there is no column `{head}`{_meant(head, known)}; choose the columns to compare with --columns "
-        f"(name=header where the table calls it otherwise)"
-    )
 
 
 def _meant(name: str, known: dict[str, str]) -> str:

@@ -36,20 +36,22 @@ def compare_table(
     notations = tuple(dict.fromkeys(notation.name for notation in register_map.notations))
     chosen = choose(table, columns, notations)
     keys = ["address", *notations, "id"]
-    if not chosen.names & {fold(name) for name in keys}:
+    if not chosen.at.keys() & {fold(name) for name in keys}:
         message = f"{table.name} has none of the columns {', '.join(keys)}: nothing tells which register a row is about"
         raise TableError(message)
     model = _model(register_map, table, chosen, model)
     theirs = list(of_table(table, chosen, register_map, model))
-    notes = [*_other_maps(register_map, table, chosen), *_foreign_models(register_map, theirs)]
+    notes = _other_maps(register_map, table, chosen)
+    names = [one_line(model.name) for model in register_map.models]
+    foreign = dict.fromkeys(entry.model for entry in theirs if entry.model not in names)
+    notes += [f"{register_map.id} has no model `{name}`{_meant(name, names)}" for name in foreign]
     ours = [entry for entry in of_map(register_map) if not model or entry.model == model]
     matching = match(ours, theirs, name=table.name)
-    lists_commands = "kind" in chosen.names  # a table without it lists registers: a command in it is a chance
+    lists_commands = "kind" in chosen.at  # a table without it lists registers: a command in it is a chance
     expected = [entry for entry in matching.only_ours if lists_commands or not entry.is_command]
     matching.only_ours = [] if partial else expected
-    notes += _without_silent(matching, register_map)
-    names = {"ours": register_map.id, "theirs": table.name}
-    return _comparison(matching, **names, columns=chosen.compared, loose=loose, notes=tuple(notes))
+    notes += _drop_silent_rows(matching, register_map)
+    return _comparison(matching, (register_map.id, table.name), chosen.compared, notes, loose=loose)
 
 
 def compare_maps(
@@ -78,7 +80,7 @@ def compare_maps(
         for one, used in ((ours, paired.keys()), (theirs, paired.values()))
         if (names := [model.name for model in one.models if model.name not in used])
     ]
-    return _comparison(matching, ours=ours.id, theirs=theirs.id, columns=chosen, loose=loose, notes=tuple(unpaired))
+    return _comparison(matching, (ours.id, theirs.id), chosen, unpaired, loose=loose)
 
 
 def _of_models(register_map: RegisterMap, labels: Mapping[str, str]) -> list[ComparedRow]:
@@ -101,20 +103,21 @@ def _paired(ours: RegisterMap, theirs: RegisterMap) -> dict[str, str]:
 
 
 def _comparison(
-    matching: Matching, *, ours: str, theirs: str, columns: tuple[str, ...], loose: bool, notes: tuple[str, ...]
+    matching: Matching, sides: tuple[str, str], columns: tuple[str, ...], notes: Sequence[str], *, loose: bool
 ) -> Comparison:
-    besides = tuple(column for column in columns if column in COLUMNS and column not in OF_BASE)
+    """The result for matched rows of two sides, ours first."""
+    columns_at_alias = tuple(column for column in columns if column in COLUMNS and column not in OF_BASE)
     found = [each for pair in matching.pairs for each in _differences(*pair, columns=columns, loose=loose)]
-    found += [each for pair in matching.by_alias for each in _differences(*pair, columns=besides, loose=loose)]
+    found += [each for pair in matching.by_alias for each in _differences(*pair, columns=columns_at_alias, loose=loose)]
     return Comparison(
-        ours=ours,
-        theirs=theirs,
+        ours=sides[0],
+        theirs=sides[1],
         columns=columns,
         matched=len(matching.pairs) + len(matching.by_alias),
         only_ours=tuple(entry.place for entry in matching.only_ours),
         only_theirs=tuple(entry.place for entry in matching.only_theirs),
         differences=tuple(found),
-        notes=notes,
+        notes=tuple(notes),
     )
 
 
@@ -129,9 +132,9 @@ def _differences(
             yield CellDifference(replace(ours.place, line=theirs.line), column, *apart)
 
 
-def _without_silent(matching: Matching, register_map: RegisterMap) -> list[str]:
+def _drop_silent_rows(matching: Matching, register_map: RegisterMap) -> list[str]:
     """Take out the rows that name no register where the map has none, and note how many there are."""
-    silent = _silent(register_map)
+    silent = _spots_without_register(register_map)
     kept = [
         row
         for row in matching.only_theirs
@@ -142,7 +145,7 @@ def _without_silent(matching: Matching, register_map: RegisterMap) -> list[str]:
     return [f"{count} rows name no register where the map has none (unused, reserved or a further word)"] * bool(count)
 
 
-def _silent(register_map: RegisterMap) -> set[tuple[str, Spot]]:
+def _spots_without_register(register_map: RegisterMap) -> set[tuple[str, Spot]]:
     """Return by model the places, also without their space, where no register begins though the manual lists them."""
     found: set[tuple[str, Spot]] = set()
     for model in register_map.models:
@@ -163,7 +166,7 @@ def _model(register_map: RegisterMap, table: Table, chosen: Columns, model: str)
     if model and one_line(model) not in names:
         message = f"{register_map.id} has no model `{model}`{_meant(model, names)}"
         raise TableError(message)
-    if model or "model" in chosen.names:
+    if model or "model" in chosen.at:
         return one_line(model)
     if len(names) > 1:
         message = (
@@ -175,7 +178,7 @@ def _model(register_map: RegisterMap, table: Table, chosen: Columns, model: str)
 
 def _other_maps(register_map: RegisterMap, table: Table, chosen: Columns) -> list[str]:
     """Note how many rows are of other maps; TableError if all are."""
-    column = dict(chosen.at).get("map")
+    column = chosen.at.get("map")
     maps = [row.cells[column].strip() for row in table.rows] if column is not None else []
     others = [name for name in maps if name != register_map.id]
     listed = ", ".join(dict.fromkeys(others))
@@ -183,13 +186,6 @@ def _other_maps(register_map: RegisterMap, table: Table, chosen: Columns) -> lis
         message = f"{table.name} has no row of the map {register_map.id}, but of {listed}"
         raise TableError(message)
     return [f"left out: {len(others)} rows of other maps ({listed})"] if others else []
-
-
-def _foreign_models(register_map: RegisterMap, theirs: Sequence[ComparedRow]) -> Iterator[str]:
-    """Note the models of a table that the map does not have."""
-    names = [one_line(model.name) for model in register_map.models]
-    for foreign in dict.fromkeys(entry.model for entry in theirs if entry.model not in names):
-        yield f"{register_map.id} has no model `{foreign}`{_meant(foreign, names)}"
 
 
 def _meant(name: str, names: Sequence[str]) -> str:

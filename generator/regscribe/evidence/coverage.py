@@ -57,22 +57,18 @@ def _exemplified(register_map: RegisterMap, model: Model) -> frozenset[str]:
         each.name: {register.path: (register.views, register.scale) for register in each.registers}
         for each in register_map.models
     }
-    own = forms[model.name]
-    named = [(name, path) for name, path in _named(register_map) if path in own and name in forms]
-    return frozenset(path for name, path in named if forms[name].get(path) == own[path])
-
-
-def _named(register_map: RegisterMap) -> Iterator[tuple[str, str]]:
-    """Yield model and path of every register that an example is about."""
+    named: list[tuple[str, str]] = []
     for example in register_map.examples:
         if isinstance(example, ValueExample):
-            yield example.model, example.register
+            named.append((example.model, example.register))
         elif isinstance(example, FrameExample):
-            paths = (*(path for path, _ in example.writes), *_touched(register_map, example))
-            yield from ((example.model, path) for path in paths)
+            paths = (*(path for path, _ in example.writes), *_carried(register_map, example))
+            named += [(example.model, path) for path in paths]
+    own = forms[model.name]
+    return frozenset(path for name, path in named if path in own and forms.get(name, {}).get(path) == own[path])
 
 
-def _touched(register_map: RegisterMap, frame: FrameExample) -> list[str]:
+def _carried(register_map: RegisterMap, frame: FrameExample) -> list[str]:
     """The registers whose words a frame carries; a request without words counts if it is for one register."""
     if frame.address is None or not register_map.has(frame.model) or not _spaces([frame.function]):
         return []
@@ -91,7 +87,6 @@ def _touched(register_map: RegisterMap, frame: FrameExample) -> list[str]:
 
 
 def _spaces(functions: Iterable[int]) -> set[Space]:
-    """The spaces that function codes address."""
     codes = set(functions)
     return {one for one in Space if codes & {one.read_function, *one.write_functions}}
 
@@ -106,26 +101,21 @@ def open_limits(register: Register) -> tuple[str, ...]:
 def _addresses(register_map: RegisterMap, model: Model) -> Iterator[Addresses]:
     """Yield the counts of each space that holds anything, in the order of `Space`."""
     registers = model.registers
-    mapped = _by_space((view.space, view.address(one.at), view.last(one.at)) for one in registers for view in one.views)
-    aliases = _by_space(
-        (one.base.space, alias, alias + one.base.words - 1) for one in registers for alias in one.aliases
-    )
     steps = [step for command in model.commands for step in command.steps if step.words]
-    written = _by_space((step.space, step.address, step.address + len(step.words) - 1) for step in steps)
-    unused = _by_space(model.unused)
-    reserved = _by_space(register_map.reserved)
+    stretches: dict[str, Iterable[Stretch]] = {
+        "mapped": ((view.space, view.address(one.at), view.last(one.at)) for one in registers for view in one.views),
+        "aliases": ((one.base.space, alias, alias + one.base.words - 1) for one in registers for alias in one.aliases),
+        "commands": ((step.space, step.address, step.address + len(step.words) - 1) for step in steps),
+        "unused": model.unused,
+        "reserved": register_map.reserved,
+    }
+    by_kind = {kind: _by_space(each) for kind, each in stretches.items()}
     for space in Space:
-        kinds = [found[space] for found in (mapped, aliases, written, unused, reserved)]
-        if documented := set[int]().union(*kinds):
-            yield Addresses(
-                space=space.value,
-                documented=len(documented),
-                mapped=len(mapped[space]),
-                aliases=len(aliases[space]),
-                commands=len(written[space] - mapped[space] - aliases[space]),
-                unused=len(unused[space]),
-                reserved=len(reserved[space]),
-            )
+        found = {kind: addresses[space] for kind, addresses in by_kind.items()}
+        if documented := set[int]().union(*found.values()):
+            found["commands"] -= found["mapped"] | found["aliases"]
+            numbers = {kind: len(addresses) for kind, addresses in found.items()}
+            yield Addresses(space=space.value, documented=len(documented), **numbers)
 
 
 Stretch = tuple[Space, int, int]

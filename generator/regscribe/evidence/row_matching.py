@@ -55,15 +55,11 @@ class _RowIndex:
         """Return free entries of the row's id, wherever they stand."""
         return self._free(self.by_id.get((row.model, row.id), ()), row) if row.id else []
 
-    def at_alias(self, row: ComparedRow) -> list[int]:
-        """Return entries that have an alias at the row's place."""
-        return [place for spot in row.spots for place in self.aliases.get((row.model, spot), ())]
-
     def _standing(self, row: ComparedRow) -> list[int]:
         return [place for spot in row.spots for place in self.at.get((row.model, spot), ())]
 
     def _free(self, places: Iterable[int], row: ComparedRow) -> list[int]:
-        """Those without a counterpart; a row that says what kind it is finds a command only if it is one."""
+        """The entries at `places` that are free; a row that states its kind finds a command only if it is one."""
         states_kind = bool(row.cells.get("kind", "").strip())
         entries = self.entries
         return [
@@ -86,7 +82,7 @@ def match(ours: Sequence[ComparedRow], theirs: Sequence[ComparedRow], *, name: s
     matching = Matching([(ours[found[number]], theirs[number]) for number in sorted(found)])
     for number, row in enumerate(theirs):
         if number not in found:
-            aliased = index.at_alias(row)
+            aliased = [place for spot in row.spots for place in index.aliases.get((row.model, spot), ())]
             if aliased:
                 matching.by_alias.append((ours[_single(aliased, row, ours, name)], row))
             else:

@@ -14,7 +14,7 @@ from regscribe.model import Notation, RegisterMap, Space
 
 COMMAND = "command"
 MOST_PROBLEMS = 10
-"""So many faults of a table are told at once."""
+"""Faults of a table that one error lists."""
 
 STRETCH = re.compile(r"\s*([0-9]{1,9})(?:\.0+)?\s*(?:(?:\.\.|-|\u2013)\s*([0-9]{1,9})\s*)?")
 MOST_ADDRESSES = 1_000_000
@@ -29,7 +29,7 @@ Spot = tuple[str, int]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ComparedRow:
-    """One row of one model: where it may stand (several spots: the table does not tell them apart) and its cells."""
+    """One row of one model: the spots where it may stand (several if the table leaves the space open) and its cells."""
 
     model: str
     id: str
@@ -80,7 +80,7 @@ def of_table(table: Table, columns: Columns, register_map: RegisterMap, model: s
     """
     faults: list[str] = []
     for row in table.rows:
-        cells = {name: row.cells[index] for name, index in columns.at}
+        cells = {name: row.cells[index] for name, index in columns.at.items()}
         if cells.get("map", register_map.id).strip() != register_map.id:
             continue
         found: list[str] = []
@@ -151,16 +151,16 @@ def _addresses(column: str, text: str, faults: list[str]) -> Iterable[int]:
 
 
 def _models(cells: dict[str, str], register_map: RegisterMap, model: str, faults: list[str]) -> list[str]:
-    """Return the models that a row is about: one name, or several separated by commas, semicolons or blanks."""
+    """Return the models that a row is about: one name, or several separated by commas, semicolons or blanks.
+
+    A name may hold separators itself: the coarsest split counts of which all parts are models, else the finest.
+    """
     if "model" not in cells:
         return [model]
-    parts = _named(one_line(cells["model"]), {one_line(one.name) for one in register_map.models})
+    known = {one_line(one.name) for one in register_map.models}
+    separators = (r"$^", r"\s*[,;]\s*", r"[,;\s]+")
+    splits = [list(filter(None, re.split(separator, one_line(cells["model"])))) for separator in separators]
+    parts = next((parts for parts in splits if parts and known.issuperset(parts)), splits[-1])
     if not parts:
         faults.append("the cell of the column model is empty: name the models that have this register")
     return list(dict.fromkeys(part for part in parts if not model or part == model))
-
-
-def _named(text: str, known: set[str]) -> list[str]:
-    """Split a cell where all its parts are known names; the finest split where no one is."""
-    ways = [list(filter(None, re.split(separators, text))) for separators in (r"$^", r"\s*[,;]\s*", r"[,;\s]+")]
-    return next((parts for parts in ways if parts and known.issuperset(parts)), ways[-1])

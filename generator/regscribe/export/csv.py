@@ -4,6 +4,7 @@ import csv
 import io
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from fractions import Fraction
 from functools import partial
 from typing import NamedTuple
 
@@ -27,7 +28,6 @@ from regscribe.model import (
     Range,
     Register,
     RegisterMap,
-    View,
     always,
     show,
 )
@@ -96,6 +96,8 @@ def rows(maps: Iterable[RegisterMap]) -> Iterator[Row]:
 
 def _register_row(register_map: RegisterMap, model: Model, register: Register) -> Row:
     minimum, maximum = _limits(register)
+    default, at = register.default, register.at
+    views = {one.name: {"address": one.address(at), "words": one.words, "type": one.type} for one in register.views}
     return Row(
         map=register_map.id,
         model=one_line(model.name),
@@ -112,10 +114,10 @@ def _register_row(register_map: RegisterMap, model: Model, register: Register) -
         unit=cases_words(map_cases(register.unit, one_line)),
         minimum=minimum,
         maximum=maximum,
-        default=_default(register),
+        default=show(default) if isinstance(default, Fraction) else one_line(default or ""),
         values=_object(_values(register)),
         bits=_object({bits_words(field): _bit_label(field) for field in register.fields}),
-        views=_object({view.name: _view(view, register.at) for view in register.views}),
+        views=_object(views),
         scale=_scale(register),
         persistence=one_line(register.persistence),
         group=register.group,
@@ -149,10 +151,6 @@ def _object(members: Mapping[str, object]) -> str:
     return json.dumps(members, ensure_ascii=False)
 
 
-def _view(view: View, at: int) -> dict[str, object]:
-    return {"address": view.address(at), "words": view.words, "type": view.type.value}
-
-
 def _values(register: Register) -> dict[str, str]:
     """Codes with a meaning: enum members, special values, and stored numbers that are faults."""
     codes = {str(code): one_line(label) for code, label in labels_of(register.enum).items()}
@@ -163,11 +161,6 @@ def _values(register: Register) -> dict[str, str]:
 def _bit_label(field: BitField) -> str:
     codes = ", ".join(f"{code} = {one_line(label)}" for code, label in labels_of(field.enum).items())
     return f"{one_line(field.label)}: {codes}" if codes else one_line(field.label)
-
-
-def _default(register: Register) -> str:
-    default = register.default
-    return "" if default is None else one_line(default) if isinstance(default, str) else show(default)
 
 
 def _scale(register: Register) -> str:

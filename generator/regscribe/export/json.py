@@ -48,8 +48,7 @@ def export(maps: Sequence[RegisterMap], _: Mapping[str, str]) -> dict[str, str]:
 
 def json_text(maps: Iterable[RegisterMap]) -> str:
     """Return all facts of the maps as one JSON document, indented, with a line end."""
-    facts = [{key: value for key, value in _fields(each).items() if key != "source"} for each in maps]
-    document = {"format": FORMAT, "maps": facts}
+    document = {"format": FORMAT, "maps": [_fields(each, "source") for each in maps]}
     return json.dumps(document, ensure_ascii=False, indent=1) + "\n"
 
 
@@ -69,8 +68,8 @@ def number(value: Number) -> Json:
 def _model(model: Model) -> Json:
     known = zip(model.programs, model.program_notes, strict=True)
     programs = [_fields(program) | _fields(notes) for program, notes in known]
-    facts = {key: value for key, value in _fields(model).items() if key != "program_notes"}
-    return facts | {"members": [_tree(member) for member in model.members], "programs": programs}
+    members = [_tree(member) for member in model.members]
+    return _fields(model, "program_notes") | {"members": members, "programs": programs}
 
 
 def _tree(member: Register | Array) -> Json:
@@ -80,42 +79,29 @@ def _tree(member: Register | Array) -> Json:
     return _fields(member) | {"members": [_tree(inner) for inner in member.members]}
 
 
-def _fields(record: Any) -> dict[str, Json]:  # noqa: ANN401 (any dataclass or named tuple of the model)
+def _fields(record: Any, *besides: str) -> dict[str, Json]:  # noqa: ANN401 (any dataclass or named tuple of the model)
+    """The fields of a record, less PLACES and those in `besides`."""
     names = getattr(record, "_fields", None) or [item.name for item in fields(record)]
-    return {name: _plain(getattr(record, name)) for name in names if name not in PLACES}
+    return {name: _plain(getattr(record, name)) for name in names if name not in PLACES and name not in besides}
 
 
 def _command(command: Command) -> Json:
     """A command with the register of each step and the space that the step writes."""
     steps = [_fields(step) | {"register": path, "space": step.space.value} for step, path in command.named_steps]
-    return {key: value for key, value in _fields(command).items() if key != "step_registers"} | {"steps": steps}
-
-
-def _identity(rule: IdentityRule) -> Json:
-    return _fields(rule.identity) | {"models": list(rule.models)}
-
-
-def _example(example: Any) -> Json:  # noqa: ANN401 (one of the types in EXAMPLES)
-    return {"type": EXAMPLES[type(example)]} | _fields(example)
+    return _fields(command, "step_registers") | {"steps": steps}
 
 
 def _register(register: Register) -> Json:
-    views = [_view(view, register.at) for view in register.views]
-    return {name: value for name, value in _fields(register).items() if name != "at"} | {"views": views}
+    return _fields(register, "at") | {"views": [_view(view, register.at) for view in register.views]}
 
 
 def _view(view: View, at: int) -> Json:
-    found = _fields(view) | {"address": view.address(at), "word_order": _plain(view.order)}
-    return {name: value for name, value in found.items() if name not in {"offset", "order"}}
+    return _fields(view, "offset", "order") | {"address": view.address(at), "word_order": _plain(view.order)}
 
 
 def _test(test: Is) -> Json:
     codes = [{"low": number(low), "high": number(high)} for low, high in test.codes]
-    return {name: value for name, value in _fields(test).items() if name != "bits"} | {"codes": codes}
-
-
-def _interval(interval: Interval) -> Json:
-    return {"low": _limit(interval.low), "high": _limit(interval.high)}
+    return _fields(test, "bits") | {"codes": codes}
 
 
 def _limit(limit: Limit) -> Json:
@@ -129,12 +115,12 @@ WRITERS: dict[type, Callable[[Any], Json]] = {
     bytes: lambda frame: frame.hex(" ").upper(),
     Register: _register,
     Is: _test,
-    Interval: _interval,
+    Interval: lambda interval: {"low": _limit(interval.low), "high": _limit(interval.high)},
     tuple: lambda items: [_plain(item) for item in items],
     Model: _model,
     Command: _command,
-    IdentityRule: _identity,
-    **dict.fromkeys(EXAMPLES, _example),
+    IdentityRule: lambda rule: _fields(rule.identity) | {"models": list(rule.models)},
+    **dict.fromkeys(EXAMPLES, lambda example: {"type": EXAMPLES[type(example)]} | _fields(example)),
 }
 """Types that are not written as an object of their fields."""
 

@@ -58,11 +58,11 @@ def _rows(data: bytes, file: str) -> list[Row]:
     """Read the table. Raises TableError where registers cannot be made of it."""
     table = read_table(data, file)
     columns = choose(table, (), ())
-    if missing := {"address", "name", "access"} - columns.names:
+    if missing := {"address", "name", "access"} - columns.at.keys():
         lacking = f"{file} has no column {', '.join(sorted(missing))}"
         message = f"{lacking}: a register needs an address, a name and its access"
         raise TableError(message)
-    return [(row.line, {column: row.cells[at].strip() for column, at in columns.at}) for row in table.rows]
+    return [(row.line, {column: row.cells[at].strip() for column, at in columns.at.items()}) for row in table.rows]
 
 
 def _body(rows: Sequence[Row], file: str, left: LeftOut) -> dict[str, Any]:

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
 from fractions import Fraction
 
-from regscribe.checks.assumed_values import default_values, with_fields
+from regscribe.checks.held_values import default_values, with_fields
 from regscribe.export.collectd.configuration import EVERY, Poll, collectd_text
 from regscribe.model import GivenKind, Model, RegisterMap, parse
 from regscribe.plugins import Option, OptionError

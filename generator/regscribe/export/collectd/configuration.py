@@ -44,7 +44,7 @@ BAUD = 9600
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Poll:
-    """Whom to ask, and every how many seconds: `host` and `port`, or the serial `device` and its `baud`.
+    """A device to poll, and the seconds between polls: `host` and `port`, or the serial `device` and its `baud`.
 
     `name` is what collectd calls the device; blocks of several devices can stand in one file if their names differ.
     """
@@ -134,7 +134,7 @@ def _order(view: View, known: Surroundings) -> Order:
 
 
 def _scale(register: Register, view: View, known: Surroundings) -> tuple[Fraction, Fraction]:
-    """Return by what the number on the wire is multiplied, and what is added then, to get the value of use."""
+    """Return factor and summand that turn the number on the wire into the value of use."""
     if register.kind not in {Kind.NUMBER, Kind.INTEGER}:
         return Fraction(1), Fraction(0)
     try:
