@@ -376,6 +376,17 @@ def test_a_value_that_the_device_changes_undoes_all(
     assert (device.commands_run, device.pending) == (("commit", "commit"), ())
 
 
+def test_what_an_undoing_writes_to_a_memory_that_wears_is_counted(controller: Any) -> None:
+    def stop(progress: Progress) -> None:
+        if progress.what == "mode":
+            raise KeyboardInterrupt
+
+    with pytest.raises(NotConfigured):
+        controller.configure({"band": 50, "mode": 1}, tell=stop)
+    assert written(controller) == [(20, (50,)), (20, (10,))]
+    assert controller.wear["band"] == (2, 0)
+
+
 def test_breaking_off_is_undone(controller: Any, device: SimulatedDevice) -> None:
     def stop(progress: Progress) -> None:
         if progress.what == "mode":

@@ -120,10 +120,14 @@ class Transaction:
             self._mark_all(batch, Fate.WRITTEN)
             self._record(batch)
         finally:
-            self.session.forget()
-            for piece in batch.pieces:
-                if piece.register.persistence in EEPROM:
-                    self.session.wear.add(piece.path, written=1)
+            self._after(batch)
+
+    def _after(self, batch: Batch) -> None:
+        """Count the wear of a request that was sent, and forget what it may have changed."""
+        self.session.forget()
+        for piece in batch.pieces:
+            if piece.register.persistence in EEPROM:
+                self.session.wear.add(piece.path, written=1)
 
     def _mark_all(self, batch: Batch, fate: Fate) -> None:
         for piece in batch.pieces:
@@ -231,7 +235,7 @@ class Transaction:
                 if found is None or not self._holds(path, found[path], words):
                     raise
             finally:
-                self.session.forget()
+                self._after(batch)
             self.mark(path, Fate.RESTORED, words)
 
     def _check_restored(self, touched: Sequence[str]) -> Operation[None]:
