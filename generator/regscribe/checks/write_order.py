@@ -134,9 +134,8 @@ def idle_conversion(register: Register, scope: RuleScope) -> Iterator[Problem]:
         return
     units = [one.unit for one in scope.model.registers if one.unit_id == register.rescales]
     if not any(register.path in case.when.registers for unit in units for case in unit):
-        message = f"rescales {register.rescales}, " + (
-            "whose cases do not ask for it" if units else "in which no register counts"
-        )
+        why = "whose cases do not ask for it" if units else "in which no register counts"
+        message = f"rescales {register.rescales}, {why}"
         yield message, "remove `rescales`, or let the cases of the unit ask for the register"
 
 

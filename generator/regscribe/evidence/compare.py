@@ -146,17 +146,14 @@ def _drop_silent_rows(matching: Matching, register_map: RegisterMap) -> list[str
 
 
 def _spots_without_register(register_map: RegisterMap) -> set[tuple[str, Spot]]:
-    """Return by model the places, also without their space, where no register begins though the manual lists them."""
+    """Return model and spot (also without its space) of each address that is listed, but begins no register."""
     found: set[tuple[str, Spot]] = set()
     for model in register_map.models:
-        further = [
-            (register.base.space, register.address + 1, register.base.last(register.at))
-            for register in model.registers
-            if not register.base.space.is_bits
-        ]
+        name = one_line(model.name)
+        in_words = [register for register in model.registers if not register.base.space.is_bits]
+        further = [(one.base.space, one.address + 1, one.base.last(one.at)) for one in in_words]
         for space, first, last in (*model.unused, *register_map.reserved, *further):
-            for address in range(first, last + 1):
-                found |= {(one_line(model.name), (space.value, address)), (one_line(model.name), ("", address))}
+            found.update((name, (own, address)) for address in range(first, last + 1) for own in (space.value, ""))
     return found
 
 

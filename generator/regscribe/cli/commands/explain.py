@@ -37,7 +37,7 @@ def _explanation(rule: Rule) -> Iterator[Piece]:
     bad, good = catalogue.examples(rule.id)
     yield f"{rule.severity.value}[{rule.id}]", STYLES[rule.severity]
     yield f": {rule.title}\n", "bold"
-    yield f"\n{rule.why}\n", ""
+    yield f"\n{rule.why}\n" if rule.why else "", ""  # -OO drops the docstrings that hold the reasons
     yield from _example("Bad", bad, other=good, mark="-", style="red")
     yield from _example("Good", good, other=bad, mark="+", style="green")
     if bad is None and good is None:

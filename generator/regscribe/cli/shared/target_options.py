@@ -102,7 +102,7 @@ def target_options(function: F) -> F:
             target = replace(target, trace=FrameTracer(target)) if trace else target
         return function(*args, target=target, **more)
 
-    with_target.__doc__ = f"{getdoc(function)}\n\n{HELP}"
+    with_target.__doc__ = f"{getdoc(function) or ''}\n\n{HELP}"
     result: F = _target_options(with_target)
     return result
 
