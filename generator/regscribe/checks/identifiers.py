@@ -21,14 +21,14 @@ HIDDEN = {
     "command": frozenset({"bind", "placed", "read", "registers", "run"}),
     "bit field": frozenset({"int", "parts", "replace"}),
 }
-"""What a driver's class for registers, for commands or for a word of bit fields uses itself."""
+"""Names that a driver's class for registers, for commands or for a word of bit fields uses itself."""
 
 ENUM_NAMES = frozenset({"MRO", "NAME", "VALUE"})
 """Names that `enum` refuses or uses itself, in capitals as members are written."""
 
 
 def normalised(text: str) -> str:
-    """Letters and digits only, in lower case: what is equal so is equal to a reader."""
+    """Letters and digits only, in lower case, so that texts which readers mistake for each other are equal."""
     return re.sub(r"[\W_]+", "", text).lower()
 
 

@@ -10,10 +10,10 @@ from regscribe.reference.states import domain
 from regscribe_runtime.values.serial_line import ADDRESSINGS, DATA_BITS, FORMATS, PARITIES, STOP_BITS
 
 ADDRESSES = frozenset({Kind.INTEGER, Kind.RAW})
-"""What a unit id can be: a whole number."""
+"""Kinds of registers that can hold a unit id: whole numbers."""
 
 CODES = ADDRESSES | {Kind.NUMBER, Kind.ENUM, Kind.BOOLEAN}
-"""What a code can be: one value, no word of several parts and no text."""
+"""Kinds of registers that can hold a code: one value, no word of several parts and no text."""
 
 MOST_BAUD = 10_000_000
 """The fastest speed that the language lets a line have."""

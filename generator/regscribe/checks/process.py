@@ -11,7 +11,7 @@ NO_NUMBERS = frozenset({Kind.STRING, Kind.FLAGS, Kind.FIELDS, Kind.VERSION})
 HELP_BIT = "name a bit: `register.flag`, or a register of type bit"
 HELP_NUMBER = "name a register that holds a number"
 ProcessRole = tuple[str, str, bool]
-"""What a register is in the process, its path (perhaps of a bit), and whether it must be a bit."""
+"""Name of a role in the process, path of the register or bit that plays it, and whether it must be a bit."""
 
 
 def _sources(register: Register) -> set[str]:

@@ -15,7 +15,7 @@ ENUM = frozenset({Kind.ENUM})
 UNITS = ("s", "min", "h", "d")
 
 ProgramRole = tuple[str, str, frozenset[Kind]]
-"""What a register is in a program, its path, and the kinds that can be it."""
+"""Name of a role in a program, path of the register that plays it, and the kinds that can."""
 
 
 def _written(program: SetpointProgram) -> Iterator[ProgramRole]:

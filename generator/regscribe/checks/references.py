@@ -14,7 +14,7 @@ CODES_LISTED = 64
 
 
 def needed(register: Register) -> Iterator[tuple[str, str]]:
-    """What a register needs to be read, and why: pairs of another register's path and a reason."""
+    """Registers whose values are needed to read a register: path and reason of each."""
     yield from ((path, "its scale depends on") for path in registers_of(register.scale))
     yield from ((case.then.decimals.register, "its decimals are") for case in register.scale if case.then.decimals)
     for view in register.views:
@@ -23,7 +23,7 @@ def needed(register: Register) -> Iterator[tuple[str, str]]:
 
 
 def limiting(register: Register) -> Iterator[tuple[str, str]]:
-    """What a register needs besides to be written: limits and conditions."""
+    """Registers whose values are needed besides to write a register, for limits and conditions: path and reason."""
     yield from ((path, "its range depends on") for path in registers_of(register.range))
     yield from ((path, "a limit is") for path in _limits(register))
     decimals = [(case.then.decimals, "the decimals of its range are") for case in register.range]

@@ -151,7 +151,7 @@ def _declare(
 
 
 def doubled(items: Iterable[Item], keys: Callable[[Item], Iterable[Hashable]]) -> Iterator[tuple[Item, Item]]:
-    """Items of which a key belongs to an earlier one already: the earlier one, and the item."""
+    """Pairs of an item and the first earlier item that shares a key with it, the earlier one first."""
     owners: dict[Hashable, Item] = {}
     for item in items:
         for key in keys(item):

@@ -1,4 +1,4 @@
-"""Scales and resolution."""
+"""Scales and resolution: factors of zero, numbers that a float cannot tell apart, values between two steps."""
 
 from collections.abc import Iterator
 from fractions import Fraction

@@ -113,14 +113,9 @@ def frame_fields(example: FrameExample, _: RuleScope) -> Iterator[str]:
     except MalformedError as malformed:
         yield str(malformed)
         return
-    stated: tuple[tuple[str, object, object], ...] = (
-        ("unit", example.unit, frame.unit),
-        ("function", example.function & ~EXCEPTION_BIT, frame.function),
-        ("address", example.address, frame.address),
-        ("count", example.count, frame.count),
-        ("words", example.words, frame.words),
-    )
-    for name, said, found in stated:
+    stated = replace(example, function=example.function & ~EXCEPTION_BIT)
+    for name in ("unit", "function", "address", "count", "words"):
+        said, found = getattr(stated, name), getattr(frame, name)
         if said is not None and found is not None and said != found:
             yield f"its {name} is {found}, the map says {said}"
 

@@ -125,10 +125,8 @@ def _sent(example: ValueExample, view: View, known: Surroundings) -> str:
     if example.stored is None:
         return ""
     words = transmit(view, example.stored, known)
-    if words == example.words:
-        return ""
-    said = hexadecimal(example.words)
-    return f"a device that holds {show(example.stored)} sends {hexadecimal(words)}, the manual says {said}"
+    sends = f"a device that holds {show(example.stored)} sends {hexadecimal(words)}"
+    return "" if words == example.words else f"{sends}, the manual says {hexadecimal(example.words)}"
 
 
 def _read(example: ValueExample, register: Register, view: View, known: Surroundings) -> str:
@@ -148,11 +146,10 @@ def _read(example: ValueExample, register: Register, view: View, known: Surround
 
 def _flags(example: ValueExample, register: Register, reading: Reading) -> str:
     word = int(reading.value) if isinstance(reading.value, Fraction) else 0
-    have = {bits.id for bits in register.fields if bits.is_flag and word >> bits.low & 1}
-    wanted = set(example.flags or ())
-    if have == wanted:
-        return ""
-    return f"the flags are {', '.join(sorted(have)) or 'none'}, the manual says {', '.join(sorted(wanted)) or 'none'}"
+    have = sorted({bits.id for bits in register.fields if bits.is_flag and word >> bits.low & 1})
+    wanted = sorted(set(example.flags or ()))
+    said = f"the flags are {', '.join(have) or 'none'}, the manual says {', '.join(wanted) or 'none'}"
+    return "" if have == wanted else said
 
 
 def compare(

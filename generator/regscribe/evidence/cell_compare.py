@@ -28,7 +28,7 @@ ACCESS = {
 }
 
 Fold = Callable[[str], str]
-"""Texts that become equal say the same."""
+"""Maps texts that say the same to equal texts."""
 
 
 def number(text: str) -> Fraction | None:

@@ -15,7 +15,7 @@ from regscribe.export.csv import COLUMNS
 from regscribe.model import RegisterMap
 
 OF_BASE = frozenset({"address", "aliases", "views", "id"})
-"""What a row at an alias says of itself and not of the register."""
+"""Columns in which a row at an alias describes the alias and not the register."""
 
 
 def compare_table(

@@ -9,7 +9,7 @@ from regscribe.evidence.coverage_values import Addresses, MapCoverage, ModelCove
 from regscribe.model import FrameExample, Kind, Model, Open, Register, RegisterMap, Space, ValueExample
 
 INFERRED, OPEN_LIMIT, NOT_STATED = KINDS = ("inferred", "open limit", "decimals not stated")
-"""What is said of registers, in this order."""
+"""Kinds of remarks about registers, in the order in which they are listed."""
 
 
 def coverage(register_map: RegisterMap) -> MapCoverage:

@@ -60,13 +60,10 @@ class _RowIndex:
 
     def _free(self, places: Iterable[int], row: ComparedRow) -> list[int]:
         """The entries at `places` that are free; a row that states its kind finds a command only if it is one."""
-        states_kind = bool(row.cells.get("kind", "").strip())
-        entries = self.entries
-        return [
-            place
-            for place in places
-            if place in self.free and not (states_kind and entries[place].is_command != row.is_command)
-        ]
+        free = [place for place in places if place in self.free]
+        if not row.cells.get("kind", "").strip():
+            return free
+        return [place for place in free if self.entries[place].is_command == row.is_command]
 
 
 def match(ours: Sequence[ComparedRow], theirs: Sequence[ComparedRow], *, name: str) -> Matching:

@@ -119,20 +119,16 @@ def _stands(cells: dict[str, str], notations: Sequence[Notation], faults: list[s
     space = cells.get("space", "").strip().casefold()
     if space and space not in set(Space):
         faults.append(f"column space: `{space[:60]}` is none of {', '.join(Space)}")
-    if cells.get("address", "").strip():
-        found = _addresses("address", cells["address"], faults)
-        return [({"address": str(address)}, ((space, address),)) for address in found]
-    written = [one for one in notations if cells.get(fold(one.name), "").strip()]
-    return _in_notation(written[0].name, cells, notations, space, faults) if written else []
-
-
-def _in_notation(
-    notation: str, cells: dict[str, str], notations: Sequence[Notation], space: str, faults: list[str]
-) -> list[Stand]:
-    name = fold(notation)
+    names = ["address", *(notation.name for notation in notations)]
+    filled = next((name for name in names if cells.get(fold(name), "").strip()), None)
+    if filled is None:
+        return []
+    name = fold(filled)
     offsets = [(one.space.value, one.offset) for one in notations if fold(one.name) == name]
+    if name == "address":
+        offsets = [(space, 0)]
     if space and space not in dict(offsets):
-        faults.append(f"column {name}: the map has no notation {notation} for the space {space}")
+        faults.append(f"column {name}: the map has no notation {filled} for the space {space}")
         return []
     return [
         ({name: str(written)}, tuple((own, written - offset) for own, offset in offsets if space in {"", own}))

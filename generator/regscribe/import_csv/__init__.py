@@ -1,7 +1,7 @@
 """The importer of CSV: a table of registers, in the columns of the export, becomes the groups of a new map.
 
-What a cell says outright becomes a key. What it says otherwise (a scale under a condition, a limit in words) is left
-out and told, never guessed.
+A cell that states a plain value becomes a key. Any other (a scale under a condition, a limit in words) is left out
+and reported, never guessed.
 """
 
 import re
@@ -21,7 +21,7 @@ name = "csv"
 summary = "a table of registers in the columns of the export"
 
 PASSED_OVER = frozenset({"map", "model", "id", "words", "views", "group"})
-"""Columns that are told by the place of a register, or that follow from others."""
+"""Columns that follow from the place of a register, or from other columns."""
 
 MOST_TEXT = 60
 """Characters of a cell that are shown."""
@@ -33,7 +33,7 @@ Row = tuple[int, Cells]
 """The line of a row, and its cells by column."""
 
 LeftOut = dict[str, list[int]]
-"""What is left out, each with the lines where it stands."""
+"""What is left out, each with the lines of its rows."""
 
 
 def read(data: bytes, name: str) -> tuple[str, tuple[Diagnostic, ...]]:
