@@ -27,12 +27,10 @@ def empty(register: Register, scope: RuleScope) -> Iterator[Problem]:
 def intervals_overlap(register: Register, _: RuleScope) -> Iterator[Problem]:
     """Parts of a union are apart; where they touch, one end was misread."""
     for case in register.range:
-        known = [
-            (interval.low, interval.high)
-            for interval in case.then.intervals
-            if isinstance(interval.low, Number) and isinstance(interval.high, Number)
+        numeric = [
+            (low, high) for low, high in case.then.intervals if isinstance(low, Number) and isinstance(high, Number)
         ]
-        for (low, high), (first, last) in pairwise(sorted(known)):
+        for (low, high), (first, last) in pairwise(sorted(numeric)):
             if first <= high:
                 message = f"has a range whose parts {show(low)}..{show(high)} and {show(first)}..{show(last)} overlap"
                 yield message, "join the parts or correct an end"

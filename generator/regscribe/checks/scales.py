@@ -34,9 +34,9 @@ def _differ(form: Form, wire: WireType) -> bool:
     """Whether a conversion makes different floats of stored numbers; the ends come first, as they mostly differ."""
     ends = (wire.minimum, wire.maximum) if wire.is_integer else (-1, 1)
     floats = (_as_float(form, stored) for stored in (*ends, 0, 1))
-    known = (one for one in floats if one is not None)
-    first = next(known, None)
-    return any(one != first for one in known)
+    held = (number for number in floats if number is not None)
+    first = next(held, None)
+    return any(number != first for number in held)
 
 
 def _as_float(form: Form, stored: int) -> float | None:

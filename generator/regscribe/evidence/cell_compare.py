@@ -4,11 +4,11 @@ import json
 import re
 from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
+from operator import eq
 
 from regscribe.emit.words import one_line
 
 NUMBERS = frozenset({"address", "words", "default", "minimum", "maximum"})
-LISTS = frozenset({"aliases"})
 OBJECTS = frozenset({"values", "bits", "views"})
 WORDS = frozenset({"space", "kind", "type"})
 """Columns of a fixed vocabulary: their case never matters."""
@@ -66,15 +66,11 @@ def _same(column: str, ours: str, theirs: str, fold: Fold) -> bool:
     numbers = number(ours), number(theirs)
     if column in NUMBERS and None not in numbers:
         return numbers[0] == numbers[1]
-    if column in LISTS:
-        return sorted(re.split(r"[\s,;]+", ours.strip())) == sorted(re.split(r"[\s,;]+", theirs.strip()))
-    if column in WORDS:
-        return ours.strip().casefold() == theirs.strip().casefold()
-    if column == "access":
-        return access(ours) == access(theirs)
     if column == "section" and fold is _bare:
-        return _within(ours, theirs) or _within(theirs, ours)
-    return fold(ours) == fold(theirs)
+        left, right = (re.findall(r"\w+", text.casefold()) for text in (ours, theirs))
+        return bool(left) == bool(right) and all(map(eq, left, right))  # one is the other, or a section above it
+    folding = FOLDS.get(column, fold)
+    return folding(ours) == folding(theirs)
 
 
 def _bare(text: str) -> str:
@@ -87,10 +83,12 @@ def access(text: str) -> str:
     return ACCESS.get(re.sub(r"[\s/_-]+", "", text.casefold()), text)
 
 
-def _within(part: str, whole: str) -> bool:
-    """Whether `whole` is the section `part` or one below it; nothing lies in an unnamed section."""
-    parts, wholes = (re.findall(r"\w+", text.casefold()) for text in (part, whole))
-    return parts == wholes[: len(parts)] and bool(parts) == bool(wholes)
+FOLDS: Mapping[str, Callable[[str], object]] = {
+    "aliases": lambda text: sorted(re.split(r"[\s,;]+", text.strip())),
+    "access": access,
+    **dict.fromkeys(WORDS, lambda text: text.strip().casefold()),
+}
+"""Columns whose cells are not compared as texts."""
 
 
 def objects(text: str) -> dict[str, object] | None:

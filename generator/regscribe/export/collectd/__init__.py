@@ -124,8 +124,7 @@ def _poll(register_map: RegisterMap, model: Model, options: Mapping[str, str]) -
         message = f"--name {called}: at most 40 letters, digits, points, hyphens and underscores"
         raise OptionError(message)
     if place.startswith("/"):
-        baud = protocol.serial.baud
-        return Poll(name=called, unit=unit, every=every, device=place, baud=baud)
+        return Poll(name=called, unit=unit, every=every, device=place, baud=protocol.serial.baud)
     found = re.fullmatch(r"([^:\s]+):([0-9]{1,5})", place)
     if not found or not 1 <= int(found[2]) <= LAST_PORT:
         message = f"--at {place}: write HOST:PORT, for example 10.0.0.7:502, or a serial device such as /dev/ttyUSB0"
