@@ -8,6 +8,7 @@ import struct
 import subprocess
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +29,14 @@ def test_an_explanation_marks_the_lines_in_which_bad_and_good_differ(cli: Callab
     bad, good = out.split("\nBad:\n")[1].split("\nGood:\n")
     assert [line for line in bad.splitlines() if line.startswith("- ")]
     assert not [line for line in good.splitlines() if line.startswith("- ")]
+
+
+def test_an_explanation_without_docstrings_leaves_the_reason_out(
+    cli: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bare = tuple(replace(rule, why="") for rule in catalogue.all_rules())  # as python -OO has them
+    monkeypatch.setattr(catalogue, "all_rules", lambda: bare)
+    assert cli("explain", "RS0401").out.startswith("error[RS0401]: Addresses overlap\n\nBad:\n")
 
 
 @pytest.mark.parametrize("name", ["acme/oven", "acme/oven-3", "my-maker/the-3rd-family", "a/b", "true/no"])
