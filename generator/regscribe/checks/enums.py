@@ -153,7 +153,7 @@ def default_of_no_name(register: Register, _: RuleScope) -> Iterator[Problem]:
     """A driver writes no bit that has no name, so it could never write this default."""
     if register.kind is not Kind.FLAGS or not isinstance(register.default, Fraction):
         return
-    unnamed = int(register.default) & ~sum(((1 << bits.width) - 1) << bits.low for bits in register.fields)
+    unnamed = int(register.default) & ~register.named_bits
     if 0 <= register.default < 1 << register.bits and unnamed:
         bits = ", ".join(str(bit) for bit in range(register.bits) if unnamed >> bit & 1)
         message = f"has default {show(register.default)}, but no flag at bit {bits}"

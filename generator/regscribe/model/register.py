@@ -137,6 +137,11 @@ class Register:
         """Width of the base view in bits."""
         return self.base.type.bits if self.base.type.is_integer else 16 * self.base.words
 
+    @property
+    def named_bits(self) -> int:
+        """The bits of the value that belong to a field."""
+        return sum(((1 << bits.width) - 1) << bits.low for bits in self.fields)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Array:

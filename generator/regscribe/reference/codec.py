@@ -164,10 +164,8 @@ def _check_kind(register: Register, value: Fraction) -> None:
         raise RefusedError(RefusalReason.TYPE, f"{show(value)} is neither 0 nor 1")
     if register.enum is not None and all(member.code != value for member in register.enum.members):
         raise RefusedError(RefusalReason.MEMBER, f"{show(value)} is no member of {register.enum.id}")
-    if register.kind is Kind.FLAGS:
-        named = sum(((1 << bits.width) - 1) << bits.low for bits in register.fields)
-        if value.denominator != 1 or value < 0 or int(value) & ~named:
-            raise RefusedError(RefusalReason.BITS, f"{show(value)} sets bits that mean nothing")
+    if register.kind is Kind.FLAGS and value != int(value) & register.named_bits:
+        raise RefusedError(RefusalReason.BITS, f"{show(value)} sets bits that mean nothing")
     if not register.fractional and value.denominator != 1:
         raise RefusedError(RefusalReason.TYPE, f"{show(value)} is no whole number")
 

@@ -5,7 +5,7 @@ from fractions import Fraction
 from itertools import groupby, product
 from typing import NamedTuple, TypeVar
 
-from regscribe.model import Kind, Number, Register, WireType
+from regscribe.model import Enum, Kind, Limit, Number, Register, WireType
 from regscribe.reference.settled_scales import forms, widest
 
 K = TypeVar("K", bound=Hashable)
@@ -32,36 +32,33 @@ ANYTHING = (Stretch(Fraction(-(10**30)), Fraction(10**30)),)
 
 def domain(register: Register, field: str = "") -> tuple[Stretch, ...]:
     """The values of use that the map allows for: members and invalid codes of an enum, the range and special values."""
-    bits = next((one for one in register.fields if one.id == field), None)
-    if field and bits is None:
-        return ANYTHING
-    enum = bits.enum if bits else register.enum
-    if enum is not None:
-        codes = sorted({member.code for member in enum.members} | {code for code, _ in enum.invalid})
-        return tuple(Stretch(Fraction(code), Fraction(code)) for code in codes)
-    if bits:
-        return (Stretch(Fraction(0), Fraction((1 << bits.width) - 1)),)
-    if register.kind in {Kind.FLAGS, Kind.FIELDS}:
-        return (Stretch(Fraction(0), Fraction((1 << register.bits) - 1)),)
+    if field:
+        return next((_of_bits(bits.enum, bits.width) for bits in register.fields if bits.id == field), ANYTHING)
+    if register.enum is not None or register.kind in {Kind.FLAGS, Kind.FIELDS}:
+        return _of_bits(register.enum, register.bits)
     if register.kind is Kind.STRING or register.base.type is WireType.STRING:
         return ANYTHING
     return _without_faults(register, _of_number(register))
 
 
+def _of_bits(enum: Enum | None, width: int) -> tuple[Stretch, ...]:
+    if enum is None:
+        return (Stretch(Fraction(0), Fraction((1 << width) - 1)),)
+    codes = sorted({member.code for member in enum.members} | {code for code, _ in enum.invalid})
+    return tuple(Stretch(Fraction(code), Fraction(code)) for code in codes)
+
+
 def _of_number(register: Register) -> tuple[Stretch, ...]:
-    reach = widest(register)
-    low, high = reach or (ANYTHING[0].low, ANYTHING[0].high)
+    low, high = widest(register) or ANYTHING[0]
     intervals = [interval for case in register.range for interval in case.then.intervals]
     if not intervals or any(case.then.decimals for case in register.range):
         return (Stretch(low, high),)
-    stretches = [
-        Stretch(
-            Fraction(interval.low if isinstance(interval.low, Number) else low),
-            Fraction(interval.high if isinstance(interval.high, Number) else high),
-        )
-        for interval in intervals
-    ]
+    stretches = [Stretch(_end(interval.low, low), _end(interval.high, high)) for interval in intervals]
     return (*stretches, *(Stretch(special.value, special.value) for special in register.specials))
+
+
+def _end(limit: Limit, otherwise: Fraction) -> Fraction:
+    return Fraction(limit if isinstance(limit, Number) else otherwise)
 
 
 def _without_faults(register: Register, stretches: tuple[Stretch, ...]) -> tuple[Stretch, ...]:
