@@ -89,7 +89,11 @@ def _named(register: Register, value: Fraction, known: Surroundings) -> Json:
     for special in register.specials:
         if special.means is None and special_value(register, special, known) == value:
             return {"special": special.id}
-    parts = {bits.id: (int(value) >> bits.low) % (1 << bits.width) for bits in register.fields}
+    return _parts(register, int(value))
+
+
+def _parts(register: Register, value: int) -> Json:
+    parts = {bits.id: (value >> bits.low) % (1 << bits.width) for bits in register.fields}
     if register.kind is Kind.FLAGS:
         return {"flags": [name for name, part in parts.items() if part & 1]}
     return {"fields": {name: str(part) for name, part in parts.items()}} if register.kind is Kind.FIELDS else {}
@@ -108,11 +112,12 @@ def _writes(register: Register, view: View, scale: Scale | None, situation: Situ
             encodes.append({"value": shown, "words": list(encode(register, view, value, known)), "note": note})
         except RefusedError as refusal:
             refuses.append({"value": shown, "reason": refusal.reason.value, "note": note})
-    if scale is not None and situation.full and register.fractional and view.type.is_integer:
-        encodes += _rounded(register, view, scale, known)
     found: Json = {"encode": encodes, "refuse": refuses}
-    if situation.full and word_order(view, known) is not None:
-        found["domain"] = list(offered_values.domain(register, view, scale, known))
+    if situation.full:
+        if scale is not None and register.fractional and view.type.is_integer:
+            encodes += _rounded(register, view, scale, known)
+        if word_order(view, known) is not None:
+            found["domain"] = list(offered_values.domain(register, view, scale, known))
     return found
 
 

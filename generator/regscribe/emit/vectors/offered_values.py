@@ -126,30 +126,31 @@ def texts(register: Register, view: View) -> Iterator[tuple[str, str]]:
 
 def domain(register: Register, view: View, scale: Scale | None, known: Surroundings) -> Iterator[Json]:
     """Yield the codes of an enum, or each interval of numbers that are the same when written and read back."""
-    if register.kind is Kind.ENUM and register.enum is not None:
+    if register.enum is not None:
         yield from ({"low": str(member.code), "high": str(member.code)} for member in register.enum.members)
     elif scale is not None and register.kind not in CODED | TEXTS:
-        line = _line(scale, view) if view.type.is_float else {}
+        line = _line(scale, view)
         holes = _holes(register, scale, known)
         for low, high, step in _stretches(register, scale, line):
             inside = [show(value) for value in holes if low <= value <= high]
-            found = {"low": show(low), "high": show(high), "step": show(step) if step else "", **line, "except": inside}
+            found = {"low": show(low), "high": show(high), "step": step, **line, "except": inside}
             yield {key: value for key, value in found.items() if value}
 
 
-def _stretches(register: Register, scale: Scale, line: dict[str, str]) -> Iterator[tuple[Fraction, Fraction, Fraction]]:
-    """Yield lowest and highest value and the step between values, 0 for none."""
+def _stretches(register: Register, scale: Scale, line: dict[str, str]) -> Iterator[tuple[Fraction, Fraction, str]]:
+    """Yield lowest and highest value and the step between values, empty for none."""
     if register.fractional:
-        yield from ((max(low, -WIDEST), min(high, WIDEST), scale.size) for low, high in scale.domain())
+        step = show(scale.size) if scale.size else ""
+        yield from ((max(low, -WIDEST), min(high, WIDEST), step) for low, high in scale.domain())
     elif not line:  # which whole numbers an IEEE number can carry along a line has no form here
-        step, stretches = scale.whole_domain()
-        yield from ((low, high, step) for low, high in stretches)
+        whole_step, stretches = scale.whole_domain()
+        yield from ((low, high, show(whole_step)) for low, high in stretches)
 
 
 def _line(scale: Scale, view: View) -> dict[str, str]:
-    """How a value follows from an IEEE number; nothing where both have the same digits."""
+    """How a value follows from an IEEE number; nothing where both have the same digits, or for other numbers."""
     slope = scale.slope / view.factor
-    if scale.offset == 0 and show(slope).replace(".", "").strip("-0") == "1":
+    if not view.type.is_float or (scale.offset == 0 and show(slope).replace(".", "").strip("-0") == "1"):
         return {}
     return {"slope": show(slope), "offset": show(scale.offset)}
 

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import islice
+from itertools import chain, islice
 
 from regscribe.emit.vectors.present_scale import cases_of, limit_values
 from regscribe.emit.vectors.tried_values import Dependencies, TriedValues, Values, dependencies_of, tried_values
@@ -117,7 +117,7 @@ def _words(tried: TriedValues, values: dict[str, Fraction]) -> tuple[tuple[str, 
 
 def _missing(values: Values, full: list[Situation], meanings: Mapping[Situation, object]) -> list[Situation]:
     """Return a situation for each value that no full one has: one where this value makes a difference, if it can."""
-    covered = {pair for situation in full for pair in situation.values}
+    covered = set(chain.from_iterable(situation.values for situation in full))
     found: dict[Situation, None] = {}
     for name, listed in values.items():
         uncovered = [(name, value) for value in listed if (name, value) not in covered]

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from regscribe.emit.header import header
 from regscribe.emit.python.formatting import call, lay
 from regscribe.emit.python.literals import literal
-from regscribe.model import RegisterMap
+from regscribe.model import Model, RegisterMap
 
 HEAD = '''"""The driver against its vectors, and properties that hold for every value."""
 
@@ -64,7 +64,7 @@ def module_text(register_map: RegisterMap) -> str:
         module=family.replace("-", "_"),
         maker_text=literal(maker),
         file_text=literal(f"{family}.json"),
-        classes=_classes([f"module.{model.class_name}" for model in register_map.models]),
+        classes=_classes(register_map.models),
     )
     registers = [register for model in register_map.models for register in model.registers]
     had = {
@@ -89,6 +89,7 @@ def _test(name: str, decorators: Iterable[str], more: Iterable[str], body: str) 
     return "\n".join(["", "", *decorators, *signature, f"    {body}", ""])
 
 
-def _classes(names: list[str]) -> str:
+def _classes(models: Iterable[Model]) -> str:
+    names = [f"module.{model.class_name}" for model in models]
     # as `ruff format` has it: a tuple of one stays on its line
     return f"({names[0]},)" if len(names) == 1 else "\n".join(["(", *(f"    {name}," for name in names), ")"])

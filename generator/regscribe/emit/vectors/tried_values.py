@@ -71,13 +71,7 @@ def tried_values(register_map: RegisterMap, model: Model, dependencies: Dependen
     return TriedValues(
         {subject: tuple(sorted(found)) for subject, found in values.items()},
         {test.given: _given(model, test, sets) for test in dependencies.tests if test.given},
-        {
-            test.subject: (test.register, bits.low)
-            for test in dependencies.tests
-            if test.field
-            for bits in model.register(test.register).fields
-            if bits.id == test.field
-        },
+        {test.subject: (test.register, test.bits[0]) for test in dependencies.tests if test.bits},
     )
 
 

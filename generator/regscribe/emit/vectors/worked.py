@@ -101,13 +101,13 @@ class _ExampleState:
                     fields[name] = Fraction(int(values[register.path]) >> bits.low & ((1 << bits.width) - 1))
         self._values = fields | values
         self._read: dict[str, None] = {}
-        kinds = {given.id: given.kind for given in register_map.givens}
-        self.codes = {
-            name: frozenset({values[name]} if name in values else ())
-            for name, kind in kinds.items()
-            if kind is GivenKind.CODES
-        }
-        self.facts = {name: bool(values.get(name, 0)) for name, kind in kinds.items() if kind is GivenKind.BOOLEAN}
+        self.codes: dict[str, frozenset[Fraction]] = {}
+        self.facts: dict[str, bool] = {}
+        for given in register_map.givens:
+            if given.kind is GivenKind.CODES:
+                self.codes[given.id] = frozenset({values[given.id]} if given.id in values else ())
+            else:
+                self.facts[given.id] = bool(values.get(given.id, 0))
 
     def look_up(self, subject: str) -> Fraction:
         """Return the value of `subject`; raises UnknownValueError if there is none."""
