@@ -85,10 +85,9 @@ def _module(
     classes: Iterable[str] = (),
     hidden_names: frozenset[str] = frozenset(),
 ) -> str:
-    own = [match[1] for line in named.lines() if (match := re.match(r"class (\w+)\(", line))]
+    own = re.findall(r"^class (\w+)\(", "\n".join(named.lines()), re.MULTILINE)
     used = set(re.findall(r"\w+", NOT_CODE.sub("", body)))
-    aliases = {f"_{name}" for name in hidden_names}
-    standard = [line for module, names in STANDARD.items() for line in _import(module, [n for n in names if n in used])]
+    standard = [line for module, names in STANDARD.items() for line in _import(module, sorted(used & {*names}))]
     head = [
         *docstring(about, 0),
         "",
@@ -98,7 +97,7 @@ def _module(
         *([""] if standard else []),
         *_library_imports(named.imports.values()),
         *_import("regscribe_runtime", [name for name in RUNTIME if name in used - hidden_names]),
-        *(f"from regscribe_runtime import {name} as _{name}" for name in RUNTIME if f"_{name}" in used & aliases),
+        *(f"from regscribe_runtime import {name} as _{name}" for name in sorted(hidden_names) if f"_{name}" in used),
         "",
         "__all__ = [",
         *(f"    {literal(name)}," for name in sorted({*own, *named.imported, *classes}, key=_natural)),

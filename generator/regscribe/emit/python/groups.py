@@ -1,6 +1,7 @@
 """Groups of registers: the class that declares them, and facts that long declarations of one group share."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections import Counter
+from collections.abc import Mapping, Sequence
 
 from regscribe.emit.common_values import merge, merged_order
 from regscribe.emit.python.constants import Pool
@@ -33,12 +34,13 @@ def with_group_facts(
 ) -> dict[str, Call]:
     """The declarations of registers by id; long ones of a group unpack their common facts: `**_CALIBRATION`."""
     found = dict(calls)
-    for group_id in dict.fromkeys(register.group for register in registers):
-        own = {one.id: calls[one.id] for one in registers if one.group == group_id}
+    groups: dict[str, dict[str, Call]] = {}
+    for register in registers:
+        groups.setdefault(register.group, {})[register.id] = calls[register.id]
+    for group_id, own in groups.items():
         lines = {name: len(lay(call, head=f"{name} = ", depth=1)) for name, call in own.items()}
-        long = [own[name] for name, count in lines.items() if count > ENOUGH_LINES]
-        common = _common(long)
-        if min(len(long), len(common)) >= FEWEST:
+        common = _common(own, lines)
+        if len(common) >= FEWEST:
             facts = mapping([(literal(key.removesuffix("=")), value) for key, value in common])
             constant = pool.share(facts, group_id, f"{group_id}_{model.name}", type_name="dict[str, Any]")
             alike = [name for name, count in lines.items() if count > 1 and set(common) <= set(own[name].items)]
@@ -46,10 +48,11 @@ def with_group_facts(
     return found
 
 
-def _common(calls: Iterable[Call]) -> Facts:
-    """The keyword arguments that all calls have, in the order of the first."""
-    first, *others = [[item for item in call.items if item[0]] for call in calls] or [[]]
-    return [item for item in first if all(item in other for other in others)]
+def _common(calls: Mapping[str, Call], lines: Mapping[str, int]) -> Facts:
+    """The keyword arguments that all long calls have, if they are enough, in the order of the first."""
+    long = [calls[name].items for name, count in lines.items() if count > ENOUGH_LINES]
+    times = Counter(item for items in long for item in items if item[0])
+    return [item for item, count in times.items() if count == max(len(long), FEWEST)]
 
 
 def _without(call: Call, facts: Facts, name: str) -> Call:

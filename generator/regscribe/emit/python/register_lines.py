@@ -38,18 +38,18 @@ class Declarations:
             range=specs.range(register),
             default=_default(register),
             unit=specs.unit(register),
-            section=literal(register.section) if register.section else None,
+            section=_text(register.section),
             sentinels=specs.shared(register, "sentinels", register.sentinels),
             aliases=group([str(alias) for alias in register.aliases]) if register.aliases else None,
             writable=specs.shared(register, "writable", register.writable),
-            persistence=literal(register.persistence) if register.persistence else None,
-            unlock=literal(register.unlock) if register.unlock else None,
-            apply=literal(register.apply) if register.apply else None,
+            persistence=_text(register.persistence),
+            unlock=_text(register.unlock),
+            apply=_text(register.apply),
             danger=specs.maybe(register, "danger", literal(one_line(register.danger))) if register.danger else None,
-            stays=literal(register.stays) if register.stays else None,
+            stays=_text(register.stays),
             governs=specs.governs(register),
             settle=str(register.settle) if register.settle else None,
-            rescales=literal(register.rescales) if register.rescales else None,
+            rescales=_text(register.rescales),
         )
 
     def _kind(self, register: Register) -> Expression:
@@ -83,6 +83,10 @@ class Declarations:
         return call(helper(f"{kind}_or"), special, mapping(means)) if means else f"{helper(f'{kind}_or')}({special})"
 
 
+def _text(text: str) -> str | None:
+    return literal(text) if text else None
+
+
 def _default(register: Register) -> str | None:
     if register.default is None:
         return None
@@ -108,7 +112,7 @@ def _about(register: Register) -> str:
     ]
     if not any(facts) and re.sub(r"\W+", "_", (name + symbol).lower()).strip("_") == register.id:
         return ""
-    return f"{name}{symbol}: {'; '.join(one_line(fact) for fact in (*facts, register.section) if fact)}."
+    return f"{name}{symbol}: {'; '.join(map(one_line, filter(None, (*facts, register.section))))}."
 
 
 def _range_text(register: Register) -> str:
