@@ -15,6 +15,7 @@ _TYPES = {
     "array": "list",
     "object": "mapping",
     "null": "null",
+    "": "anything",
 }
 _BOUNDS = (
     ("minimum", "at least {}"),
@@ -124,12 +125,12 @@ def _form(schema: Schema) -> str:
         return _link(schema["$ref"])
     if schema.get("if") == _MAY_BE_NULL:
         return f"{_form(schema['else'])}, or null"
-    if "enum" in schema or "const" in schema:
+    if schema.keys() & {"enum", "const"}:
         return ", ".join(f"`{inline(word)}`" for word in schema.get("enum", [schema.get("const")]))
-    types = schema.get("type", [])
+    types = schema.get("type", "")
     words = dict.fromkeys(_type_form(name, schema) for name in ([types] if isinstance(types, str) else types))
     bounds = [text.format(schema[bound]) for bound, text in _BOUNDS if bound in schema]
-    return (" or ".join(words) + (f" ({', '.join(bounds)})" if bounds else "")) if words else "anything"
+    return " or ".join(words) + (f" ({', '.join(bounds)})" if bounds else "")
 
 
 def _type_form(name: str, schema: Schema) -> str:

@@ -56,20 +56,19 @@ def write(
     kept = tuple(kept)
     files = with_package_files(files, kept)
     targets = {path: _target(path, out) for path in sorted({*files, *kept})}
-    before = {path: _read(targets[path]) for path in files}
-    changed = {path: text for path, text in files.items() if before[path] != text.encode()}
-    tops = {path.partition("/")[0] if "/" in path else "" for path in targets}
+    changed = {path: text for path, text in files.items() if _read(targets[path]) != text.encode()}
+    tops = {path.rpartition("/")[0].partition("/")[0] for path in targets}
     stale = stale_files(targets, sorted(tops, key=lambda top: (not top, top)), out, owned)  # "" last
     diffs: list[str] = []
     if check:
-        diffs += [_unified(path, before[path], text.encode()) for path, text in sorted(changed.items())]
+        diffs += [_unified(path, _read(targets[path]), text.encode()) for path, text in sorted(changed.items())]
         diffs += [_unified(path, _read(out / path), None) for path in stale]
     else:
         _replace({targets[path]: text for path, text in changed.items()})
         for path in stale:
             _remove(path, out)
-    unchanged = tuple(path for path in targets if path not in changed)
-    return Report(tuple(sorted(changed)), tuple(stale), unchanged, "".join(diffs))
+    unchanged = sorted(targets.keys() - changed.keys())
+    return Report(tuple(sorted(changed)), tuple(stale), tuple(unchanged), "".join(diffs))
 
 
 def with_package_files(files: Mapping[str, str], kept: Iterable[str] = ()) -> dict[str, str]:
