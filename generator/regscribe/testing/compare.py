@@ -54,9 +54,8 @@ def _value(where: str, trial: Trial, found: Any, vector: Json, expected: object)
     if "value" not in vector or not (named or same(found, vector["value"])):
         yield f"{where}: value {found!r}, expected {expected!r}"
         return
-    for key in ("member", "special"):
-        if key in vector:
-            yield from _named(where, key, found, vector[key], trial.entry.get(f"{key}s", ()))
+    for key in vector.keys() & {"member", "special"}:  # it has one of them
+        yield from _named(where, key, found, vector[key], trial.entry.get(f"{key}s", ()))
     if "unknown" in vector:
         yield from differs(where, "known", getattr(found, "known", None), not vector["unknown"])
     if "flags" in vector:

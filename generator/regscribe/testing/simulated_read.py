@@ -74,9 +74,9 @@ def wrong_requests(driver: Any, chosen: Sequence[Register[Any]]) -> list[str]:  
     found = [f"{register.path} is not asked for" for register in chosen if not _is_read(register, asked)]
     found += [f"{space} {address} is asked for again" for (space, address), times in asked.items() if times > 1]
     found += [f"{space} {address} is no register" for space, address in sorted(_holes(driver, asked))]
+    of_bits = dict.fromkeys(BITS, driver.protocol.read_bits)
     for request in requests:
-        is_bits = READ_SPACES[request.function] in BITS
-        most = driver.protocol.read_bits if is_bits else driver.protocol.read_words
+        most = of_bits.get(READ_SPACES[request.function], driver.protocol.read_words)
         if request.quantity > most:
             found += [f"{request.quantity} addresses from {request.address} in one request, where {most} are allowed"]
     return found
