@@ -80,6 +80,7 @@ class SyncClient(Protocol):
 
     def connect(self) -> bool:
         """Connect; a driver never does."""
+        raise NotImplementedError
 
 
 class AsyncClient(Protocol):
@@ -87,6 +88,7 @@ class AsyncClient(Protocol):
 
     async def connect(self) -> bool:
         """Connect; a driver never does."""
+        raise NotImplementedError
 
 
 class LinkState(Protocol):
@@ -95,6 +97,7 @@ class LinkState(Protocol):
     @property
     def epoch(self) -> int:
         """How often it was opened."""
+        raise NotImplementedError
 
     @property
     def line(self) -> SerialLine | None:
@@ -107,10 +110,12 @@ class LinkState(Protocol):
     @property
     def retry(self) -> Retry:
         """Which reads are sent again."""
+        raise NotImplementedError
 
     @property
     def addressing(self) -> str:
         """How units count their addresses: modbus from 0, jbus from 1."""
+        raise NotImplementedError
 
     def retune(self, change: LineChange) -> None:
         """Talk at another speed, in another format or with other addresses from the next request on."""
@@ -126,6 +131,7 @@ class Link(LinkState, Protocol):
     @property
     def lock(self) -> Turns:
         """The locks of the line and of its units."""
+        raise NotImplementedError
 
     def open(self) -> None:
         """Open it, if it is not open; LinkLost if that fails."""
@@ -139,6 +145,7 @@ class Link(LinkState, Protocol):
         A link that was lost is opened again first. A write to unit 0 is a broadcast: it returns after the request's
         `seconds`, which the units have to carry it out, with a reply that no unit sent.
         """
+        raise NotImplementedError
 
 
 class AsyncLink(LinkState, Protocol):
@@ -147,6 +154,7 @@ class AsyncLink(LinkState, Protocol):
     @property
     def lock(self) -> AsyncTurns:
         """The locks of the line and of its units."""
+        raise NotImplementedError
 
     async def open(self) -> None:
         """Open it, if it is not open; LinkLost if that fails."""
@@ -156,3 +164,4 @@ class AsyncLink(LinkState, Protocol):
 
     async def call(self, unit: int, request: Request) -> Reply:
         """As `Link.call`; a task that is cancelled here leaves the link in order."""
+        raise NotImplementedError

@@ -34,6 +34,7 @@ class Stream(Protocol):
 
     def read(self) -> bytes:
         """What has come, perhaps nothing; OSError (for a closed connection too) if it is broken."""
+        raise NotImplementedError
 
     def write(self, data: bytes) -> None:
         """Send all of it; OSError if it is broken or takes no more."""

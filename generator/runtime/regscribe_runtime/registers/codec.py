@@ -125,7 +125,7 @@ def failing(error: ValueNotDecodable) -> Converter:
     return fail
 
 
-def same(wire: int) -> int:
+def same(wire: Any) -> Any:
     """The converter of plain whole numbers; blocks recognise it and do not call it."""
     return wire
 
