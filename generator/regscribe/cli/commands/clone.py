@@ -6,7 +6,7 @@ import click
 
 from regscribe.cli.shared import settings_common
 from regscribe.cli.shared.completion_values import complete_target
-from regscribe.cli.shared.live_report import REFUSED, UNKNOWN_STATE, Failure, reported
+from regscribe.cli.shared.live_report import REFUSED, UNKNOWN_STATE, Failure, refused_if, reported
 from regscribe.cli.shared.long_work import Shield, shielded
 from regscribe.cli.shared.output import print_json, remark
 from regscribe.cli.shared.settings_common import RestoreOptions, include_option
@@ -86,7 +86,7 @@ def _code(results: list[dict[str, Any]], shield: Shield) -> int:
     codes = {one["error"]["exit_code"] for one in results if "error" in one}
     if UNKNOWN_STATE in codes:
         return UNKNOWN_STATE
-    return shield.code or (REFUSED if codes else 0)
+    return shield.code or refused_if(codes)
 
 
 def _write(target: Target, backup: Backup, options: RestoreOptions, shield: Shield, *, quiet: bool) -> dict[str, Any]:

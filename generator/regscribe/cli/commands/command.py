@@ -33,13 +33,11 @@ def command(*, target: Target, as_json: bool, name: str | None, confirm: bool, d
         return 0
     find = partial(names.command_named, name=name)
     with opened(target, identity=identity, check=find) as device, shielded() as shield:
-        held_back = dry(device).written if dry_run else []
+        unsent = dry(device).written if dry_run else None
         device.run(tasks.run(find(type(device)), confirm=confirm))
-        unsent = [one.request for one in held_back]
     if as_json:
-        requests = {"requests": plain_requests(unsent)} if dry_run else {}
-        print_json(**heading(device, target), command=name, sent=not dry_run, **requests)
-    elif dry_run:
+        print_json(**heading(device, target), command=name, sent=not dry_run, **plain_requests(unsent))
+    elif unsent is not None:
         show_requests(unsent)
     else:
         remark(f"{name}: done")

@@ -5,7 +5,7 @@ from typing import Any
 import click
 
 from regscribe.cli.shared.completion_values import complete_model
-from regscribe.cli.shared.live_report import REFUSED, reported
+from regscribe.cli.shared.live_report import refused_if, reported
 from regscribe.cli.shared.output import print_json, remark, show_table
 from regscribe.cli.shared.target_options import driver_options
 from regscribe.tools.live import catalogue, givens, names, value_text
@@ -40,7 +40,7 @@ def command(
         show_table(("MODEL", "MAP", "WHAT IT IS"), [_row(known) for known in found])
     if not found:
         remark(f"no model fits `{' '.join(search)}`")
-    return 0 if found else REFUSED
+    return refused_if(not found)
 
 
 def _fits(known: Known, search: tuple[str, ...]) -> bool:

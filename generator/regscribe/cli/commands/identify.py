@@ -4,7 +4,7 @@ from typing import Any
 
 import click
 
-from regscribe.cli.shared.live_report import REFUSED, reported
+from regscribe.cli.shared.live_report import refused_if, reported
 from regscribe.cli.shared.output import print_json, remark, show_table
 from regscribe.cli.shared.target_options import target_options
 from regscribe.tools.live import catalogue
@@ -33,7 +33,7 @@ def command(*, target: Target, as_json: bool) -> int:
     else:
         show_table(("MODEL", "MAP", "WHAT IT IS"), titles)
         _remarks(len(found.models), [one for one in found.evidence if one.error is None])
-    return 0 if found.models else REFUSED
+    return refused_if(not found.models)
 
 
 def _remarks(fitting: int, seen: list[Evidence]) -> None:

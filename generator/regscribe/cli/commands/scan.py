@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import click
 
 from regscribe.cli.shared.diagnostic_text import count
-from regscribe.cli.shared.live_report import REFUSED, failure, reported
+from regscribe.cli.shared.live_report import failure, refused_if, reported
 from regscribe.cli.shared.long_work import INTERRUPTED, progress
 from regscribe.cli.shared.output import print_json, refuse, remark, show_table
 from regscribe.cli.shared.target_options import driver_options, silence_loggers
@@ -80,7 +80,7 @@ def _run(probes: Iterator[scan.Probe], links: Sequence[LinkName], asked: Sequenc
         lost = failure(error)
         ended, code = lost.message, lost.exit_code
     _show(found, noise, ended, as_json=as_json)
-    return code or (0 if found else REFUSED)
+    return code or refused_if(not found)
 
 
 def _show(found: Sequence[scan.Probe], noise: Mapping[str, str], ended: str, *, as_json: bool) -> None:

@@ -61,20 +61,18 @@ def command(  # noqa: PLR0913 - the options of the command
         meant = value_text.parse(register, value, current_unit=unit)
         if rounded:
             meant = device.run(held_of(register, meant, view))
+        unsent: Unsent | None
         if dry_run and register.governs is not None:
             planned = device.run(tasks.configure({name: meant}, dry_run=True, confirm=confirm, rounded=rounded))
-            unsent: Unsent = planned.requests
+            unsent = planned.requests
         else:
-            held_back = dry(device).written if dry_run else []
-            verified = None if dry_run else verify
-            device.run(tasks.write(register, meant, view=view, rounded=rounded, confirm=confirm, verify=verified))
-            unsent = [one.request for one in held_back]
+            unsent, verify = (dry(device).written, None) if dry_run else (None, verify)
+            device.run(tasks.write(register, meant, view=view, rounded=rounded, confirm=confirm, verify=verify))
         spared = device.session.wear.spared > 0
     if as_json:
         written = {"value": value_text.show(register, meant), "unit": unit, "written": not (dry_run or spared)}
-        requests = {"requests": plain_requests(unsent)} if dry_run else {}
-        print_json(**heading(device, target), register=name, **written, **requests)
-    elif dry_run:
+        print_json(**heading(device, target), register=name, **written, **plain_requests(unsent))
+    elif unsent is not None:
         show_requests(unsent)
     else:
         show_table(("REGISTER", "VALUE"), [(name, f"{value_text.as_text(register, meant)} {unit}".rstrip())])

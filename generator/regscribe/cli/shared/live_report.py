@@ -89,6 +89,11 @@ def code_of(error: RegscribeError) -> int:
     return SILENT if behind_gateway or isinstance(error, (LinkLost, NoAnswer)) else REFUSED
 
 
+def refused_if(fault: object) -> int:
+    """The exit code of a command that ran: REFUSED if there is anything in `fault`."""
+    return REFUSED if fault else 0
+
+
 def kind_of(error: RegscribeError) -> str:
     """The class of an error in words: `no-answer`, `exception-answer`, `value-refused`, `sensor-fault`."""
     name = type(error).__name__
@@ -118,9 +123,12 @@ def show_requests(unsent: Unsent) -> None:
     remark("nothing was sent")
 
 
-def plain_requests(unsent: Unsent) -> list[dict[str, Any]]:
-    """The requests that a dry run held back, in JSON."""
-    return [{"function": one.function, "address": one.address, "words": list(one.words)} for one in unsent]
+def plain_requests(unsent: Unsent | None) -> dict[str, Any]:
+    """The member of JSON with the requests that a dry run held back; nothing where it was none."""
+    if unsent is None:
+        return {}
+    plain = [{"function": one.function, "address": one.address, "words": list(one.words)} for one in unsent]
+    return {"requests": plain}
 
 
 class FrameTracer:

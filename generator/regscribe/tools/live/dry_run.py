@@ -1,16 +1,9 @@
 """A link that keeps writes instead of sending them; they read back as if they had been sent."""
 
-from typing import Any, NamedTuple, cast
+from typing import Any, cast
 
 from regscribe_runtime import BareDevice, Link
 from regscribe_runtime.wire.requests import BLOCK_WRITES, READ_SPACES, SPACES, WRITES, Reply, Request
-
-
-class DryWrite(NamedTuple):
-    """A request that was not sent, with its unit."""
-
-    unit: int
-    request: Request
 
 
 def dry(device: BareDevice) -> "DryLink":
@@ -25,7 +18,7 @@ class DryLink:
 
     def __init__(self, link: Link) -> None:
         self._link = link
-        self.written: list[DryWrite] = []
+        self.written: list[Request] = []
         self._held: dict[tuple[int, str, int], int] = {}
 
     def __getattr__(self, name: str) -> Any:  # noqa: ANN401 - whatever else the link has
@@ -43,7 +36,7 @@ class DryLink:
                 return reply
             held = (self._held.get((unit, space, request.address + at), word) for at, word in enumerate(reply.words))
             return reply._replace(words=tuple(held))
-        self.written.append(DryWrite(unit, request))
+        self.written.append(request)
         space = SPACES[request.function]
         for offset, word in enumerate(request.words):
             self._held[unit, space, request.address + offset] = word
