@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from regscribe.cli.shared.live_report import REFUSED, USAGE, Failure, heading
+from regscribe.cli.shared.live_report import USAGE, Failure, heading, refused_if
 from regscribe.cli.shared.output import print_json, remark, tell
 from regscribe.cli.shared.settings_common import settings_reported, taken
 from regscribe.cli.shared.target_options import HELP, identity_option, opened, target_options
@@ -24,23 +24,27 @@ in readable YAML; without FILE on standard output.\n\n{HELP}""",
 @identity_option
 def command(*, target: Target, as_json: bool, path: Path | None, force: bool, identity: bool) -> int:
     """Keep all settings of a device in a file."""
-    if path is not None and path.exists() and not force:
-        message = f"{path} is there already: choose another name, or --force to replace it"
-        raise Failure(message, kind="file", code=USAGE)
+    _refuse_present(path, force=force)
     with opened(target, identity=identity) as device:
         backup = taken(device, str(target.link))
     with settings_reported():
         text = settings.to_text(backup)
         if path is not None:
             settings.save(path, text)
-        elif not as_json:
-            tell(text)
     failed = {name: saved.error for name, saved in backup.settings() if saved.value is None}
-    count = sum(1 for _ in backup.settings())
+    count = len(list(backup.settings()))
     if as_json:
         print_json(**heading(device, target), file=str(path or ""), settings=count, without_value=list(failed))
-    elif path is not None:
+    elif path is None:
+        tell(text)
+    else:
         remark(f"{count} settings of {target} kept in {path}")
     for name, error in failed.items():
         remark(f"{name} holds no value: {error}")
-    return REFUSED if 0 < len(failed) == count else 0
+    return refused_if(0 < len(failed) == count)
+
+
+def _refuse_present(path: Path | None, *, force: bool) -> None:
+    if path is not None and path.exists() and not force:
+        message = f"{path} is there already: choose another name, or --force to replace it"
+        raise Failure(message, kind="file", code=USAGE)

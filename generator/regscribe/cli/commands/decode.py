@@ -8,7 +8,7 @@ import click
 
 from regscribe.cli.shared.completion_values import complete_model
 from regscribe.cli.shared.diagnostic_text import count
-from regscribe.cli.shared.live_report import REFUSED, reported
+from regscribe.cli.shared.live_report import refused_if, reported
 from regscribe.cli.shared.output import print_json, remark, tell
 from regscribe.cli.shared.target_options import driver_options
 from regscribe.tools.live import capture, catalogue, givens, names, target, value_text
@@ -60,16 +60,16 @@ def command(  # noqa: PLR0913 - the options of the command
     lines = _lines(digits) if digits else log or sys.stdin
     decoded = [
         (part.line, decoder.feed(frame, part.direction))
-        for part in capture.captured(lines, framing or "")
+        for part in capture.captured(lines, framing)
         for frame in part.frames
     ]
     if as_json:
         print_json(model=driver.model, map=driver.map_id, frames=[_plain(line, one) for line, one in decoded])
     else:
-        _show(one for _, one in decoded)
+        _show(decoded)
     if not decoded:
         remark("there is no frame in it: write pairs of hexadecimal digits")
-    return REFUSED if not decoded or any(one.complaint for _, one in decoded) else 0
+    return refused_if(not decoded or any(one.complaint for _, one in decoded))
 
 
 def _decoder(driver: type[BareDevice], state: Sequence[str], given: Sequence[str], *, first: int) -> Decoder:
@@ -89,17 +89,17 @@ def _lines(digits: Sequence[str]) -> list[str]:
     return [" ".join(digits)] if all(len(one) <= PAIR for one in digits) else list(digits)
 
 
-def _show(frames: Iterable[Decoded]) -> None:
+def _show(frames: Iterable[tuple[int, Decoded]]) -> None:
     """A line for each frame: `unit 1 -> read holding 4000: controller_type`; several values stand below it."""
-    for frame in frames:
+    for _, frame in frames:
         values = [item.spelled for item in frame.items if item.words]
+        beside, below = (values, []) if len(values) == 1 else ([], values)
         asked = "" if values else ", ".join(item.name for item in frame.items)
-        what = ": ".join(filter(None, (frame.what, asked, values[0] if len(values) == 1 else "")))
+        what = ": ".join(filter(None, (frame.what, asked, *beside)))
         wrong = f"  [{frame.complaint}]" if frame.complaint else ""
         head = f"unit {frame.unit} {ARROWS[frame.kind]} {what or count(len(values), 'value')}{wrong}"
         tell(f"{safe(head)}\n")
-        if len(values) > 1:
-            tell("".join(f"    {safe(value)}\n" for value in values))
+        tell("".join(f"    {safe(value)}\n" for value in below))
 
 
 def _plain(line: int, one: Decoded) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 import click
 
 from regscribe.cli.shared.completion_values import complete_target
-from regscribe.cli.shared.live_report import REFUSED, USAGE, Failure, reported
+from regscribe.cli.shared.live_report import USAGE, Failure, refused_if, reported
 from regscribe.cli.shared.output import print_json, remark, show_table
 from regscribe.cli.shared.settings_common import backup_of
 from regscribe.cli.shared.target_options import driver_options
@@ -29,26 +29,23 @@ def command(*, left: str, right: str, stays: bool, packages: tuple[str, ...], co
     Each is a backup file, a device (a link such as tcp:10.0.0.7:502?unit=1&model=16C, or a name of the configuration),
     or the word `factory` for the defaults that the manual gives.
     """
-    if left == right == FACTORY:
+    sides = [Side.of(*backup_of(text, packages, config)) for text in (left, right) if text != FACTORY]
+    if not sides:
         message = "compare the factory's defaults with a device or a file"
         raise Failure(message, kind="usage", code=USAGE)
-    factory = FACTORY in (left, right)
-    first = settings.Side.of(*backup_of(right if left == FACTORY else left, packages, config))
-    second = _factory(first, packages) if factory else settings.Side.of(*backup_of(right, packages, config))
-    one, other = (second, first) if left == FACTORY else (first, second)
-    found = settings.differences(one, other, stays=stays, missing=not factory)
-    blind: list[str] = []
+    factory, blind = FACTORY in (left, right), list[str]()
     if factory:
-        undefined = {path: one for path, one in first.settings.items() if path not in second.settings}
-        blind = [path for path, one in undefined.items() if stays or not one.stays]
+        defaults = _factory(sides[0], packages)
+        sides.insert((left, right).index(FACTORY), defaults)
+        blind = [each.path for each in settings.differences(*sides, stays=stays) if each.path not in defaults.settings]
+    one, other = sides
+    found = settings.differences(one, other, stays=stays, missing=not factory)
     if as_json:
         plain = [{"register": each.path, "left": _json(each.left), "right": _json(each.right)} for each in found]
         print_json(left=one.name, right=other.name, differences=plain, not_compared=blind)
     else:
-        _show(one, other, found)
-        if blind:
-            remark(f"not compared, for the manual gives no default: {', '.join(blind)}")
-    return REFUSED if found else 0
+        _show(one, other, found, blind)
+    return refused_if(found)
 
 
 def _factory(side: Side, packages: tuple[str, ...]) -> Side:
@@ -61,13 +58,16 @@ def _factory(side: Side, packages: tuple[str, ...]) -> Side:
     return Side(f"{side.model} as delivered", side.map_id, side.model, defaults)
 
 
-def _show(one: Side, other: Side, found: tuple[SettingDifference, ...]) -> None:
+def _show(one: Side, other: Side, found: tuple[SettingDifference, ...], blind: list[str]) -> None:
     if (one.map_id, one.model) != (other.map_id, other.model):
         remark(f"{one.name} is a {one.model} ({one.map_id}), {other.name} a {other.model} ({other.map_id})")
-    if not found:
+    rows = [(each.path, _text(each.left), _text(each.right)) for each in found]
+    if rows:
+        show_table(("REGISTER", one.name, other.name), rows)
+    else:
         remark("nothing differs")
-        return
-    show_table(("REGISTER", one.name, other.name), [(each.path, _text(each.left), _text(each.right)) for each in found])
+    if blind:
+        remark(f"not compared, for the manual gives no default: {', '.join(blind)}")
 
 
 def _text(saved: Saved | None) -> str:

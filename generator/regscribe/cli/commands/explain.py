@@ -46,12 +46,12 @@ def _explanation(rule: Rule) -> Iterator[Piece]:
 
 def _example(title: str, files: Example | None, *, other: Example | None, mark: str, style: str) -> Iterator[Piece]:
     """Show the files of one example; lines that the other one has, too, are plain."""
-    others = dict(other or ())
-    for name, text in files or ():
-        yield f"\n{title}{f', maps/{name}' if len(files or ()) > 1 else ''}:\n", "bold"
+    files, others = files or (), dict(other or ())
+    for name, text in files:
+        yield f"\n{title}{f', maps/{name}' if len(files) > 1 else ''}:\n", "bold"
         lines = text.splitlines()
         matcher = SequenceMatcher(None, lines, others.get(name, "").splitlines(), autojunk=False)
         same = {block.a + offset for block in matcher.get_matching_blocks() for offset in range(block.size)}
         for number, line in enumerate(lines):
-            own = other is not None and number not in same
-            yield f"{mark if own else ' '} {line}\n", style if own else ""
+            head, colour = (" ", "") if other is None or number in same else (mark, style)
+            yield f"{head} {line}\n", colour

@@ -1,7 +1,7 @@
 """`regscribe plan`: which requests read registers at the least cost, and why."""
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import click
 
@@ -87,7 +87,7 @@ def _subject(register_map: RegisterMap, model: str) -> PlannedModel:
 
 
 def _selected(subject: PlannedModel, ids: Sequence[str], groups: Sequence[str], *, everything: bool) -> list[str]:
-    if everything == bool(ids or groups):
+    if everything == any((ids, groups)):
         refuse("say what to read: --all, --group ID, or ids of registers")
     if everything:
         return subject.readable
@@ -96,24 +96,21 @@ def _selected(subject: PlannedModel, ids: Sequence[str], groups: Sequence[str], 
     for group in groups:
         if group not in members:
             refuse(unknown("group", group, members, where=f"of {subject.model.name}"))
-        paths += _below(subject, members[group])
+        paths += _below(subject.readable, members[group])
     for name in ids:
-        below = _below(subject, [name])
-        if not below and any(_within(path, [name]) for path in subject.registers):
+        if below := _below(subject.readable, [name]):
+            paths += below
+        elif _below(subject.registers, [name]):
             refuse(f"`{name}` of {subject.model.name} can only be written")
-        if not below:
+        else:
             known = [*subject.readable, *(path.partition("[")[0] for path in subject.readable)]
             refuse(unknown("register", name, known, where=f"of {subject.model.name}"))
-        paths += below
     return list(dict.fromkeys(paths))
 
 
-def _below(subject: PlannedModel, members: Sequence[str]) -> list[str]:
-    return [path for path in subject.readable if _within(path, members)]
-
-
-def _within(path: str, members: Sequence[str]) -> bool:
-    return any(path == one or path.startswith((f"{one}[", f"{one}.")) for one in members)
+def _below(paths: Iterable[str], members: Sequence[str]) -> list[str]:
+    heads = tuple(f"{one}{end}" for one in members for end in "[.")
+    return [path for path in paths if path in members or path.startswith(heads)]
 
 
 def _cost(subject: PlannedModel, baud: int | None, form: str | None, framing: str, *, tcp: bool) -> Cost:

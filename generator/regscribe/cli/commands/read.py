@@ -1,15 +1,19 @@
 """`regscribe read`: values of registers, groups and array elements, with their units."""
 
+from collections.abc import Sequence
+from typing import Any
+
 import click
 
 from regscribe.cli.shared.completion_values import complete_register
-from regscribe.cli.shared.live_report import REFUSED, heading, plain
+from regscribe.cli.shared.live_report import heading, plain, refused_if
 from regscribe.cli.shared.output import hexadecimal, print_json, remark, show_table, tell
 from regscribe.cli.shared.target_options import opened, target_options
 from regscribe.tools.live import names
 from regscribe.tools.live.reading import readings
 from regscribe.tools.live.target import Target
 from regscribe.visible import safe
+from regscribe_runtime import BareDevice, Register
 from regscribe_runtime.operations import tasks
 
 
@@ -26,12 +30,7 @@ def command(*, target: Target, as_json: bool, wanted: tuple[str, ...], bare: boo
     with opened(target, check=lambda driver: names.chosen(driver, wanted)) as device:
         registers = names.chosen(type(device), wanted)
         if raw:
-            words = {one.path: device.run(tasks.read_raw(one, None)) for one in registers}
-            if as_json:
-                plain_words = {path: {"words": list(one)} for path, one in words.items()}
-                print_json(**heading(device, target), registers=plain_words)
-            else:
-                show_table(("REGISTER", "WORDS"), [(path, hexadecimal(one)) for path, one in words.items()])
+            _show_words(device, target, registers, as_json=as_json)
             return 0
         found = device.run(readings(registers))
     if as_json:
@@ -43,4 +42,12 @@ def command(*, target: Target, as_json: bool, wanted: tuple[str, ...], bare: boo
                 remark(str(one.error))
     else:
         show_table(("REGISTER", "VALUE"), [(one.name, one.spelled) for one in found])
-    return REFUSED if any(one.error for one in found) else 0
+    return refused_if(any(one.error for one in found))
+
+
+def _show_words(device: BareDevice, target: Target, registers: Sequence[Register[Any]], *, as_json: bool) -> None:
+    words = {one.path: device.run(tasks.read_raw(one, None)) for one in registers}
+    if as_json:
+        print_json(**heading(device, target), registers={path: {"words": list(one)} for path, one in words.items()})
+    else:
+        show_table(("REGISTER", "WORDS"), [(path, hexadecimal(one)) for path, one in words.items()])

@@ -78,7 +78,7 @@ class Options(TypedDict):
 @click.option(
     "--speed", type=click.FloatRange(0, 1e6), default=1.0, metavar="F", help="Simulated seconds in a real one."
 )
-@click.option("--state", metavar="FILE", help="Begin with this state (or backup) of the device.")
+@click.option("--state", default="", metavar="FILE", help="Begin with this state (or backup) of the device.")
 @click.option("--save", metavar="FILE", help="Write the state of the device at the end.")
 @click.option("--foreign", type=click.Choice(list(Foreign)), help="What a unit that is not here gets.")
 @click.option("--connections", type=click.IntRange(1, 10_000), default=64, help="Clients at once.", show_default=True)
@@ -95,7 +95,7 @@ def command(  # noqa: PLR0913 - one for each option that makes devices
     addressing: str,
     seed: int,
     process: str | None,
-    state: str | None,
+    state: str,
     **options: Unpack[Options],
 ) -> int:
     """Serve models of maps as Modbus devices, with their limits, refusals and silences, until Ctrl-C.
@@ -106,13 +106,13 @@ def command(  # noqa: PLR0913 - one for each option that makes devices
     if (options["tcp"] is None) == (options["rtu"] is None):
         refuse("choose one of --tcp HOST:PORT and --rtu DEVICE")
     motion = simulated_devices.process_of(process)
-    common = {"addressing": addressing, "seed": seed, "process": motion, "state": state or ""}
+    common = {"addressing": addressing, "seed": seed, "process": motion, "state": state}
     wanted = [WantedDevice(map=map_name, model=model, unit=unit, givens=givens)] if map_name is not None else []
     wanted += [simulated_devices.wanted_device(text) for text in devices]
     wanted += simulated_devices.wanted_devices(Path(file)) if file is not None else []
     if not wanted:
         refuse("name a MAP with its --model, or devices by --device MAP:MODEL:UNIT or --devices FILE")
-    if len(wanted) > 1 and (state or options["save"]):
+    if len(wanted) > 1 and any((state, options["save"])):
         refuse(f"--state and --save are for one device, not for {len(wanted)}: give states in a file of --devices")
     service = _service(options)
     maps = simulated_devices.compiled_by_name(one.map for one in wanted)

@@ -36,7 +36,7 @@ def as_text(found: Comparison) -> Iterator[Piece]:
         return
     columns = ", ".join(f"{column} {number}" for column, number in found.counts.items())
     rows = f"{count(len(found.only_ours), 'row')} only in {found.ours}, {len(found.only_theirs)} only in "
-    yield f"\n{rows}{safe(found.theirs)}; {cells}{f': {columns}' if columns else ''}\n", "bold red"
+    yield f"\n{rows}{safe(found.theirs)}; {': '.join(filter(None, (cells, columns)))}\n", "bold red"
 
 
 def _differences(differences: Iterable[CellDifference]) -> Iterator[Piece]:

@@ -142,9 +142,8 @@ def device_of(wanted: WantedDevice, register_map: RegisterMap) -> SimulatedDevic
             process=wanted.process or False,
         )
     except SimulatorError as error:
-        missing = next((given.id for given in register_map.givens if given.id not in values), "")
-        hint = f"\nOn the command line: --given {missing}=VALUE" if missing else ""
-        refuse(f"{error}{hint}")
+        tips = (f"\nOn the command line: --given {one.id}=VALUE" for one in register_map.givens if one.id not in values)
+        refuse(f"{error}{next(tips, '')}")
     if wanted.state:
         device.load(wanted.state)
     return device

@@ -30,7 +30,7 @@ class Captured(NamedTuple):
     frames: tuple[CapturedFrame, ...]
 
 
-def captured(lines: Iterable[str], framing: str = "") -> Iterator[Captured]:
+def captured(lines: Iterable[str], framing: str | None = None) -> Iterator[Captured]:
     """Yield the lines that may hold frames; sound frames are preferred to mere bytes."""
     for number, line in enumerate(lines, start=1):
         text = line[:MOST].strip()

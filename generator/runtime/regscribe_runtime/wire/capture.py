@@ -26,7 +26,7 @@ class CapturedFrame(NamedTuple):
         return self.pdu[0] & ~EXCEPTION_BIT
 
 
-def frames(raw: bytes, kind: str = "") -> list[CapturedFrame]:
+def frames(raw: bytes, kind: str | None = None) -> list[CapturedFrame]:
     """The frames in bytes that were captured together; without `kind` the framing that fits is found.
 
     Bytes that are no frame of any kind become one frame of RTU with a complaint; none come from fewer than 2 bytes.
