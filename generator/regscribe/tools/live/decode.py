@@ -76,8 +76,8 @@ class Decoder:
         self.driver, self.first = driver, first
         self._givens, self._initial = dict(givens or {}), dict(state or {})
         self._states: defaultdict[int, dict[str, Any]] = defaultdict(self._initial.copy)
-        self._pending: tuple[int, Request] | None = None
-        """A request that waits for its answer, with its unit."""
+        self._pending: dict[int, Request] = {}
+        """The request that waits for its answer, by its unit."""
         self._index: dict[tuple[str, int], list[tuple[Register[Any], View]]] = defaultdict(list)
         for register in driver.registers.values():
             for view in register.views:
@@ -89,17 +89,17 @@ class Decoder:
         if not frame.pdu:
             return self._strange("request", frame, "no function code")
         if direction != SENT:
-            unit, request = self._pending or (frame.unit, None)
-            if request and unit == frame.unit and _answers(frame, request, sure=direction == RECEIVED):
-                self._pending = None
+            request = self._pending.get(frame.unit)
+            if request and _answers(frame, request, sure=direction == RECEIVED):
+                self._pending = {}
                 return self._answer(frame, request)
             if direction == RECEIVED or _is_answer(frame):
                 return self._answer(frame, None)
         request = _request(frame, self.first)
         if request is None:
-            self._pending = None
+            self._pending = {}
             return self._strange("request", frame, "of a form that is not known")
-        self._pending = (frame.unit, request)
+        self._pending = {frame.unit: request}
         items = self._items(frame.unit, request, request.words if request.function in WRITES else None)
         return _decoded("request", frame, self._action(request), request, items)
 

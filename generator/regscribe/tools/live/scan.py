@@ -10,6 +10,7 @@ from regscribe.tools.live.errors import TargetError
 from regscribe.tools.live.link_names import LinkName
 from regscribe.tools.live.target import Target, link_of, packages_of
 from regscribe_runtime import Link, LinkLost, NoAnswer, RegscribeError, identify
+from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.wire.requests import READ_HOLDING, Request
 
 FIRST_UNIT, LAST_UNIT = 1, 247
@@ -60,8 +61,8 @@ def settings(link: LinkName, bauds: Sequence[int], formats: Sequence[str]) -> tu
     TargetError for a format that is none, and for speeds over TCP.
     """
     if link.serial:
-        named = link.parity or link.data_bits or link.stop_bits
-        own = f"{link.data_bits or 8}{link.parity or 'N'}{link.stop_bits or 1}"
+        named = any((link.parity, link.data_bits, link.stop_bits))
+        own = "{data_bits}{parity}{stop_bits}".format_map(SerialLine()._asdict() | link.settings())
         shapes = formats or ((own,) if named else USUAL_FORMATS)
         speeds = bauds or ((link.baud,) if link.baud else USUAL_BAUDS)
         return tuple(_with_format(replace(link, baud=baud), shape) for baud in speeds for shape in shapes)

@@ -31,7 +31,7 @@ def show(register: Register[Any], value: Any) -> Plain:  # noqa: ANN401 - a valu
     if isinstance(value, Flags):
         rest = unnamed_bits(value)
         unnamed = [f"bit_{bit}" for bit in range(rest.bit_length()) if rest >> bit & 1]
-        return [*(member.name or "" for member in type(value) if member in value), *unnamed]
+        return [*(member.name or "" for member in value), *unnamed]
     if isinstance(value, Word):
         return _show_parts(value)
     if register.kind == "boolean":

@@ -74,11 +74,13 @@ def watch(
             error = problem
         seconds = time.monotonic() - started
         now = {each.name: (each.value, each.unit, str(each.error)) for each in found}
-        changed = frozenset(name for name, reading in now.items() if last and last.get(name) != reading)
+        changed = frozenset(name for name, reading in now.items() if last.get(name, reading) != reading)
         last.update(now)
         yield Round(number, moment, seconds, found, changed, error, late=seconds > every)
-        failed = failed + 1 if error else 0
-        if error and failed == give_up:
+        failed += 1
+        if error is None:
+            failed = 0
+        elif failed == give_up:
             raise GaveUp(failed, error)
         if number != count:
             sleep(max(started + every - time.monotonic(), seconds * IDLE_SHARE))

@@ -49,9 +49,7 @@ def fit(
 
     `include` names kinds of settings that are to be written although they stay with their device.
     """
-    own = {path: one.stays for path, one in driver.registers.items()}
-    kinds = {path: saved.stays or own.get(path, "") for path, saved in backup.settings()}
-    stays = {path: kind for path, kind in kinds.items() if kind and kind not in include}
+    stays = _staying(backup, driver, include)
     parsed: dict[str, Any] = {}
     misfits: list[Misfit] = []
     for path, saved in backup.settings():
@@ -62,8 +60,7 @@ def fit(
     values = {path: value for path, value in parsed.items() if path not in stays}
     context = _Context({**state, **parsed}, {**state, **values}, givens)
     for path, saved in backup.settings():
-        reason = _contradiction(driver.registers[path], saved, values[path], context) if path in values else ""
-        if reason:
+        if path in values and (reason := _contradiction(driver.registers[path], saved, values[path], context)):
             misfits.append(Misfit(path, reason))
             del values[path]
     left = tuple(one for one in misfits if one.path not in stays)
@@ -76,6 +73,12 @@ class _Context(NamedTuple):
     saved: Mapping[str, Any]
     restored: Mapping[str, Any]
     givens: Mapping[str, Any]
+
+
+def _staying(backup: Backup, driver: Driver, include: Collection[str]) -> dict[str, str]:
+    own = {path: one.stays for path, one in driver.registers.items()}
+    kinds = {path: saved.stays or own.get(path, "") for path, saved in backup.settings()}
+    return {path: kind for path, kind in kinds.items() if kind not in {"", *include}}
 
 
 def _strangeness(backup: Backup, driver: Driver) -> Iterator[str]:
