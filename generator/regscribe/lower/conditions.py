@@ -21,10 +21,7 @@ def condition(node: Value | None, scope: Scope) -> Condition:
     if node is None:
         return ALWAYS
     if node.is_text:
-        found = scope.named(node, "conditions", rule=UNKNOWN_CONDITION, what="condition")
-        if found is None or not found.is_mapping:
-            return Condition((), name=node.text())
-        return scope.once(found.path, lambda: Condition(condition(found, scope).tests, name=node.text()))
+        return _named(node, scope)
     if node.is_mapping:
         return Condition(tuple(test for key, matcher in node.items() for test in _tests(key, matcher, scope)))
     if not node.is_list:
@@ -34,6 +31,13 @@ def condition(node: Value | None, scope: Scope) -> Condition:
         return ALWAYS
     parts = [Condition() if part.is_list else condition(part, scope) for part in node.elements()]
     return parts[0] if len(parts) == 1 else both(*parts)
+
+
+def _named(node: Value, scope: Scope) -> Condition:
+    found = scope.named(node, "conditions", rule=UNKNOWN_CONDITION, what="condition")
+    if found is None or not found.is_mapping:
+        return Condition((), name=node.text())
+    return scope.once(found.path, lambda: Condition(condition(found, scope).tests, name=node.text()))
 
 
 def condition_of(node: Value, scope: Scope) -> Condition:

@@ -50,10 +50,13 @@ def _product(node: Value, products: list[Product]) -> Product:
     if model:
         named = named_models([model], products[0].scope.models)
         return next((each for each in products if each.scope.model in named), products[0])
-    names = [name for name in (node.text_of("register"), *(key for key, _ in node.items_of("writes"))) if name]
-    with_all = [each for each in products if all(each.scope.find(name) for name in names)]
-    with_first = [each for each in products if names and each.scope.find(names[0])]
-    return (with_all or with_first or products)[0]
+    names = list(filter(None, (node.text_of("register"), *dict(node.items_of("writes")))))
+
+    def known(product: Product) -> tuple[bool, list[bool]]:
+        found = [product.scope.find(name) is not None for name in names]
+        return all(found), found[:1]
+
+    return max(products, key=known)
 
 
 def _state(node: Value, scope: Scope) -> tuple[tuple[str, Fraction], ...]:

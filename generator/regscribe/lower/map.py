@@ -1,6 +1,7 @@
 """A whole map: its models one by one, and what it says about itself."""
 
 import keyword
+from collections.abc import Iterator
 from dataclasses import replace
 
 from regscribe.lower.conditions import condition, condition_of
@@ -45,7 +46,7 @@ def map_of(root: Value) -> RegisterMap:
     report_idle_defaults(root)
     for product in products:
         _lower_tables(root, replace(product.scope, lenient=True))
-    about = root.child("map") or root
+    about = root.mapping_of("map")
     return RegisterMap(
         id=_module_id(about),
         title=about.text_of("title"),
@@ -53,29 +54,28 @@ def map_of(root: Value) -> RegisterMap:
         class_prefix=about.text_of("class_prefix"),
         source=root.context.document.name,
         content_hash=root.context.document.content_hash,
-        manual=Manual(*(root.mapping_of("manual").text_of(key) for key in ("title", "number", "date", "publisher"))),
+        manual=Manual(*map(root.mapping_of("manual").text_of, ("title", "number", "date", "publisher"))),
         models=tuple(product.model for product in products),
         protocol=protocol,
         faults=faults_of(line),
         default_unit=line.whole_of("default_unit") if line.child("default_unit") else None,
         spares_memory=line.truth_of("spares_memory"),
-        alike=tuple(tuple(code.whole() for code in codes.elements()) for codes in line.elements_of("alike")),
+        alike=tuple(tuple(map(Value.whole, codes.elements())) for codes in line.elements_of("alike")),
         accepts=tuple((key, limit.whole()) for key, limit in line.items_of("accepts")),
         protocol_notes=notes_of(line),
         description=root.text_of("description"),
-        notations=tuple(_notation(node) for node in root.elements_of("notations")),
+        notations=tuple(map(_notation, root.elements_of("notations"))),
         givens=tuple(_given(node, products) for _, node in root.items_of("givens")),
-        reserved=tuple(stretch_of(node) for node in root.elements_of("reserved")),
-        identity=tuple(rule for node in root.elements_of("identify") for rule in _identity(node, products)),
+        reserved=tuple(map(stretch_of, root.elements_of("reserved"))),
+        identity=tuple(_identity(root, products)),
         errata=tuple(
-            Erratum(*(node.text_of(key) for key in ("where", "printed", "read", "why")))
-            for node in root.elements_of("errata")
+            Erratum(*map(node.text_of, ("where", "printed", "read", "why"))) for node in root.elements_of("errata")
         ),
         examples=examples_of(root, products),
-        waivers=tuple(_waiver(node) for node in root.elements_of("waivers")),
+        waivers=tuple(map(_waiver, root.elements_of("waivers"))),
         notes=root.texts_of("notes"),
         unit_symbols=own_units(root),
-        span=(about.child("id") or about).span,
+        span=about.mapping_of("id").span,
     )
 
 
@@ -85,7 +85,7 @@ def _module_id(about: Value) -> str:
     for part in map_id.split("/"):
         if keyword.iskeyword(part):
             message = f"`{part}` is a Python keyword: `import regscribe_devices.{map_id.replace('/', '.')}` cannot be"
-            (about.child("id") or about).report(NO_MODULE, message, remedy=f"give another id, for example `{part}-1`")
+            about.mapping_of("id").report(NO_MODULE, message, remedy=f"give another id, for example `{part}-1`")
     return map_id
 
 
@@ -111,18 +111,17 @@ def _waiver(node: Value) -> Waiver:
     return Waiver(node.text_of("rule"), node.text_of("at"), node.text_of("reason"), span)
 
 
-def _identity(node: Value, products: list[Product]) -> list[IdentityRule]:
-    """What tells the models that `node` names from others; none where it names none."""
-    models = named_models(node.elements_of("models"), tuple(product.scope.model for product in products))
-    found = []
-    for product in products:
-        scope = product.scope
-        if scope.model in models:
+def _identity(root: Value, products: list[Product]) -> Iterator[IdentityRule]:
+    """What tells models from others, as it reads on the first of them; nothing where none is named."""
+    for node in root.elements_of("identify"):
+        models = named_models(node.elements_of("models"), tuple(product.scope.model for product in products))
+        found = []
+        for scope in (product.scope for product in products if product.scope.model in models):
             when = condition_of(node, scope)
             texts = [(subject_of(text, key, scope), text.text()) for key, text in node.items_of("text")]
             paths = tuple((subject.entry.path, text) for subject, text in texts if subject)
             found.append(IdentityRule(Identity(when, paths), models))
-    return found[:1]
+        yield from found[:1]
 
 
 def _lower_tables(root: Value, scope: Scope) -> None:

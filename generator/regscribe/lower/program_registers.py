@@ -48,15 +48,14 @@ class ProgramPlace:
 
     def found(self, node: Value, name: str, *, at_key: bool = False) -> str:
         """The path of the register of this name; RS0301 or RS0302 at `node` and an empty one if there is none."""
-        candidates = [f"{prefix}{name}" for prefix in dict.fromkeys((self.inside, self.prefix, ""))]
+        candidates = (f"{prefix}{name}" for prefix in (self.inside, self.prefix, ""))
         elements = {path: [numbered(path, number, self.first) for number in self.numbers] for path in candidates}
-        for path in candidates:
-            if all(element in self.scope.entries for element in elements[path]):
+        for path, every in elements.items():
+            if self.scope.entries.keys() >= set(every):
                 return path
-        elsewhere = [element for path in candidates for element in elements[path] if element in self.scope.owners]
-        lacking = [element for element in elsewhere if element not in self.scope.entries]
-        if elsewhere:
-            self.scope.missing(node, (lacking or elsewhere)[0], at_key=at_key)
+        elsewhere = [element for every in elements.values() for element in every if element in self.scope.owners]
+        if elsewhere:  # those that this model lacks come first
+            self.scope.missing(node, min(elsewhere, key=self.scope.entries.__contains__), at_key=at_key)
         else:
             unknown(node, UNKNOWN_REGISTER, "register", name, self._known(), at_key=at_key)
         return ""

@@ -37,13 +37,12 @@ def _program(node: Value, scope: Scope) -> SetpointProgram:
     place = ProgramPlace(scope, tuple(numbers) or (0,), f"{array.text()}[{{i}}]." if array and numbers else "")
     count, final, limits = node.mapping_of("count"), node.child("final"), node.child("setpoint_limits")
     cycles, forever = place.path(node, "cycles"), node.child("forever")
-    order = tuple(part.choice(ProgramPart.SEGMENTS) for part in node.elements_of("write_order"))
     return SetpointProgram(
         id=node.key,
         name=node.line_of("name") or node.key,
         segments=_segments(node.mapping_of("segments"), place),
         **place.paths(node, "holdback", "power_failure", "end", "segment_now", "program_now", "setpoint_now"),
-        first=numbers[0] if numbers else 0,
+        first=place.numbers[0],
         programs=len(numbers),
         section=node.text_of("source"),
         final=ProgramFinal(setpoint=place.path(final, "setpoint"), outputs=place.outputs(final)) if final else None,
@@ -53,7 +52,7 @@ def _program(node: Value, scope: Scope) -> SetpointProgram:
         forever=place.code(forever, cycles) if forever and cycles else None,
         time_unit=_time_unit(node.child("time_unit"), place),
         setpoint_limits=(place.path(limits, "from"), place.path(limits, "to")) if limits else None,
-        order=(*(part for part in ProgramPart if part not in order), *order),
+        order=_order(node.elements_of("write_order")),
         enable=place.values(node.child("enable")),
         requires=write_condition(node.child("requires"), scope),
         status=_status(node.child("status"), place),
@@ -63,6 +62,12 @@ def _program(node: Value, scope: Scope) -> SetpointProgram:
         reset=_action(node.child("reset"), place),
         while_running=node.choice_of("while_running", WhileRunning.NOT_STATED),
     )
+
+
+def _order(stated: list[Value]) -> tuple[ProgramPart, ...]:
+    """The parts in the order of writing, those first that the map does not name."""
+    last = tuple(part.choice(ProgramPart.SEGMENTS) for part in stated)
+    return (*(part for part in ProgramPart if part not in last), *last)
 
 
 def _segments(node: Value, around: ProgramPlace) -> ProgramSegments:

@@ -39,10 +39,7 @@ def range_of(entry: TreeNode, scaling: tuple[Scaling, ...], scope: Scope) -> Cas
     """The range of a register by case; where the map gives none, the ends of its scale."""
     node = entry.settings.get("range")
     if node is None:
-        if not any(part.ends for part in scaling):
-            return ()
-        limits = [(part.when, sorted(part.ends) if part.ends else (_NOT_GIVEN, _NOT_GIVEN)) for part in scaling]
-        return tuple(Case(when, Range((Interval(low, high),))) for when, (low, high) in limits)
+        return _between_ends(scaling)
     if any(element.child("is") for element in node.elements()):
         cases = cases_of(node, scope, lambda case: _range(case.child("is") or case, scope))
     else:
@@ -51,6 +48,13 @@ def range_of(entry: TreeNode, scaling: tuple[Scaling, ...], scope: Scope) -> Cas
         return cases
     rules = decimals_rule(entry.settings["range_decimals"], scope)
     return tuple(part for case in cases for part in _with_decimals(case, rules))
+
+
+def _between_ends(scaling: tuple[Scaling, ...]) -> Cases[Range]:
+    if not any(part.ends for part in scaling):
+        return ()
+    limits = [(part.when, sorted(part.ends) if part.ends else (_NOT_GIVEN, _NOT_GIVEN)) for part in scaling]
+    return tuple(Case(when, Range((Interval(low, high),))) for when, (low, high) in limits)
 
 
 def _range(node: Value, scope: Scope) -> Range:

@@ -1,5 +1,6 @@
 """One register of one model, from the keys that count for it."""
 
+from collections.abc import Iterable
 from dataclasses import replace
 from fractions import Fraction
 
@@ -33,6 +34,7 @@ from regscribe.model.identifiers import has_mark, indexed
 _RULES = {"views": "views", "scale": "scale", "decimals": "scale", "range_decimals": "special_scale"}
 """Keys that may name a rule of the map, and what the rule makes."""
 _BY_KEY = {"enum": Kind.ENUM, "flags": Kind.FLAGS, "fields": Kind.FIELDS, "version": Kind.VERSION}
+_BY_TYPE = {WireType.STRING: Kind.STRING, WireType.BIT: Kind.BOOLEAN}
 
 
 def register_of(entry: TreeNode, everywhere: Scope) -> Register:
@@ -115,21 +117,20 @@ def kind_of(
     settings = entry.settings
     if "kind" in settings:
         return settings["kind"].choice(Kind.INTEGER)
-    for key, kind in _BY_KEY.items():
-        if key in settings:
-            return kind
-    if views[0].type is WireType.STRING:
-        return Kind.STRING
-    if views[0].type is WireType.BIT:
-        return Kind.BOOLEAN
+    kind = next((kind for key, kind in _BY_KEY.items() if key in settings), _BY_TYPE.get(views[0].type))
+    if kind:
+        return kind
     if "decimals" in settings and settings["decimals"].value == NOT_STATED:
         return Kind.RAW
-    has_fractions = (
+    return Kind.NUMBER if _has_fractions(views, scaling, specials) else Kind.INTEGER
+
+
+def _has_fractions(views: Iterable[View], scaling: Iterable[Scaling], specials: Iterable[Special]) -> bool:
+    return (
         any(view.type.is_float or (1 / Fraction(view.factor or 1)).denominator != 1 for view in views)
-        or any(_makes_fractions(part) for part in scaling)
+        or any(map(_makes_fractions, scaling))
         or any((special.means or special.code).denominator != 1 for special in specials)
     )
-    return Kind.NUMBER if has_fractions else Kind.INTEGER
 
 
 def _makes_fractions(scaling: Scaling) -> bool:

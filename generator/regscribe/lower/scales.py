@@ -36,16 +36,16 @@ class Scaling:
 def scale_of(entry: TreeNode, wire: WireType, scope: Scope) -> tuple[Scaling, ...]:
     """The conversion of a register by case; RS0318 where the map gives two."""
     settings = entry.settings
-    given = [key for key in settings if key in _WAYS]
+    given = list(filter(_WAYS.__contains__, settings))
     if len(given) > 1 and not set(given) <= _LINEAR:
         message = f"`{entry.id}` has both `{given[0]}` and `{given[1]}`"
         settings[given[1]].report(TWO_SCALES, message, remedy="keep the one that the manual states", at_key=True)
-    if "decimals" in settings and "scale" not in settings:
-        return tuple(Scaling(case.when, case.then) for case in decimals_of(settings["decimals"], scope))
     node = settings.get("scale")
+    if node is None and "decimals" in settings:
+        return tuple(Scaling(case.when, case.then) for case in decimals_of(settings["decimals"], scope))
     if node is None:
         return (Scaling(ALWAYS, _linear(settings)),)
-    if node.is_text and ".." in node.text():
+    if ".." in node.text():
         return (_affine(node, ALWAYS, unordered(node), wire),)
     table = scope.named(node, "scales", rule=UNKNOWN_SCALE, what="scale")
     return (scale_at(table, wire, scope) if table else ()) or (Scaling(ALWAYS, IDENTITY),)

@@ -72,6 +72,6 @@ def code_of_text(node: Value, subject: Subject, scope: Scope) -> Fraction:
                 node.report(DIVIDED, message, remedy=remedy)
             return special.key_number()
         known.append(name)
-    where = f"{subject.name}.{subject.field}" if subject.field else subject.name
+    where = f"{subject.name}.{subject.field}".removesuffix(".")
     unknown(node, UNKNOWN_MEMBER, "member or special value", text, known, of=where)
     return ZERO

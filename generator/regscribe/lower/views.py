@@ -24,9 +24,9 @@ def views_of(entry: TreeNode, scope: Scope) -> tuple[View, ...]:
         view_set = scope.named(settings["views"], "views", rule=UNKNOWN_VIEWS, what="view set")
         views = set_at(view_set, space, words, scope) if view_set else ()
     views = views or (_view("base", settings, space, words, scope),)
-    if "length" in settings and not any(view.type is WireType.STRING for view in views):
-        types = ", ".join(dict.fromkeys(view.type for view in views))
-        message = f"`{entry.id}` has a `length`, but its type is {types}"
+    types = dict.fromkeys(view.type for view in views)
+    if "length" in settings and WireType.STRING not in types:
+        message = f"`{entry.id}` has a `length`, but its type is {', '.join(types)}"
         remedy = "remove `length`, or write `type: string`"
         settings["length"].report(IDLE_LENGTH, message, remedy=remedy, at_key=True)
     return views
