@@ -55,9 +55,10 @@ def _compile(path: Path, found: list[Diagnostic]) -> Compiled:
     without_map = Compiled(path, None)
     document, syntax = source.load(path)
     found += syntax
-    if document is not None and not has_errors(found):
-        found += schema.validate(document)
     if document is None or has_errors(found):
+        return without_map
+    found += schema.validate(document)
+    if has_errors(found):
         return without_map
     if compose.is_library(document):
         found += _check_library(document, path)

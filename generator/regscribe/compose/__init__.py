@@ -12,7 +12,7 @@ from regscribe.compose.extend import extended
 from regscribe.compose.file_loader import FileLoader, LoadedFile
 from regscribe.compose.findings import CYCLE, OTHER_ID, RULES, ComposeFindings
 from regscribe.compose.libraries import as_map, left_out, with_libraries
-from regscribe.compose.tree import at, cut, elements, in_file, text
+from regscribe.compose.tree import at, cut, elements, in_file, members, text
 from regscribe.map_files import ENDINGS, LIBRARY, MAP, folder_of
 from regscribe.model import Diagnostic, Override
 from regscribe.source import Document, SourceNode
@@ -70,8 +70,7 @@ def misplaced(library: Document, path: Path) -> list[Diagnostic]:
 
 def compose(document: Document, path: Path) -> Composed:
     """The map of `document`, which lies at `path`, with all that it builds on."""
-    stands_alone = not left_out(document.root) and not any(document.root.child(key) for key in COMPOSING)
-    if is_library(document) or stands_alone:
+    if not left_out(document.root) and members(document.root).keys().isdisjoint(COMPOSING):
         return Composed(document)
     findings = ComposeFindings()
     root = in_file(document.root, document.name)
@@ -93,7 +92,7 @@ def compose(document: Document, path: Path) -> Composed:
         libraries=tuple(
             Document(one.path.name, "", one.root.value, loader.hashes[one.path], one.root) for one in part.libraries
         ),
-        shipped=tuple(file.id for file in loader.known.values() if file is not None and file.shipped),
+        shipped=tuple(file.id for file in filter(None, loader.known.values()) if file.shipped),
     )
 
 
@@ -104,7 +103,7 @@ def _build(file: LoadedFile, loader: FileLoader, chain: tuple[LoadedFile, ...]) 
     inherited = {library.id for library in below}
     uses = [node for node in elements(file.root.child("uses")) if text(node) not in inherited]
     libraries = [loader.find(node, LIBRARY, file) for node in uses]
-    found = [library for library in libraries if library is not None]
+    found = list(filter(None, libraries))
     if len(found) < len(libraries) or (file.root.child("extends") and base is None):
         return None
     own = with_libraries(file.root, found, loader.findings)

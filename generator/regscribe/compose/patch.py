@@ -47,7 +47,7 @@ class Patch:
         """`below` with one key of `above` in place of its own, and of a default at the top."""
         new, name = members(above)[key], f"{path}{key}"
         around = () if path else self.defaults
-        holder = next((each for each in (below, *around) if each.child(key)), below)
+        holder = next(filter(lambda each: each.child(key), (below, *around)), below)
         old = holder.child(key)
         removes_default = holder is not below and new.value is None
         if removes_default or _same(old, new):

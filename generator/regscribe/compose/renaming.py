@@ -25,7 +25,7 @@ class Renaming:
     def of(self, node: SourceNode) -> SourceNode | None:
         """The value with its models renamed; None where no model is left that has it."""
         if node.elements is not None:
-            kept = [each for each in map(self.of, node.elements) if each is not None]
+            kept = list(filter(None, map(self.of, node.elements)))
             return None if node.elements and not kept else listing(kept, node.place)
         if node.members is None:
             return node
@@ -47,13 +47,13 @@ class Renaming:
     def _present(self, node: SourceNode) -> SourceNode | None:
         """The mapping with the models that have it renamed; None, or what is left of it, where there are none."""
         only, but, one = self._renamed(node, "models"), self._renamed(node, "except"), node.child("model")
-        if only is not None and not only.elements:
-            invalid = node.child("invalid")  # what is left of a code that no model has
-            return None if invalid is None else mapping({"invalid": invalid}, node.place, node.keys)
         if only is not None:
+            if not only.elements:
+                invalid = node.child("invalid")  # what is left of a code that no model has
+                return None if invalid is None else mapping({"invalid": invalid}, node.place, node.keys)
             node = put(node, "models", only)
         if but is not None:
-            if {text(name) for name in elements(but)} >= set(self.every):
+            if set(map(text, elements(but))) >= set(self.every):
                 return None
             node = put(node, "except", but) if but.elements else cut(node, "except")
         if one is not None and text(one) in self.names:

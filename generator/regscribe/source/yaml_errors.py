@@ -52,8 +52,7 @@ def explain(error: yaml.YAMLError, text: str, findings: Findings) -> StopReading
     if not isinstance(error, yaml.MarkedYAMLError):
         return findings.stop(SYNTAX, "the file is not YAML", START, advice=_ELSEWHERE)
     problem = error.problem or "not well-formed"
-    known = ((message, advice) for part, message, advice in _KNOWN if part in problem)
-    message, advice = next(known, (problem, _ELSEWHERE))
+    _, message, advice = next(filter(lambda row: row[0] in problem, _KNOWN), ("", problem, _ELSEWHERE))
     place, start = _place(error.problem_mark), _place(error.context_mark)
     rest = text.rstrip()
     last = place_at(rest, max(0, len(rest) - 1))  # libyaml counts a line more than a text has that ends without one
@@ -62,7 +61,7 @@ def explain(error: yaml.YAMLError, text: str, findings: Findings) -> StopReading
         place, start = last, min(start, last)
     if not error.context_mark or start == place:
         return findings.stop(SYNTAX, message, place, advice=advice)
-    if beyond or any(part in problem for part in _BLAMED_ON_START):
+    if beyond or any(map(problem.__contains__, _BLAMED_ON_START)):
         return findings.stop(SYNTAX, message, start, advice=advice)
     related = ((error.context or "in what starts here", start),)
     return findings.stop(SYNTAX, message, place, advice=advice, related=related)
