@@ -105,10 +105,13 @@ def sections(register_map: RegisterMap, uses: Sequence[AddressUse]) -> tuple[Add
     return tuple(found)
 
 
+def _regions(found: list[AddressUse]) -> list[tuple[int, int]]:
+    regions = list(filter(None, dict.fromkeys(use.region for use in found)))
+    return regions if len(regions) <= MOST_SECTIONS else []
+
+
 def _of_space(space: Space, found: list[AddressUse], holes: list[Hole]) -> Iterator[AddressSection]:
-    regions = list(dict.fromkeys(use.region for use in found if use.region is not None))
-    if len(regions) > MOST_SECTIONS:
-        regions = []
+    regions = _regions(found)
     for region in regions:
         inside = tuple(use for use in found if use.region == region)
         yield AddressSection(space, region, inside, _clipped(holes, *region))

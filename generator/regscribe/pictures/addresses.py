@@ -42,8 +42,7 @@ def addresses(register_map: RegisterMap) -> Drawing:
     remark = f"Each row has {grid.step} addresses, {unit}; {address}. The letter in a cell names its group."
     canvas.head(title, (remark,))
     cells = [cell for rows in layouts for row in rows if isinstance(row, AddressRow) for cell in row.cells]
-    used = [styles.look(cell.uses) for cell in cells if cell.uses]
-    legend(canvas, styles, used, [cell.kind for cell in cells if not cell.uses])
+    legend(canvas, styles, cells)
     several = Counter(section.space for section in made)
     for section, rows in zip(made, layouts, strict=True):
         _section(canvas, _heading(section, several=several[section.space] > 1), rows, grid, styles)

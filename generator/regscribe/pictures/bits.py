@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import chain, pairwise
 
 from regscribe.emit.common_values import Merged, models_by
 from regscribe.emit.markdown import alt_text
@@ -89,8 +89,8 @@ def _where(leaf: Leaf) -> str:
 def strips(shared: Merged[Register]) -> tuple[Strip, ...]:
     """Return one strip of the fields of all models, unless they cut the word differently: then one for each cut."""
     cuts = shared.states(lambda _, register: (register.bits, register.fields))
-    widths = {width for width, _ in (cut.value for cut in cuts)}
-    if len(widths) == 1 and _alike(part for cut in cuts for part in cut.value[1]):
+    widths = {cut.value[0] for cut in cuts}
+    if len(widths) == 1 and _alike(chain(*(cut.value[1] for cut in cuts))):
         models = models_by((model.name, part) for model, register in shared.versions for part in register.fields)
         every = shared.models
         slots = (
@@ -98,8 +98,7 @@ def strips(shared: Merged[Register]) -> tuple[Strip, ...]:
         )
         return (Strip("", widths.pop(), tuple(slots)),)
     return tuple(
-        Strip(f"On {listed(cut.models, last='and')}", cut.value[0], tuple(Slot(part) for part in cut.value[1]))
-        for cut in cuts
+        Strip(f"On {listed(cut.models, last='and')}", cut.value[0], tuple(map(Slot, cut.value[1]))) for cut in cuts
     )
 
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from math import ceil
 
 from regscribe.model import Access
+from regscribe.pictures.address_rows import Cell
 from regscribe.pictures.cell_style import MANY, OTHERWISE, SEVERAL, Look, Looks, draw, set_words
 from regscribe.pictures.drawing import MARGIN, PLAIN, WIDTH, Box, Canvas, Text
 from regscribe.pictures.text_width import clean, width, wrap
@@ -44,8 +45,10 @@ class LegendEntry:
     mark: str = ""
 
 
-def legend(canvas: Canvas, looks: Looks, used: Sequence[Look], kinds: Sequence[str]) -> None:
-    """Draw the entries of everything that the map uses, groups first."""
+def legend(canvas: Canvas, looks: Looks, cells: Sequence[Cell]) -> None:
+    """Draw the entries of everything that occurs in the cells, groups first."""
+    used = [looks.look(cell.uses) for cell in cells if cell.uses]
+    kinds = {cell.kind for cell in cells if not cell.uses}
     _block(canvas, list(_groups(looks)))
     hatches = [LegendEntry(text, hatch=kind or "empty") for kind, text in HATCHES.items() if kind in kinds]
     _block(canvas, [*_shapes(looks, used), *hatches])

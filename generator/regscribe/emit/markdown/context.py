@@ -23,7 +23,7 @@ SPACES = {
 class PageContext:
     """A map, its registers merged over the models, and the anchors of everything that can be linked to.
 
-    `conditions` are the named ones with a model that has them; `elements` the registers of arrays by model and pattern;
+    `conditions` are the named ones with a model that has them; `elements` the registers by model and pattern;
     `units` those that depend on a condition, with a model that uses them.
     """
 
@@ -88,8 +88,7 @@ def context(register_map: RegisterMap) -> PageContext:
     elements: dict[tuple[str, str], list[Register]] = {}
     for model in register_map.models:
         for register in model.registers:
-            if register.index:
-                elements.setdefault((model.name, pattern(register.path)), []).append(register)
+            elements.setdefault((model.name, pattern(register.path)), []).append(register)
     anchors = _anchors(_keys(register_map, nodes, conditions, units))
     return PageContext(register_map, nodes, anchors, conditions, elements, units)
 

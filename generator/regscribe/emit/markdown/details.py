@@ -1,6 +1,7 @@
 """The tables below a register's facts: views, scale and range by condition, values, bits, addresses of elements."""
 
 from collections.abc import Callable, Iterable
+from operator import attrgetter
 
 from regscribe.emit.common_values import Merged, Stated, models_by
 from regscribe.emit.markdown.context import PageContext
@@ -12,6 +13,8 @@ from regscribe.emit.words import bits_words, conversion_words, one_line, range_w
 from regscribe.model import Enum, Kind, Model, Register
 
 Rows = tuple[tuple[Md, ...], ...]
+
+_WHEN = attrgetter("when")
 
 
 def views(context: PageContext, leaf: Leaf) -> tuple[Titled, ...]:
@@ -57,7 +60,7 @@ def _condition_rows(context: PageContext, model: Model, register: Register) -> d
     ranges: Rows = ()
     if len(limits) != 1 or not limits[0].when.always:
         ranges = tuple((Md(when_words(case.when, wording)), Md(range_words(case.then, wording))) for case in limits)
-    if scales and [case.when for case in scale] == [case.when for case in limits]:
+    if scales and list(map(_WHEN, scale)) == list(map(_WHEN, limits)):
         return {"Scale and range": tuple((*row, words) for row, (_, words) in zip(scales, ranges, strict=True))}
     return {"Scale": scales, "Range": ranges}
 

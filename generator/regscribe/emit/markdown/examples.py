@@ -83,14 +83,17 @@ def _meaning(context: PageContext, item: FrameExample) -> Md:
     facts = [f"unit {item.unit}", f"function {item.function:02d}"]
     facts += [f"address {item.address}"] if item.address is not None else []
     facts += [f"{item.count} {'bits' if item.function in BIT_FUNCTIONS else 'words'}"] if item.count is not None else []
-    words = ""
-    if item.words is not None and item.function == WRITE_COIL:
-        words = f"bit {listed(['on' if word else 'off' for word in item.words], last='and')}"
-    elif item.words is not None:
-        words = f"words {listed([str(word) for word in item.words], last='and')}"
     writes = _state(context, item.model, item.writes)
     command = context.command(item.command) if item.command else Md()
-    return lines(escape(", ".join(facts)), escape(words) if not writes else Md(), writes, command)
+    return lines(escape(", ".join(facts)), writes or escape(_words(item)), command)
+
+
+def _words(item: FrameExample) -> str:
+    if item.words is None:
+        return ""
+    if item.function == WRITE_COIL:
+        return f"bit {listed(['on' if word else 'off' for word in item.words], last='and')}"
+    return f"words {listed([str(word) for word in item.words], last='and')}"
 
 
 def _timing(item: TimingExample) -> tuple[str, ...]:

@@ -1,6 +1,7 @@
 """How to talk to the device: functions, limits, serial line, latency, and its answers to bad requests."""
 
 from collections.abc import Iterable
+from itertools import chain
 
 from regscribe.emit.markdown.context import PageContext
 from regscribe.emit.markdown.escape import Md, escape, md, prose
@@ -115,7 +116,7 @@ def _latency(item: Latency, note: str) -> tuple[str, ...]:
 
 def faults(context: PageContext) -> PageTable:
     """Return the device's answer to each kind of bad request that it can get."""
-    registers = [register for model in context.map.models for register in model.registers]
+    registers = list(chain(*(model.registers for model in context.map.models)))
     views = [view for register in registers for view in register.views]
     aligned = any(view.align > 1 for view in views)
     bad_requests = (
