@@ -143,10 +143,9 @@ def _values_in_part(sent: SentStep, found: list[TakenAddresses]) -> Iterator[Pro
         elif path == sent.register and stretch.last < last:
             message = f"writes {first}..{last}, more than `{path}` ({stretch})"
             yield message, "give as many words as the register has", related
-    covered = {address for stretch in found for address in range(stretch.first, stretch.last + 1)}
-    bare = [address for address in range(first, last + 1) if address not in covered]
-    if covered and bare and not sent.register:
-        message = f"writes {first}..{last}: registers, but at {bare[0]} there is none"
+    bare = set(range(first, last + 1)).difference(*(range(stretch.first, stretch.last + 1) for stretch in found))
+    if found and bare and not sent.register:
+        message = f"writes {first}..{last}: registers, but at {min(bare)} there is none"
         yield message, "correct the address or the words, or split the step"
 
 

@@ -21,8 +21,8 @@ def enum_rule(rule_id: str, title: str) -> Callable[[EnumCheck], EnumCheck]:
         for register, field, enum in enums_of(scope):
             path = f"{register.path}.{field}" if field else register.path
             span = enum.span if enum.span.file else register.span
-            for message, *others in check(enum):
-                yield Finding(register.path, span, f"the enum of `{path}` {message}", *others)
+            for message, help_text, *related in check(enum):
+                yield Finding(register.path, span, f"the enum of `{path}` {message}", help_text, *related)
 
     return rule_of_models(rule_id, title, walk)
 

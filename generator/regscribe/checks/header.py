@@ -107,6 +107,7 @@ def too_short_for_rtu(register_map: RegisterMap) -> Iterator[Problem]:
 def identification(register_map: RegisterMap) -> Iterator[Problem]:
     """`identify` says for every model, once, how it answers."""
     known: set[Identity] = set()
+    listed: set[str] = set()
     for rule in register_map.identity:
         twice = [name for name, count in Counter(rule.models).items() if count > 1]
         if twice:
@@ -115,7 +116,7 @@ def identification(register_map: RegisterMap) -> Iterator[Problem]:
             message = f"`identify` has two entries of one condition (the second for {', '.join(rule.models)})"
             yield message, "list the models in one entry"
         known.add(rule.identity)
-    listed = {name for rule in register_map.identity for name in rule.models}
+        listed.update(rule.models)
     missing = [model.name for model in register_map.models if listed and model.name not in listed]
     if missing:
         yield f"`identify` does not say how to tell {', '.join(missing)}", "add them"

@@ -116,17 +116,18 @@ def states(program: SetpointProgram, look_up: Lookup) -> ProgramProblems:
 def times(program: SetpointProgram, look_up: Lookup) -> ProgramProblems:
     """Thirty seconds and thirty hours are not the same program."""
     unit = program.time_unit
-    register = look_up(unit.register) if unit else None
-    if unit and register and register.enum:
+    if unit is None:
+        for time in filter(None, map(look_up, (program.segments.ramp, program.segments.soak))):
+            if not all(case.then in UNITS for case in time.unit):
+                message = f"has times in `{time.path}`, which has no unit of time"
+                yield time, message, f"give the register a `unit` of {', '.join(UNITS)}, or the program a `time_unit`"
+        return
+    register = look_up(unit.register)
+    if register and register.enum:
         lacking = [one.label for one in register.enum.members if one.code not in dict(unit.codes)]
         if lacking:
             message = f"has no unit of time for {', '.join(lacking)} of `{register.path}`"
             yield register, message, "list every member under `time_unit.codes`"
-    for path in () if unit else (program.segments.ramp, program.segments.soak):
-        time = look_up(path)
-        if time and not all(case.then in UNITS for case in time.unit):
-            message = f"has times in `{time.path}`, which has no unit of time"
-            yield time, message, f"give the register a `unit` of {', '.join(UNITS)}, or the program a `time_unit`"
 
 
 @program_rule("RS0418", "More segments than there are")

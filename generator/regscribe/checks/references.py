@@ -109,7 +109,7 @@ def decimals_register(register: Register, scope: RuleScope) -> Iterator[Problem]
     counts = [case.then.decimals for case in register.scale]
     counts += [case.then.places for case in register.scale]
     counts += [case.then.decimals for case in register.range]
-    for other in scope.named(one.register for one in counts if one):
+    for other in scope.named(one.register for one in filter(None, counts)):
         lowest = min((stretch.low for stretch in domain(other)), default=Fraction(0))
         if other.kind not in WHOLE or (other.range and lowest < 0):
             what = f"of kind {other.kind} and starts at {show(lowest)}"

@@ -71,7 +71,7 @@ class Finding:
 Scopes = tuple[RuleScope, ...]
 """The scopes of all models of a map."""
 
-Problem = tuple[str, str] | tuple[str, str, Related]
+Problem = tuple[str, str, *tuple[Related, ...]]
 """What is wrong with the subject that a rule looks at: message, help, and perhaps the place of another party."""
 
 Findings = Iterator[tuple[str, Finding]]

@@ -131,10 +131,10 @@ def _of_parts(register: Register) -> Iterator[Problem]:
         yield f"is of kind {register.kind} but its bits say otherwise", "correct `kind` or the bits"
     elif register.kind is Kind.VERSION and not register.version_digits:
         yield "is of kind version, but has no digits", "give them under `version`, as nn.nn"
-    else:
-        numbers = [(one, number) for one in register.specials for number in (one.code, one.means)]
-        for special, number in numbers if not register.fractional else ():
-            if number is not None and number.denominator != 1:
+    elif not register.fractional:
+        numbers = [(one, number) for one in register.specials for number in filter(None, (one.code, one.means))]
+        for special, number in numbers:
+            if number.denominator != 1:
                 what = f"is of kind {register.kind}, so whole"
                 message = f'{what}, but its special value "{special.label}" is {show(number)}'
                 yield message, "correct the special value, or remove `kind`"

@@ -159,4 +159,4 @@ def _models(cells: dict[str, str], register_map: RegisterMap, model: str, faults
     parts = next((parts for parts in splits if parts and known.issuperset(parts)), splits[-1])
     if not parts:
         faults.append("the cell of the column model is empty: name the models that have this register")
-    return list(dict.fromkeys(part for part in parts if not model or part == model))
+    return list(dict.fromkeys(part for part in parts if model in {"", part}))

@@ -47,7 +47,7 @@ def read(content: bytes, name: str) -> Table:
         message = f"{name} is empty: its first line must name the columns, for example address,name,access"
         raise TableError(message)
     head, *body = lines
-    header = tuple(cell.strip() for cell in head.cells)
+    header = tuple(map(str.strip, head.cells))
     while header and not header[-1]:
         header = header[:-1]
     if not body:
