@@ -134,20 +134,24 @@ def notation_twice(register_map: RegisterMap) -> Iterator[Problem]:
 def no_function(register: Register, scope: RuleScope) -> Iterator[Problem]:
     """A register that can be read or written needs a function code of its space that the device supports."""
     has = scope.register_map.protocol.functions
-    views, access = register.views, register.access
-    accesses: list[tuple[str, View, tuple[int, ...]]] = []
-    if access.readable:
-        read = (view for view in views if view.readable or view is register.read_view)
-        accesses += [("read", view, (view.space.read_function,)) for view in read]
-    if access.writable:
-        written = (view for view in views if view.writable or view is register.write_view)
-        accesses += [("written", view, view.space.write_functions[int(view.words > 1) :]) for view in written]
-    for verb, view, functions in accesses:
+    for verb, view, functions in _accesses(register):
         if not set(functions) & set(has) & set(view.functions or functions):
             need = " or ".join(f"{code:02d}" for code in functions) or "that does not exist"
             where = f"view {view.name} by functions {list(view.functions)}" if view.functions else f"space {view.space}"
             message = f"is to be {verb} in {where}, which needs function {need}"
             yield message, f"correct `access`, `space`, `functions` or `protocol.functions` ({list(has)})"
+
+
+def _accesses(register: Register) -> Iterator[tuple[str, View, tuple[int, ...]]]:
+    """Each view that is to be read or written, with the functions of its space that do it."""
+    if register.access.readable:
+        for view in register.views:
+            if view.readable or view is register.read_view:
+                yield "read", view, (view.space.read_function,)
+    if register.access.writable:
+        for view in register.views:
+            if view.writable or view is register.write_view:
+                yield "written", view, view.space.write_functions[int(view.words > 1) :]
 
 
 @map_rule("RS0636", "Addresses in a notation", warns=True)

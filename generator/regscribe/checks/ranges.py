@@ -84,11 +84,10 @@ def meant_by_two(register: Register, _: RuleScope) -> Iterator[Problem]:
 @register_rule("RS0423", "Default outside the range")
 def default_outside_range(register: Register, scope: RuleScope) -> Iterator[Problem]:
     """Manuals do print such defaults; then the map needs a special value, another range, or a waiver that says why."""
-    judged = register.beginnings if register.kind in NUMBERS else ()
-    named = {special.value for special in register.specials}
-    ends = _limits_at_defaults(register, scope) if judged else ()
-    for what, value in judged if ends else ():
-        if isinstance(value, Fraction) and value not in named and not within(ends, value):
+    named = [(special.value, special.value) for special in register.specials]
+    for what, value in register.beginnings if register.kind in NUMBERS else ():
+        ends = _limits_at_defaults(register, scope)
+        if ends and isinstance(value, Fraction) and not within((*ends, *named), value):
             parts = [["open" if end is None else show(end) for end in part] for part in ends]
             text = " or ".join(map("..".join, parts))
             message = f"has {what} {show(value)}, outside {text} with all other registers at their defaults"

@@ -132,12 +132,12 @@ def _of_parts(register: Register) -> Iterator[Problem]:
     elif register.kind is Kind.VERSION and not register.version_digits:
         yield "is of kind version, but has no digits", "give them under `version`, as nn.nn"
     elif not register.fractional:
-        numbers = [(one, number) for one in register.specials for number in filter(None, (one.code, one.means))]
-        for special, number in numbers:
-            if number.denominator != 1:
-                what = f"is of kind {register.kind}, so whole"
-                message = f'{what}, but its special value "{special.label}" is {show(number)}'
-                yield message, "correct the special value, or remove `kind`"
+        for special in register.specials:
+            for number in filter(None, (special.code, special.means)):
+                if number.denominator != 1:
+                    what = f"is of kind {register.kind}, so whole"
+                    message = f'{what}, but its special value "{special.label}" is {show(number)}'
+                    yield message, "correct the special value, or remove `kind`"
 
 
 @register_rule("RS0427", "Scale on a value that is no number")

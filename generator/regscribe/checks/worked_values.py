@@ -9,7 +9,6 @@ from regscribe.checks.rule import MAP, Finding, RuleScope, Scopes, rule_of_map
 from regscribe.model import (
     Example,
     GivenKind,
-    Kind,
     Outcome,
     Register,
     TimingExample,
@@ -164,14 +163,10 @@ def compare(
     """What is wrong with words that should mean `value` (and, unless `lossy`, come from it); empty if nothing is."""
     if any(case.then.multiply == 0 for case in register.scale):
         return ""  # RS0430 reports it: nothing can be computed back
-    wanted = value
-    if register.kind is Kind.ENUM and register.enum and isinstance(value, str):
-        codes = [member.code for member in register.enum.members if member.id.lower() == value.lower()]
-        wanted = Fraction(codes[0]) if codes else value
     reading = decode(register, view, words, known)
-    if reading.meaning not in {Meaning.VALUE, Meaning.UNKNOWN_MEMBER} or reading.value != wanted:
+    if reading.meaning not in {Meaning.VALUE, Meaning.UNKNOWN_MEMBER} or reading.value != value:
         return f"{hexadecimal(words)} is {described(reading)}, the manual says {shown(value)}"
-    sent = words if lossy else encode(register, view, wanted, known)
+    sent = words if lossy else encode(register, view, value, known)
     if sent != words:
         return f"{shown(value)} becomes {hexadecimal(sent)}, the manual says {hexadecimal(words)}"
     return ""

@@ -53,20 +53,14 @@ def choose(table: Table, wanted: Sequence[str], notations: Sequence[str]) -> Col
     the table has, and then every header must be known. Raises TableError for unknown, missing or doubled columns.
     """
     known = _known(notations)
-    if not wanted and not any(fold(head) in known for head in table.header):
+    if not wanted and known.keys().isdisjoint(map(fold, table.header)):
         heads = ", ".join(f"`{head[:40]}`" for head in table.header[:6])
         message = (
             f"{table.name}: none of {heads} is the name of a column: the first line must name the columns, for example "
             f"address,name,access; known are {', '.join(COLUMNS)}"
         )
         raise TableError(message)
-    requested: dict[str, str] = {}
-    for item in wanted:
-        name, _, head = (part.strip() for part in item.partition("="))
-        if fold(name) not in known:
-            message = f"there is no column `{name}`{_meant(name, known)}"
-            raise TableError(message)
-        requested[known[fold(name)]] = head or name
+    requested = _requested(wanted, known)
     at = _places(table, requested, known)
     if missing := [f"`{head}`" for name, head in requested.items() if name not in at]:
         message = f"{table.name} has no column {', '.join(missing)}: it has {', '.join(dict.fromkeys(table.header))}"
@@ -80,6 +74,18 @@ def _known(notations: Sequence[str]) -> dict[str, str]:
     known = {fold(name): fold(name) for name in (*COLUMNS, *notations)}
     known |= {f"{fold(name)}_address": fold(name) for name in notations}
     return known | {name: column for name, column in SYNONYMS.items() if name not in known}
+
+
+def _requested(wanted: Sequence[str], known: dict[str, str]) -> dict[str, str]:
+    """The columns that are asked for, each with its header in the table."""
+    requested: dict[str, str] = {}
+    for item in wanted:
+        name, _, head = map(str.strip, item.partition("="))
+        if fold(name) not in known:
+            message = f"there is no column `{name}`{_meant(name, known)}"
+            raise TableError(message)
+        requested[known[fold(name)]] = head or name
+    return requested
 
 
 def _places(table: Table, requested: dict[str, str], known: dict[str, str]) -> dict[str, int]:

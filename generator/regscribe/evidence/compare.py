@@ -36,15 +36,12 @@ def compare_table(
     notations = tuple(dict.fromkeys(notation.name for notation in register_map.notations))
     chosen = choose(table, columns, notations)
     keys = ["address", *notations, "id"]
-    if not chosen.at.keys() & {fold(name) for name in keys}:
+    if chosen.at.keys().isdisjoint(map(fold, keys)):
         message = f"{table.name} has none of the columns {', '.join(keys)}: nothing tells which register a row is about"
         raise TableError(message)
     model = _model(register_map, table, chosen, model)
     theirs = list(of_table(table, chosen, register_map, model))
-    notes = _other_maps(register_map, table, chosen)
-    names = [one_line(model.name) for model in register_map.models]
-    foreign = dict.fromkeys(entry.model for entry in theirs if entry.model not in names)
-    notes += [f"{register_map.id} has no model `{name}`{_meant(name, names)}" for name in foreign]
+    notes = _other_maps(register_map, table, chosen) + _other_models(register_map, theirs)
     ours = [entry for entry in of_map(register_map) if not model or entry.model == model]
     matching = match(ours, theirs, name=table.name)
     lists_commands = "kind" in chosen.at  # a table without it lists registers: a command in it is a chance
@@ -183,6 +180,12 @@ def _other_maps(register_map: RegisterMap, table: Table, chosen: Columns) -> lis
         message = f"{table.name} has no row of the map {register_map.id}, but of {listed}"
         raise TableError(message)
     return [f"left out: {len(others)} rows of other maps ({listed})"] if others else []
+
+
+def _other_models(register_map: RegisterMap, rows: Iterable[ComparedRow]) -> list[str]:
+    names = [one_line(model.name) for model in register_map.models]
+    foreign = dict.fromkeys(row.model for row in rows if row.model not in names)
+    return [f"{register_map.id} has no model `{name}`{_meant(name, names)}" for name in foreign]
 
 
 def _meant(name: str, names: Sequence[str]) -> str:

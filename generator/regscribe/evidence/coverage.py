@@ -1,7 +1,6 @@
 """How much of a device a map covers: addresses, facts of registers, worked examples, what is inferred and open."""
 
 import re
-from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator
 
 from regscribe.emit.words import one_line
@@ -64,31 +63,30 @@ def _exemplified(register_map: RegisterMap, model: Model) -> frozenset[str]:
         elif isinstance(example, FrameExample):
             paths = (*(path for path, _ in example.writes), *_carried(register_map, example))
             named += [(example.model, path) for path in paths]
-    own = forms[model.name]
-    return frozenset(path for name, path in named if path in own and forms.get(name, {}).get(path) == own[path])
+    own = forms[model.name].items()
+    return frozenset(path for name, path in named if (path, forms.get(name, {}).get(path)) in own)
 
 
-def _carried(register_map: RegisterMap, frame: FrameExample) -> list[str]:
+def _carried(register_map: RegisterMap, frame: FrameExample) -> set[str]:
     """The registers whose words a frame carries; a request without words counts if it is for one register."""
-    if frame.address is None or not register_map.has(frame.model) or not _spaces([frame.function]):
-        return []
-    alike = next((codes for codes in register_map.alike if frame.function in codes), (frame.function,))
-    spaces, start = _spaces(alike), frame.address
-    end = start + (frame.count or len(frame.words or ()) or 1)
-    found = [
+    if frame.address is None:
+        return set()
+    spaces, start = _spaces(register_map, frame.function), frame.address
+    end = start + (frame.count or len(frame.words or (0,)))
+    found = {
         register.path
         for register in register_map.model(frame.model).registers
-        if any(
-            view.space in spaces and start <= view.address(register.at) and view.last(register.at) < end
-            for view in register.views
-        )
-    ]
-    return found if frame.words or len(found) == 1 else []
+        for view in register.views
+        if view.space in spaces and start <= view.address(register.at) <= view.last(register.at) < end
+    }
+    return found if frame.words or len(found) == 1 else set()
 
 
-def _spaces(functions: Iterable[int]) -> set[Space]:
-    codes = set(functions)
-    return {one for one in Space if codes & {one.read_function, *one.write_functions}}
+def _spaces(register_map: RegisterMap, function: int) -> set[Space]:
+    """The spaces that a function reads or writes, itself or like others."""
+    by_code = {code: space for space in Space for code in (space.read_function, *space.write_functions)}
+    alike = next((codes for codes in register_map.alike if function in codes), (function,))
+    return {by_code[code] for code in alike if code in by_code} if function in by_code else set()
 
 
 def open_limits(register: Register) -> tuple[str, ...]:
@@ -101,17 +99,18 @@ def open_limits(register: Register) -> tuple[str, ...]:
 def _addresses(register_map: RegisterMap, model: Model) -> Iterator[Addresses]:
     """Yield the counts of each space that holds anything, in the order of `Space`."""
     registers = model.registers
-    steps = [step for command in model.commands for step in command.steps if step.words]
     stretches: dict[str, Iterable[Stretch]] = {
         "mapped": ((view.space, view.address(one.at), view.last(one.at)) for one in registers for view in one.views),
         "aliases": ((one.base.space, alias, alias + one.base.words - 1) for one in registers for alias in one.aliases),
-        "commands": ((step.space, step.address, step.address + len(step.words) - 1) for step in steps),
+        "commands": (
+            (step.space, step.address, step.address + len(step.words) - 1)
+            for command in model.commands
+            for step in command.steps
+        ),
         "unused": model.unused,
         "reserved": register_map.reserved,
     }
-    by_kind = {kind: _by_space(each) for kind, each in stretches.items()}
-    for space in Space:
-        found = {kind: addresses[space] for kind, addresses in by_kind.items()}
+    for space, found in _by_space(stretches).items():
         if documented := set[int]().union(*found.values()):
             found["commands"] -= found["mapped"] | found["aliases"]
             numbers = {kind: len(addresses) for kind, addresses in found.items()}
@@ -122,10 +121,11 @@ Stretch = tuple[Space, int, int]
 """A space, and the first and the last address of a stretch in it."""
 
 
-def _by_space(stretches: Iterable[Stretch]) -> dict[Space, set[int]]:
-    found: dict[Space, set[int]] = defaultdict(set)
-    for space, first, last in stretches:
-        found[space].update(range(first, last + 1))
+def _by_space(stretches: dict[str, Iterable[Stretch]]) -> dict[Space, dict[str, set[int]]]:
+    found: dict[Space, dict[str, set[int]]] = {space: {kind: set() for kind in stretches} for space in Space}
+    for kind, each in stretches.items():
+        for space, first, last in each:
+            found[space][kind].update(range(first, last + 1))
     return found
 
 

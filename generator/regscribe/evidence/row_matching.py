@@ -55,6 +55,10 @@ class _RowIndex:
         """Return free entries of the row's id, wherever they stand."""
         return self._free(self.by_id.get((row.model, row.id), ()), row) if row.id else []
 
+    def at_alias(self, row: ComparedRow) -> list[int]:
+        """Return the entries that have an alias at the row's place, free or not."""
+        return [place for spot in row.spots for place in self.aliases.get((row.model, spot), ())]
+
     def _standing(self, row: ComparedRow) -> list[int]:
         return [place for spot in row.spots for place in self.at.get((row.model, spot), ())]
 
@@ -79,8 +83,7 @@ def match(ours: Sequence[ComparedRow], theirs: Sequence[ComparedRow], *, name: s
     matching = Matching([(ours[found[number]], theirs[number]) for number in sorted(found)])
     for number, row in enumerate(theirs):
         if number not in found:
-            aliased = [place for spot in row.spots for place in index.aliases.get((row.model, spot), ())]
-            if aliased:
+            if aliased := index.at_alias(row):
                 matching.by_alias.append((ours[_single(aliased, row, ours, name)], row))
             else:
                 matching.only_theirs.append(row)

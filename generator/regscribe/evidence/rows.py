@@ -117,22 +117,31 @@ Stand = tuple[dict[str, str], tuple[Spot, ...]]
 def _stands(cells: dict[str, str], notations: Sequence[Notation], faults: list[str]) -> list[Stand]:
     """Return where a row may stand, for each of its addresses: wire addresses, or those of a notation of the map."""
     space = cells.get("space", "").strip().casefold()
-    if space and space not in set(Space):
+    if space not in {"", *Space}:
         faults.append(f"column space: `{space[:60]}` is none of {', '.join(Space)}")
     names = ["address", *(notation.name for notation in notations)]
     filled = next((name for name in names if cells.get(fold(name), "").strip()), None)
     if filled is None:
         return []
     name = fold(filled)
-    offsets = [(one.space.value, one.offset) for one in notations if fold(one.name) == name]
-    if name == "address":
-        offsets = [(space, 0)]
-    if space and space not in dict(offsets):
+    offsets = _offsets(name, space, notations)
+    if not offsets:
         faults.append(f"column {name}: the map has no notation {filled} for the space {space}")
         return []
     return [
-        ({name: str(written)}, tuple((own, written - offset) for own, offset in offsets if space in {"", own}))
+        ({name: str(written)}, tuple((own, written - offset) for own, offset in offsets))
         for written in _addresses(name, cells[name], faults)
+    ]
+
+
+def _offsets(column: str, space: str, notations: Sequence[Notation]) -> list[tuple[str, int]]:
+    """What the address in a column counts from, in each space that it may mean."""
+    if column == "address":
+        return [(space, 0)]
+    return [
+        (one.space.value, one.offset)
+        for one in notations
+        if fold(one.name) == column and space in {"", one.space.value}
     ]
 
 
