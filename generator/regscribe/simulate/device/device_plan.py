@@ -31,23 +31,25 @@ class AddressSpan:
 class AddressIndex:
     """The address index of one model, which reads and writes consult; immutable once built."""
 
-    __slots__ = ("_bounds", "_places", "_regions", "command_addresses", "reserved", "unused")
+    __slots__ = ("_bounds", "_places", "_regions", "command_addresses", "reserved", "silent", "unused")
 
     def __init__(self, model: Model, reserved: Iterable[tuple[Space, int, int]]) -> None:
         self._places: dict[Space, dict[int, AddressSpan]] = {space: {} for space in Space}
-        self._regions: dict[Space, dict[range, View]] = {space: {} for space in Space}
+        self._regions: dict[tuple[Space, range], View] = {}
         for register in model.registers:
             for place in places_of(register):
                 self._places[place.view.space].update(dict.fromkeys(range(place.start, place.end), place))
             for view in register.views:
-                if view.align > 1 or view.functions:
+                if (view.align, view.functions) != (1, ()):
                     first, last = view.region or (view.address(register.at), view.last(register.at))
-                    self._regions[view.space].setdefault(range(first, last + 1), view)
+                    self._regions.setdefault((view.space, range(first, last + 1)), view)
         self.reserved = _addresses(reserved)
         self.unused = _addresses(model.unused)
-        steps = (step for command in model.commands for step in command.steps if step.words)
+        self.silent = self.reserved | self.unused
         self.command_addresses = _addresses(
-            (step.space, step.address, step.address + len(step.words) - 1) for step in steps
+            (step.space, step.address, step.address + len(step.words) - 1)
+            for command in model.commands
+            for step in command.steps
         )
         self._bounds = {space: self._bounds_of(space) for space in Space}
 
@@ -57,14 +59,15 @@ class AddressIndex:
 
     def region(self, space: Space, address: int) -> View | None:
         """Return the view whose alignment and functions bind a request that starts at `address`; None if none does."""
-        return next((view for addresses, view in self._regions[space].items() if address in addresses), None)
+        regions = self._regions.items()
+        return next((view for (kind, addresses), view in regions if kind is space and address in addresses), None)
 
     def documents(self, space: Space, address: int) -> bool:
         """Whether `address` lies between the lowest and the highest that the map documents in that space."""
         return address in self._bounds[space]
 
     def _bounds_of(self, space: Space) -> range:
-        silent = (address for kind, address in self.reserved | self.unused if kind is space)
+        silent = (address for kind, address in self.silent if kind is space)
         documented = (*self._places[space], *silent)
         return range(min(documented), max(documented) + 1) if documented else range(0)
 

@@ -18,14 +18,19 @@ def initial_value(register: Register, state: PresentMeaning) -> Fraction | str:
     identities = [each.identity for each in rules if state.blueprint.model.name in each.models]
     if register.kind is Kind.STRING:
         return _initial_text(register, identities)
-    tests = [test for identity in identities[:1] for test in identity.when.tests if test.register == register.path]
-    tests = [test for test in tests if test.codes and not test.negated]
+    tests = _identity_tests(register, identities)
     if tests:
         return _identifying(register, tests)
     stated = register.default if register.delivered is None else register.delivered
     if stated is not None:
-        special = next((each for each in register.specials if each.means is None and each.code == stated), None)
-        return state.special(register, special) if special else stated
+        special = (
+            state.special(register, each) for each in register.specials if each.means is None and each.code == stated
+        )
+        return next(special, stated)
+    return _first_accepted(register, state)
+
+
+def _first_accepted(register: Register, state: PresentMeaning) -> Fraction:
     if state.accepts(register, Fraction(0)):
         return Fraction(0)
     if register.enum is not None and register.enum.members:
@@ -36,6 +41,11 @@ def initial_value(register: Register, state: PresentMeaning) -> Fraction | str:
 def _initial_text(register: Register, identities: list[Identity]) -> str:
     shown = [text for identity in identities for path, text in identity.texts if path == register.path]
     return next((text for text in (*shown, register.delivered, register.default) if isinstance(text, str)), "")
+
+
+def _identity_tests(register: Register, identities: list[Identity]) -> list[Is]:
+    tests = [test for identity in identities[:1] for test in identity.when.tests if test.register == register.path]
+    return [test for test in tests if test.codes and not test.negated]
 
 
 def _identifying(register: Register, tests: list[Is]) -> Fraction:

@@ -11,14 +11,12 @@ from regscribe.simulate.device.device_plan import Blueprint, Image, Stored, draw
 from regscribe.simulate.device.initial_values import initial_value
 from regscribe.simulate.device.present_meaning import PresentMeaning
 from regscribe.simulate.device.value_arguments import (
-    Fault,
     GivenValue,
     Plain,
     fault_named,
     field_value,
     known_givens,
     number_of,
-    sentinel_of,
     with_field,
 )
 from regscribe.simulate.errors import SimulatorError
@@ -264,13 +262,12 @@ class DeviceState(PresentMeaning):
                 )
                 raise SimulatorError(message)
             return value
-        if isinstance(value, Fault):
-            return sentinel_of(register, value)
-        named = fault_named(register, value) if isinstance(value, str) else None
-        if named is not None:
-            return named
-        if isinstance(value, str) and register.kind is Kind.VERSION:
-            return parse(value.replace(".", ""))
+        if isinstance(value, str):
+            named = fault_named(register, value)
+            if named is not None:
+                return named
+            if register.kind is Kind.VERSION:
+                return parse(value.replace(".", ""))
         specials = {each.id: self.special(register, each) for each in register.specials}
         return self.from_value(register, number_of(register, None, value, specials))
 

@@ -9,7 +9,6 @@ from types import MappingProxyType
 from regscribe.model import (
     NAN,
     BitField,
-    Condition,
     Enum,
     Given,
     GivenKind,
@@ -51,7 +50,9 @@ def sentinel_of(register: Register, fault: Fault) -> Fraction | NotANumber:
 
 
 def fault_named(register: Register, name: str) -> Fraction | NotANumber | None:
-    """Return the stored number of the fault of this id; None if it is none's."""
+    """Return the stored number of the fault of this id, or of a `Fault`; None if it is none's."""
+    if isinstance(name, Fault):
+        return sentinel_of(register, name)
     found = next((each.stored for each in register.sentinels if each.id.lower() == name.lower()), None)
     return found if found is None or isinstance(found, NotANumber) else Fraction(found)
 
@@ -105,20 +106,18 @@ def known_givens(register_map: RegisterMap, model: Model, values: Mapping[str, G
             known = ", ".join(declared) or "none"
             message = f"given {name!r} is not declared by the map (it declares: {known}): remove it or correct the name"
             raise SimulatorError(message)
-    used = {test.given for condition in _conditions(model) for test in condition.tests}
-    for name in used & declared.keys() - values.keys():
+    for name in {*_used_givens(model)} & declared.keys() - values.keys():
         raise _missing(declared[name], model)
     facts = {name: bool(value) for name, value in values.items() if declared[name].kind is GivenKind.BOOLEAN}
     codes = {name: _codes(name, value) for name, value in values.items() if name not in facts}
     return Surroundings(codes=codes, facts=facts)
 
 
-def _conditions(model: Model) -> Iterator[Condition]:
+def _used_givens(model: Model) -> Iterator[str]:
     for register in model.registers:
-        yield from (case.when for case in register.scale)
-        yield from (case.when for case in register.range)
-        if register.writable is not None:
-            yield register.writable.when
+        permission = (register.writable,) if register.writable else ()
+        for case in (*register.scale, *register.range, *permission):
+            yield from (test.given for test in case.when.tests)
 
 
 def _codes(name: str, value: GivenValue) -> frozenset[Fraction]:

@@ -73,7 +73,7 @@ class WordAccess:
         """The word at an address where no readable register stands; raises Refusal."""
         layout, register_map = self.state.blueprint.layout, self.state.blueprint.register_map
         later = register_map.faults.later_read
-        if (space, address) in layout.reserved or (space, address) in layout.unused:
+        if (space, address) in layout.silent:
             return 0
         hole = layout.documents(space, address) and layout.place(space, address) is None
         if hole and later is not Later.GARBAGE and register_map.protocol.read_holes:

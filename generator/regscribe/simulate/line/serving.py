@@ -27,32 +27,33 @@ async def start(devices: Sequence[SimulatedDevice], service: Service) -> Server:
     Raises SimulatorError where the port is taken, the serial device cannot be opened, two devices share a unit, or the
     service asks for something impossible.
     """
-    transport, speed = Transport(service.transport), service.speed
+    speed = service.speed
     if not 0 <= speed < math.inf:
         message = f"speed {speed!r} is no factor of 0 or more (0: time stands still, 60: a minute a second)"
         raise SimulatorError(message)
+    server = _server(devices, service)
+    await server.listen()
+    moving = [device for device in devices if device.moves]
+    if moving and speed:
+        server.clock = asyncio.get_running_loop().create_task(_tick(moving, speed))
+    return server
+
+
+def _server(devices: Sequence[SimulatedDevice], service: Service) -> TcpServer | LineServer:
+    transport = Transport(service.transport)
     usual = Foreign.GATEWAY if transport is Transport.TCP else Foreign.SILENCE
     line, factor = service.line or line_of(devices), factor_of(service.latency)
     station = ServerContext(devices, foreign=service.foreign or usual, line=line, factor=factor)
     if service.paced and transport is not Transport.PTY:
         message = f"only a pty can be paced, not {transport}: a serial device has its own speed, TCP has none"
         raise SimulatorError(message)
-    server: TcpServer | LineServer
     if transport in FRAMINGS:
-        server = TcpServer(station, service)
-    else:
-        opened = open_pseudo_terminal() if transport is Transport.PTY else open_serial(service.path, line)
-        if service.paced:
-            gap = max((each.register_map.protocol.serial.gap for each in devices), default=SerialDefaults().gap)
-            silence = float(gap) * line.character
-            server = PacedLineServer(opened, station, service, line, silence)
-        else:
-            server = LineServer(opened, station, service)
-    await server.listen()
-    moving = [device for device in devices if device.moves]
-    if moving and speed:
-        server.clock = asyncio.get_running_loop().create_task(_tick(moving, speed))
-    return server
+        return TcpServer(station, service)
+    opened = open_pseudo_terminal() if transport is Transport.PTY else open_serial(service.path, line)
+    if not service.paced:
+        return LineServer(opened, station, service)
+    gap = max((each.register_map.protocol.serial.gap for each in devices), default=SerialDefaults().gap)
+    return PacedLineServer(opened, station, service, line, float(gap) * line.character)
 
 
 def line_of(devices: Sequence[SimulatedDevice]) -> SerialLine:

@@ -87,7 +87,7 @@ class ControlLoop:
         change = 0.0 if self._last is None else sign * (self._last - value) / STEP
         self._last = value
         pid, on_off = self.output.pid, self.output.on_off
-        band = self._band(pid) if pid is not None and self._settings.holds(pid.when) else 0.0
+        band = self._band(pid)
         if pid is not None and band > 0:
             self.share = self._proportional(pid, band, error, change)
         elif on_off is not None and self._settings.holds(on_off.when):
@@ -118,7 +118,9 @@ class ControlLoop:
             low, high = 0.0, FULL
         return min(max(share, low, 0.0), high, FULL)
 
-    def _band(self, pid: Pid) -> float:
+    def _band(self, pid: Pid | None) -> float:
+        if pid is None or not self._settings.holds(pid.when):
+            return 0.0
         band = self._settings.number(pid.band)
         if pid.ends is None:
             return band
