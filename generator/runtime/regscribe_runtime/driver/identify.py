@@ -5,6 +5,7 @@ import pkgutil
 from collections.abc import Iterable, Iterator
 from importlib.metadata import entry_points
 from importlib.util import find_spec
+from itertools import chain
 from types import ModuleType
 from typing import Any, NamedTuple
 
@@ -108,7 +109,7 @@ def _identify(models: tuple[Known, ...], unit: int) -> Operation[Identification]
     fitting = []
     for known in models:
         state: dict[str, Any] = {}
-        for path in dict.fromkeys(path for one in known.driver.identity for path in one.registers()):
+        for path in dict.fromkeys(chain.from_iterable(one.registers() for one in known.driver.identity)):
             register = known.driver.registers[path]
             request = read_request(register, _view(register))
             if request not in answers:

@@ -92,7 +92,7 @@ class Conversation:
     def _answer(self, wire: Stream, pending: PendingRequest, deadline: float, received: bytearray) -> Steps[Reply]:
         wrong = None
         while True:
-            while received and (found := self._next_frame(received, pending)):
+            while found := self._next_frame(received, pending):
                 reply = self._decode(found, pending)
                 if reply is not None and (self.framing.decisive or fits(pending.wire, reply)):
                     self._finish(received, pending)

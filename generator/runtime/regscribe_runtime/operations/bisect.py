@@ -9,6 +9,7 @@ log2(n) and 2 log2(n) requests.
 """
 
 from collections.abc import Generator, Sequence
+from itertools import chain
 from typing import Any
 
 from regscribe_runtime.errors import ExceptionAnswer, NoAnswer, RegscribeError
@@ -54,10 +55,11 @@ class Bisection:
             yield from self._sift(items, bad=True)
         if not self.heard:
             raise self.error
-        proven = {one.span for path in self.session.proven for one in read_places(self.session.registers[path])}
+        places = map(read_places, map(self.session.registers.__getitem__, self.session.proven))
+        proven = {place.span for place in chain.from_iterable(places)}
         for item, error in self.refused.items():
             self.session.absences.add(item, error, passing=item in proven)
-        wanted = {address for item in items for address in range(item.address, item.end)}
+        wanted = set(chain.from_iterable(range(item.address, item.end) for item in items))
         for address, word in enumerate(self.words, self.block.address):
             if word is None and address not in wanted:  # read along and in no good request: it may have been refused
                 self.session.absences.add(RegisterSpan(self.block.space, address, 1), self.error, alone=False)

@@ -111,8 +111,7 @@ def _write(
         message = f"the device changed or ignored values: {'; '.join(map(work.shown, wrong))}"
         raise RegscribeError(message)
     for one in chosen:
-        if one.register.governs:
-            yield from _write_line(work, one, rounded=rounded)
+        yield from _write_line(work, one, rounded=rounded)
 
 
 def _phase(session: Session, left: Sequence[Assignment], present: Present, *, rounded: bool) -> Sequence[Assignment]:
@@ -126,12 +125,14 @@ def _phase(session: Session, left: Sequence[Assignment], present: Present, *, ro
 
 
 def _write_line(work: Transaction, one: Assignment, *, rounded: bool) -> Operation[None]:
-    """Write a register that governs the line, unless the device holds the value."""
+    """Write a register if it governs the line, unless the device holds the value."""
     register, session = one.register, work.session
+    if register.governs is None:
+        return
     present = yield from read_present(session, [one])
     (change,) = plan_changes(session, [one], present, rounded=rounded)
     work.plan([change])
-    if change.fate is Fate.EQUAL or register.governs is None:
+    if change.fate is Fate.EQUAL:
         return
     fate = Fate.UNKNOWN
     try:

@@ -49,7 +49,9 @@ class MissingRegisters:
 
     def heard(self, request: Request) -> bool:
         """Forget refusals of addresses that a request has read; whether there were any."""
-        space, first, end = READ_SPACES[request.function], request.address, request.address + request.quantity
+        if not self._refusals:
+            return False
+        space, first, end = READ_SPACES.get(request.function), request.address, request.address + request.quantity
         return self._forget(lambda one: one.item.space == space and first <= one.item.address and one.item.end <= end)
 
     def clear(self) -> bool:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import chain
 from typing import Any, TypeVar
 
 from regscribe_runtime.errors import ExceptionAnswer, RegscribeError, Unsteady, ValueNotDecodable
@@ -81,8 +82,8 @@ def know(session: Session, paths: Iterable[str], *, fresh: bool = False, depth: 
         message = f"the meaning of {wanted[0]} depends on too long a chain of registers"
         raise RuntimeError(message)
     registers = list(map(session.registers.__getitem__, wanted))
-    views = [register.read_view() for register in registers]
-    needs = dict.fromkeys(path for one, view in zip(registers, views, strict=True) for path in one.needs(view))
+    views = list(map(Register.read_view, registers))
+    needs = dict.fromkeys(chain.from_iterable(map(Register.needs, registers, views)))
     unknown = yield from _unknown(session, needs, depth=depth + 1)
     spans = list(map(item_of, registers, views))
     found = yield from fetch(session, spans)
@@ -93,7 +94,7 @@ def know(session: Session, paths: Iterable[str], *, fresh: bool = False, depth: 
     for path, value in values.items():
         if not fresh or session.memory.get(path, value) != value:  # of fresh ones, those remembered that have changed
             session.remember(path, value)
-    return session.memory | values if fresh else session.memory
+    return session.memory | values
 
 
 def read(register: Register[T], view_name: str | None) -> Task[T]:

@@ -171,19 +171,19 @@ class Session:
 
     def exchange(self, request: Request) -> Operation[tuple[int, ...]]:
         """Send one request and verify its answer; a read is sent again as `retry` says, a write never."""
-        left = self._tries.reads if request.reads else 0
+        left = self._tries.reads * request.reads
         while True:
             try:
                 reply = yield request
                 assert reply is not None, "an executor answers a request with a reply"  # noqa: S101 (their contract)
                 words = verify(request, reply, unit=self.unit, protocol=self.protocol)
             except (NoAnswer, WrongAnswer, LinkLost, ExceptionAnswer) as error:
-                refused = isinstance(error, ExceptionAnswer) and (error.code != GATEWAY_GOT_NO_ANSWER or error.name)
+                refused = isinstance(error, ExceptionAnswer) and (error.code, error.name) != (GATEWAY_GOT_NO_ANSWER, "")
                 if refused or not left:
                     raise
                 left = 0 if isinstance(error, LinkLost) else left - 1  # a link that is lost once more is gone
             else:
-                if self.absences and request.reads and self.absences.heard(request):
+                if self.absences.heard(request):
                     self.prepared.clear()
                 return words
             yield Pause(self._tries.pause)

@@ -80,7 +80,7 @@ def _fits(protocol: Protocol, batch: list[RegisterWrite], other: RegisterWrite) 
         function, most = WRITE_COILS, protocol.write_bits
     return (
         last.address + last.view.words == other.address
-        and not (last.register.governs or other.register.governs)
+        and not last.register.governs
         and _common(last) == _common(other)
         and count <= most
         and function in protocol.functions
@@ -91,4 +91,4 @@ def _fits(protocol: Protocol, batch: list[RegisterWrite], other: RegisterWrite) 
 
 def _common(one: RegisterWrite) -> tuple[object, ...]:
     """What values of one request must have in common."""
-    return one.view.space, one.view.functions, one.register.unlock, one.register.apply
+    return one.view.space, one.view.functions, one.register.unlock, one.register.apply, one.register.governs

@@ -8,7 +8,7 @@ has a stretch of its own.
 from bisect import bisect_right
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
-from itertools import pairwise
+from itertools import chain, pairwise
 from typing import NamedTuple
 
 from regscribe_runtime.values.views import Placed, View
@@ -82,7 +82,7 @@ class AddressRanges:
         allowed = [(0, ADDRESSES)] if self.holes else self._known.get(space, [])
         barred = merged([*self._unreadable.get(space, ()), *self._refused.get(space, ())])
         cuts = [*((one.first, one.end) for one in aligned), *self._apart.get(space, ())]
-        edges = sorted({edge for cut in cuts for edge in cut})
+        edges = sorted(set(chain.from_iterable(cuts)))
         for start, stop in without(allowed, barred):
             inside = [edge for edge in edges if start < edge < stop]
             for first, end in pairwise([start, *inside, stop]):

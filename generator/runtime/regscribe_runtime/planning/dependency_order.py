@@ -14,22 +14,21 @@ def dependency_order(needs: Mapping[K, Collection[K]], rank: Callable[[K], Any])
     A cycle is cut at its lowest rank.
     """
     dependents: dict[K, list[K]] = defaultdict(list)
+    waits: dict[K, int] = {}
     for key, needed in needs.items():
+        waits[key] = len(needed)
         for one in needed:
             dependents[one].append(key)
-    waits = {key: len(needed) for key, needed in needs.items()}
-    left = dict.fromkeys(sorted(needs, key=rank))
-    places = {key: place for place, key in enumerate(left)}
-    ready = [(places[key], key) for key in left if not waits[key]]
+    left = {key: place for place, key in enumerate(sorted(needs, key=rank))}
+    ready = [(place, key) for key, place in left.items() if not waits[key]]
     order: list[K] = []
     while left:
         key = heapq.heappop(ready)[1] if ready else next(iter(left))
-        if key not in left:
-            continue  # a cycle was cut at it
         del left[key]
         order.append(key)
+        waits[key] = 0  # where a cycle was cut: it never becomes ready
         for one in dependents[key]:
             waits[one] -= 1
             if not waits[one]:
-                heapq.heappush(ready, (places[one], one))
+                heapq.heappush(ready, (left[one], one))
     return order

@@ -5,12 +5,15 @@ for all that was read before. Dependencies in a cycle are read once more at the 
 """
 
 from collections.abc import Collection, Mapping, Sequence
+from operator import attrgetter
 from typing import NamedTuple
 
 from regscribe_runtime.planning.dependency_order import dependency_order
 from regscribe_runtime.planning.plan import Block, Terms, blocks
 from regscribe_runtime.planning.read_places import ReadPlace
 from regscribe_runtime.values.views import View
+
+_span = attrgetter("span")
 
 
 class WordPosition(NamedTuple):
@@ -37,21 +40,25 @@ class ReadOrder(NamedTuple):
 
 def lay_out(wanted: Mapping[str, ReadPlace], needs: Mapping[str, Collection[str]], terms: Terms) -> ReadOrder:
     """The cheapest blocks for `wanted` (places by path), dependencies (`needs` by path) behind what depends on them."""
-    unordered = blocks((place.span for place in wanted.values()), terms)
-    numbers = {path: place.block for path, place in _positions(wanted, unordered).items()}
+    unordered = blocks(map(_span, wanted.values()), terms)
+    found = _positions(wanted, unordered)
     relations = [(path, need) for path in wanted for need in needs.get(path, ()) if need in wanted]
-    waits: dict[int, set[int]] = {number: set() for number in range(len(unordered))}
+    waits: dict[int, frozenset[int]] = dict.fromkeys(range(len(unordered)), frozenset())
     for path, need in relations:
-        waits[numbers[need]] |= {numbers[path]} - {numbers[need]}
-    first = [unordered[number] for number in dependency_order(waits, int)]
+        waits[found[need].block] |= {found[path].block} - {found[need].block}
+    first = list(map(unordered.__getitem__, dependency_order(waits, int)))
     places = _positions(wanted, first)
-    early = {need for path, need in relations if places[path].block > places[need].block}
-    early |= {need for path, need in relations if path in early}
+    early = _read_early(relations, places)
     twice = {path: place for path, place in wanted.items() if path in early}
-    tail = blocks((place.span for place in twice.values()), terms)
+    tail = blocks(map(_span, twice.values()), terms)
     again = _positions(twice, tail, len(first))
     checks = {need: again.get(need, places[need]) for _, need in relations}
     return ReadOrder((*first, *tail), places, checks, atomic=not (early or any(waits.values())), again=len(tail))
+
+
+def _read_early(relations: Sequence[tuple[str, str]], places: Mapping[str, WordPosition]) -> set[str]:
+    early = {need for path, need in relations if places[path].block > places[need].block}
+    return early | {need for path, need in relations if path in early}
 
 
 def _positions(wanted: Mapping[str, ReadPlace], made: Sequence[Block], first: int = 0) -> dict[str, WordPosition]:

@@ -28,12 +28,11 @@ def read_places(register: Placed) -> tuple[ReadPlace, ...]:
         return (first,)
     found = {first.span: first}
     for view, address in places(register):
-        equal = view is preferred or (
+        if (
             set(view.needs()) <= set(preferred.needs())
             and view.byte_order == preferred.byte_order
             and same_precision(view, preferred)
-        )
-        if equal:
+        ):
             span = RegisterSpan(view.space, address, view.words)
             found.setdefault(span, ReadPlace(view, span))
     return tuple(place for place in found.values() if place.view.readable) or (first,)

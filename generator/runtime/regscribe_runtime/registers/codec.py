@@ -366,9 +366,9 @@ def _amount(register: Coded, value: object, state: State, givens: Givens) -> tup
     return amount, amount in specials
 
 
-def _limit(bound: Limit, divisor: int, state: State) -> Fraction | None:
+def _limit(bound: Limit, divisor: int, state: State, unlimited: float) -> Fraction | float:
     if isinstance(bound, Open):
-        return None
+        return unlimited
     if isinstance(bound, Ref):
         return exact(state[bound.register])
     return Fraction(bound) / divisor
@@ -381,9 +381,12 @@ def _within_limits(register: Coded, amount: Fraction, state: State, givens: Give
     if limits is None:
         raise ValueRefused(register.path, "no range of the manual holds as the device is configured")
     divisor = power(register.path, limits.decimals, state)
-    ends = [(_limit(low, divisor, state), _limit(high, divisor, state)) for low, high in limits.intervals]
-    if not any((low is None or low <= amount) and (high is None or amount <= high) for low, high in ends):
-        shown = [["(open)" if end is None else rough(end) for end in interval] for interval in ends]
+    ends = [
+        (_limit(low, divisor, state, -math.inf), _limit(high, divisor, state, math.inf))
+        for low, high in limits.intervals
+    ]
+    if not any(low <= amount <= high for low, high in ends):
+        shown = [["(open)" if isinstance(end, float) else rough(end) for end in interval] for interval in ends]
         allowed = " or ".join(map(" to ".join, shown))
         raise ValueRefused(register.path, f"{rough(amount)} lies outside {allowed}")
 
