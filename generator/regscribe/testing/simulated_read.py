@@ -10,6 +10,7 @@ from regscribe_runtime.operations.session import Session
 from regscribe_runtime.operations.snapshot import Snapshot
 from regscribe_runtime.planning.read_places import ReadPlace, read_places
 from regscribe_runtime.registers.register import Register
+from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.wire_types import Space
 from regscribe_runtime.wire.requests import READ_SPACES, Reply, Request
 
@@ -74,9 +75,9 @@ def wrong_requests(driver: Any, chosen: Sequence[Register[Any]]) -> list[str]:  
     found = [f"{register.path} is not asked for" for register in chosen if not _is_read(register, asked)]
     found += [f"{space} {address} is asked for again" for (space, address), times in asked.items() if times > 1]
     found += [f"{space} {address} is no register" for space, address in sorted(_holes(driver, asked))]
-    of_bits = dict.fromkeys(BITS, driver.protocol.read_bits)
+    protocol: Protocol = driver.protocol
     for request in requests:
-        most = of_bits.get(READ_SPACES[request.function], driver.protocol.read_words)
+        most = protocol.read_bits if READ_SPACES[request.function] in BITS else protocol.read_words
         if request.quantity > most:
             found += [f"{request.quantity} addresses from {request.address} in one request, where {most} are allowed"]
     return found

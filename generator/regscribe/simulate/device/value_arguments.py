@@ -106,7 +106,8 @@ def known_givens(register_map: RegisterMap, model: Model, values: Mapping[str, G
             known = ", ".join(declared) or "none"
             message = f"given {name!r} is not declared by the map (it declares: {known}): remove it or correct the name"
             raise SimulatorError(message)
-    for name in {*_used_givens(model)} & declared.keys() - values.keys():
+    used = {*_used_givens(model)} - values.keys()
+    for name in (name for name in declared if name in used):
         raise _missing(declared[name], model)
     facts = {name: bool(value) for name, value in values.items() if declared[name].kind is GivenKind.BOOLEAN}
     codes = {name: _codes(name, value) for name, value in values.items() if name not in facts}
