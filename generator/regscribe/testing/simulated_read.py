@@ -10,7 +10,6 @@ from regscribe_runtime.operations.session import Session
 from regscribe_runtime.operations.snapshot import Snapshot
 from regscribe_runtime.planning.read_places import ReadPlace, read_places
 from regscribe_runtime.registers.register import Register
-from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.wire_types import Space
 from regscribe_runtime.wire.requests import READ_SPACES, Reply, Request
 
@@ -75,12 +74,16 @@ def wrong_requests(driver: Any, chosen: Sequence[Register[Any]]) -> list[str]:  
     found = [f"{register.path} is not asked for" for register in chosen if not _is_read(register, asked)]
     found += [f"{space} {address} is asked for again" for (space, address), times in asked.items() if times > 1]
     found += [f"{space} {address} is no register" for space, address in sorted(_holes(driver, asked))]
-    protocol: Protocol = driver.protocol
     for request in requests:
-        most = protocol.read_bits if READ_SPACES[request.function] in BITS else protocol.read_words
+        most = _most(driver, READ_SPACES[request.function])
         if request.quantity > most:
             found += [f"{request.quantity} addresses from {request.address} in one request, where {most} are allowed"]
     return found
+
+
+def _most(driver: Any, space: Space) -> int:  # noqa: ANN401 (as above)
+    most: int = driver.protocol.read_bits if space in BITS else driver.protocol.read_words
+    return most
 
 
 def _holes(driver: Any, asked: Iterable[Cell]) -> set[Cell]:  # noqa: ANN401 (as above)

@@ -107,8 +107,9 @@ def known_givens(register_map: RegisterMap, model: Model, values: Mapping[str, G
             message = f"given {name!r} is not declared by the map (it declares: {known}): remove it or correct the name"
             raise SimulatorError(message)
     used = {*_used_givens(model)} - values.keys()
-    for name in (name for name in declared if name in used):
-        raise _missing(declared[name], model)
+    missing = [given for given in register_map.givens if given.id in used]
+    if missing:
+        raise _missing(missing[0], model)
     facts = {name: bool(value) for name, value in values.items() if declared[name].kind is GivenKind.BOOLEAN}
     codes = {name: _codes(name, value) for name, value in values.items() if name not in facts}
     return Surroundings(codes=codes, facts=facts)

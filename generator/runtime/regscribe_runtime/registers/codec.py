@@ -386,7 +386,9 @@ def _within_limits(register: Coded, amount: Fraction, state: State, givens: Give
         for low, high in limits.intervals
     ]
     if not any(low <= amount <= high for low, high in ends):
-        shown = [["(open)" if isinstance(end, float) else rough(end) for end in interval] for interval in ends]
+        shown = [
+            ["(open)" if isinstance(end, float) else rough(Fraction(end)) for end in interval] for interval in ends
+        ]
         allowed = " or ".join(map(" to ".join, shown))
         raise ValueRefused(register.path, f"{rough(amount)} lies outside {allowed}")
 

@@ -65,7 +65,7 @@ def show(number: Number) -> str:
     return f"{'-' if number < 0 else ''}{text[:-digits]}.{text[-digits:]}"
 
 
-def rough(number: Fraction | int) -> str:
+def rough(number: Fraction) -> str:
     """`number` for an error message: decimal text, of fractions and of very large numbers twelve digits."""
     if number.denominator == 1 and abs(number) < 1 << 64:
         return f"{number.numerator}"
