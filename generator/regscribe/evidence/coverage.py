@@ -69,7 +69,7 @@ def _exemplified(register_map: RegisterMap, model: Model) -> frozenset[str]:
 
 def _carried(register_map: RegisterMap, frame: FrameExample) -> set[str]:
     """The registers whose words a frame carries; a request without words counts if it is for one register."""
-    if frame.address is None:
+    if frame.address is None or not register_map.has(frame.model):
         return set()
     spaces, start = _spaces(register_map, frame.function), frame.address
     end = start + (frame.count or len(frame.words or (0,)))
