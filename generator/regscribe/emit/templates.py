@@ -82,7 +82,8 @@ def _files(folder: Path) -> Iterator[Path]:
     """All files below a folder but for hidden ones and those in hidden folders."""
     for root, folders, names in os.walk(folder):
         folders[:] = [name for name in folders if not name.startswith(".")]
-        yield from (Path(root, name) for name in names if not name.startswith("."))
+        paths = (Path(root, name) for name in names if not name.startswith("."))
+        yield from (path for path in paths if path.is_file() or not path.exists())  # devices and pipes may have no end
 
 
 def _with_header(text: str, path: str, register_map: RegisterMap) -> str | None:
