@@ -205,6 +205,13 @@ def test_a_register_that_can_only_be_written_is_never_read_along() -> None:
         blocks([RegisterSpan(Space.HOLDING, 2, 3)], terms)
 
 
+def test_a_register_that_reaches_into_another_aligned_view_is_still_read_whole() -> None:
+    views = [AddressStretch(0, 20, 2), AddressStretch(6, 30, 2)]
+    ground = AddressRanges({Space.HOLDING: [(0, 64)]}, aligned={Space.HOLDING: views})
+    assert ground.stretch(RegisterSpan(Space.HOLDING, 4, 4)) == AddressStretch(0, 20, 2)
+    assert ground.stretch(RegisterSpan(Space.HOLDING, 22, 2)) == AddressStretch(20, 30, 2)
+
+
 def test_an_address_in_an_aligned_view_is_asked_for_with_its_neighbour() -> None:
     terms = Terms(RequestLimits(words=5), whole(align=2), LINES[0])
 

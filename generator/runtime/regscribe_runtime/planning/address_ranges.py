@@ -78,7 +78,7 @@ class AddressRanges:
 
     def _cut(self, space: Space) -> Iterator[AddressStretch]:
         """The stretches of a space: what may be read, cut where alignment changes and where reading along ends."""
-        aligned = self._aligned.get(space, [])
+        aligned = list(_disjoint(self._aligned.get(space, [])))
         allowed = [(0, ADDRESSES)] if self.holes else self._known.get(space, [])
         barred = merged([*self._unreadable.get(space, ()), *self._refused.get(space, ())])
         cuts = [*((one.first, one.end) for one in aligned), *self._apart.get(space, ())]
@@ -115,6 +115,15 @@ class AddressRanges:
         if not self.holes and without([gap], self._known.get(space, ())):
             return "hole"
         return "alignment"
+
+
+def _disjoint(stretches: Iterable[AddressStretch]) -> Iterator[AddressStretch]:
+    """Sorted stretches, each without the addresses of those before it."""
+    taken = 0
+    for one in stretches:
+        if one.end > taken:
+            yield AddressStretch(max(one.first, taken), one.end, one.align)
+            taken = one.end
 
 
 def _merged(by_space: Mapping[Space, list[Range]] | None) -> dict[Space, list[Range]]:
