@@ -1,4 +1,27 @@
-"""Errors of drivers, one tree below `RegscribeError`.
+"""Errors of drivers, one tree.
+
+RegscribeError
+├── LinkLost            the link is closed, or broke
+├── NoAnswer            nothing came within the response timeout
+├── ExceptionAnswer     the device refused, with a code and its own meaning of it
+├── WrongAnswer         an answer that does not fit the request
+│   └── PartialWrite    fewer words were written than were sent
+├── Absent              this unit does not have the register: a batch goes round it for a while
+├── Unsteady            dependencies of the values changed during every read of them
+├── ValueRefused        refused here, before anything was sent
+│   ├── ConditionNotMet the register cannot be written in the present state of the device
+│   └── ValuesRefused   several values of one `configure`
+├── WriteFailed         a write was sent and did not come to its good end
+│   ├── NotWritten      certainly not carried out
+│   ├── WriteUnknown    whether it was carried out cannot be told
+│   ├── ReadBackDiffers the device took the write and holds another value
+│   ├── NotApplied      carried out, but the command that makes it take effect was not
+│   ├── NotConfigured   `configure` broke off: its report says what was written, undone, unknown
+│   └── LeftAt          the device talks otherwise now than this link does
+└── ValueNotDecodable   words that are no value of the register
+    ├── SensorFault     a sentinel: the device reports a fault instead of a number
+    ├── Saturated       the view was clipped: the true value lies at or beyond its end
+    └── NotDecodable    anything else (no scale holds, not a number, a version with too many digits)
 
 A lost answer to a write is never answered by sending it again: the register is read back. If that shows the value, the
 write was good. Otherwise NotWritten or WriteUnknown say so, and they are NoAnswer, LinkLost or WrongAnswer as well,
@@ -210,11 +233,21 @@ LOST = (NoAnswer, LinkLost, WrongAnswer)
 """Errors after which a write may have been carried out nevertheless."""
 
 
+_BOTH: dict[tuple[type[WriteFailed], type[RegscribeError]], type[WriteFailed]] = {}
+
+
+def _both(kind: type[WriteFailed], base: type[RegscribeError]) -> type[WriteFailed]:
+    """One class for each pair, so that errors can be told apart by their class."""
+    if (kind, base) not in _BOTH:
+        _BOTH[kind, base] = type(f"{kind.__name__}{base.__name__}", (kind, base), {"__doc__": kind.__doc__})
+    return _BOTH[kind, base]
+
+
 def lost(kind: type[WriteFailed], register: str, reason: str, cause: Exception) -> WriteFailed:
     """An error of `kind` that is of the class of its cause as well: NoAnswer, LinkLost or WrongAnswer."""
     base = next((one for one in LOST if isinstance(cause, one)), None)
     if base is not None:
-        kind = type(f"{kind.__name__}{base.__name__}", (kind, base), {"__doc__": kind.__doc__})
+        kind = _both(kind, base)
     error = kind.__new__(kind)
     error.__dict__.update(vars(cause))
     WriteFailed.__init__(error, register, reason)

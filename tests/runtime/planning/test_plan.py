@@ -205,6 +205,13 @@ def test_a_register_that_can_only_be_written_is_never_read_along() -> None:
         blocks([RegisterSpan(Space.HOLDING, 2, 3)], terms)
 
 
+def test_registers_at_one_address_are_read_by_one_request() -> None:
+    wanted = [RegisterSpan(Space.HOLDING, 3, 3), RegisterSpan(Space.HOLDING, 4, 1), RegisterSpan(Space.HOLDING, 4, 4)]
+    terms = Terms(RequestLimits(words=4), whole(), LINES[0])
+    carried = [(block.address, block.quantity, block.items) for block in blocks(wanted, terms)]
+    assert carried == [(3, 3, (wanted[0],)), (4, 4, (wanted[1], wanted[2]))]
+
+
 def test_a_register_that_reaches_into_another_aligned_view_is_still_read_whole() -> None:
     views = [AddressStretch(0, 20, 2), AddressStretch(6, 30, 2)]
     ground = AddressRanges({Space.HOLDING: [(0, 64)]}, aligned={Space.HOLDING: views})

@@ -129,20 +129,19 @@ class Elements(Generic[T]):
 
     def __init__(self, make: Any, first: int, count: int) -> None:
         self._make, self.first, self.count = make, first, count
-        self._numbers = range(first, first + count)
 
     def __getitem__(self, index: int) -> T:
-        if index not in self._numbers:
-            message = f"no element {index}: they run from {self._numbers[0]} to {self._numbers[-1]}"
+        if not self.first <= index < self.first + self.count:
+            message = f"no element {index}: they run from {self.first} to {self.first + self.count - 1}"
             raise IndexError(message)
         element: T = self._make(index)
         return element
 
     def __iter__(self) -> Iterator[T]:
-        return map(self.__getitem__, self._numbers)
+        return map(self.__getitem__, range(self.first, self.first + self.count))
 
     def __len__(self) -> int:
-        return len(self._numbers)
+        return self.count
 
 
 class Array(Generic[P, A]):

@@ -140,9 +140,22 @@ def _unreachable(host: str, port: int, error: Exception) -> LinkLost:
 def open_tcp(host: str, port: int) -> Stream:
     """Connect; LinkLost with advice."""
     try:
-        return _Socket(socket.create_connection((host, port), CONNECT_SECONDS))
+        found = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)
     except (OSError, UnicodeError) as error:
         raise _unreachable(host, port, error) from error
+    failure: Exception = OSError("it has no address")
+    for family, kind, number, _, address in found:
+        try:
+            with contextlib.ExitStack() as unless_open:
+                connection = unless_open.enter_context(socket.socket(family, kind, number))
+                connection.settimeout(CONNECT_SECONDS)
+                connection.connect(address)
+                wire = _Socket(connection)
+                unless_open.pop_all()
+                return wire
+        except OSError as error:  # TimeoutError is one
+            failure = error
+    raise _unreachable(host, port, failure) from failure
 
 
 async def open_tcp_async(host: str, port: int) -> Stream:
@@ -154,16 +167,16 @@ async def open_tcp_async(host: str, port: int) -> Stream:
         raise _unreachable(host, port, error) from error
     failure: Exception = OSError("it has no address")
     for family, kind, number, _, address in found:
-        connection = socket.socket(family, kind, number)
         try:
-            connection.settimeout(0)
-            async with asyncio.timeout(CONNECT_SECONDS):
-                await loop.sock_connect(connection, address)
-            return _Socket(connection)
-        except BaseException as error:
-            connection.close()
-            if not isinstance(error, OSError):  # TimeoutError is one
-                raise
+            with contextlib.ExitStack() as unless_open:
+                connection = unless_open.enter_context(socket.socket(family, kind, number))
+                connection.settimeout(0)
+                async with asyncio.timeout(CONNECT_SECONDS):
+                    await loop.sock_connect(connection, address)
+                wire = _Socket(connection)
+                unless_open.pop_all()
+                return wire
+        except OSError as error:  # as above
             failure = error
     raise _unreachable(host, port, failure) from failure
 

@@ -134,7 +134,7 @@ def _write_line(work: Transaction, one: Assignment, *, rounded: bool) -> Operati
     work.plan([change])
     if change.fate is Fate.EQUAL:
         return
-    fate = Fate.UNKNOWN
+    fate = change.fate
     try:
         yield from follow(session, RegisterWrite(register, one.view, change.sent, present.state), register.governs)
         fate = Fate.WRITTEN
@@ -143,6 +143,9 @@ def _write_line(work: Transaction, one: Assignment, *, rounded: bool) -> Operati
         raise
     except ReadBackDiffers:
         fate = Fate.DIFFERS
+        raise
+    except (GeneratorExit, RegscribeError):
+        fate = Fate.UNKNOWN
         raise
     finally:
         work.mark(register.path, fate)

@@ -20,18 +20,24 @@ from regscribe_runtime.registers.register import Register
 from regscribe_runtime.report import Change, Fate, Words
 from regscribe_runtime.values.conditions import registers_of
 from regscribe_runtime.values.kinds import Access, Kind
+from regscribe_runtime.values.views import View
 
 SUGGESTED = 3
 """Most paths that a message suggests for a misspelt one."""
 
 
 class Assignment:
-    """A register, the value to write, and the view in which it is written."""
+    """A register and the value to write."""
 
-    __slots__ = ("register", "value", "view")
+    __slots__ = ("register", "value")
 
     def __init__(self, register: Register[Any], value: Any) -> None:
-        self.register, self.value, self.view = register, value, register.write_view()
+        self.register, self.value = register, value
+
+    @property
+    def view(self) -> View:
+        """The view in which it is written; ValueError if there is none."""
+        return self.register.write_view()
 
 
 class Present(NamedTuple):

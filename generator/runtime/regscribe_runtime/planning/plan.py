@@ -131,11 +131,16 @@ def blocks(items: Iterable[RegisterSpan], terms: Terms) -> tuple[Block, ...]:
     found = []
     for (space, stretch), held in stretches.items():
         most = terms.limits.most(space)
-        for spans in cheapest_cover(sorted(held), tariffs[space], most - most % stretch.align):
+        for spans in cheapest_cover(sorted(held, key=_longer_first), tariffs[space], most - most % stretch.align):
             first, end = spans[0].address, max(span.end for span in spans)
             carried = sorted(item for span in spans for item in held[span])
             found.append(Block(space.read_function, first, end - first, tuple(carried)))
     return tuple(sorted(found, key=lambda block: (block.space, block.address, block.quantity)))
+
+
+def _longer_first(item: RegisterSpan) -> tuple[int, int]:
+    """By address; what begins within a longer item is read in that item's request, so that both have the same words."""
+    return item.address, -item.words
 
 
 def explain(requests: Sequence[Block], terms: Terms, *, again: int = 0) -> Plan:
