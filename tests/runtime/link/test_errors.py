@@ -3,6 +3,7 @@
 import asyncio
 import errno
 import os
+import socket
 import subprocess
 import sys
 import tty
@@ -103,3 +104,22 @@ def test_no_descriptor_is_left_of_what_could_not_be_opened(open_descriptors: Any
         with pytest.raises(LinkLost):
             opened(kind, place, **({"port": 9} if kind == "tcp" else {"baud": 9600}))
     assert open_descriptors() == before
+
+
+@pytest.mark.parametrize("kind", ["tcp", "async_tcp"])
+def test_a_connection_that_is_broken_off_leaves_no_socket_open(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    made: list[socket.socket] = []
+
+    class Interrupted(socket.socket):
+        def __init__(self, *arguments: Any) -> None:
+            super().__init__(*arguments)
+            made.append(self)
+
+        def setsockopt(self, *_: Any) -> None:
+            raise KeyboardInterrupt
+
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        monkeypatch.setattr(socket, "socket", Interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            opened(kind, "127.0.0.1", port=server.getsockname()[1])
+    assert [one.fileno() for one in made if isinstance(one, Interrupted)][:1] == [-1]
