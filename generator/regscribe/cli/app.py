@@ -137,13 +137,7 @@ def run(arguments: Sequence[str]) -> int:
     for stream in (sys.stdout, sys.stderr):
         getattr(stream, "reconfigure", lambda **_: None)(errors="backslashreplace")  # a map may hold any character
     try:
-        _replace_closed_streams()
-        code = regscribe.main(list(arguments), prog_name="regscribe", standalone_mode=False)
-        sys.stdout.flush()
-    except click.ClickException as error:
-        vars(error)["message"] = safe_lines(error.message)  # click calls it final
-        error.show()
-        return error.exit_code
+        return _carry_out(arguments)
     except (click.Abort, KeyboardInterrupt):
         return INTERRUPTED
     except (BrokenPipeError, ClosedPipeError):
@@ -153,6 +147,18 @@ def run(arguments: Sequence[str]) -> int:
         return _refused_by_the_system(error)
     except Exception as error:  # noqa: BLE001 - the last resort: a user never sees a bare traceback
         return _internal_error(error, debug="--debug" in arguments or bool(os.environ.get("REGSCRIBE_DEBUG")))
+
+
+def _carry_out(arguments: Sequence[str]) -> int:
+    """Run one command line and show its error, which can fail as all output can; return its exit code."""
+    try:
+        _replace_closed_streams()
+        code = regscribe.main(list(arguments), prog_name="regscribe", standalone_mode=False)
+    except click.ClickException as error:
+        vars(error)["message"] = safe_lines(error.message)  # click calls it final
+        error.show()
+        code = error.exit_code
+    sys.stdout.flush()
     return code if isinstance(code, int) else 0
 
 

@@ -199,7 +199,14 @@ def _command(*arguments: str) -> list[str]:
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")
 @pytest.mark.parametrize(
     "arguments",
-    [["check"], ["devices"], ["export", "fdc/series-100", "--format", "csv"], ["explain", "RS0401"], ["--help"]],
+    [
+        ["check"],
+        ["devices"],
+        ["export", "fdc/series-100", "--format", "csv"],
+        ["explain", "RS0401"],
+        ["--help"],
+        ["read", "nobody", "value", "--json"],
+    ],
 )
 def test_a_full_disk_behind_the_output_is_said(arguments: list[str]) -> None:
     with Path("/dev/full").open("w") as full:

@@ -57,9 +57,11 @@ class Failure(click.ClickException):
 
     def show(self, file: IO[Any] | None = None) -> None:
         """Print the message to standard error; with --json an object to standard output, too."""
-        if self.as_json:
-            print_json_line(error={"kind": self.kind, "message": self.message, "exit_code": self.exit_code})
-        super().show(file)
+        try:
+            if self.as_json:
+                print_json_line(error={"kind": self.kind, "message": self.message, "exit_code": self.exit_code})
+        finally:  # a full disk hides no error of a device
+            super().show(file)
 
 
 @contextmanager
