@@ -2,6 +2,7 @@
 
 import asyncio
 import contextlib
+import errno
 import os
 import socket
 import struct
@@ -295,6 +296,32 @@ def test_a_serial_device_is_served_until_it_is_gone(controller: RegisterMap) -> 
 
     asyncio.run(run())
     assert lost
+
+
+def test_an_adapter_that_is_pulled_out_is_told_once_and_not_logged(
+    controller: RegisterMap, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    read = os.read
+
+    async def run() -> None:
+        server = await start([SimulatedDevice(controller, "16C")], Service(transport=Transport.PTY))
+        client = os.open(server.path, os.O_RDWR | os.O_NOCTTY)
+
+        def pulled_out(descriptor: int, most: int) -> bytes:
+            if os.isatty(descriptor):
+                raise OSError(errno.ENXIO, os.strerror(errno.ENXIO))
+            return read(descriptor, most)
+
+        with monkeypatch.context() as patch:
+            patch.setattr(os, "read", pulled_out)
+            os.write(client, READ_PV)
+            with pytest.raises(SimulatorError, match=r"is gone: .*No such device"):
+                await asyncio.wait_for(server.wait(), 5)
+        os.close(client)
+        await server.stop()
+
+    asyncio.run(run())
+    assert caplog.records == []
 
 
 def test_an_idle_client_is_disconnected_and_an_active_one_stays(controller: RegisterMap) -> None:

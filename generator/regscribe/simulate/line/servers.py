@@ -4,7 +4,7 @@ import asyncio
 from abc import ABC, abstractmethod
 from dataclasses import replace
 from io import FileIO
-from typing import cast
+from typing import Any, cast
 
 from regscribe.simulate.errors import SimulatorError
 from regscribe.simulate.line.connection import CHUNK, Connection
@@ -149,6 +149,12 @@ class _TcpClient(Connection, asyncio.BufferedProtocol):
         return self._gone
 
 
+def _log_all_but_lost_lines(loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
+    """The loop's own handler, without the traceback for a line whose loss its server reports."""
+    if not (isinstance(context.get("protocol"), LineServer) and isinstance(context.get("exception"), OSError)):
+        loop.default_exception_handler(context)
+
+
 class LineServer(Server, Connection):
     """Serves one serial line, on two pipes of asyncio upon its file descriptor."""
 
@@ -160,6 +166,8 @@ class LineServer(Server, Connection):
 
     async def listen(self) -> None:
         """Start to read and write."""
+        if self._loop.get_exception_handler() is None:
+            self._loop.set_exception_handler(_log_all_but_lost_lines)
         pipe = FileIO(self._line.fd, "r+", closefd=False)
         await self._loop.connect_write_pipe(lambda: self, pipe)
         await self._loop.connect_read_pipe(lambda: self, pipe)
