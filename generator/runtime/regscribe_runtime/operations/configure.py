@@ -159,12 +159,12 @@ def _apply_commands(work: Transaction) -> list[str]:
 
 def _add_planned_requests(work: Transaction, pieces: Sequence[RegisterWrite]) -> None:
     """Add the requests and commands of a dry run."""
-    for request, batch in batches(work.session, pieces):
-        unlock = batch[0].register.unlock
+    for request, together in batches(work.session, pieces):
+        unlock = together[0].register.unlock
         if unlock and unlock not in work.unlocked:
             work.unlocked.add(unlock)
             work.requests.append(Sent(0, 0, (), (), unlock))
-        paths = tuple(piece.path for piece in batch)
+        paths = tuple(piece.path for piece in together)
         work.requests.append(Sent(request.function, request.address, request.words, paths))
     names = dict.fromkeys(piece.register.apply for piece in pieces)
     work.requests += [Sent(0, 0, (), (), name) for name in names if name]

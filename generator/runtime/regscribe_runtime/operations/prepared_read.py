@@ -115,19 +115,19 @@ def laid_out(
     registers: Mapping[str, R], chosen: Sequence[R], terms: Terms, *, fresh: bool
 ) -> tuple[ReadOrder, dict[str, R], dict[str, frozenset[str]]]:
     """The read order of registers and, with `fresh`, of their dependencies; all of these, and dependencies, by path."""
-    needs = dependencies(registers, chosen) if fresh else {}
-    needed = frozenset().union(*needs.values())
+    depends = dependencies(registers, chosen) if fresh else {}
+    needed = frozenset().union(*depends.values())
     wanted = {register.path: register for register in chosen}
-    wanted |= {path: registers[path] for path in needs if path in needed and path not in wanted}
+    wanted |= {path: registers[path] for path in depends if path in needed and path not in wanted}
     there = {path: place for path, one in wanted.items() if (place := place_of(one, terms.ground))}
-    return lay_out(there, needs, terms), wanted, needs
+    return lay_out(there, depends, terms), wanted, depends
 
 
 def make_ready(
     session: Session, registers: Sequence[Register[Any]], *, fresh: bool, unknown: Mapping[str, RegscribeError]
 ) -> PreparedRead:
     """Plan a read of registers and, with `fresh`, of their dependencies; `unknown`: errors of dependencies by path."""
-    layout, wanted, needs = laid_out(session.registers, registers, session.terms(), fresh=fresh)
+    layout, wanted, depends = laid_out(session.registers, registers, session.terms(), fresh=fresh)
     chosen = {register.path: register for register in registers}
     placed: list[list[Placed]] = [[] for _ in layout.blocks]
     for path, place in layout.places.items():
@@ -138,7 +138,7 @@ def make_ready(
         for block, own in zip(layout.blocks, placed, strict=True)
     ]
     entries = {path: missing(session, one) for path, one in chosen.items()}
-    watched = [(wanted[path], layout.checks[path]) for path in needs if path in layout.checks]
+    watched = [(wanted[path], layout.checks[path]) for path in depends if path in layout.checks]
     return PreparedRead(made, entries, watched=watched, atomic=layout.atomic, unknown=unknown)
 
 

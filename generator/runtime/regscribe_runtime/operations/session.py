@@ -4,7 +4,7 @@ from collections.abc import Callable, Generator, Iterable, Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar
 
-from regscribe_runtime.errors import ExceptionAnswer, LinkLost, NoAnswer, WrongAnswer
+from regscribe_runtime.errors import ExceptionAnswer, LinkLost, NoAnswer, RegscribeError, WrongAnswer
 from regscribe_runtime.link.links import LinkState, Retry
 from regscribe_runtime.link.timing import response_seconds, slowest
 from regscribe_runtime.operations.missing_registers import MissingRegisters
@@ -171,15 +171,14 @@ class Session:
 
     def exchange(self, request: Request) -> Operation[tuple[int, ...]]:
         """Send one request and verify its answer; a read is sent again as `retry` says, a write never."""
-        left = self._tries.reads * request.reads
+        left = self._tries.reads if request.reads else 0
         while True:
             try:
                 reply = yield request
                 assert reply is not None, "an executor answers a request with a reply"  # noqa: S101 (their contract)
                 words = verify(request, reply, unit=self.unit, protocol=self.protocol)
             except (NoAnswer, WrongAnswer, LinkLost, ExceptionAnswer) as error:
-                refused = isinstance(error, ExceptionAnswer) and (error.code, error.name) != (GATEWAY_GOT_NO_ANSWER, "")
-                if refused or not left:
+                if not left or not _is_passing(error):
                     raise
                 left = 0 if isinstance(error, LinkLost) else left - 1  # a link that is lost once more is gone
             else:
@@ -187,6 +186,11 @@ class Session:
                     self.prepared.clear()
                 return words
             yield Pause(self._tries.pause)
+
+
+def _is_passing(error: RegscribeError) -> bool:
+    """Whether an error may be gone at the next try; of exceptions, only that of a gateway without an answer."""
+    return not isinstance(error, ExceptionAnswer) or (error.code == GATEWAY_GOT_NO_ANSWER and not error.name)
 
 
 Task = Callable[[Session], Operation[T]]

@@ -57,6 +57,7 @@ def lay_out(wanted: Mapping[str, ReadPlace], needs: Mapping[str, Collection[str]
 
 
 def _read_early(relations: Sequence[tuple[str, str]], places: Mapping[str, WordPosition]) -> set[str]:
+    """Dependencies that are read before a register that depends on them, and the dependencies of these."""
     early = {need for path, need in relations if places[path].block > places[need].block}
     return early | {need for path, need in relations if path in early}
 
