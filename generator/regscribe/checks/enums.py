@@ -57,9 +57,11 @@ def _codes(members: list[Member]) -> str:
 
 @enum_rule("RS0441", "Label used twice in an enum")
 def label_twice(enum: Enum) -> Iterator[Problem]:
-    """Two codes of one meaning: one of them was misread."""
+    """Two codes of one meaning: one of them was misread, unless they have names of their own."""
     for label, members in _sharing(enum, _label):
-        yield f'has the label "{label}" for codes {_codes(members)}', "correct a label, or say what tells them apart"
+        if len({member.id for member in members}) < len(members):
+            message = f'has the label "{label}" for codes {_codes(members)}'
+            yield message, "correct a label, or give each an `id` of its own: {label: ..., id: ...}"
 
 
 @enum_rule("RS0442", "Enum members of one id")
@@ -141,10 +143,9 @@ def enum_wider_than_field(register: Register, _: RuleScope) -> Iterator[Problem]
 
 @register_rule("RS0453", "Bit fields of one name")
 def bits_of_one_name(register: Register, _: RuleScope) -> Iterator[Problem]:
-    """Two bits of one id or label cannot be told apart."""
+    """Two bits of one id cannot be told apart; of one label they can, if each has an `id`."""
     for one, other in combinations(register.fields, 2):
-        same_label = one.label and one.label.casefold() == other.label.casefold()
-        if normalised(one.id) == normalised(other.id) or same_label:
+        if normalised(one.id) == normalised(other.id):
             yield f'has bit fields {_bits(one)} and {_bits(other)} both called "{other.label}"', "correct one of them"
 
 

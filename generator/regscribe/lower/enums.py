@@ -9,7 +9,7 @@ from regscribe.lower.scope import Scope
 from regscribe.lower.texts import identifier, whole_ends
 from regscribe.lower.tree import TreeNode
 from regscribe.model import BitField, Condition, Enum, Member
-from regscribe.model.identifiers import snake
+from regscribe.model.identifiers import label_id
 
 COLUMNS = "columns"
 """The key beside the codes of an enum that names the columns of the manual's table."""
@@ -56,12 +56,12 @@ def label_of(node: Value) -> str:
 
 def id_of(node: Value) -> str:
     """Id of a code or a special value: given, or made of its label."""
-    return node.text_of("id") or snake(label_of(node))
+    return node.text_of("id") or label_id(label_of(node))
 
 
 def identifier_of(node: Value, label: str) -> str:
     """Python name of a code, a bit or a special value with that label; RS0317 where there is none."""
-    return identifier(node.child("label") or node, label=label, given=node.child("id"))
+    return identifier(node.child("label") or node, label=label, given=node.child("id"), derive=label_id)
 
 
 def code_anywhere(table: Value, text: str) -> int | None:

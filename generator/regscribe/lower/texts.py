@@ -1,7 +1,7 @@
 """Texts of a map with a form of their own: identifiers, names of other things, and ranges `a..b`."""
 
 import re
-from collections.abc import Collection, Iterable
+from collections.abc import Callable, Collection, Iterable
 from difflib import get_close_matches
 from fractions import Fraction
 
@@ -15,9 +15,9 @@ _NUMBER = r"([+-]?[0-9]{1,30}(?:\.[0-9]{1,30})?(?:[eE][+-]?[0-9]{1,3})?)"
 _ENDS = re.compile(rf"\s*{_NUMBER}\s*\.\.\s*{_NUMBER}\s*")
 
 
-def identifier(node: Value, *, label: str, given: Value | None) -> str:
-    """The identifier `given` in the map, or else the one derived from `label`; RS0317 where that is none."""
-    name = given.text() if given else snake(unindexed(label))
+def identifier(node: Value, *, label: str, given: Value | None, derive: Callable[[str], str] = snake) -> str:
+    """The identifier `given` in the map, or else the one that `derive` makes of `label`; RS0317 where that is none."""
+    name = given.text() if given else derive(unindexed(label))
     if not name.isidentifier():
         where = given or node
         what = f"`{name}` is no identifier" if given else f"no identifier can be derived from `{brief(label)}`"

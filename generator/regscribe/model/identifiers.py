@@ -15,6 +15,12 @@ def snake(text: str) -> str:
     return "_".join(_RUN.findall(text)).lower()
 
 
+def label_id(text: str) -> str:
+    """Lower snake case of a label, with an `n` in front of a digit: `9600 baud` gives `n9600_baud`."""
+    name = snake(text)
+    return f"n{name}" if name[:1].isdigit() else name
+
+
 def unindexed(text: str) -> str:
     """The name without the marks `{i}` and `{j}`, which stand for the indexes of the arrays around it."""
     return _MARK.sub("", text)
