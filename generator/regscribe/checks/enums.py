@@ -8,6 +8,7 @@ from itertools import combinations
 
 from regscribe.checks.held_values import no_member
 from regscribe.checks.identifiers import ENUM_NAMES, enums_of, normalised
+from regscribe.checks.representable import same_bits
 from regscribe.checks.rule import Finding, Problem, RuleScope, register_rule, rule_of_models
 from regscribe.model import BitField, Enum, Kind, Member, Register, WireType, show
 
@@ -35,8 +36,8 @@ def code_outside_type(register: Register, _: RuleScope) -> Iterator[Problem]:
     low, high = register.base.type.minimum, register.base.type.maximum
     outside = [member.code for member in register.enum.members if not low <= member.code <= high]
     if outside:
-        codes = ", ".join(map(str, outside))
-        yield f"has enum codes {codes}, outside {register.base.type} ({low} to {high})", "correct the codes or the type"
+        message = f"has enum codes {', '.join(map(str, outside))}, outside {register.base.type} ({low} to {high})"
+        yield message, same_bits(register, outside) or "correct the codes or the type"
 
 
 def _label(member: Member) -> str:

@@ -54,6 +54,11 @@ def sentinels_twice(register: Register, _: RuleScope) -> Iterator[Problem]:
         yield f"{message}, which cannot be told apart", "correct one of them"
 
 
+SPECIAL_OR_FAULT = (
+    "`sentinels` if it says that there is no value (reading it raises an error), `special` if it is a value with a name"
+)
+
+
 @register_rule("RS0439", "Special value is a fault too")
 def special_is_sentinel(register: Register, _: RuleScope) -> Iterator[Problem]:
     """One number cannot be both a setting and the report of a fault."""
@@ -62,7 +67,20 @@ def special_is_sentinel(register: Register, _: RuleScope) -> Iterator[Problem]:
     for special in register.specials if faults else ():
         stored = {form.stored(value) for value in values_of(register, special) for form in every}
         if stored and stored <= faults:
-            yield f'has {show(special.code)} as special value "{special.label}" and as a fault', "remove one of them"
+            message = f'has {show(special.code)} as special value "{special.label}" and as a fault'
+            yield message, f"remove one of them: {SPECIAL_OR_FAULT}"
+
+
+@register_rule("RS0670", "Special value at the end of what is only read", warns=True)
+def special_reports(register: Register, _: RuleScope) -> Iterator[Problem]:
+    """A special value is a value: programs get it and compute on. A code that says that there is none is a sentinel."""
+    wire = register.base.type
+    if register.access.writable or not wire.is_integer or len(register.scale) > 1:
+        return
+    for special in register.specials:
+        if {form.stored(special.code) for form in forms(register)} & {wire.minimum or wire.maximum, wire.maximum}:
+            message = f'has special value {show(special.code)} ("{special.label}"), the last that {wire} can spell'
+            yield message, f"{SPECIAL_OR_FAULT}; waive this if it is a value"
 
 
 @register_rule("RS0603", "Number with two codes")

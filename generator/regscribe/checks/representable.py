@@ -1,6 +1,6 @@
 """Whether views can carry a number under the scales that a register may have: exactly, less finely, or not at all."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from enum import IntEnum
 from fractions import Fraction
 
@@ -99,6 +99,18 @@ def ends_of(register: Register) -> str:
     """The types of a register for messages: `int16 (-32768 to 32767)`."""
     types = dict.fromkeys(view.type for view in register.views)
     return ", ".join(f"{one} ({one.minimum} to {one.maximum})" if one.is_integer else str(one) for one in types)
+
+
+def same_bits(register: Register, values: Iterable[Fraction | int]) -> str:
+    """What to write for numbers that are printed as the bits of a signed type (0x8000 is -32768); empty for others."""
+    found = dict[str, str]()
+    for view in register.views:
+        width = view.type.maximum + 1
+        if view.type.is_integer and view.type.minimum == -width:
+            signed = ((value, value - 2 * width) for value in values if width <= value < 2 * width)
+            found |= {show(each): f"{show(negative)} for {show(each)}" for each, negative in signed}
+    types = ", ".join(dict.fromkeys(view.type for view in register.views))
+    return f"write {', '.join(found.values())}: the same bits as {types}" if found else ""
 
 
 def listed(values: list[Fraction]) -> str:

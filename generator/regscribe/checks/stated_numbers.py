@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from regscribe.checks.held_values import is_fault, outside_type, shown, wrong_sort
-from regscribe.checks.representable import HELP_TYPE, Fit, best_fit, ends_of, tells_apart, values_of
+from regscribe.checks.representable import HELP_TYPE, Fit, best_fit, ends_of, same_bits, tells_apart, values_of
 from regscribe.checks.rule import Problem, RuleScope, register_rule
 from regscribe.model import IDENTITY, Kind, NotANumber, Order, Register, Sentinel, Space, View, WireType, show
 from regscribe.reference import number_of, sentinel_number
@@ -18,7 +18,8 @@ def default_outside_type(register: Register, _: RuleScope) -> Iterator[Problem]:
     """A default that the words cannot carry was misread, or the type was."""
     for what, value in register.beginnings:
         if not wrong_sort(register, value) and outside_type(register, value):
-            yield f"has {what} {shown(value)}, outside {ends_of(register)}", HELP_TYPE
+            bits = same_bits(register, [value] if isinstance(value, Fraction) else [])
+            yield f"has {what} {shown(value)}, outside {ends_of(register)}", bits or HELP_TYPE
 
 
 @register_rule("RS0421", "Special value outside the type")
@@ -29,7 +30,7 @@ def special_outside_type(register: Register, _: RuleScope) -> Iterator[Problem]:
         fit = best_fit(register, values)
         shown = f'has special value {show(special.code)} ("{special.label}")'
         if fit is Fit.TOO_LARGE:
-            yield f"{shown}, outside {ends_of(register)}", HELP_TYPE
+            yield f"{shown}, outside {ends_of(register)}", same_bits(register, [special.code]) or HELP_TYPE
         elif fit is Fit.TOO_FINE or not any(tells_apart(register, value) for value in values):
             yield f"{shown}, which its words cannot spell exactly", HELP_TYPE
 
@@ -42,7 +43,8 @@ def sentinel_outside_type(register: Register, _: RuleScope) -> Iterator[Problem]
         if lacking:
             where = f"view {lacking[0].name} ({lacking[0].type})" if len(register.views) > 1 else ends_of(register)
             message = f'has sentinel {sentinel.spelled} ("{sentinel.label}"), outside {where}'
-            yield message, "correct the sentinel or the type"
+            stored = [] if isinstance(sentinel.stored, NotANumber) else [sentinel.stored]
+            yield message, same_bits(register, stored) or "correct the sentinel or the type"
 
 
 def _reports(view: View, sentinel: Sentinel) -> bool:
@@ -64,7 +66,7 @@ def sentinel_is_code(register: Register, _: RuleScope) -> Iterator[Problem]:
     for sentinel in register.sentinels:
         if sentinel.stored in codes:
             message = f'has {sentinel.spelled} as "{codes[sentinel.stored]}" and as the fault "{sentinel.label}"'
-            yield message, "remove one of them"
+            yield message, "remove one of them: reading a sentinel raises an error, whatever else the code means"
     for what, value in register.beginnings if register.sentinels else ():
         if number_of(register, value) not in codes and is_fault(register, value):
             yield f"has {what} {shown(value)}, by which it reports a fault", f"correct the {what} or the sentinels"

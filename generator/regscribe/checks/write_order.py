@@ -115,6 +115,16 @@ def write_facts_of_read_only(register: Register, _: RuleScope) -> Iterator[Probl
         yield message, "correct `access`, or remove what speaks of writing"
 
 
+@register_rule("RS0671", "Dangerous to write, but copied to other devices", warns=True)
+def danger_is_copied(register: Register, _: RuleScope) -> Iterator[Problem]:
+    """Settings that are cloned or restored are written one after the other: this one would be among them."""
+    if register.danger and not (register.stays or register.governs or register.rescales):
+        help_text = (
+            "`stays: operation` if it makes the device act, `stays: calibration` (or another) if it belongs to it"
+        )
+        yield "has `danger`, but no `stays`", f"give it {help_text}; waive this if it is a setting like others"
+
+
 @register_rule("RS0484", "Endurance that is no number of writes")
 def endurance(register: Register, _: RuleScope) -> Iterator[Problem]:
     """Endurance counts the writes that a memory survives."""

@@ -137,8 +137,19 @@ def _wrong_type(error: Violation) -> Complaint:
     allowed = [_TYPES[name] for name in types]
     wanted = " or ".join([", ".join(allowed[:-1]), allowed[-1]] if allowed[1:] else allowed)
     said = f"{title(error.schema)} must be {wanted}; this is {describe(error.instance)}"
-    advice = _retype(error.instance, types) or example(error.schema)
+    advice = _instead(error) or _retype(error.instance, types) or example(error.schema)
     return Complaint(rules.WRONG_TYPE, error.path, said, advice, subject="")
+
+
+def _instead(error: Violation) -> str:
+    """Say what the language writes for a value that others spell so, or (`number`) for a number in this place."""
+    known: Mapping[str, str] = error.schema.get("x-instead", {})
+    if isinstance(error.instance, str):
+        written = known.get(re.sub(r"[\s_-]", "", error.instance[:100]).lower(), "")
+    else:
+        number = isinstance(error.instance, int | Decimal) and not isinstance(error.instance, bool)
+        written = known.get("number", "").format(describe(error.instance).split()[-1]) if number else ""
+    return f"write {written if '`' in written else f'`{written}`'}" if written else ""
 
 
 def _retype(instance: object, types: Sequence[str]) -> str:
@@ -173,5 +184,5 @@ def _not_allowed(error: Violation) -> Complaint:
     near = get_close_matches(str(error.instance)[:100].lower(), choices, n=1) if isinstance(error.instance, str) else []
     allowed = ", ".join(f"`{choice}`" for choice in choices)
     said = f"{describe(error.instance)} is not allowed for {title(error.schema)}; allowed: {allowed}"
-    advice = f"did you mean `{near[0]}`?" if near else "write one of the allowed words"
+    advice = _instead(error) or (f"did you mean `{near[0]}`?" if near else "write one of the allowed words")
     return Complaint(rules.VALUE_NOT_ALLOWED, error.path, said, advice if kind == "enum" else f"write {allowed}")

@@ -181,3 +181,46 @@ def test_a_fault_is_no_state_that_a_condition_could_ask_for(
 @pytest.mark.parametrize("scale", ["multiply: 1.0e-400", "multiply: 1.0e+400", "type: float64, multiply: 1.0e-330"])
 def test_a_scale_that_no_float_of_a_program_follows_is_an_error(diagnose: Diagnose, small: Small, scale: str) -> None:
     assert "RS0604" in rules_of(diagnose(small(f"at: 0, name: Level, {scale}")))
+
+
+@pytest.mark.parametrize(
+    ("keys", "rule", "help_text"),
+    [
+        ("type: int16, sentinels: {0x8000: none}", "RS0422", "write -32768 for 32768: the same bits as int16"),
+        ("type: int16, special: {0xFFFF: none}", "RS0421", "write -1 for 65535: the same bits as int16"),
+        ("type: int32, default: 0xFFFFFFFF", "RS0420", "write -1 for 4294967295: the same bits as int32"),
+        (
+            "type: int16, enum: {0x8000: off, 0xFFFF: on}",
+            "RS0440",
+            "write -32768 for 32768, -1 for 65535: the same bits as int16",
+        ),
+        ("type: int16, sentinels: {65536: none}", "RS0422", "correct the sentinel or the type"),
+        ("type: uint16, sentinels: {65536: none}", "RS0422", "correct the sentinel or the type"),
+        ("special: {9: none}, sentinels: {9: none}", "RS0439", "remove one of them: `sentinels` if it says that"),
+        ("access: r, special: {32767: none}", "RS0670", "`sentinels` if it says that there is no value"),
+        ("access: r, type: uint16, special: {65535: none}", "RS0670", "`sentinels` if it says that"),
+        ("danger: all is lost", "RS0671", "give it `stays: operation` if it makes the device act"),
+    ],
+)
+def test_a_mistake_of_a_beginner_is_told_what_to_write_instead(
+    diagnose: Diagnose, small: Small, keys: str, rule: str, help_text: str
+) -> None:
+    (found,) = diagnose(small(f"at: 0, name: Setpoint, {keys}"))
+
+    assert (found.rule, found.span.line, found.span.column) == (rule, 12, 23)
+    assert found.help.startswith(help_text)
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        "access: r, special: {32766: none}",
+        "access: r, type: uint16, special: {0: none}",
+        "special: {32767: none}",
+        "danger: all is lost, stays: calibration",
+    ],
+)
+def test_what_looks_like_a_mistake_of_a_beginner_and_is_none_is_not_told(
+    diagnose: Diagnose, small: Small, keys: str
+) -> None:
+    assert diagnose(small(f"at: 0, name: Setpoint, {keys}")) == []

@@ -117,6 +117,58 @@ def test_an_unknown_key_asks_whether_another_was_meant(keys: str, advice: str) -
     assert f"did you mean {advice}?" in in_register(keys)[0].help
 
 
+@pytest.mark.parametrize(
+    ("keys", "place", "help_text"),
+    [
+        ("type: float", "RS0204 6:8", "write `float32`"),
+        ("type: FLOAT", "RS0204 6:8", "write `float32`"),
+        ("type: double", "RS0204 6:8", "write `float64`"),
+        ("type: u16", "RS0204 6:8", "write `uint16`"),
+        ("type: uint", "RS0204 6:8", "write `uint16`"),
+        ("type: word", "RS0204 6:8", "write `uint16`"),
+        ("type: Unsigned 16-bit", "RS0204 6:8", "write `uint16`"),
+        ("type: int", "RS0204 6:8", "write `int16`"),
+        ("type: S32", "RS0204 6:8", "write `int32`"),
+        ("type: dword", "RS0204 6:8", "write `uint32`"),
+        ("type: enum16", "RS0204 6:8", "write `enum: {0: ..., 1: ...}`, and as `type` that of the number"),
+        ("type: bool", "RS0204 6:8", "write `bit` in coils and discrete inputs"),
+        ("type: uint31", "RS0204 6:8", "did you mean `uint32`?"),
+        ("word_order: CDAB", "RS0204 6:14", "write `word_order: little`, and no `byte_order`"),
+        ("word_order: swapped", "RS0204 6:14", "write `little`"),
+        ("word_order: DCBA", "RS0204 6:14", "write `word_order: little` and `byte_order: little`"),
+        ("byte_order: BADC", "RS0204 6:14", "write `byte_order: little`, and no `word_order`"),
+        ("scale: 0.1", "RS0203 6:9", "write `multiply: 0.1`"),
+        ("scale: 10", "RS0203 6:9", "write `multiply: 10`"),
+        ("access: read-only", "RS0204 6:10", "write `r`"),
+        ("space: holding registers", "RS0204 6:9", "write `holding`"),
+        ("space: coils", "RS0204 6:9", "write `coil`"),
+    ],
+)
+def test_a_spelling_of_others_is_answered_with_the_word_of_the_language(keys: str, place: str, help_text: str) -> None:
+    (found,) = in_register(keys)
+
+    assert places([found]) == [place]
+    assert found.help.startswith(help_text)
+
+
+def _with_spellings(schema: Any) -> Iterator[Mapping[str, Any]]:
+    """Every part of a schema that lists spellings of others."""
+    for part in schema if isinstance(schema, list) else schema.values() if isinstance(schema, dict) else ():
+        if isinstance(part, dict) and "x-instead" in part:
+            yield part
+        yield from _with_spellings(part)
+
+
+def test_what_stands_for_a_spelling_of_others_is_a_word_of_the_language() -> None:
+    lists = [part for part in _with_spellings(schema_json()) if "enum" in part]
+
+    assert len(lists) >= 4
+    for part in lists:
+        said = {word for word in part["x-instead"].values() if "`" not in word}
+        assert said <= set(part["enum"])
+        assert not set(part["x-instead"]) & set(part["enum"])
+
+
 def test_an_unknown_word_asks_whether_another_was_meant() -> None:
     assert "`rw`" in in_register("access: RW")[0].help
 

@@ -82,9 +82,10 @@ def _written_register(model: Model, group: str) -> Register | None:
 
 
 def _harmless(register: Register) -> bool:
-    prepared = register.writable or register.unlock or register.apply or register.rescales or register.danger
+    prepared = register.writable or register.unlock or register.apply or register.rescales
+    special = register.danger or register.stays or register.governs
     plain = register.kind in {Kind.NUMBER, Kind.INTEGER} and register.access.writable and not register.specials
-    return plain and not prepared and _default(register) is not None
+    return plain and not prepared and not special and _default(register) is not None
 
 
 def _default(register: Register) -> str | None:

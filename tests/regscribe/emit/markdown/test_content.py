@@ -2,6 +2,11 @@
 
 from collections.abc import Callable
 
+import pytest
+
+from regscribe.emit.markdown import render
+from regscribe.model import RegisterMap
+
 Section = Callable[[str], str]
 
 
@@ -116,6 +121,19 @@ def test_the_quick_start_reads_a_measured_value_and_asks_for_the_givens(text: st
     assert 'with AcmeA1.tcp("192.0.2.10", unit=1, linear_inputs=...) as controller:' in text
     assert "controller.value.read()" in text
     assert "async with AsyncAcmeA1.tcp(" in text
+
+
+@pytest.mark.parametrize("keys", ["danger: it stops", "stays: operation", "governs: address, stays: address"])
+def test_the_quick_start_writes_nothing_that_has_consequences(
+    keys: str, small: Callable[..., str], model_of: Callable[[str], RegisterMap]
+) -> None:
+    plain = "at: 1, name: Hours, default: 2, persistence: eeprom"
+    text = render(model_of(small(f"at: 0, name: Speed, unit: s, default: 1, {keys}", plain)))[
+        "docs/example/controller.md"
+    ]
+
+    assert "controller.hours.write(2)" in text
+    assert "controller.speed.write(" not in text
 
 
 def test_limits_line_latency_errata_and_notes_are_there(text: str) -> None:
