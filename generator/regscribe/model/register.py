@@ -5,7 +5,7 @@ from fractions import Fraction
 
 from regscribe.model.diagnostic import NOWHERE, Span
 from regscribe.model.enums import BitField, Enum, Special
-from regscribe_runtime.values.conditions import Cases, always
+from regscribe_runtime.values.conditions import ALWAYS, Cases, Condition, always
 from regscribe_runtime.values.facts import Governs, WriteCondition
 from regscribe_runtime.values.kinds import Access, Kind
 from regscribe_runtime.values.scales import SAME, Conversion, NotANumber, Range, Sentinel
@@ -32,7 +32,7 @@ class Register:
     `scale` goes from the stored value to the value of use, `special_scale` from the code of a special value to its
     value of use (the decimals that divide the range); `default` is a value of use: a number (an enum's code, a word's
     bits), a text or version, or None where the manual gives none; `delivered` is what a new device holds instead.
-    `section` is where the manual describes it.
+    `section` is where the manual describes it. It exists only while `when` holds.
     `rescales` names the unit (of the map's units) whose registers the device converts when this one is written.
     `unlock` and `apply` name commands that must precede and follow a write.
     `stays` is why the value must not be copied to another device (`address`, `line`, `calibration`, `identity`,
@@ -69,6 +69,7 @@ class Register:
     enum: Enum | None = None
     fields: tuple[BitField, ...] = ()
     writable: WriteCondition | None = None
+    when: Condition = ALWAYS
     persistence: str = ""
     endurance: int | None = None
     rescales: str = ""

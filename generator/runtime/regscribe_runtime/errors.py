@@ -7,6 +7,7 @@ RegscribeError
 ├── WrongAnswer         an answer that does not fit the request
 │   └── PartialWrite    fewer words were written than were sent
 ├── Absent              this unit does not have the register: a batch goes round it for a while
+├── NotPresent          the register does not exist in the present state of the device
 ├── Unsteady            dependencies of the values changed during every read of them
 ├── ValueRefused        refused here, before anything was sent
 │   ├── ConditionNotMet the register cannot be written in the present state of the device
@@ -114,6 +115,15 @@ class Absent(RegscribeError):  # noqa: N818 (as above)
         left_out = f"left out of reads of several registers for {minutes:g} minutes (reading it alone asks again)"
         super().__init__(f"{asked}, {left_out if minutes else 'though it was read before; the next read asks again'}")
         self.__cause__ = answer
+
+
+class NotPresent(RegscribeError, LookupError):  # noqa: N818 (as above)
+    """The thing `register` exists only while `condition` (in words) holds; `present` is what was seen, by path."""
+
+    def __init__(self, register: str, condition: str, present: Mapping[str, str]) -> None:
+        self.register, self.condition, self.present = register, condition, dict(present)
+        now = ", ".join(f"{path} is {value}" for path, value in self.present.items())
+        super().__init__(f"{register}: it exists only while {condition}{f'; {now}' if now else ''}")
 
 
 class Unsteady(RegscribeError):  # noqa: N818 (as above)

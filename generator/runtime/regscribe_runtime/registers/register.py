@@ -7,14 +7,14 @@ from typing import Generic, Never, Self, TypeVar, cast
 from regscribe_runtime.errors import ValueRefused
 from regscribe_runtime.registers import codec, element
 from regscribe_runtime.registers.value_types import ValueType
-from regscribe_runtime.values.conditions import Cases, Givens, State, always
+from regscribe_runtime.values.conditions import ALWAYS, Cases, Condition, Givens, State, always
 from regscribe_runtime.values.facts import Governs, WriteCondition
 from regscribe_runtime.values.kinds import Access
 from regscribe_runtime.values.scales import SAME, Conversion, Range, Sentinel
 from regscribe_runtime.values.views import View, limit_needs, needs
 
 T = TypeVar("T")
-SPEAKING = ("views", "scale", "special_scale", "range", "unit", "writable")
+SPEAKING = ("views", "scale", "special_scale", "range", "unit", "writable", "when")
 """The attributes of a register that may refer to other registers."""
 
 
@@ -26,6 +26,7 @@ class Register(Generic[T]):
     of them. `stays` is why the value must not be copied to another device (address, line, calibration, identity,
     counter, operation; "": it may be), `governs` what it sets of the serial line, `settle` the milliseconds after a
     write in which reading back is not reliable; `rescales` names the unit whose values the device converts then.
+    It exists only while `when` holds.
 
     `decode` and `encode` need no device: `state` holds the values of the registers in `needs`.
     """
@@ -55,6 +56,7 @@ class Register(Generic[T]):
         governs: Governs | None = None,
         settle: int = 0,
         rescales: str = "",
+        when: Condition = ALWAYS,
     ) -> None:
         self.at, self.views, self.value_type, self.kind = at, views, value_type, value_type.kind
         self.scale, self.range, self.sentinels = scale, range, sentinels
@@ -64,6 +66,7 @@ class Register(Generic[T]):
         self.writable, self.persistence = writable, persistence
         self.unlock, self.apply, self.danger = unlock, apply, danger
         self.stays, self.governs, self.settle, self.rescales = stays, governs, settle, rescales
+        self.when = when
         self.id = self.path = ""
 
     def __set_name__(self, owner: type, name: str) -> None:

@@ -2,7 +2,7 @@
 
 from typing import Any, NamedTuple, Protocol
 
-from regscribe_runtime.values.conditions import Cases, registers_of
+from regscribe_runtime.values.conditions import Cases, Condition, registers_of
 from regscribe_runtime.values.kinds import Access
 from regscribe_runtime.values.numbers import Number
 from regscribe_runtime.values.scales import Conversion, Range, Ref
@@ -104,6 +104,8 @@ class Scaled(Protocol):
     def special_scale(self) -> Cases[Conversion]: ...  # noqa: D102
     @property
     def range(self) -> Cases[Range]: ...  # noqa: D102
+    @property
+    def when(self) -> Condition: ...  # noqa: D102
 
 
 class Readable(Placed, Scaled, Protocol):
@@ -129,8 +131,8 @@ def scale_needs(register: Scaled) -> tuple[str, ...]:
 
 
 def needs(register: Scaled, view: View) -> tuple[str, ...]:
-    """Registers that must be known to decode `view`."""
-    return tuple(dict.fromkeys((*view.needs(), *scale_needs(register))))
+    """Registers that must be known to decode `view`: first those that tell whether the register exists."""
+    return tuple(dict.fromkeys((*register.when.registers, *view.needs(), *scale_needs(register))))
 
 
 def limit_needs(register: Scaled) -> tuple[str, ...]:
