@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from regscribe.checks import (  # noqa: F401 (each declares its rules)
     addresses,
+    blocks,
     commands,
     conditions,
     enums,

@@ -35,9 +35,15 @@ class TakenAddresses:
     by: str
     view: View
 
+    @property
+    def ground(self) -> tuple[str, Space]:
+        """What the addresses count in: a block (or none) and a space."""
+        return self.register.block, self.space
+
     def __str__(self) -> str:
         where = str(self.first) if self.first == self.last else f"{self.first}..{self.last}"
-        return f"{self.space} {where}{f' ({self.by})' if self.by else ''}"
+        inside = f" of block {self.register.block}" if self.register.block else ""
+        return f"{self.space} {where}{inside}{f' ({self.by})' if self.by else ''}"
 
 
 def stretches(register: Register) -> Iterator[TakenAddresses]:
@@ -57,15 +63,15 @@ def overlap(scope: RuleScope) -> Iterator[Finding]:
     """Two registers (or two views of one) at the same address cannot both be right: one of the rows was misread."""
     every = (stretch for register in scope.model.registers for stretch in stretches(register))
     furthest: TakenAddresses | None = None
-    for stretch in sorted(every, key=attrgetter("space", "first", "last")):
-        if furthest and furthest.space == stretch.space and stretch.first <= furthest.last:
+    for stretch in sorted(every, key=attrgetter("ground", "first", "last")):
+        if furthest and furthest.ground == stretch.ground and stretch.first <= furthest.last:
             earlier, later = sorted((furthest, stretch), key=lambda one: one.register.span)
             other = earlier.register
             message = f"takes {later}, which overlaps {earlier} of `{other.path}`"
             related = Related(f"`{other.path}` takes {earlier}", other.span)
             help_text = "correct `at`, the type or the array's stride of one of them"
             yield Finding.at(later.register, message, help_text, related)
-        if not furthest or furthest.space != stretch.space or stretch.last > furthest.last:
+        if not furthest or furthest.ground != stretch.ground or stretch.last > furthest.last:
             furthest = stretch
 
 
@@ -99,7 +105,7 @@ def unused(register: Register, scope: RuleScope) -> Iterator[Problem]:
 
 
 def _listed(register: Register, word: str, entries: Sequence[tuple[Space, int, int]]) -> Iterator[Problem]:
-    own = list(stretches(register)) if entries else []
+    own = list(stretches(register)) if entries and not register.block else []
     for space, first, last in entries:
         for stretch in own:
             if stretch.space == space and stretch.first <= last and stretch.last >= first:
@@ -162,7 +168,7 @@ def in_a_notation(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding
             register.path: register
             for scope in scopes
             for register in scope.model.registers
-            if register.base.space is notation.space
+            if register.base.space is notation.space and not register.block
         }
         inside = [one for one in found.values() if one.address >= notation.offset]
         if notation.offset >= FAR and 2 * len(inside) > len(found):

@@ -63,8 +63,9 @@ def _at(command: Command, message: str, help_text: str, related: Related | None 
 
 def touched(sent: SentStep, scope: RuleScope) -> Iterator[TakenAddresses]:
     """The addresses of registers that a step writes to, in whole or in part."""
-    in_space = (one for register in scope.model.registers for one in stretches(register) if one.space is sent.space)
-    every = scope.once(("stretches", sent.space), lambda: sorted(in_space, key=attrgetter("first", "last")))
+    ground = sent.step.block, sent.space
+    here = (one for register in scope.model.registers for one in stretches(register) if one.ground == ground)
+    every = scope.once(("stretches", ground), lambda: sorted(here, key=attrgetter("first", "last")))
     start = bisect_left(every, sent.step.address - LONGEST, key=attrgetter("first"))
     for place in range(start, len(every)):
         stretch = every[place]
@@ -120,7 +121,7 @@ def step_into_the_middle(sent: SentStep, scope: RuleScope) -> Iterator[Problem]:
     step, first, last = sent.step, sent.step.address, sent.last
     if first < 0 or last > LAST_ADDRESS:
         yield f"writes {first}..{last}, outside 0..{LAST_ADDRESS}", "correct the step's address"
-    for word, space, low, high in without_register(scope):
+    for word, space, low, high in without_register(scope) if not step.block else ():
         if space is sent.space and first <= high and last >= low:
             yield f"writes {first}..{last}, but {low}..{high} are {word}", "correct the step's address"
     for view in _around(sent, scope):

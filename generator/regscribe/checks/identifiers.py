@@ -9,8 +9,8 @@ from regscribe.model import Array, Enum, Kind, Model, Register, Related, Span
 
 RUNTIME_NAMES = frozenset(
     """
-    bind change close commands configure exception_status groups identify identity link loopback map_id map_sha256 model
-    open over placed plan protocol read registers rtu run session setpoint_programs tcp wear write
+    bind chain_headers change close commands configure exception_status groups identify identity link loopback map_id
+    map_sha256 model open over placed plan protocol read registers rtu run session setpoint_programs tcp wear write
     """.split()  # noqa: SIM905 (a column of quoted words is harder to keep in order)
 )
 """Names that a driver has, or is to have, itself: a register of that id would hide them (a test compares the two)."""

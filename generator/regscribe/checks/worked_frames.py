@@ -142,6 +142,8 @@ def frame_values(example: FrameExample, scope: RuleScope) -> Iterator[str]:
         register = scope.registers.get(path)
         if register is None:
             yield f"model {scope.model.name} has no `{path}`"
+        elif register.block:
+            yield f"`{path}` stands in block {register.block}, whose base a frame does not tell: give its `words`"
         elif problem := _value(example, frame, register, value, known, spaces):
             yield f"`{path}`: {problem}"
     yield from _command(example, frame, scope)
@@ -184,6 +186,9 @@ def _command(example: FrameExample, frame: FrameFields, scope: RuleScope) -> Ite
     command = next((one for one in scope.model.commands if one.id == example.command), None)
     if command is None:
         yield f"model {scope.model.name} has no command `{example.command}`"
+        return
+    if any(step.block for step in command.steps):
+        yield f"command `{command.id}` writes in a block, whose base a frame does not tell: leave it out"
         return
     steps = [(step.function, step.address, step.words) for step in command.steps if step.words]
     if (frame.function, frame.address, frame.carried) not in steps:

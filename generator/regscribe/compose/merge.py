@@ -8,6 +8,8 @@ from regscribe.source import SourceNode
 
 TABLES = {
     "givens": "given",
+    "chains": "chain",
+    "blocks": "block",
     "conditions": "condition",
     "units": "unit",
     "enums": "enum",

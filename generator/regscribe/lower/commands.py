@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
+from regscribe.lower.blocks import block_named
 from regscribe.lower.conditions import condition_of
 from regscribe.lower.node import Value
 from regscribe.lower.register_values import named_value
@@ -53,7 +54,7 @@ def _step(node: Value, device: CommandScope) -> tuple[CommandStep, str]:
     if register is None:
         words = unsigned(node.wholes_of("words"))
         function = _function(node, len(words), None, device)
-        return CommandStep(function, node.whole_of("at"), words), ""
+        return CommandStep(function, node.whole_of("at"), words, block=block_named(node, device.scope.map)), ""
     entry = device.scope.register(register)
     if entry is None:
         return CommandStep(0, 0, ()), register.text()
@@ -65,7 +66,7 @@ def _step(node: Value, device: CommandScope) -> tuple[CommandStep, str]:
     value = node.child("value")
     words = _words_of_value(value, target, view) if value else unsigned(node.wholes_of("words"))
     function = _function(node, len(words), view, device)
-    return CommandStep(function, view.address(target.at), words), entry.path
+    return CommandStep(function, view.address(target.at), words, block=target.block), entry.path
 
 
 def _function(node: Value, count: int, view: View | None, device: CommandScope) -> int:

@@ -4,6 +4,7 @@ import keyword
 from collections.abc import Iterator
 from dataclasses import replace
 
+from regscribe.lower.blocks import blocks_of
 from regscribe.lower.conditions import condition, condition_of
 from regscribe.lower.enums import enum_at
 from regscribe.lower.examples import Product, examples_of
@@ -66,6 +67,7 @@ def map_of(root: Value) -> RegisterMap:
         description=root.text_of("description"),
         notations=tuple(map(_notation, root.elements_of("notations"))),
         givens=tuple(_given(node, products) for _, node in root.items_of("givens")),
+        blocks=blocks_of(root),
         reserved=tuple(map(stretch_of, root.elements_of("reserved"))),
         identity=tuple(_identity(root, products)),
         errata=tuple(

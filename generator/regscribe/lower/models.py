@@ -3,6 +3,7 @@
 import re
 from dataclasses import dataclass
 
+from regscribe.lower.blocks import block_named
 from regscribe.lower.commands import CommandScope, commands_of
 from regscribe.lower.node import Value
 from regscribe.lower.process import process_of
@@ -48,6 +49,7 @@ def _bundle(node: Value, root: Value, model: str, models: Models) -> Bundle:
         section=node.text_of("source"),
         sets=root.mapping_of("sets"),
         layers=(each,) if each else (),
+        block=block_named(node, root),
     )
     items = items_in(node.elements_of("registers"), place)
     return Bundle(node, name, items, entries_of(items))

@@ -93,6 +93,7 @@ def register_of(entry: TreeNode, everywhere: Scope) -> Register:
         array=place.array,
         index=place.index,
         printed=indexed(settings.text_of("printed"), place.index),
+        block=place.block,
         rules=tuple((use, name) for key, use in _RULES.items() if (name := settings.text_of(key)).isidentifier()),
         span=span_of(entry.node),
     )

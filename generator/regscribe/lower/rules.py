@@ -41,6 +41,11 @@ IDLE_LENGTH = "RS0336"
 DIVIDED = "RS0337"
 IDLE_KEY = "RS0338"
 IDLE_DEFAULT = "RS0339"
+UNKNOWN_BLOCK = "RS0360"
+UNKNOWN_CHAIN = "RS0361"
+SAME_BLOCK = "RS0362"
+NO_MARKER = "RS0363"
+IDLE_BLOCK = "RS0364"
 
 _NAMES = "A name must mean something, or the driver would look up what does not exist."
 
@@ -100,6 +105,11 @@ RULES: tuple[Rule, ...] = (
         "Default without effect",
         "A default that means nothing to any of its registers would be believed.",
     ),
+    Rule(UNKNOWN_BLOCK, "Unknown block", _NAMES),
+    Rule(UNKNOWN_CHAIN, "Unknown chain", _NAMES),
+    Rule(SAME_BLOCK, "Two blocks at one header", "Under two names its registers would have two meanings."),
+    Rule(NO_MARKER, "Chain at several addresses without a marker", "Only a marker tells where a chain begins."),
+    Rule(IDLE_BLOCK, "Chain or block without use", "What no register stands in is never looked for."),
 )
 
 DEPENDS_ON_MAP = frozenset(

@@ -19,7 +19,7 @@ class TreePosition:
     `among` are the models that the surroundings exist on, `sets` is the map's table of sets, `layers` the `each`
     defaults from the outside in, `prefixes` the paths of the surrounding elements from the inside out, `shift` the
     steps that the elements add to `at`. `over` are the keys that a use of a set lays over those of its registers,
-    `open` the names of the sets around.
+    `open` the names of the sets around, `block` the block that addresses count from.
     """
 
     model: str
@@ -36,6 +36,7 @@ class TreePosition:
     elements: int = 1
     over: tuple[Value, ...] = ()
     open: tuple[str, ...] = ()
+    block: str = ""
 
     def path(self, name: str) -> str:
         """The path of a register or array of this name."""

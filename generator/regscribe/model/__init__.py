@@ -28,6 +28,7 @@ from regscribe.model.map import (
 )
 from regscribe.model.process import Alarm, Effect, OnOff, Output, Pid, Process, Ramp, Trip, TripKind
 from regscribe.model.register import Array, Group, Inferred, Register
+from regscribe_runtime.values.blocks import Chain, Header, Layout, RegisterBlock
 from regscribe_runtime.values.conditions import ALWAYS, Case, Cases, Condition, Is, always, registers_of
 from regscribe_runtime.values.facts import CommandStep, Governs, Identity, Setting, WriteCondition
 from regscribe_runtime.values.kinds import Access, Kind
@@ -74,6 +75,7 @@ __all__ = [
     "BitField",
     "Case",
     "Cases",
+    "Chain",
     "Command",
     "CommandStep",
     "Condition",
@@ -91,6 +93,7 @@ __all__ = [
     "GivenKind",
     "Governs",
     "Group",
+    "Header",
     "Identity",
     "IdentityRule",
     "Inferred",
@@ -99,6 +102,7 @@ __all__ = [
     "Kind",
     "Latency",
     "Later",
+    "Layout",
     "Library",
     "Limit",
     "Manual",
@@ -130,6 +134,7 @@ __all__ = [
     "Range",
     "Ref",
     "Register",
+    "RegisterBlock",
     "RegisterMap",
     "Related",
     "Rounding",

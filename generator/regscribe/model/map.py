@@ -10,6 +10,7 @@ from regscribe.model.faults import Faults, ProtocolNotes
 from regscribe.model.identifiers import ways_to_say
 from regscribe.model.process import Effect, Process
 from regscribe.model.register import Array, Group, Inferred, Register
+from regscribe_runtime.values.blocks import RegisterBlock
 from regscribe_runtime.values.facts import CommandStep, Identity
 from regscribe_runtime.values.programs import SetpointProgram
 from regscribe_runtime.values.protocol import Protocol
@@ -283,6 +284,7 @@ class RegisterMap:
     description: str = ""
     notations: tuple[Notation, ...] = ()
     givens: tuple[Given, ...] = ()
+    blocks: tuple[RegisterBlock, ...] = ()
     reserved: tuple[tuple[Space, int, int], ...] = ()
     identity: tuple[IdentityRule, ...] = ()
     errata: tuple[Erratum, ...] = ()

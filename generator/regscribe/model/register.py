@@ -42,6 +42,7 @@ class Register:
     not matter, as a proportional band does.
     `symbol` is a clean reading of the manual's short code, `printed` the code as it is printed (empty: the same).
     `version_digits` is how many decimal digits a `VERSION` packs, `version_groups` how many digits stand in a group.
+    In a `block` addresses count from its base, which each device tells.
     `rules` are the names of the map's view set and scale or decimals rule, by key (`views`, `scale`); drivers use them.
     """
 
@@ -88,6 +89,7 @@ class Register:
     array: str = ""
     index: tuple[int, ...] = ()
     printed: str = ""
+    block: str = ""
     rules: tuple[tuple[str, str], ...] = field(default=(), compare=False)
     span: Span = NOWHERE
 
@@ -150,7 +152,8 @@ class Array:
 
     `members` are the registers (and arrays) of the *first* element; what one of them refers to in its own element has
     empty brackets in place of the index (`channels[].decimals`), as it differs from element to element. A step is one
-    unit of a register's `at`, which a view may stretch (an IEEE view moves by 2 a step: `View.stride`).
+    unit of a register's `at`, which a view may stretch (an IEEE view moves by 2 a step: `View.stride`). `to_end`: a
+    device has as many as fit into the rest of the block, `count` at most.
     """
 
     id: str
@@ -161,6 +164,7 @@ class Array:
     members: tuple["Register | Array", ...]
     description: str = ""
     section: str = ""
+    to_end: bool = False
     span: Span = NOWHERE
 
 

@@ -8,6 +8,7 @@ RegscribeError
 │   └── PartialWrite    fewer words were written than were sent
 ├── Absent              this unit does not have the register: a batch goes round it for a while
 ├── NotPresent          the register does not exist in the present state of the device
+├── BrokenChain         the chain of blocks that a register stands in cannot be walked
 ├── Unsteady            dependencies of the values changed during every read of them
 ├── ValueRefused        refused here, before anything was sent
 │   ├── ConditionNotMet the register cannot be written in the present state of the device
@@ -124,6 +125,14 @@ class NotPresent(RegscribeError, LookupError):  # noqa: N818 (as above)
         self.register, self.condition, self.present = register, condition, dict(present)
         now = ", ".join(f"{path} is {value}" for path, value in self.present.items())
         super().__init__(f"{register}: it exists only while {condition}{f'; {now}' if now else ''}")
+
+
+class BrokenChain(RegscribeError):  # noqa: N818 (as above)
+    """The chain `chain` of blocks has no marker, no end mark, or leads out of the addresses: nothing of it is read."""
+
+    def __init__(self, chain: str, reason: str) -> None:
+        self.chain, self.reason = chain, reason
+        super().__init__(f"chain {chain}: {reason}")
 
 
 class Unsteady(RegscribeError):  # noqa: N818 (as above)

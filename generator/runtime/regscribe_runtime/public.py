@@ -29,6 +29,7 @@ from regscribe_runtime.driver.parts import Group as Group
 from regscribe_runtime.driver.parts import Part as Part
 from regscribe_runtime.driver.parts import SubPart as SubPart
 from regscribe_runtime.errors import Absent as Absent
+from regscribe_runtime.errors import BrokenChain as BrokenChain
 from regscribe_runtime.errors import ConditionNotMet as ConditionNotMet
 from regscribe_runtime.errors import ExceptionAnswer as ExceptionAnswer
 from regscribe_runtime.errors import LeftAt as LeftAt
@@ -91,6 +92,9 @@ from regscribe_runtime.report import Progress as Progress
 from regscribe_runtime.report import Sent as Sent
 from regscribe_runtime.report import Wear as Wear
 from regscribe_runtime.report import WriteReport as WriteReport
+from regscribe_runtime.values.blocks import Chain as Chain
+from regscribe_runtime.values.blocks import Header as Header
+from regscribe_runtime.values.blocks import RegisterBlock as RegisterBlock
 from regscribe_runtime.values.conditions import Case as Case
 from regscribe_runtime.values.conditions import Condition as Condition
 from regscribe_runtime.values.conditions import Is as Is

@@ -8,14 +8,14 @@ from regscribe.emit.header import HASH_DIGITS
 from regscribe.emit.python.class_sharing import Shared, partition, suffix
 from regscribe.emit.python.constants import Pool
 from regscribe.emit.python.enum_classes import NamedClasses
-from regscribe.emit.python.expressions import Specs
-from regscribe.emit.python.formatting import INDENT, call, group, lay
+from regscribe.emit.python.expressions import Specs, expression
+from regscribe.emit.python.formatting import INDENT, call, flat, group, lay
 from regscribe.emit.python.groups import groups_body, with_group_facts
 from regscribe.emit.python.literals import camel, docstring, literal, member
 from regscribe.emit.python.register_lines import Declarations, command_call, command_text, declaration_lines
 from regscribe.emit.python.reserved_names import free
 from regscribe.emit.words import one_line
-from regscribe.model import Array, Model, Register, RegisterMap
+from regscribe.model import Array, Chain, Model, Register, RegisterMap
 
 Members = Mapping[str, Sequence[Register | Array]]
 
@@ -88,6 +88,7 @@ class Classes:
     def _array(self, array: Array, models: tuple[str, ...]) -> list[str]:
         name = self._element(array, models)
         numbers = {"first": str(array.first), "count": str(array.count), "stride": str(array.stride)}
+        numbers |= {"to_end": "True"} if array.to_end else {}
         what = f"{one_line(array.name)} {array.first} to {array.first + array.count - 1}: {one_line(array.section)}."
         return [
             *lay(call("Array", name, f"Async{name}", **numbers), head=f"{array.id} = ", depth=1),
@@ -148,6 +149,7 @@ class Classes:
                 f"{INDENT}map_id = {literal(self.register_map.id)}",
                 f"{INDENT}map_sha256 = {literal(self.register_map.content_hash[:HASH_DIGITS])}",
                 f"{INDENT}protocol = _PROTOCOL",
+                *self._blocks(model),
                 *([f"{INDENT}_unused = {self._unused(model)}"] if model.unused else []),
                 *self._identity(model),
                 f"{INDENT}groups = {self.stem}Groups",
@@ -167,6 +169,19 @@ class Classes:
     def _unused(self, model: Model) -> str:
         rows = [group([member(space), str(first), str(last)]) for space, first, last in model.unused]
         return self.pool.share(group(rows), "unused", f"unused_{model.name}", comment="addresses that read as 0")
+
+    def _blocks(self, model: Model) -> list[str]:
+        """The blocks that the model has registers or steps in."""
+        used = {register.block for register in model.registers}
+        used |= {step.block for command in model.commands for step in command.steps}
+        blocks = [block for block in self.register_map.blocks if block.id in used]
+        for chain in dict.fromkeys(block.chain for block in blocks if block.chain):
+            self.pool.share(expression(chain), f"{chain.id}_chain")
+
+        def known(value: object) -> str | None:
+            return self.pool.names.get(flat(expression(value))) if isinstance(value, Chain) else None
+
+        return lay(group([expression(block, known) for block in blocks]), head="_blocks = ", depth=1) if blocks else []
 
     def _identity(self, model: Model) -> list[str]:
         specs = Specs(model, self.pool)

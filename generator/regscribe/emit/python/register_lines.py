@@ -50,6 +50,7 @@ class Declarations:
             governs=specs.governs(register),
             settle=str(register.settle) if register.settle else None,
             rescales=_text(register.rescales),
+            block=_text(register.block),
         )
 
     def _kind(self, register: Register) -> Expression:

@@ -22,6 +22,7 @@ from regscribe_runtime.operations.session import Session
 from regscribe_runtime.operations.snapshot import Snapshot
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.report import Wear, WriteReport
+from regscribe_runtime.values.blocks import Header, RegisterBlock
 from regscribe_runtime.values.facts import Identity
 from regscribe_runtime.values.programs import SetpointProgram
 from regscribe_runtime.values.protocol import Protocol
@@ -53,6 +54,7 @@ class _Common:
     identity: ClassVar[tuple[Identity, ...]] = ()
     setpoint_programs: ClassVar[tuple[SetpointProgram, ...]] = ()
     _unused: ClassVar[tuple[tuple[Space, int, int], ...]] = ()
+    _blocks: ClassVar[tuple[RegisterBlock, ...]] = ()
     registers: ClassVar[Catalogue] = Catalogue(whole=True)
     session: Session
 
@@ -67,6 +69,7 @@ class _Common:
             givens=givens,
             groups=groups_of(owner),
             unused=self._unused,
+            blocks=self._blocks,
         )
 
     @property
@@ -165,6 +168,10 @@ class BareDevice(_Common, LinkUser, Part):
         """
         return self.run(tasks.configure(values, **how))
 
+    def chain_headers(self) -> dict[str, tuple[Header, ...]]:
+        """The headers (id, base, length) of the blocks that each chain of this device has, unknown ones too."""
+        return self.run(tasks.headers())
+
     def loopback(self, data: int = 0x55AA) -> int:
         """Function 08: send one word, return the echo."""
         return self.run(tasks.loopback(data))
@@ -212,6 +219,10 @@ class AsyncBareDevice(_Common, AsyncLinkUser, AsyncPart):
     async def configure(self, values: Mapping[Any, Any], **how: Unpack[ConfigureOptions]) -> WriteReport:
         """As `BareDevice.configure`."""
         return await self.run(tasks.configure(values, **how))
+
+    async def chain_headers(self) -> dict[str, tuple[Header, ...]]:
+        """As `BareDevice.chain_headers`."""
+        return await self.run(tasks.headers())
 
     async def loopback(self, data: int = 0x55AA) -> int:
         """Function 08: send one word, return the echo."""

@@ -45,10 +45,14 @@ def _registers(owner: type) -> Iterator[tuple[str, Register[Any]]]:
             yield name, declared
         elif isinstance(declared, Array):
             inside = list(_registers(declared.element))
+            begin = min((register.at for _, register in inside), default=0)
             for place, index in enumerate(range(declared.first, declared.first + declared.count)):
                 for path, register in inside:
                     there = f"{name}[{index}].{path}"
-                    yield there, register.moved(place * declared.stride, there)
+                    moved = register.moved(place * declared.stride, there)
+                    if declared.to_end:
+                        moved.reach = begin + (place + 1) * declared.stride
+                    yield there, moved
 
 
 @cache
@@ -145,11 +149,16 @@ class Elements(Generic[T]):
 
 
 class Array(Generic[P, A]):
-    """A repeated structure: `count` elements, numbered from `first` as in the manual, `stride` steps apart."""
+    """A repeated structure: `count` elements, numbered from `first` as in the manual, `stride` steps apart.
 
-    def __init__(self, element: type[P], awaitable: type[A], *, first: int, count: int, stride: int) -> None:
+    `to_end`: there are as many as fit into what the block has left, `count` at most.
+    """
+
+    def __init__(
+        self, element: type[P], awaitable: type[A], *, first: int, count: int, stride: int, to_end: bool = False
+    ) -> None:
         self.element, self.awaitable = element, awaitable
-        self.first, self.count, self.stride = first, count, stride
+        self.first, self.count, self.stride, self.to_end = first, count, stride, to_end
         self.id = ""
 
     def __set_name__(self, owner: type, name: str) -> None:

@@ -15,6 +15,7 @@ from regscribe_runtime.errors import (
     ValueRefused,
 )
 from regscribe_runtime.operations.line_change import follow
+from regscribe_runtime.operations.locate import locate
 from regscribe_runtime.operations.read_back import RegisterWrite
 from regscribe_runtime.operations.session import Operation, Pause, Session, Task
 from regscribe_runtime.operations.transaction import Transaction
@@ -24,6 +25,7 @@ from regscribe_runtime.operations.write_plan import (
     Present,
     assignments,
     encoded,
+    named,
     plan_changes,
     read_present,
 )
@@ -61,7 +63,8 @@ def configure(
     """Bring several registers (by path, declaration or attribute) to their values; see `BareDevice.configure`."""
 
     def task(session: Session) -> Operation[WriteReport]:
-        chosen = assignments(session, values)
+        gone = yield from locate(session, named(session, values))
+        chosen = assignments(session, values, gone)
         work = Transaction(session, tell)
         present = yield from read_present(session, chosen)
         work.state = dict(present.state)

@@ -53,7 +53,8 @@ def follow(session: Session, one: RegisterWrite, governs: Governs) -> Operation[
         yield from _check_free(session, one, int(value), old)
     marks: dict[str, Words] = {}
     if governs.setting is Setting.ADDRESSING:
-        known = [other for other in session.registers.values() if other.kind in MARKS and other.access.readable]
+        here = (other for other in session.registers.values() if other.origin is not None)
+        known = [other for other in here if other.kind in MARKS and other.access.readable]
         marks = yield from words_of(session, [(other, other.read_view()) for other in known])
     cause = yield from _send(session, one, governs)
     yield from _find(session, one, old, [] if governs.since == "restart" else new, marks, cause)

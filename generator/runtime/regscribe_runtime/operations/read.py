@@ -7,8 +7,16 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import chain
 from typing import Any, TypeVar
 
-from regscribe_runtime.errors import ExceptionAnswer, RegscribeError, Unsteady, ValueNotDecodable
+from regscribe_runtime.errors import (
+    BrokenChain,
+    ExceptionAnswer,
+    NotPresent,
+    RegscribeError,
+    Unsteady,
+    ValueNotDecodable,
+)
 from regscribe_runtime.operations.bisect import REFUSALS, Bisection, is_absence
+from regscribe_runtime.operations.locate import locate
 from regscribe_runtime.operations.prepared_read import MISSING, PreparedRead, dependencies, make_ready, missing
 from regscribe_runtime.operations.session import Operation, Session, Task
 from regscribe_runtime.operations.snapshot import Snapshot
@@ -27,6 +35,9 @@ TRIES = 4
 
 FEW = 3
 """Most requests for dependencies without a plan of the whole device."""
+
+NO_VALUE = (ValueNotDecodable, NotPresent, BrokenChain)
+"""Errors of a register that has no value now, which say nothing against the others."""
 
 MAX_DEPTH = 8
 """Most levels of dependencies, in case of a cycle that the compiler let through."""
@@ -81,6 +92,9 @@ def know(session: Session, paths: Iterable[str], *, fresh: bool = False, depth: 
     if depth > MAX_DEPTH:
         message = f"the meaning of {wanted[0]} depends on too long a chain of registers"
         raise RuntimeError(message)
+    gone = yield from locate(session, map(session.registers.__getitem__, wanted))
+    for error in gone.values():
+        raise error
     registers = list(map(session.registers.__getitem__, wanted))
     views = list(map(Register.read_view, registers))
     needs = dict.fromkeys(chain.from_iterable(map(Register.needs, registers, views)))
@@ -156,6 +170,19 @@ def read_many(registers: Sequence[Register[Any]], *, fresh: bool = True, rest: b
     """
 
     def task(session: Session) -> Operation[Snapshot]:
+        gone = yield from locate(session, registers)
+        here = [session.registers[one.path] for one in registers if one.path not in gone]
+        found = yield from _read_located(here, fresh=fresh, rest=rest)(session)
+        entries: dict[str, Any] = dict.fromkeys(one.path for one in registers)
+        return Snapshot(entries | found.entries | gone, found.answers)
+
+    return task
+
+
+def _read_located(registers: Sequence[Register[Any]], *, fresh: bool, rest: bool) -> Task[Snapshot]:
+    """As `read_many`, of registers where they stand on the device."""
+
+    def task(session: Session) -> Operation[Snapshot]:
         if session.absences and not rest and session.absences.expire():
             session.prepared.clear()
         changed: dict[str, Any] = {}
@@ -179,7 +206,7 @@ def read_many(registers: Sequence[Register[Any]], *, fresh: bool = True, rest: b
             partly = Snapshot(ready.decode_partly(answers, session), read)
             values = partly.entries
             left = [register for register in registers if values[register.path] is None]
-            others = (yield from read_many(left, fresh=fresh, rest=True)(session)) if left else Snapshot({})
+            others = (yield from _read_located(left, fresh=fresh, rest=True)(session)) if left else Snapshot({})
             return Snapshot(values | others.entries, partly.answers + others.answers)
         raise Unsteady(unit=session.unit, changed=tuple(changed), tries=TRIES)
 
@@ -211,8 +238,10 @@ def _learn(session: Session, registers: Sequence[Register[Any]]) -> Operation[di
     needs = dependencies(session.registers, registers)
     needed = frozenset().union(*needs.values())
     paths = [path for path in needs if path in needed]
-    absent = {path: error for path in paths if (error := missing(session, session.registers[path]))}
-    unknown = yield from _unknown(session, [path for path in paths if path not in absent])
+    absent = yield from locate(session, map(session.registers.__getitem__, paths))
+    there = [path for path in paths if path not in absent]
+    absent |= {path: error for path in there if (error := missing(session, session.registers[path]))}
+    unknown = yield from _unknown(session, [path for path in there if path not in absent])
     return absent | unknown
 
 
@@ -220,7 +249,7 @@ def _unknown(session: Session, paths: Iterable[str], *, depth: int = 0) -> Opera
     """Make the values of registers known; the error by path of those without a value."""
     try:
         yield from know(session, paths, depth=depth)
-    except (ValueNotDecodable, ExceptionAnswer) as error:
+    except (*NO_VALUE, ExceptionAnswer) as error:
         _raise_unless_absent(session, error)
     else:
         return {}
@@ -228,14 +257,14 @@ def _unknown(session: Session, paths: Iterable[str], *, depth: int = 0) -> Opera
     for path in paths:
         try:
             yield from know(session, [path], depth=depth)
-        except (ValueNotDecodable, ExceptionAnswer) as error:
+        except (*NO_VALUE, ExceptionAnswer) as error:
             _raise_unless_absent(session, error)
             unknown[path] = error
     return unknown
 
 
 def _raise_unless_absent(session: Session, error: RegscribeError) -> None:
-    if not isinstance(error, ValueNotDecodable) and not is_absence(error, session.protocol.absent):
+    if not isinstance(error, NO_VALUE) and not is_absence(error, session.protocol.absent):
         raise error
 
 

@@ -13,6 +13,7 @@ from regscribe_runtime.planning.cost import Cost
 from regscribe_runtime.planning.plan import RequestLimits, Terms
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.report import Wear, WriteReport
+from regscribe_runtime.values.blocks import Chain, Header, RegisterBlock, find
 from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.serial_line import MODBUS, LineChange, SerialLine
 from regscribe_runtime.values.wire_types import Space
@@ -52,6 +53,9 @@ class Session:
     present operation has sent anything but reads. `broken_off` is the report of the last `configure` that was cancelled
     or interrupted and could not be undone. `home` is the line setting before a write that governs the line, which is
     restored if that operation fails.
+
+    `declared` are the registers as the driver's class has them, `registers` the same where they stand on this device.
+    `chains` are the chains of `blocks` that were walked since the link was opened, `places` the blocks that were found.
     """
 
     def __init__(
@@ -64,13 +68,18 @@ class Session:
         givens: Mapping[str, Any],
         groups: Mapping[str, Any] = MappingProxyType({}),
         unused: tuple[tuple[Space, int, int], ...] = (),
+        blocks: tuple[RegisterBlock, ...] = (),
     ) -> None:
         low, high = protocol.unit_ids
         if not low <= unit <= high:
             message = f"unit {unit} is outside {low} to {high}, the unit ids of this device"
             raise ValueError(message)
         self.unit, self.protocol, self.givens = unit, protocol, givens
-        self.registers, self.commands, self.groups = registers, commands, groups
+        self.declared, self.commands, self.groups = registers, commands, groups
+        self.blocks = {block.id: block for block in blocks}
+        self.registers = registers
+        self.places: dict[str, Header] = {}
+        self.chains: dict[str, tuple[Header, ...]] = {}
         self.memory: dict[str, Any] = {}
         self.proven: set[str] = set()
         self.prepared: dict[Any, Any] = {}
@@ -87,12 +96,13 @@ class Session:
         self._behind = slowest(protocol)
         self.unused, self.absences = unused, MissingRegisters()
         self._ground: AddressRanges | None = None
+        self._lose_chains()
 
     def own(self, register: Register[Any]) -> Register[Any]:
         """The register of this device for a declaration; ValueError if it is of another device or of all elements."""
-        found = self.registers.get(register.path)
-        if found is not None and (found is register or (found.at, found.views) == (register.at, register.views)):
-            return found
+        found, here = self.declared.get(register.path), self.registers.get(register.path)
+        if found and here and (register is here or (found.at, found.views) == (register.at, register.views)):
+            return here
         message = (
             f"{register.path} at {register.at} is no register of this device; one of an array's element is taken "
             f"from the driver itself, as driver.elements[1].{register.id}"
@@ -113,12 +123,42 @@ class Session:
         if gone:
             self.prepared.clear()
 
+    def found(self, chain: Chain, headers: tuple[Header, ...]) -> None:
+        """Adopt the headers of a chain: registers of its blocks stand at their addresses from now on."""
+        self.chains[chain.id] = headers
+        for block in self.blocks.values():
+            if block.chain == chain and (header := find(block, headers)):
+                self.places[block.id] = header
+        self._place(chain)
+
+    def _place(self, chain: Chain | None) -> None:
+        """Locate the registers of blocks in a chain, or in none, as far as the blocks reach."""
+        changed = {}
+        for path, register in self.declared.items():
+            header = self.places.get(register.block)
+            if header and self.blocks[register.block].chain == chain:
+                moved = register.located(header.base)
+                changed[path] = moved if moved.end <= header.end else register.located(None)
+        self.registers = {**self.registers, **changed}
+        self._ground = None
+        self.prepared.clear()
+
+    def _lose_chains(self) -> None:
+        """Forget where chains have their blocks; those with a given stay where it says."""
+        if self.blocks:
+            given = {block.id: int(self.givens[block.given]) for block in self.blocks.values() if block.given}
+            self.places = {name: Header(0, base) for name, base in given.items()}
+            self.chains = {}
+            self.registers = {path: one.located(None) if one.block else one for path, one in self.declared.items()}
+            self._place(None)
+
     def at_epoch(self, epoch: int) -> None:
         """Forget everything if the link was reopened since the last operation."""
         if epoch != self.epoch:
             self.epoch = epoch
             self.forget()
             self.proven.clear()
+            self._lose_chains()
             if self.absences.clear():
                 self.prepared.clear()
 
@@ -127,7 +167,8 @@ class Session:
         if TERMS not in self.prepared:
             if self._ground is None:
                 holes = self.protocol.read_holes
-                self._ground = ground_of(self.registers.values(), unused=self.unused, holes=holes)
+                here = [one for one in self.registers.values() if one.origin is not None]
+                self._ground = ground_of(here, unused=self.unused, holes=holes)
             ground = self._ground
             if self.absences:
                 ground = ground.refusing(self.absences.items(alone=True), apart=self.absences.items(alone=False))

@@ -3,11 +3,15 @@
 # an annotation of an inner function is evaluated at every call otherwise, which costs a read a hundredth of its time
 from __future__ import annotations
 
+from regscribe_runtime.operations import read as reads
+from regscribe_runtime.operations import write as writes
 from regscribe_runtime.operations.configure import configure
-from regscribe_runtime.operations.read import read, read_many, read_part, read_raw, read_unit
+from regscribe_runtime.operations.locate import headers as headers_of
+from regscribe_runtime.operations.locate import locating
+from regscribe_runtime.operations.read import read_many, read_part
 from regscribe_runtime.operations.session import Operation, Session, Task
-from regscribe_runtime.operations.write import change, write, write_raw
 from regscribe_runtime.operations.write_request import run
+from regscribe_runtime.values.blocks import Header
 from regscribe_runtime.wire.requests import LOOPBACK, READ_STATUS, Request
 
 __all__ = [
@@ -15,6 +19,7 @@ __all__ = [
     "change",
     "configure",
     "exception_status",
+    "headers",
     "loopback",
     "read",
     "read_many",
@@ -25,6 +30,22 @@ __all__ = [
     "write",
     "write_raw",
 ]
+
+read, read_raw, read_unit = locating(reads.read), locating(reads.read_raw), locating(reads.read_unit)
+write, write_raw, change = locating(writes.write), locating(writes.write_raw), locating(writes.change)
+
+
+def headers() -> Task[dict[str, tuple[Header, ...]]]:
+    """The headers of each chain of the device."""
+
+    def task(session: Session) -> Operation[dict[str, tuple[Header, ...]]]:
+        chains = dict.fromkeys(block.chain for block in session.blocks.values() if block.chain)
+        found = {}
+        for chain in chains:
+            found[chain.id] = yield from headers_of(session, chain)
+        return found
+
+    return task
 
 
 def loopback(data: int) -> Task[int]:

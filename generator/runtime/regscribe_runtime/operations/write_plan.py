@@ -47,13 +47,19 @@ class Present(NamedTuple):
     words: dict[str, Words]
 
 
-def assignments(session: Session, values: Mapping[Any, Any]) -> list[Assignment]:
-    """The registers of `values` in the order of writing; ValueRefused for an unknown or a read-only one."""
+def named(session: Session, values: Iterable[Any]) -> list[Register[Any]]:
+    """The registers of the device that the keys of `values` name."""
+    paths = (key if isinstance(key, str) else getattr(key, "register", key).path for key in values)
+    return [session.declared[path] for path in paths if path in session.declared]
+
+
+def assignments(session: Session, values: Mapping[Any, Any], gone: Mapping[str, Exception]) -> list[Assignment]:
+    """The registers of `values` in the order of writing; ValueRefused for an unknown, a read-only or an absent one."""
     refusals: list[ValueRefused] = []
     found: dict[str, Assignment] = {}
     for key, value in values.items():
         try:
-            register = _register(session, key)
+            register = _register(session, key, gone)
             found[register.path] = Assignment(register, value)
         except ValueRefused as refusal:
             refusals.append(refusal)
@@ -68,7 +74,7 @@ def _raise_all(refusals: Sequence[ValueRefused]) -> None:
         raise ValuesRefused(refusals)
 
 
-def _register(session: Session, key: Any) -> Register[Any]:
+def _register(session: Session, key: Any, gone: Mapping[str, Exception]) -> Register[Any]:
     declared: Register[Any] | None = None if isinstance(key, str) else getattr(key, "register", key)
     path = declared.path if declared else key
     register = session.registers.get(path)
@@ -82,6 +88,8 @@ def _register(session: Session, key: Any) -> Register[Any]:
         raise ValueRefused(path, str(error)) from None
     if not register.access.writable:
         raise ValueRefused(path, "the register is read-only")
+    if path in gone:
+        raise ValueRefused(path, str(gone[path]).removeprefix(f"{path}: "))
     return register
 
 

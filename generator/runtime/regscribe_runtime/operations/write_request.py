@@ -13,6 +13,7 @@ from regscribe_runtime.errors import (
     WriteUnknown,
 )
 from regscribe_runtime.errors import lost as failed
+from regscribe_runtime.operations.locate import base_of
 from regscribe_runtime.operations.read_back import RegisterWrite, is_lost
 from regscribe_runtime.operations.session import Operation, Pause, Session, Task
 from regscribe_runtime.registers.enums import Choice, SpecialNumber
@@ -109,8 +110,9 @@ def _send_step(session: Session, command: Sendable, number: int, step: CommandSt
     if not step.words:
         yield Pause(step.wait / 1000)
         return
+    base = yield from base_of(session, command.id, step.block)
     try:
-        yield from session.exchange(Request(step.function, step.address, len(step.words), step.words))
+        yield from session.exchange(Request(step.function, base + step.address, len(step.words), step.words))
     except RegscribeError as error:
         if not is_lost(error):
             raise

@@ -16,6 +16,8 @@ from regscribe_runtime.values.views import View, limit_needs, needs
 T = TypeVar("T")
 SPEAKING = ("views", "scale", "special_scale", "range", "unit", "writable", "when")
 """The attributes of a register that may refer to other registers."""
+NOWHERE = -(1 << 20)
+"""The base of a block that was not found: no request can be made to such an address."""
 
 
 class Register(Generic[T]):
@@ -27,6 +29,9 @@ class Register(Generic[T]):
     counter, operation; "": it may be), `governs` what it sets of the serial line, `settle` the milliseconds after a
     write in which reading back is not reliable; `rescales` names the unit whose values the device converts then.
     It exists only while `when` holds.
+
+    In a `block` addresses count from its base, which is not known (`origin` is None) before it is `located`;
+    `reach` is the first address behind its element in an array that goes to the end of the block, else 0.
 
     `decode` and `encode` need no device: `state` holds the values of the registers in `needs`.
     """
@@ -57,6 +62,7 @@ class Register(Generic[T]):
         settle: int = 0,
         rescales: str = "",
         when: Condition = ALWAYS,
+        block: str = "",
     ) -> None:
         self.at, self.views, self.value_type, self.kind = at, views, value_type, value_type.kind
         self.scale, self.range, self.sentinels = scale, range, sentinels
@@ -67,6 +73,8 @@ class Register(Generic[T]):
         self.unlock, self.apply, self.danger = unlock, apply, danger
         self.stays, self.governs, self.settle, self.rescales = stays, governs, settle, rescales
         self.when = when
+        self.block, self.reach = block, 0
+        self.origin: int | None = None if block else 0
         self.id = self.path = ""
 
     def __set_name__(self, owner: type, name: str) -> None:
@@ -94,10 +102,23 @@ class Register(Generic[T]):
         """The same register of another array element: `steps` further on, at this path."""
         _ = self.is_open  # cached before the copy is made, so that all elements share it
         other = self._copy()
-        other.at, other.path = self.at + steps, path
+        other.at, other.path, other.reach = self.at + steps, path, self.reach and self.reach + steps
         stride = self.views[0].stride
         other.aliases = tuple(alias + steps * stride for alias in self.aliases)
         return other
+
+    def located(self, base: int | None) -> Self:
+        """The same register of a block at its address on a device where the block begins at `base`; None: nowhere."""
+        other = self._copy()
+        steps = NOWHERE if base is None else base
+        other.origin, other.at, other.reach = base, self.at + steps, self.reach and self.reach + steps
+        other.aliases = tuple(alias + steps for alias in self.aliases)
+        return other
+
+    @property
+    def end(self) -> int:
+        """The first address that its block need not have."""
+        return max(self.reach, *(view.last(self.at) + 1 for view in self.views), 0)
 
     def closed(self) -> Self:
         """The same register with references to the same element resolved by its path."""

@@ -60,12 +60,16 @@ class Identity(NamedTuple):
 
 
 class CommandStep(NamedTuple):
-    """One request of a command: words (bits of coils) to an address; without words, a wait in milliseconds."""
+    """One request of a command: words (bits of coils) to an address; without words, a wait in milliseconds.
+
+    The address counts from the base of `block`, if there is one.
+    """
 
     function: int
     address: int
     words: tuple[int, ...]
     wait: int = 0
+    block: str = ""
 
     @property
     def space(self) -> Space:

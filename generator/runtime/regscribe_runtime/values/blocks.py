@@ -1,0 +1,97 @@
+"""Blocks: registers that stand together, and whose base address a device or its user tells."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import NamedTuple
+
+from regscribe_runtime.values.wire_types import Space
+
+HEADER = 2
+"""Words of a header: the id of a block, and how many words follow."""
+END_OF_SPACE = 1 << 16
+
+
+class Chain(NamedTuple):
+    """Blocks one behind the other, each with a header: its id and its length, the number of words behind the header.
+
+    They begin behind `marker`, which stands at one of the addresses `at`, and end with the id `end`.
+    """
+
+    id: str
+    at: tuple[int, ...] = (0,)
+    marker: tuple[int, ...] = ()
+    end: int = 0xFFFF
+    space: Space = Space.HOLDING
+
+
+class RegisterBlock(NamedTuple):
+    """A block of a map: at the address that the given `given` states, or number `number` of one of `ids` in `chain`.
+
+    Addresses of its registers count from its base; in a chain that is the first word of the header.
+    """
+
+    id: str
+    given: str = ""
+    chain: Chain | None = None
+    ids: tuple[int, ...] = ()
+    number: int = 1
+
+
+class Header(NamedTuple):
+    """A block as a device has it: its id, the address of its first word, and how many words follow its header.
+
+    `length` is None where nothing tells it.
+    """
+
+    id: int
+    base: int
+    length: int | None = None
+
+    @property
+    def end(self) -> int:
+        """The first address behind it."""
+        return END_OF_SPACE if self.length is None else self.base + HEADER + self.length
+
+
+class Layout(NamedTuple):
+    """Where blocks stand, by their ids, and the words of the chains around them, by space and address."""
+
+    headers: Mapping[str, Header]
+    words: Mapping[tuple[Space, int], int]
+
+
+def find(block: RegisterBlock, headers: Iterable[Header]) -> Header | None:
+    """The block among the headers of its chain; None if the chain lacks it."""
+    fitting = [header for header in headers if header.id in block.ids]
+    return fitting[block.number - 1] if len(fitting) >= block.number else None
+
+
+def lay_out(blocks: Sequence[RegisterBlock], ends: Mapping[str, int], bases: Mapping[str, int]) -> Layout:
+    """A device that has the blocks in `ends`, which are the first addresses behind their registers ("": behind others).
+
+    `bases` are the addresses of blocks with a given, and those of the markers of chains; where they are not stated, a
+    marker stands where the device may have it, and such a block behind everything else.
+    """
+    headers: dict[str, Header] = {}
+    words: dict[tuple[Space, int], int] = {}
+    here = [block for block in blocks if block.id in ends]
+    for chain in dict.fromkeys(block.chain for block in here if block.chain):
+        address = bases.get(chain.id, chain.at[0])
+        address = _put(words, chain.space, address, chain.marker)
+        for block in sorted((one for one in here if one.chain == chain), key=lambda one: one.number):
+            for _ in range(block.number - 1 - sum(one.id in block.ids for one in headers.values())):
+                address = _put(words, chain.space, address, (block.ids[0], 0))
+            header = Header(block.ids[0], address, max(0, ends[block.id] - HEADER))
+            _put(words, chain.space, address, (header.id, header.length or 0))
+            headers[block.id], address = header, header.end
+        _put(words, chain.space, address, (chain.end, 0))
+    free = max([ends.get("", 0), *(header.end for header in headers.values())])
+    for block in here:
+        if block.chain is None:
+            headers[block.id] = Header(0, bases.get(block.id, free))
+            free = max(free, headers[block.id].base + ends[block.id])
+    return Layout(headers, words)
+
+
+def _put(words: dict[tuple[Space, int], int], space: Space, address: int, values: Sequence[int]) -> int:
+    words |= {(space, address + place): value for place, value in enumerate(values)}
+    return address + len(values)
