@@ -53,6 +53,13 @@ TRIALS: dict[str, tuple[Trial, ...]] = {
     "word_order": (("little", {}), ({"register": "ord", "codes": {0: "big", 1: "little"}}, {})),
     "byte_order": (("little", {}),),
     "functions": (([3], {}), ([3, 16], {}), ([6], {}), ([1], {}), ([4], {}), ([7], {}), ([2], {})),
+    "write_at": ((40, {}), (40, {"functions": [3, 16]})),
+    "write": (
+        ({"at": 40}, {}),
+        ({"space": "coil"}, {}),
+        ({"functions": [16]}, {"write_at": 40}),
+        ({"at": 40, "type": "int32"}, {}),
+    ),
     "kind": tuple((kind, {}) for kind in maps.KINDS),
     "scale": (("0..100", {}), ("cases", {})),
     "decimals": ((1, {}), ("digits", {}), ("not_stated", {})),

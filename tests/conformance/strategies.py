@@ -227,6 +227,8 @@ def _words(draw: Draw, sel: Decider, name: str) -> tuple[Json, Json]:
     keys = _orders(draw, keys | {"type": kind})
     if access == "rw" and _maybe(draw, 6):
         keys["functions"] = _of(draw, [3, 6, 16], [3, 16], [3])
+    if (access == "rw" or space == "input") and _maybe(draw, 4):
+        keys |= {"access": "rw", "write": _of(draw, {}, {"functions": [16]}) | {"space": "holding"}}
     return keys, tables
 
 
@@ -273,6 +275,8 @@ def _placed(draw: Draw, deciders: list[Json], registers: list[Json]) -> list[Jso
     place, inside = _of(draw, "alone", "array", "nested"), _maybe(draw, 2)
     for number, one in enumerate([*deciders, *registers]):
         one["at"] = STEP * number
+        if "write" in one:
+            one["write"]["at"] = one["at"] + VIEW * MOST
     if place == "alone":
         return deciders + registers
     within = deciders + registers if inside else registers

@@ -1,6 +1,6 @@
 """Addresses: overlaps, ends of the address space, aliases, reserved addresses, notations, functions of a space."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from operator import attrgetter
@@ -40,6 +40,12 @@ class TakenAddresses:
         """What the addresses count in: a block (or none) and a space."""
         return self.register.block, self.space
 
+    def serves(self, *, reading: bool) -> bool:
+        """Whether it is for reading (or for writing); what could be neither counts as both."""
+        access, view = self.register.access, self.view
+        ways = access.readable and view.readable, access.writable and view.writable
+        return ways[not reading] or not any(ways)
+
     def __str__(self) -> str:
         where = str(self.first) if self.first == self.last else f"{self.first}..{self.last}"
         inside = f" of block {self.register.block}" if self.register.block else ""
@@ -60,16 +66,22 @@ def stretches(register: Register) -> Iterator[TakenAddresses]:
 
 @model_rule("RS0401", "Addresses overlap")
 def overlap(scope: RuleScope) -> Iterator[Finding]:
-    """Two registers (or two views of one) at the same address cannot both be right: one of the rows was misread."""
-    every = (stretch for register in scope.model.registers for stretch in stretches(register))
+    """Two things to read (or two to write) at one address cannot both be right: one of the rows was misread."""
+    stretched = (stretch for register in scope.model.registers for stretch in stretches(register))
+    every = sorted(stretched, key=attrgetter("ground", "first", "last"))
+    twice = (one for reading in (True, False) for one in _overlaps(one for one in every if one.serves(reading=reading)))
+    return iter(dict.fromkeys(twice))
+
+
+def _overlaps(every: Iterable[TakenAddresses]) -> Iterator[Finding]:
     furthest: TakenAddresses | None = None
-    for stretch in sorted(every, key=attrgetter("ground", "first", "last")):
+    for stretch in every:
         if furthest and furthest.ground == stretch.ground and stretch.first <= furthest.last:
             earlier, later = sorted((furthest, stretch), key=lambda one: one.register.span)
             other = earlier.register
             message = f"takes {later}, which overlaps {earlier} of `{other.path}`"
             related = Related(f"`{other.path}` takes {earlier}", other.span)
-            help_text = "correct `at`, the type or the array's stride of one of them"
+            help_text = "correct `at`, the type, the array's stride or (if one is read and one written) `access`"
             yield Finding.at(later.register, message, help_text, related)
         if not furthest or furthest.ground != stretch.ground or stretch.last > furthest.last:
             furthest = stretch

@@ -89,9 +89,12 @@ def _around(sent: SentStep, scope: RuleScope) -> Iterator[View]:
 @step_rule("RS0478", "Command writes a read-only register")
 def step_on_read_only(sent: SentStep, scope: RuleScope) -> Iterator[Problem]:
     """The device refuses it: address or access was misread."""
-    for stretch in touched(sent, scope):
+    every = list(touched(sent, scope))
+    written = [one for one in every if one.serves(reading=False)]
+    for stretch in every:
         register = stretch.register
-        if not register.access.writable:
+        hidden = any(one.first <= stretch.first and stretch.last <= one.last for one in written)
+        if not register.access.writable and not hidden:
             related = Related(f"`{register.path}` has access {register.access}", register.span)
             message = f"writes `{register.path}` ({stretch}), which can only be read"
             yield message, "correct the step's address, or `access`", related

@@ -97,7 +97,11 @@ def rows(maps: Iterable[RegisterMap]) -> Iterator[Row]:
 def _register_row(register_map: RegisterMap, model: Model, register: Register) -> Row:
     minimum, maximum = _limits(register)
     default, at = register.default, register.at
-    views = {one.name: {"address": one.address(at), "words": one.words, "type": one.type} for one in register.views}
+    views = {
+        one.name: {"address": one.address(at), "words": one.words, "type": one.type}
+        | ({"space": one.space} if one.space is not register.base.space else {})
+        for one in register.views
+    }
     return Row(
         map=register_map.id,
         model=one_line(model.name),

@@ -7,7 +7,7 @@ from regscribe.lower.node import Value
 from regscribe.lower.rules import IDLE_DEFAULT, IDLE_KEY
 from regscribe.lower.scales import NOT_STATED
 from regscribe.lower.tree import TreeNode
-from regscribe.model import Kind, Register
+from regscribe.model import Access, Kind, Register
 
 _CODES = frozenset({Kind.ENUM, Kind.FLAGS, Kind.FIELDS, Kind.STRING, Kind.VERSION, Kind.BOOLEAN})
 _LASTING = frozenset({"eeprom", "both"})
@@ -64,6 +64,18 @@ TABLE: tuple[Idle, ...] = (
         lambda register, _: not register.access.writable,
         "it is never written",
         "remove it, or correct `access`",
+    ),
+    Idle(
+        frozenset({"write_at", "write"}),
+        lambda register, _: register.access is not Access.READ_WRITE,
+        "it is not both read and written",
+        "remove it (where only one is done, `at` and `space` say where), or correct `access`",
+    ),
+    Idle(
+        frozenset({"write_at"}),
+        lambda _, entry: "write" in entry.settings and entry.settings["write"].child("at") is not None,
+        "`write` says `at`",
+        "remove one of them",
     ),
     Idle(
         frozenset({"endurance"}),

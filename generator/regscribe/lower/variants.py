@@ -18,7 +18,7 @@ _NO_NUMBERS = {
 }
 """Values of keys that make codes, bits or a text of the register."""
 _RIVALS = (
-    (frozenset({"views"}), frozenset({"type", "length", "word_order", "byte_order", "functions"})),
+    (frozenset({"views"}), frozenset({"type", "length", "word_order", "byte_order", "functions", "write_at", "write"})),
     (frozenset({"type"}), frozenset({"views"})),
     (frozenset({"scale"}), frozenset({"decimals", "multiply", "add"})),
     (frozenset({"decimals"}), frozenset({"scale", "multiply", "add"})),

@@ -5,9 +5,13 @@ from regscribe.lower.rules import IDLE_KEY, IDLE_LENGTH, TYPE_BESIDE_VIEWS, UNKN
 from regscribe.lower.scope import Scope
 from regscribe.lower.texts import whole_ends
 from regscribe.lower.tree import TreeNode
-from regscribe.model import Order, OrderFrom, Rounding, Space, View, WireType
+from regscribe.lower.variants import Keys
+from regscribe.model import Access, Order, OrderFrom, Protocol, Rounding, Space, View, WireType
 
-_OF_EACH_VIEW = ("type", "word_order", "byte_order", "functions")
+_OF_EACH_VIEW = ("type", "word_order", "byte_order", "functions", "write_at", "write")
+WRITTEN = "write"
+"""The name of the view in which a register is written that says `write_at` or `write`."""
+_INHERITED = ("type", "length", "word_order", "byte_order")
 _DEFAULT_TYPES = {Space.COIL: WireType.BIT, Space.DISCRETE: WireType.BIT, Space.STATUS: WireType.UINT8}
 
 
@@ -23,13 +27,45 @@ def views_of(entry: TreeNode, scope: Scope) -> tuple[View, ...]:
             settings[key].report(TYPE_BESIDE_VIEWS, message, remedy=remedy, at_key=True)
         view_set = scope.named(settings["views"], "views", rule=UNKNOWN_VIEWS, what="view set")
         views = set_at(view_set, space, words, scope) if view_set else ()
-    views = views or (_view("base", settings, space, words, scope),)
+    views = views or _single(settings, space, words, scope)
     types = dict.fromkeys(view.type for view in views)
     if "length" in settings and WireType.STRING not in types:
         message = f"`{entry.id}` has a `length`, but its type is {', '.join(types)}"
         remedy = "remove `length`, or write `type: string`"
         settings["length"].report(IDLE_LENGTH, message, remedy=remedy, at_key=True)
     return views
+
+
+def _single(keys: Keys, space: Space, words: int, scope: Scope) -> tuple[View, ...]:
+    """The view of a register without a set; two, for reading and for writing, where it is written in another way."""
+    view = _view("base", keys, space, words, scope)
+    if keys.choice_of("access", Access.READ) is not Access.READ_WRITE or not keys.keys() & {"write_at", "write"}:
+        return (view,)
+    written = _written(view, keys, words, scope)
+    reads = tuple(code for code in view.functions if code not in written.space.write_functions)
+    return view._replace(functions=reads or (space.read_function,)), written
+
+
+def _written(read: View, keys: Keys, words: int, scope: Scope) -> View:
+    """The view in which a register is written that is read as `read`."""
+    node, own = keys.get("write"), Keys()
+    stated = dict(node.items()) if node else {}
+    space = stated["space"].choice(Space.HOLDING) if "space" in stated else _written_space(read.space)
+    if (space.is_bits, space.is_words) == (read.space.is_bits, read.space.is_words):
+        own.update({key: keys[key] for key in _INHERITED if key in keys})
+    own.update(stated)
+    view = _view(WRITTEN, own, space, words, scope)
+    if node:
+        _report_idle(view, node)
+    at, to = keys.get("at"), stated.get("at") or keys.get("write_at")
+    device = scope.map.mapping_of("protocol").wholes_of("functions", Protocol().functions)
+    known = (tuple(code for code in space.write_functions if code in has) for has in (read.functions, device))
+    functions = view.functions or next(filter(None, known), space.write_functions)
+    return view._replace(offset=to.whole() - at.whole() if at and to else 0, functions=functions)
+
+
+def _written_space(space: Space) -> Space:
+    return Space.COIL if space.is_bits else Space.HOLDING
 
 
 def at_of(entry: TreeNode) -> int:
@@ -56,8 +92,14 @@ def set_at(node: Value, space: Space, words: int, scope: Scope) -> tuple[View, .
 
 
 def _view_of_set(name: str, node: Value, space: Space, words: int, scope: Scope) -> View:
-    """A view of a set; RS0338 for what it says of words or fractions that its type does not have."""
+    """A view of a set."""
     view = _view(name, node, space, words, scope)
+    _report_idle(view, node)
+    return view
+
+
+def _report_idle(view: View, node: Value) -> None:
+    """Report what a view says of words or fractions that its type does not have (RS0338)."""
     idle = {
         "word_order": view.type is not WireType.STRING and view.type.words == 1 and "its value is one word",
         "rounding": view.type.is_float and "a float carries fractions",
@@ -65,8 +107,7 @@ def _view_of_set(name: str, node: Value, space: Space, words: int, scope: Scope)
     for key, why in idle.items():
         stated = node.child(key)
         if stated and why:
-            stated.report(IDLE_KEY, f"view `{name}` has `{key}`, but {why}", remedy="remove it", at_key=True)
-    return view
+            stated.report(IDLE_KEY, f"view `{view.name}` has `{key}`, but {why}", remedy="remove it", at_key=True)
 
 
 def _view(name: str, keys: Keyed, space: Space, words: int, scope: Scope) -> View:

@@ -120,6 +120,11 @@ class Register:
         return self.preferred if self.preferred in writable or not writable else writable[0]
 
     @property
+    def is_written_apart(self) -> bool:
+        """Whether it is read in the base view only and written in another one only."""
+        return len(self.views) > 1 and not self.base.writable and not any(view.readable for view in self.views[1:])
+
+    @property
     def beginnings(self) -> tuple[tuple[str, Fraction | str], ...]:
         """The default and the delivered value, as far as the map says them, each with what it is."""
         both = (("default", self.default), ("delivered value", self.delivered))

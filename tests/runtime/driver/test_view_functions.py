@@ -7,6 +7,7 @@ import pytest
 
 from regscribe.cli.commands import write
 from regscribe.simulate.device.device import SimulatedDevice
+from regscribe.tools.live.dry_run import dry
 from regscribe.tools.live.errors import TargetError
 from regscribe_runtime import NotWritten, ReadBackDiffers
 from regscribe_runtime.driver.broadcast import request_for
@@ -39,6 +40,7 @@ groups:
       - {at: 20, name: Level, views: coarse}
       - {at: 30, name: Many, type: uint16, functions: [3, 16]}
       - {at: 31, name: One, type: uint16, functions: [3, 6]}
+      - {at: 40, name: Apart, type: int16, decimals: 1, persistence: eeprom, write_at: 145}
 """
 
 
@@ -60,6 +62,25 @@ def test_a_write_goes_to_the_view_that_writes_and_is_read_back_in_the_one_that_r
     assert _sent(device) == [(3, 5, ()), (6, 105, (155,)), (3, 5, ())]
     assert device.setpoint.read() == 15.5
     assert _sent(device)[-1] == (3, 5, ())
+
+
+def test_a_register_with_a_write_address_is_read_back_where_it_is_read(device: Any) -> None:
+    device.apart.write(15.5)
+    device.apart.write(15.5)
+    device.configure({"apart": -1})
+
+    assert _sent(device)[:4] == [(3, 40, ()), (6, 145, (155,)), (3, 40, ()), (3, 40, ())]
+    assert _sent(device)[4:] == [(3, 40, ()), (6, 145, (0xFFF6,)), (3, 40, ())]
+    assert device.link.device.peek("apart") == -1
+
+
+def test_what_was_not_sent_reads_back_where_the_register_is_read(device: Any) -> None:
+    simulated, link = device.link.device, dry(device)
+
+    device.apart.write(15.5)
+
+    assert [(one.function, one.address) for one in link.written] == [(6, 145)]
+    assert (device.apart.read(), simulated.peek("apart")) == (15.5, 0)
 
 
 def test_an_equal_value_is_not_written_again_although_it_is_read_elsewhere(device: Any) -> None:
@@ -160,7 +181,8 @@ def test_a_snapshot_reads_only_what_may_be_read(device: Any) -> None:
     device.link.device.poke("total", 3)
 
     assert device.read()["total"] == 3
-    assert {(function, address) for function, address, _ in _sent(device)} <= {(3, 5), (3, 20), (3, 30), (3, 700)}
+    asked = {(function, address) for function, address, _ in _sent(device)}
+    assert asked <= {(3, 5), (3, 20), (3, 30), (3, 40), (3, 700)}
 
 
 def test_change_reads_in_one_view_and_writes_in_the_other(device: Any) -> None:

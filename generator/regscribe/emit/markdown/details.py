@@ -4,13 +4,13 @@ from collections.abc import Callable, Iterable
 from operator import attrgetter
 
 from regscribe.emit.common_values import Merged, Stated, models_by
-from regscribe.emit.markdown.context import PageContext
+from regscribe.emit.markdown.context import SPACES, PageContext
 from regscribe.emit.markdown.escape import Md, code, escape, md, prose
 from regscribe.emit.markdown.page_values import Titled, table
-from regscribe.emit.markdown.register_facts import view_type
+from regscribe.emit.markdown.register_facts import transmission, view_type
 from regscribe.emit.outline import Leaf, formula
 from regscribe.emit.words import bits_words, conversion_words, one_line, range_words, when_words
-from regscribe.model import Enum, Kind, Model, Register
+from regscribe.model import Enum, Kind, Model, Register, View
 
 Rows = tuple[tuple[Md, ...], ...]
 
@@ -22,17 +22,25 @@ def views(context: PageContext, leaf: Leaf) -> tuple[Titled, ...]:
 
     def rows(_: Model, register: Register) -> Rows:
         found: list[tuple[Md, ...]] = []
+        apart = register.is_written_apart
         for view in register.views if len(register.views) > 1 else ():
-            name, at = md(code(view.name), " (preferred)" if view is register.preferred else ""), register.at
-            if leaf.arrays:
-                found.append((name, code(formula(view, at, leaf.arrays)), Md(), escape(view_type(view))))
-            else:
-                address = view.address(at)
-                notations = context.notations(view.space, address)
-                found.append((name, escape(str(address)), notations, escape(view_type(view))))
+            name = md(code(view.name), " (preferred)" if view is register.preferred and not apart else "")
+            address, notations = _place(context, leaf, register, view)
+            sent = transmission(context, view) if apart else Md()
+            found.append((name, address, notations, escape(view_type(view)), sent))
         return tuple(found)
 
-    return titled("Views", ("View", "Wire address", "Other notation", "Type"), leaf.register.states(rows))
+    headers = ("View", "Wire address", "Other notation", "Type", "Transmitted")
+    return titled("Views", headers, leaf.register.states(rows))
+
+
+def _place(context: PageContext, leaf: Leaf, register: Register, view: View) -> tuple[Md, Md]:
+    """Return the address of a view, with its space where that is another than the base view's, and other notations."""
+    space = f" ({SPACES[view.space]})" if view.space is not register.base.space else ""
+    if leaf.arrays:
+        return md(code(formula(view, register.at, leaf.arrays)), space), Md()
+    address = view.address(register.at)
+    return md(escape(str(address)), space), context.notations(view.space, address)
 
 
 def by_condition(context: PageContext, leaf: Leaf) -> tuple[Titled, ...]:

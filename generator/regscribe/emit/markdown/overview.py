@@ -69,7 +69,11 @@ def _span(leaf: Leaf, view: View, register: Register, offset: int = 0) -> Md:
 
 
 def _other_view(leaf: Leaf, name: str, register: Register) -> Md:
-    return next((_span(leaf, view, register) for view in register.views[1:] if view.name == name), Md())
+    view = next((view for view in register.views[1:] if view.name == name), None)
+    if view is None:
+        return Md()
+    space = f" ({SPACES[view.space]})" if view.space is not register.base.space else ""
+    return md(_span(leaf, view, register), space)
 
 
 def _range(context: PageContext, model: Model, register: Register) -> Md:

@@ -29,10 +29,14 @@ def plain(context: PageContext) -> tuple[Md, ...]:
 
 
 def views(context: PageContext) -> tuple[Titled, ...]:
-    """Return each set of views that registers share, with the address of each view from the base address n."""
+    """Return each set of views that registers share, with the address of each view from the base address n.
+
+    What is written at an address of its own tells so itself.
+    """
     found: Counter[Shape] = Counter()
     for leaf in leaves(context.nodes):
-        found.update(dict.fromkeys(_shape(one) for _, one in leaf.register.versions if len(one.views) > 1).keys())
+        several = (one for _, one in leaf.register.versions if len(one.views) > 1 and not one.is_written_apart)
+        found.update(dict.fromkeys(map(_shape, several)).keys())
     return tuple(
         Titled(
             f"{count} registers in {len(shape)} views (n is the wire address in the first)",

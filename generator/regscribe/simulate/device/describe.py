@@ -77,7 +77,8 @@ def _values(device: SimulatedDevice, request: Request, words: tuple[int, ...]) -
     spaces = [SPACES[request.function], *alike]
     at = request.address
     while at < request.address + request.quantity:
-        place = next((found for each in spaces if (found := layout.place(each, at))), None)
+        places = (layout.place(each, at, writing=not request.reads) for each in spaces)
+        place = next(filter(None, places), None)
         if place is None:
             at += 1
             continue

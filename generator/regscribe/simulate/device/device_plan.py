@@ -31,18 +31,19 @@ class AddressSpan:
 class AddressIndex:
     """The address index of one model, which reads and writes consult; immutable once built."""
 
-    __slots__ = ("_bounds", "_places", "_regions", "command_addresses", "reserved", "silent", "unused")
+    __slots__ = ("_bounds", "_places", "_regions", "_written", "command_addresses", "reserved", "silent", "unused")
 
     def __init__(self, model: Model, reserved: Iterable[tuple[Space, int, int]]) -> None:
         self._places: dict[Space, dict[int, AddressSpan]] = {space: {} for space in Space}
-        self._regions: dict[tuple[Space, range], View] = {}
+        self._written: dict[Space, dict[int, AddressSpan]] = {space: {} for space in Space}
+        self._regions: dict[tuple[Space, range, int, tuple[int, ...]], View] = {}
         for register in model.registers:
             for place in places_of(register):
-                self._places[place.view.space].update(dict.fromkeys(range(place.start, place.end), place))
+                self._take(place)
             for view in register.views:
                 if (view.align, view.functions) != (1, ()):
                     first, last = view.region or (view.address(register.at), view.last(register.at))
-                    self._regions.setdefault((view.space, range(first, last + 1)), view)
+                    self._regions.setdefault((view.space, range(first, last + 1), view.align, view.functions), view)
         self.reserved = _addresses(reserved)
         self.unused = _addresses(model.unused)
         self.silent = self.reserved | self.unused
@@ -53,14 +54,28 @@ class AddressIndex:
         )
         self._bounds = {space: self._bounds_of(space) for space in Space}
 
-    def place(self, space: Space, address: int) -> AddressSpan | None:
-        """Return the value that has a word at `address`; None if there is none."""
-        return self._places[space].get(address)
+    def _take(self, place: AddressSpan) -> None:
+        access, view = place.register.access, place.view
+        addresses = range(place.start, place.end)
+        for index, fits in (
+            (self._places, access.readable and view.readable),
+            (self._written, access.writable and view.writable),
+        ):
+            there = index[view.space]
+            there.update((each, place) for each in addresses if fits or each not in there)
 
-    def region(self, space: Space, address: int) -> View | None:
+    def place(self, space: Space, address: int, *, writing: bool = False) -> AddressSpan | None:
+        """Return the value that has a word at `address`; None if there is none.
+
+        Where one value is read and another one written, it is the one to read, or the one to write if `writing`.
+        """
+        return (self._written if writing else self._places)[space].get(address)
+
+    def region(self, space: Space, address: int, function: int) -> View | None:
         """Return the view whose alignment and functions bind a request that starts at `address`; None if none does."""
         regions = self._regions.items()
-        return next((view for (kind, addresses), view in regions if kind is space and address in addresses), None)
+        found = [view for (kind, addresses, *_), view in regions if kind is space and address in addresses]
+        return next((view for view in found if view.allows(function)), found[0] if found else None)
 
     def documents(self, space: Space, address: int) -> bool:
         """Whether `address` lies between the lowest and the highest that the map documents in that space."""

@@ -276,5 +276,7 @@ class DeviceState(PresentMeaning):
             return
         stored = self.stored(register.path)
         for place in self.blueprint.places[register.path]:
+            if not place.view.readable:
+                continue
             words = codec.encode(place.view, stored, self.order(place.view))
             image.setdefault(place.view.space, {}).update(zip(range(place.start, place.end), words, strict=True))

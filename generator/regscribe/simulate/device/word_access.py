@@ -32,7 +32,7 @@ def check_request(blueprint: Blueprint, space: Space, function: int, address: in
     faults = blueprint.register_map.faults
     if not 1 <= count <= blueprint.register_map.accepted(f"{most}_bits" if space.is_bits else f"{most}_words"):
         raise Refusal(faults.quantity)
-    region = blueprint.layout.region(space, address)
+    region = blueprint.layout.region(space, address, function)
     if region is None:
         return
     if region.functions and function not in region.functions:
@@ -91,7 +91,7 @@ class WordAccess:
         written.
         """
         check_request(self.state.blueprint, space, function, address, len(words), most="write")
-        place = self.state.blueprint.layout.place(space, address)
+        place = self.state.blueprint.layout.place(space, address, writing=True)
         writable = place is not None and place.register.access.writable
         if not writable and self.commands.is_step(space, address, words, function=function):
             self.conduct.commanded(self.commands.saw(space, address, words))
@@ -124,7 +124,7 @@ class WordAccess:
 
     def _place(self, space: Space, function: int, address: int, left: int) -> AddressSpan:
         faults, layout = self.state.blueprint.register_map.faults, self.state.blueprint.layout
-        place = layout.place(space, address)
+        place = layout.place(space, address, writing=True)
         if place is None:
             if (space, address) in layout.reserved:
                 raise Refusal(faults.read_only)

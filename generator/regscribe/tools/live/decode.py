@@ -171,11 +171,22 @@ class Decoder:
     def _registers(
         self, request: Request, words: tuple[int, ...] | None
     ) -> Iterator[tuple[Register[Any], View, tuple[int, ...]]]:
-        """The registers that begin within a request, each with its part of the words."""
+        """The registers that begin within a request, each with its part of the words.
+
+        Where one is read and another one written, those that the request means.
+        """
         space = SPACES.get(request.function, "")
         for offset in range(request.quantity):
-            for register, view in self._index.get((space, request.address + offset), ()):
+            here = self._index.get((space, request.address + offset), ())
+            meant = [one for one in here if _serves(*one, reading=request.reads)]
+            for register, view in meant or here:
                 yield register, view, (words or ())[offset : offset + view.words]
+
+
+def _serves(register: Register[Any], view: View, *, reading: bool) -> bool:
+    if reading:
+        return register.access.readable and view.readable
+    return register.access.writable and view.writable
 
 
 def _decoded(

@@ -1,14 +1,17 @@
 """A link that keeps writes instead of sending them; they read back as if they had been sent."""
 
+from contextlib import suppress
 from typing import Any, cast
 
-from regscribe_runtime import BareDevice, Link
+from regscribe_runtime import BareDevice, Link, Register, ValueRefused
+from regscribe_runtime.operations.session import Session
+from regscribe_runtime.registers import codec
 from regscribe_runtime.wire.requests import BLOCK_WRITES, READ_SPACES, SPACES, WRITES, Reply, Request
 
 
 def dry(device: BareDevice) -> "DryLink":
     """Keep a driver from writing; the link has what it would have written."""
-    link = DryLink(device.link)
+    link = DryLink(device.link, device.session)
     device.link = cast("Link", link)
     return link
 
@@ -16,10 +19,16 @@ def dry(device: BareDevice) -> "DryLink":
 class DryLink:
     """Passes reads to a link and answers writes itself, as a device that accepts every value."""
 
-    def __init__(self, link: Link) -> None:
-        self._link = link
+    def __init__(self, link: Link, session: Session) -> None:
+        self._link, self._session = link, session
         self.written: list[Request] = []
         self._held: dict[tuple[int, str, int], int] = {}
+        self._unread: dict[tuple[str, int], tuple[Register[Any], Any]] = {
+            (view.space, view.address(register.at)): (register, view)
+            for register in session.registers.values()
+            for view in register.views
+            if register.access.writable and not (view.readable and register.access.readable)
+        }
 
     def __getattr__(self, name: str) -> Any:  # noqa: ANN401 - whatever else the link has
         return getattr(self._link, name)
@@ -37,8 +46,22 @@ class DryLink:
             held = (self._held.get((unit, space, request.address + at), word) for at, word in enumerate(reply.words))
             return reply._replace(words=tuple(held))
         self.written.append(request)
-        space = SPACES[request.function]
-        for offset, word in enumerate(request.words):
-            self._held[unit, space, request.address + offset] = word
+        self._hold(unit, SPACES[request.function], request.address, request.words)
         words = () if request.function in BLOCK_WRITES else request.words
         return Reply(request.function, words, request.address, len(request.words))
+
+    def _hold(self, unit: int, space: str, address: int, words: tuple[int, ...]) -> None:
+        """Keep words where they are read back: where they are written, unless a register is read elsewhere."""
+        if not words:
+            return
+        register, view = self._unread.get((space, address), (None, None))
+        count = view.words if view else 1
+        if register is None or view is None:
+            self._held[unit, space, address] = words[0]
+        elif register.access.readable:
+            seen = register.seen_in(view)
+            with suppress(ValueRefused):
+                carried = codec.carried_over(register, view, seen, words[:count], self._session.memory)
+                start = seen.address(register.at)
+                self._held.update(((unit, seen.space, start + at), word) for at, word in enumerate(carried))
+        self._hold(unit, space, address + count, words[count:])
