@@ -2,6 +2,7 @@
 
 import math
 import re
+import struct
 from collections.abc import Iterator, Mapping
 from decimal import Decimal
 from fractions import Fraction
@@ -30,7 +31,7 @@ from regscribe_runtime.wire.capture import CapturedFrame
 
 from .suite import Built, Json, words_of
 
-READ_FUNCTIONS = {"coil": 1, "discrete": 2, "holding": 3, "input": 4, "status": 7}
+READ_FUNCTIONS = {"coil": 1, "discrete": 2, "holding": 3, "input": 4, "status": 7, "file": 20, "queue": 24}
 _ELEMENT = re.compile(r"(\w+)\[(\d+)\]")
 
 NO_NUMBERS = ("nan", "inf", "-inf")
@@ -245,7 +246,7 @@ def written(write: Any, memory: Any, space: str, address: int, count: int) -> ob
     try:
         write()
     except UNSENT:
-        sent = [pdu for pdu in memory.log if pdu[0] in {5, 6, 15, 16}]
+        sent = [pdu for pdu in memory.log if pdu[0] in {5, 6, 15, 16, 21}]
         return REFUSED if not sent else f"refused after {[pdu.hex(' ') for pdu in sent]}"
     return memory.get(space, address, count)
 
@@ -275,14 +276,24 @@ def ask(device: SimulatedDevice, register: Register, view: View) -> list[int]:
     function = READ_FUNCTIONS[view.space.value]
     if function == 7:
         return [device.handle(b"\x07")[1]]  # type: ignore[index] # it answers
-    count = view.words
-    answer = device.handle(bytes([function]) + view.address(register.at).to_bytes(2, "big") + count.to_bytes(2, "big"))
+    answer = device.handle(_asked(register, view))
     assert answer is not None
     assert answer[0] == function, answer.hex(" ")
-    data = answer[2:]
     if function in (1, 2):
-        return [data[0] & 1]
-    return [int.from_bytes(data[at : at + 2], "big") for at in range(0, len(data), 2)]
+        return [answer[2] & 1]
+    data = answer[{20: 4, 24: 3}.get(function, 2) :]
+    words = [int.from_bytes(data[at : at + 2], "big") for at in range(0, len(data), 2)]
+    return words[view.address(register.at) & 63 :][: view.words] if function == 24 else words
+
+
+def _asked(register: Register, view: View) -> bytes:
+    """The request that reads a register in a view."""
+    function, address = READ_FUNCTIONS[view.space.value], view.address(register.at)
+    if function == 20:  # byte count, 6, file, record, number of words
+        return struct.pack(">BBBHHH", 20, 7, 6, address >> 16, address & 0xFFFF, view.words)
+    if function == 24:
+        return struct.pack(">BH", 24, address >> 6)
+    return struct.pack(">BHH", function, address, view.words)
 
 
 def decoded_by_tool(built: Built, memory: Any, row: Json) -> str:
@@ -312,8 +323,16 @@ def _frames(register: Register, view: View, words: list[int]) -> tuple[bytes, by
     if function == 7:
         return b"\x07", bytes([7, words[0]])
     data = bytes([words[0]]) if function in (1, 2) else b"".join(word.to_bytes(2, "big") for word in words)
-    asked = bytes([function]) + view.address(register.at).to_bytes(2, "big") + view.words.to_bytes(2, "big")
-    return asked, bytes([function, len(data)]) + data
+    head = bytes([function, len(data)])
+    if function == 20:
+        head = bytes([20, len(data) + 2, len(data) + 1, 6])
+    if function == 24:  # the count, and values up to the one that is asked for
+        before = view.address(register.at) & 63
+        count = before + len(words) - 1 if before else words[0]
+        data = struct.pack(f">H{before}x{before}x", count)[: 2 * before or None] + data if before else data
+        data += bytes(2 * (1 + count) - len(data))
+        head = struct.pack(">BH", 24, len(data))
+    return _asked(register, view), head + data
 
 
 def bench_of(built: Built) -> DriverUnderTest:

@@ -17,7 +17,7 @@ from regscribe.model import Diagnostic, RegisterMap, Severity
 from .places import places_of
 
 FOLDER = Path(__file__).parent / "cases"
-FUNCTIONS = [1, 2, 3, 4, 5, 6, 7, 15, 16]
+FUNCTIONS = [1, 2, 3, 4, 5, 6, 7, 15, 16, 20, 21, 24]
 Json = dict[str, Any]
 
 _numbers = itertools.count()

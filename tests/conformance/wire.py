@@ -36,6 +36,8 @@ class Memory:
         function = pdu[0]
         if function == 7:
             return bytes([7, self.get("status", 0, 1)[0]])
+        if function in (20, 21, 24):
+            return self._records(pdu) if function < 24 else self._queue(pdu)
         address, number = struct.unpack(">HH", pdu[1:5])
         if function in READS:
             found = self.get(READS[function], address, number)
@@ -52,6 +54,23 @@ class Memory:
         else:
             return bytes([function | 0x80, 1])
         return pdu[:5]
+
+    def _queue(self, pdu: bytes) -> bytes:
+        """The count of a queue and its values."""
+        first = struct.unpack(">H", pdu[1:3])[0] << 6
+        words = self.get("queue", first, 1 + self.get("queue", first, 1)[0])
+        return struct.pack(f">BH{len(words)}H", 24, 2 * len(words), *words)
+
+    def _records(self, pdu: bytes) -> bytes:
+        """The answer to a request with one group of records: byte count, 6, file, record, number of words, words."""
+        function, size, kind, file, record, number = struct.unpack(">BBBHHH", pdu[:9])
+        assert kind == 6, "the only type of reference that the standard knows"
+        assert size == len(pdu) - 2
+        if function == 21:
+            self.put("file", file << 16 | record, list(struct.unpack(f">{number}H", pdu[9:])))
+            return pdu
+        words = self.get("file", file << 16 | record, number)
+        return struct.pack(f">BBBB{number}H", 20, 2 + 2 * number, 1 + 2 * number, 6, *words)
 
 
 def _packed(bits: list[int]) -> bytes:

@@ -19,7 +19,6 @@ from regscribe.checks.rule import (
 )
 from regscribe.model import Register, RegisterMap, Related, Space, View
 
-LAST_ADDRESS = 0xFFFF
 FAR = 10_000
 """A notation that begins here tells spaces apart by a digit in front (30001, 40001, 400001)."""
 
@@ -47,7 +46,8 @@ class TakenAddresses:
         return ways[not reading] or not any(ways)
 
     def __str__(self) -> str:
-        where = str(self.first) if self.first == self.last else f"{self.first}..{self.last}"
+        spelled = self.space.spelled
+        where = spelled(self.first) if self.first == self.last else f"{spelled(self.first)}..{spelled(self.last)}"
         inside = f" of block {self.register.block}" if self.register.block else ""
         return f"{self.space} {where}{inside}{f' ({self.by})' if self.by else ''}"
 
@@ -89,11 +89,12 @@ def _overlaps(every: Iterable[TakenAddresses]) -> Iterator[Finding]:
 
 @register_rule("RS0402", "Address outside the address space")
 def outside_space(register: Register, _: RuleScope) -> Iterator[Problem]:
-    """A Modbus address is 16 bits; function 07 has one address, 0."""
+    """A Modbus address is 16 bits; function 07 has one address, 0, a file records 0 to 9999, a queue 31 values."""
     for stretch in stretches(register):
-        limit = 0 if stretch.space is Space.STATUS else LAST_ADDRESS
-        if stretch.first < 0 or stretch.last > limit:
-            yield f"takes {stretch}, outside 0..{limit}", "correct `at` or the view's offset"
+        space, bits = stretch.space, stretch.space.part_bits
+        part = stretch.first >> bits if bits else 0
+        if stretch.first < 0 or stretch.last > (part << bits) + space.last or (space is Space.FILE and not part):
+            yield f"takes {stretch}, outside 0..{space.last}", "correct `at` or the view's offset"
 
 
 @register_rule("RS0403", "Alias equals an address that the register has")

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 from operator import attrgetter
 from typing import NamedTuple
 
-from regscribe.checks.addresses import LAST_ADDRESS, TakenAddresses, stretches, without_register
+from regscribe.checks.addresses import TakenAddresses, stretches, without_register
 from regscribe.checks.rule import Finding, Problem, RuleScope, model_rule, rule_of_models
 from regscribe.model import Command, CommandStep, Related, Space, View
 
@@ -122,8 +122,9 @@ def step_by_another_function(sent: SentStep, scope: RuleScope) -> Iterator[Probl
 def step_into_the_middle(sent: SentStep, scope: RuleScope) -> Iterator[Problem]:
     """Commands may go to addresses of no register, but not to reserved or unused ones, nor to a part of a value."""
     step, first, last = sent.step, sent.step.address, sent.last
-    if first < 0 or last > LAST_ADDRESS:
-        yield f"writes {first}..{last}, outside 0..{LAST_ADDRESS}", "correct the step's address"
+    end = (first | sent.space.last) if sent.space.part_bits else sent.space.last
+    if first < 0 or last > end:
+        yield f"writes {first}..{last}, outside 0..{sent.space.last}", "correct the step's address"
     for word, space, low, high in without_register(scope) if not step.block else ():
         if space is sent.space and first <= high and last >= low:
             yield f"writes {first}..{last}, but {low}..{high} are {word}", "correct the step's address"

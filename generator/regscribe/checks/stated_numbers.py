@@ -79,7 +79,7 @@ def _labels(register: Register) -> dict[object, str]:
     return {Fraction(member.code): member.label for member in members} | truths
 
 
-BITS, STATUS = {Space.COIL, Space.DISCRETE}, {Space.STATUS}
+BITS, STATUS, WORDS = {Space.COIL, Space.DISCRETE}, {Space.STATUS}, {space for space in Space if space.is_words}
 _OF_SPACE = {WireType.BIT: BITS, WireType.UINT8: STATUS}
 """The types that do not stand in words, and where they stand."""
 
@@ -88,10 +88,10 @@ _OF_SPACE = {WireType.BIT: BITS, WireType.UINT8: STATUS}
 def type_and_space(register: Register, _: RuleScope) -> Iterator[Problem]:
     """A coil or discrete input is one bit, function 07 gives one byte, all other addresses hold words of 16 bits."""
     for view in register.views:
-        spaces = _OF_SPACE.get(view.type, {Space.HOLDING, Space.INPUT})
+        spaces = _OF_SPACE.get(view.type, WORDS)
         if view.space not in spaces:
             what = f"has view {view.name} of type {view.type} in {view.space}"
-            help_ = "a flag in a word is `flags: {0: ...}` or `kind: boolean`, a number of words is in holding or input"
+            help_ = "a flag in a word is `flags: {0: ...}` or `kind: boolean`, a number needs words"
             yield f"{what}, which is in {' or '.join(sorted(spaces))}", f"correct `type` or `space`; {help_}"
         elif spaces in (BITS, STATUS) and (view.order, view.byte_order) != (Order.BIG, Order.BIG):
             message = f"has an order of words or bytes in {view.space}, where a value has no words"

@@ -9,15 +9,8 @@ from regscribe.checks.rule import RuleScope
 from regscribe.checks.worked_values import compare, example_rule, hexadecimal, in_example, judged
 from regscribe.model import FrameExample, Register, Space, View
 from regscribe.reference import Surroundings
-from regscribe_runtime.wire.pdu import (
-    EXCEPTION_BIT,
-    OFF,
-    ON,
-    MalformedError,
-    decode_request,
-    expect_bytes,
-    unpack_words,
-)
+from regscribe_runtime.wire.packing import MalformedError, expect_bytes, unpack_words
+from regscribe_runtime.wire.pdu import EXCEPTION_BIT, OFF, ON, decode_request
 from regscribe_runtime.wire.requests import (
     BIT_READS,
     BLOCK_WRITES,

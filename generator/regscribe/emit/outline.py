@@ -94,7 +94,7 @@ def aliases(register: Register) -> tuple[View, ...]:
 
 def formula(view: View, at: int, arrays: Sequence[Array]) -> str:
     """Return the address of any element: `8004 + 2*(i - 1)`; the plain address outside arrays."""
-    terms = [str(view.address(at))]
+    terms = [view.space.spelled(view.address(at))]
     for array, letter in zip(arrays, LETTERS, strict=False):
         stride = view.stride * array.stride
         steps = f"({letter} {'-' if array.first > 0 else '+'} {abs(array.first)})" if array.first else letter

@@ -72,7 +72,7 @@ def _step(node: Value, device: CommandScope) -> tuple[CommandStep, str]:
 def _function(node: Value, count: int, view: View | None, device: CommandScope) -> int:
     if node.child("function"):
         return node.whole_of("function")
-    single, several = (Space.COIL if view and view.space is Space.COIL else Space.HOLDING).write_functions
+    single, several = (view.space if view else Space.HOLDING).write_functions or Space.HOLDING.write_functions
     allowed = [code for code in device.protocol.functions if not view or view.allows(code)]
     return single if count == 1 and single in allowed else several
 

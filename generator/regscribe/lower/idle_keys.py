@@ -7,7 +7,7 @@ from regscribe.lower.node import Value
 from regscribe.lower.rules import IDLE_DEFAULT, IDLE_KEY
 from regscribe.lower.scales import NOT_STATED
 from regscribe.lower.tree import TreeNode
-from regscribe.model import Access, Kind, Register
+from regscribe.model import Access, Kind, Register, Space
 
 _CODES = frozenset({Kind.ENUM, Kind.FLAGS, Kind.FIELDS, Kind.STRING, Kind.VERSION, Kind.BOOLEAN})
 _LASTING = frozenset({"eeprom", "both"})
@@ -88,6 +88,18 @@ TABLE: tuple[Idle, ...] = (
         lambda register, _: not register.unit_id,
         "its unit never changes, so nothing is converted",
         "remove it, or give the `unit` cases",
+    ),
+    Idle(
+        frozenset({"file"}),
+        lambda register, _: register.base.space is not Space.FILE,
+        "it is no record of a file",
+        "remove it, or write `space: file`",
+    ),
+    Idle(
+        frozenset({"queue"}),
+        lambda register, _: register.base.space is not Space.QUEUE,
+        "it is in no queue",
+        "remove it, or write `space: queue`",
     ),
     Idle(
         frozenset({"word_order"}),

@@ -1,7 +1,7 @@
 """The views of a register: from a view set and its address formula, or the single one that its type gives."""
 
 from regscribe.lower.node import Keyed, Value
-from regscribe.lower.rules import IDLE_KEY, IDLE_LENGTH, TYPE_BESIDE_VIEWS, UNKNOWN_VIEWS, WRONG_SORT
+from regscribe.lower.rules import IDLE_KEY, IDLE_LENGTH, NO_PART, TYPE_BESIDE_VIEWS, UNKNOWN_VIEWS, WRONG_SORT
 from regscribe.lower.scope import Scope
 from regscribe.lower.texts import whole_ends
 from regscribe.lower.tree import TreeNode
@@ -28,6 +28,7 @@ def views_of(entry: TreeNode, scope: Scope) -> tuple[View, ...]:
         view_set = scope.named(settings["views"], "views", rule=UNKNOWN_VIEWS, what="view set")
         views = set_at(view_set, space, words, scope) if view_set else ()
     views = views or _single(settings, space, words, scope)
+    views = tuple(_in_part(entry, view) if view.space.part_bits else view for view in views)
     types = dict.fromkeys(view.type for view in views)
     if "length" in settings and WireType.STRING not in types:
         message = f"`{entry.id}` has a `length`, but its type is {', '.join(types)}"
@@ -65,7 +66,16 @@ def _written(read: View, keys: Keys, words: int, scope: Scope) -> View:
 
 
 def _written_space(space: Space) -> Space:
-    return Space.COIL if space.is_bits else Space.HOLDING
+    return space if space.part_bits else Space.COIL if space.is_bits else Space.HOLDING
+
+
+def _in_part(entry: TreeNode, view: View) -> View:
+    """The view in the file, or the queue, that the map names; RS0340 where it names none."""
+    space, node = view.space, entry.settings.get(view.space)
+    if node is None:
+        remedy = f"give `{space}: N` here or in the group's `each`"
+        entry.node.report(NO_PART, f"`{entry.id}` is in space `{space}`, but in which {space}?", remedy=remedy)
+    return view._replace(offset=view.offset + ((node.whole() if node else 1) << space.part_bits))
 
 
 def at_of(entry: TreeNode) -> int:

@@ -22,9 +22,12 @@ def render(register_map: RegisterMap) -> dict[str, str]:
 
 def drawings(register_map: RegisterMap) -> dict[str, Drawing]:
     """Return the pictures by file name before they become SVG."""
-    if not any(model.registers for model in register_map.models):
+    registers = [register for model in register_map.models for register in model.registers]
+    if not registers:
         return {}
-    found = {picture_paths.ADDRESSES: addresses(register_map)}
+    found = {}
+    if not all(register.base.space.part_bits for register in registers):
+        found[picture_paths.ADDRESSES] = addresses(register_map)
     nodes = outline(register_map.models)
     for leaf in leaves(nodes):
         if any(register.fields for _, register in leaf.register.versions):

@@ -36,7 +36,7 @@ def address_uses(register_map: RegisterMap) -> tuple[AddressUse, ...]:
 
 def _uses(model: Model) -> Iterator[AddressUse]:
     for register in model.registers:
-        yield from (_use(register, view) for view in register.views)
+        yield from (_use(register, view) for view in register.views if not view.space.part_bits)
         for address in register.aliases:
             base = _use(register, register.base)
             yield replace(base, first=address, last=address + register.base.words - 1, region=None, alias=True)

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from regscribe.emit.markdown import alt_text
 from regscribe.emit.outline import Branch, Leaf, formula, leaves
 from regscribe.emit.words import one_line, span_words
-from regscribe.model import RegisterMap
+from regscribe.model import RegisterMap, Space
 from regscribe.pictures.cell_style import set_words
 from regscribe.pictures.drawing import MARGIN, PLAIN, WIDTH, Box, Canvas, Drawing, DrawnLine, Text
 from regscribe.pictures.structure import SHOWN, Level, lettered_name, levels
@@ -133,7 +133,8 @@ def _member(canvas: Canvas, level: Level, child: Leaf | Branch, number: int, lef
         canvas.text(Text(OFFSETS, canvas.y + 13, offset, PLAIN, "end"), 44)
     for column, element in enumerate(level.elements):
         canvas.add(Box(_x(level, column) + 1, canvas.y + 1, CELL - 4, height - 4, tint(number), radius=2))
-        words = span_words(*level.span(child, element), "..")
+        first, last = map(_space(child).spelled, level.span(child, element))
+        words = span_words(first, last, "..")
         middle, size = _x(level, column) + CELL / 2 - 1, PLAIN if ".." not in words else NOTE
         canvas.text(Text(middle, canvas.y + height / 2 + 3, words, size, "middle"), CELL - 6)
     for line, rule in enumerate(rules):
@@ -165,3 +166,7 @@ def _rules(child: Leaf | Branch) -> Iterator[str]:
         yield f"{view.name}: {text}" if len(views) > 1 else text
     if len(views) > MOST_VIEWS:
         yield f"and {len(views) - MOST_VIEWS} more views"
+
+
+def _space(node: Leaf | Branch) -> Space:
+    return next(leaves((node,))).register.first.base.space

@@ -22,6 +22,8 @@ NAMES = {
     Space.COIL: "Coil",
     Space.DISCRETE: "Discrete input",
     Space.STATUS: "Exception status (function 07)",
+    Space.FILE: "File record",
+    Space.QUEUE: "FIFO queue",
 }
 
 WORD = 16

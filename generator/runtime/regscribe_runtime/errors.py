@@ -35,6 +35,7 @@ from datetime import datetime
 from typing import Any
 
 from regscribe_runtime.report import WriteReport
+from regscribe_runtime.values.wire_types import spelled_address
 
 
 class RegscribeError(Exception):
@@ -53,7 +54,8 @@ class NoAnswer(RegscribeError, TimeoutError):  # noqa: N818 (as above)
 
     def __init__(self, *, unit: int, function: int, address: int, seconds: float) -> None:
         self.unit, self.function, self.address, self.seconds = unit, function, address, seconds
-        super().__init__(f"unit {unit} gave no answer to function {function:02d} at address {address} in {seconds:g} s")
+        where = spelled_address(function, address)
+        super().__init__(f"unit {unit} gave no answer to function {function:02d} at address {where} in {seconds:g} s")
 
 
 STANDARD = {
@@ -80,8 +82,9 @@ class ExceptionAnswer(RegscribeError):  # noqa: N818 (as above)
         self.code, self.name, self.meaning = code, name, meaning
         usual = name or STANDARD.get(code, "")
         said = f" ({name}: {meaning})" if meaning else f" ({usual})" if usual else ""
+        where = spelled_address(function, address)
         super().__init__(
-            f"unit {unit} refused function {function:02d} at address {address} with exception {code:02d}{said}"
+            f"unit {unit} refused function {function:02d} at address {where} with exception {code:02d}{said}"
         )
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from regscribe.checks.worked_frames import FrameFields, parse
 from regscribe.model import Diagnostic
-from regscribe_runtime.wire.pdu import MalformedError
+from regscribe_runtime.wire.packing import MalformedError
 
 
 @pytest.mark.parametrize(

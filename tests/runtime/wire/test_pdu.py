@@ -4,9 +4,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from regscribe_runtime.wire.packing import MalformedError
 from regscribe_runtime.wire.pdu import (
     CoilStateError,
-    MalformedError,
     decode_reply,
     decode_request,
     encode_reply,
@@ -104,4 +104,4 @@ def test_addresses_are_shifted_where_a_function_has_one() -> None:
     assert Request(3, 7).shifted(1) == Request(3, 8)
     assert Request(16, 7, 1, (5,)).shifted(-1) == Request(16, 6, 1, (5,))
     assert Request(8, 0, 1, (5,)).shifted(1) == Request(8, 0, 1, (5,))
-    assert set(READ_SPACES) | WRITES == {1, 2, 3, 4, 5, 6, 7, 15, 16}
+    assert set(READ_SPACES) | WRITES == {1, 2, 3, 4, 5, 6, 7, 15, 16, 20, 21, 24}

@@ -10,6 +10,7 @@ from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.map_arguments import find_map
 from regscribe.cli.shared.output import print_json, refuse, remark, show_table, tell
 from regscribe.cli.shared.planned_model import PlannedModel
+from regscribe.emit.words import span_words
 from regscribe.model import RegisterMap
 from regscribe.tools.live.errors import unknown
 from regscribe_runtime.operations.prepared_read import laid_out
@@ -163,7 +164,7 @@ class _PlanReport:
         reason = "" if one.split.reason is SplitReason.FIRST else str(one.split.reason)
         return (
             f"{block.function:02d}",
-            f"{block.address}" if block.quantity == 1 else f"{block.address}..{block.end - 1}",
+            span_words(block.space.spelled(block.address), block.space.spelled(block.end - 1), ".."),
             str(one.wanted),
             str(one.block.quantity),
             str(one.bytes),

@@ -21,6 +21,7 @@ def addresses(register_map: RegisterMap) -> str:
             for view in register.views:
                 found.setdefault(view.space, []).extend((view.address(register.at), view.last(register.at)))
             found[register.base.space].extend(register.aliases)
+    found = {space: ends for space, ends in found.items() if not space.part_bits}
     spaces = {space: (min(found[space]), max(found[space])) for space in Space if space in found}
     spans = listed([f"{SPACES[space].lower()} {span_words(*ends)}" for space, ends in spaces.items()], last="and")
     return f"Address map of {one_line(register_map.title)}: {spans}, in the colours of their groups."
@@ -49,7 +50,7 @@ def _few(parts: Sequence[str]) -> Sequence[str]:
 
 def address_map(context: PageContext) -> Md:
     """Return the picture of the address spaces; nothing if no model has a register."""
-    drawn = any(model.registers for model in context.map.models)
+    drawn = any(not register.base.space.part_bits for model in context.map.models for register in model.registers)
     return _picture(context, picture_paths.ADDRESSES, addresses(context.map)) if drawn else Md()
 
 

@@ -16,6 +16,8 @@ SPACES = {
     Space.COIL: "Coils",
     Space.DISCRETE: "Discrete inputs",
     Space.STATUS: "Exception status",
+    Space.FILE: "Records of files",
+    Space.QUEUE: "FIFO queues",
 }
 
 
@@ -70,7 +72,8 @@ class PageContext:
     def address(self, space: Space, address: int) -> Md:
         """Return an address with its other notations in brackets."""
         notations = self.notations(space, address)
-        return md(str(address), " (", notations, ")") if notations else md(str(address))
+        shown = space.spelled(address)
+        return md(shown, " (", notations, ")") if notations else md(shown)
 
 
 def context(register_map: RegisterMap) -> PageContext:

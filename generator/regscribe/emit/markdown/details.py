@@ -40,7 +40,7 @@ def _place(context: PageContext, leaf: Leaf, register: Register, view: View) -> 
     if leaf.arrays:
         return md(code(formula(view, register.at, leaf.arrays)), space), Md()
     address = view.address(register.at)
-    return md(escape(str(address)), space), context.notations(view.space, address)
+    return md(escape(view.space.spelled(address)), space), context.notations(view.space, address)
 
 
 def by_condition(context: PageContext, leaf: Leaf) -> tuple[Titled, ...]:
@@ -141,7 +141,10 @@ def elements(context: PageContext, leaf: Leaf) -> tuple[Titled, ...]:
 
     def rows(model: Model, _: Register) -> Rows:
         items = context.elements[model.name, leaf.register.key]
-        return tuple((code(item.path), *(escape(str(view.address(item.at))) for view in item.views)) for item in items)
+        return tuple(
+            (code(item.path), *(escape(view.space.spelled(view.address(item.at))) for view in item.views))
+            for item in items
+        )
 
     headers = ("Element", *(view.name for view in leaf.register.first.views))
     return titled("Address of every element", headers, leaf.register.states(rows), folded=True)

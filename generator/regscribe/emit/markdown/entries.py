@@ -173,5 +173,13 @@ def _step(context: PageContext, number: int, step: CommandStep, path: str) -> tu
     register = context.register(path) if path else Md()
     words = " ".join(map(str, step.words))
     hexadecimal = "" if step.space.is_bits else " ".join(f"{word & 0xFFFF:04X}" for word in step.words)
-    cells = (str(number), "write", f"{step.function:02d}", str(step.address), register, words, hexadecimal)
+    cells = (
+        str(number),
+        "write",
+        f"{step.function:02d}",
+        step.space.spelled(step.address),
+        register,
+        words,
+        hexadecimal,
+    )
     return tuple(map(md, cells))

@@ -9,11 +9,12 @@ from regscribe.simulate.device.device import READS, SimulatedDevice
 from regscribe.simulate.device.device_plan import AddressSpan
 from regscribe.simulate.line.server_context import BROADCAST
 from regscribe.simulate.line.service import Exchange
-from regscribe_runtime.wire.pdu import EXCEPTION_BIT, MalformedError, decode_reply, decode_request
+from regscribe_runtime.wire.packing import MalformedError
+from regscribe_runtime.wire.pdu import EXCEPTION_BIT, decode_reply, decode_request
 from regscribe_runtime.wire.requests import SPACES, Request
 
-NAMES = dict.fromkeys(READS, "read") | dict.fromkeys((5, 6, 15, 16), "write")
-NAMES |= {7: "read status", 8: "loopback", 22: "mask", 23: "write and read"}
+NAMES = dict.fromkeys(READS, "read") | dict.fromkeys((5, 6, 15, 16, 21), "write")
+NAMES |= {7: "read status", 20: "read", 24: "read", 8: "loopback", 22: "mask", 23: "write and read"}
 MOST_SHOWN = 6
 """Registers that are named; of more, only their number is given."""
 
@@ -66,7 +67,8 @@ def _registers(device: SimulatedDevice, exchange: Exchange) -> str:
     shown = list(_values(device, request, words))
     if not shown:
         first, last = request.address, request.address + request.quantity - 1
-        return f"{SPACES[request.function]} {first}" + (f"..{last}" if last > first else "")
+        space = SPACES[request.function]
+        return f"{space} {space.spelled(first)}" + (f"..{space.spelled(last)}" if last > first else "")
     more = len(shown) - MOST_SHOWN
     return ", ".join(shown[:MOST_SHOWN]) + (f" and {more} more" if more > 0 else "")
 

@@ -17,8 +17,10 @@ from regscribe.simulate.errors import SimulatorError
 from regscribe.simulate.line.line_settings import Tuning
 from regscribe.simulate.process.controller import controller_of
 from regscribe.simulate.process.thermal_process import ThermalProcess
+from regscribe_runtime.wire import parts
 from regscribe_runtime.wire import requests as functions
-from regscribe_runtime.wire.pdu import EXCEPTION_BIT, CoilStateError, MalformedError, decode_request, encode_reply
+from regscribe_runtime.wire.packing import MalformedError
+from regscribe_runtime.wire.pdu import EXCEPTION_BIT, CoilStateError, decode_request, encode_reply
 from regscribe_runtime.wire.requests import Reply, Request
 
 READS = {1: Space.COIL, 2: Space.DISCRETE, 3: Space.HOLDING, 4: Space.INPUT}
@@ -62,6 +64,9 @@ class SimulatedDevice:
             **dict.fromkeys(READS, self._read),
             **dict.fromkeys(functions.WRITES, self._write),
             functions.READ_STATUS: self._status,
+            functions.READ_FILE: self._read_records,
+            functions.WRITE_FILE: self._write_records,
+            functions.READ_QUEUE: self._read_queue,
             functions.LOOPBACK: self._loopback,
             functions.MASK_REGISTER: self._mask_word,
             functions.WRITE_AND_READ: self._write_and_read,
@@ -215,6 +220,34 @@ class SimulatedDevice:
         if status is None:
             raise Refusal(self.register_map.faults.function)
         return encode_reply(Reply(request.function, (status,)))
+
+    def _read_records(self, pdu: bytes) -> bytes:
+        groups = self._groups(pdu)
+        return parts.join_records(
+            [self._words.read(Space.FILE, one.function, one.address, one.quantity) for one in groups]
+        )
+
+    def _write_records(self, pdu: bytes) -> bytes:
+        for one in self._groups(pdu):
+            self._words.write(Space.FILE, one.function, one.address, one.words)
+        return pdu
+
+    def _groups(self, pdu: bytes) -> list[Request]:
+        try:
+            return parts.decode_groups(pdu)
+        except MalformedError:
+            raise Refusal(self.register_map.faults.quantity) from None
+
+    def _read_queue(self, pdu: bytes) -> bytes:
+        """The count that the queue has, and so many of its values."""
+        request = self._request(pdu)
+        count, *values = self.state.words(Space.QUEUE, request.address, Space.QUEUE.most)
+        if count is None:
+            raise Refusal(self.register_map.faults.address)
+        if count >= Space.QUEUE.most:
+            raise Refusal(self.register_map.faults.value)
+        words = (count, *(value or 0 for value in values[:count]))
+        return encode_reply(Reply(request.function, words))
 
     def _loopback(self, pdu: bytes) -> bytes:
         """The request itself, however much data it has."""

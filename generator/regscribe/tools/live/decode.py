@@ -13,7 +13,8 @@ from regscribe_runtime.errors import STANDARD
 from regscribe_runtime.registers import codec
 from regscribe_runtime.values.facts import CommandStep
 from regscribe_runtime.wire.capture import CapturedFrame
-from regscribe_runtime.wire.pdu import EXCEPTION_BIT, MalformedError, decode_reply, decode_request
+from regscribe_runtime.wire.packing import MalformedError
+from regscribe_runtime.wire.pdu import EXCEPTION_BIT, decode_reply, decode_request
 from regscribe_runtime.wire.requests import (
     BIT_READS,
     BLOCK_WRITES,

@@ -13,7 +13,7 @@ from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.conditions import registers_of
 from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.views import View
-from regscribe_runtime.wire.requests import WRITE_COILS, WRITE_REGISTERS, Request
+from regscribe_runtime.wire.requests import Request
 
 LAST = 1 << 30
 """The place of a group without one."""
@@ -75,14 +75,13 @@ def batches(session: Session, pieces: Iterable[RegisterWrite]) -> Iterator[Batch
 def _fits(protocol: Protocol, batch: list[RegisterWrite], other: RegisterWrite) -> bool:
     """Whether the device takes a value in one request with those of a batch."""
     last, count = batch[-1], sum(len(each.words) for each in (*batch, other))
-    function, most = WRITE_REGISTERS, protocol.write_words
-    if last.view.space.is_bits:
-        function, most = WRITE_COILS, protocol.write_bits
+    space = last.view.space
+    function, most = space.write_functions[-1], protocol.write_bits if space.is_bits else protocol.write_words
     return (
         last.address + last.view.words == other.address
         and not last.register.governs
         and _common(last) == _common(other)
-        and count <= most
+        and count <= min(most, space.most)
         and function in protocol.functions
         and last.view.allows(function)
         and not {each.path for each in batch}.intersection(needs(other.register, other.view))

@@ -20,6 +20,11 @@ TCP_ROUND_TRIP = 1.0
 MBAP_BYTES = 7
 """Transaction, protocol, length and unit before a PDU over TCP."""
 
+REQUEST_BYTES = {Space.STATUS: 1, Space.FILE: 9, Space.QUEUE: 3}
+"""Bytes of a request to read, where they are not 5: function code, address, quantity."""
+ANSWER_BYTES = {Space.FILE: 4, Space.QUEUE: 5}
+"""Bytes of an answer before the values, where they are not 2: function code, byte count."""
+
 TCP_BYTE = 80
 """Nanoseconds of a byte at 100 Mbit/s."""
 
@@ -83,7 +88,7 @@ class Cost(NamedTuple):
         """The cost of reads of one space."""
         function, bits = space.read_function, space.is_bits
         latency = next((one for one in self.latencies if one.function == function), None)
-        fixed, per_byte = self._frames(1 if space is Space.STATUS else 5, 2)
+        fixed, per_byte = self._frames(REQUEST_BYTES.get(space, 5), ANSWER_BYTES.get(space, 2))
         per_word = 0.0
         if latency:
             character = 1000 * self.line.character if self.line else 0
@@ -110,9 +115,8 @@ class Cost(NamedTuple):
 
     def frame_bytes(self, space: Space, quantity: int) -> int:
         """The characters on the line (bytes over TCP) of a request and its answer."""
-        request = 1 if space is Space.STATUS else 5
         values = -(-quantity // BITS_IN_BYTE) if space.is_bits else BYTES_IN_WORD * quantity
-        pdus = (request, 2 + values)
+        pdus = (REQUEST_BYTES.get(space, 5), ANSWER_BYTES.get(space, 2) + values)
         return sum(map(self._characters, pdus)) if self.line else sum(pdus) + 2 * MBAP_BYTES
 
 

@@ -49,8 +49,8 @@ class RequestLimits(NamedTuple):
         return cls(protocol.read_words, protocol.read_bits, protocol.read_holes)
 
     def most(self, space: Space) -> int:
-        """The most addresses of one read; the status byte is alone."""
-        return 1 if space is Space.STATUS else self.bits if space.is_bits else self.words
+        """The most addresses of one read; a queue comes as a whole."""
+        return space.most if space is Space.QUEUE else min(space.most, self.bits if space.is_bits else self.words)
 
 
 class Terms(NamedTuple):
@@ -175,7 +175,8 @@ def split(before: Block | None, block: Block, terms: Terms) -> Split:
     gap = block.address - before.end
     barred = terms.ground.between(first, last)
     if barred in GAPS:
-        where = f"{before.end}..{block.address - 1}" if gap > 0 else f"at {block.address}"
+        spelled = block.space.spelled
+        where = f"{spelled(before.end)}..{spelled(block.address - 1)}" if gap > 0 else f"at {spelled(block.address)}"
         return Split(SplitReason(barred), f"{GAPS[barred]} {where}")
     together, most = block.end - before.address, terms.limits.most(block.space)
     if together > most:

@@ -74,4 +74,4 @@ class CommandStep(NamedTuple):
     @property
     def space(self) -> Space:
         """The address space that the function writes."""
-        return Space.COIL if self.function in Space.COIL.write_functions else Space.HOLDING
+        return next((space for space in Space if self.function in space.write_functions), Space.HOLDING)

@@ -13,24 +13,44 @@ _BITS_32, _FLOAT_32 = struct.Struct(">I"), struct.Struct(">f")
 class Space(StrEnum):
     """A Modbus address space; `STATUS` is the single byte that function 07 returns (address 0).
 
-    Each has the function that reads it, and those that write one address and several (V1.1b3, section 6).
+    Each has the function that reads it, those that write one address and several, the most addresses of one read,
+    and the last address (V1.1b3, section 6). A space of many parts (files of records, FIFO queues) has the part's
+    number in the high bits of an address, above `part_bits` lower ones. Of a queue 0 is the count, 1 to 31 are values.
     """
 
     read_function: int
     write_functions: tuple[int, ...]
+    most: int
+    part_bits: int
+    last: int
 
     HOLDING = "holding", 3, (6, 16)
     INPUT = "input", 4
-    COIL = "coil", 1, (5, 15)
-    DISCRETE = "discrete", 2
-    STATUS = "status", 7
+    COIL = "coil", 1, (5, 15), 2000
+    DISCRETE = "discrete", 2, (), 2000
+    STATUS = "status", 7, (), 1, 0, 0
+    FILE = "file", 20, (21, 21), 121, 16, 9999
+    QUEUE = "queue", 24, (), 32, 6, 31
 
-    def __new__(cls, name: str, read_function: int = 0, write_functions: tuple[int, ...] = ()) -> Self:
+    def __new__(
+        cls,
+        name: str,
+        read_function: int = 0,
+        write_functions: tuple[int, ...] = (),
+        most: int = 125,
+        part_bits: int = 0,
+        last: int = 0xFFFF,
+    ) -> Self:
         """The space of this name."""
         space = str.__new__(cls, name)
         space._value_ = name
         space.read_function, space.write_functions = read_function, write_functions
+        space.most, space.part_bits, space.last = most, part_bits, last
         return space
+
+    def spelled(self, address: int) -> str:
+        """An address for people: `4:10` is record 10 of file 4."""
+        return f"{address >> self.part_bits}:{address & (1 << self.part_bits) - 1}" if self.part_bits else str(address)
 
     @property
     def is_bits(self) -> bool:
@@ -40,7 +60,13 @@ class Space(StrEnum):
     @property
     def is_words(self) -> bool:
         """Whether an address names a word; the byte of function 07 comes as one number, as bits do."""
-        return self is Space.HOLDING or self is Space.INPUT
+        return not self.is_bits and self is not Space.STATUS
+
+
+def spelled_address(function: int, address: int) -> str:
+    """The address of a request for people; see `Space.spelled`."""
+    space = next((one for one in Space if function in {one.read_function, *one.write_functions}), Space.HOLDING)
+    return space.spelled(address)
 
 
 class WireType(StrEnum):

@@ -5,9 +5,17 @@ its answers.
 """
 
 import struct
-from collections.abc import Sequence
 
+from regscribe_runtime.wire import parts
 from regscribe_runtime.wire import requests as functions
+from regscribe_runtime.wire.packing import (
+    MalformedError,
+    expect_bytes,
+    pack_bits,
+    pack_words,
+    unpack_bits,
+    unpack_words,
+)
 from regscribe_runtime.wire.requests import BIT_READS, BITS_IN_BYTE, WORD_READS, Reply, Request, bytes_of_bits
 
 EXCEPTION_BIT = 0x80
@@ -25,10 +33,6 @@ _DATA_SIZES = {
 """By function code: the bytes of a request behind it; those of a block write follow from its head."""
 
 
-class MalformedError(ValueError):
-    """The bytes are no request of their function."""
-
-
 class CoilStateError(MalformedError):
     """A coil is to be neither on nor off."""
 
@@ -39,7 +43,7 @@ def encode_request(request: Request) -> bytes:
     try:
         if function in WORD_READS or function in BIT_READS:
             return ADDRESSED.pack(function, address, quantity)
-        return _write(function, address, words)
+        return parts.encode_request(request) if function in parts.FUNCTIONS else _write(function, address, words)
     except struct.error:
         message = f"function {function:02d}, address {address}, words {list(words)}: each is a number from 0 to 65535"
         raise ValueError(message) from None
@@ -64,6 +68,8 @@ def decode_request(pdu: bytes) -> Request:
     A coil's state is 0 or 1 in `words`. Function 23 is two requests behind one code, which a device takes apart.
     """
     function, data = pdu[0], pdu[1:]
+    if function in parts.FUNCTIONS:
+        return parts.decode_request(pdu)
     if function in functions.BLOCK_WRITES:
         return _block_write(function, data)
     if function not in _DATA_SIZES:
@@ -97,18 +103,13 @@ def _coil_state(word: int) -> int:
     return int(word == ON)
 
 
-def expect_bytes(data: bytes, expected: int) -> None:
-    """Raise MalformedError unless so many bytes stand behind the function code."""
-    if len(data) != expected:
-        message = f"{len(data)} bytes after the function code, {expected} expected"
-        raise MalformedError(message)
-
-
 def encode_reply(reply: Reply) -> bytes:
     """Function code and data of an answer."""
     function, words, address, quantity, exception = reply
     if exception is not None:
         return bytes((function | EXCEPTION_BIT, exception))
+    if function in parts.FUNCTIONS:
+        return parts.encode_reply(reply)
     if function in functions.BLOCK_WRITES:
         return ADDRESSED.pack(function, address, quantity)
     if function == functions.READ_STATUS:
@@ -131,6 +132,8 @@ def decode_reply(request: Request, pdu: bytes) -> Reply:
         return _bits_read(code, data, request.quantity)
     if code == functions.READ_STATUS:
         return Reply(code, tuple(data))
+    if code in parts.FUNCTIONS:
+        return parts.decode_reply(request, pdu)
     return _echoed(code, data)
 
 
@@ -158,25 +161,3 @@ def _echoed(code: int, data: bytes) -> Reply:
         value = {ON: 1, OFF: 0}.get(value, value)
         return Reply(code, (value,), address)
     return Reply(code, words[1:], address)
-
-
-def pack_words(words: Sequence[int]) -> bytes:
-    """Words as they are sent, the high byte first; struct.error for one of more than 16 bits."""
-    return struct.pack(f">{len(words)}H", *words)
-
-
-def unpack_words(data: bytes) -> tuple[int, ...]:
-    """The words of an even number of bytes."""
-    return struct.unpack(f">{len(data) // functions.BYTES_IN_WORD}H", data)
-
-
-def pack_bits(bits: Sequence[int]) -> bytes:
-    """Bits as they are sent: the first is the least significant of the first byte."""
-    number = sum(bool(bit) << place for place, bit in enumerate(bits))
-    return number.to_bytes(bytes_of_bits(len(bits)), "little")
-
-
-def unpack_bits(data: bytes, count: int) -> tuple[int, ...]:
-    """The first `count` bits of `data`."""
-    number = int.from_bytes(data, "little")
-    return tuple(number >> place & 1 for place in range(count))
