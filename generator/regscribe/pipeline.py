@@ -92,9 +92,10 @@ def _lower_and_check(document: Document, composed: compose.Composed) -> tuple[Re
 
 def _check_library(document: Document, path: Path) -> list[Diagnostic]:
     """Check a library alone: what it refers to must be in it, except what each map adds."""
-    misplaced = compose.misplaced(document, path)
-    _, found = lower.lower(compose.as_map(document))
-    return [*misplaced, *(diagnostic for diagnostic in found if diagnostic.rule not in DEPENDS_ON_MAP)]
+    alone, misread = compose.as_map(document)
+    _, found = lower.lower(alone)
+    found = [*misread, *(diagnostic for diagnostic in found if diagnostic.rule not in DEPENDS_ON_MAP)]
+    return [*compose.misplaced(document, path), *found]
 
 
 def _with_origin(found: Iterable[Diagnostic], document: Document) -> Iterable[Diagnostic]:

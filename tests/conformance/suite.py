@@ -9,7 +9,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, NamedTuple
 
-from regscribe import checks, lower, schema, source
+from regscribe import checks, compose, lower, schema, source
 from regscribe.emit import python
 from regscribe.files import dump
 from regscribe.model import Diagnostic, RegisterMap, Severity
@@ -108,7 +108,10 @@ def diagnose(text: str) -> tuple[RegisterMap | None, list[Diagnostic]]:
     found = [*found, *schema.validate(document)]
     if found:
         return None, found
-    register_map, found = lower.lower(document)
+    composed = compose.compose(document, Path("maps/test/case.yaml"))
+    if composed.document is None:
+        return None, list(composed.diagnostics)
+    register_map, found = lower.lower(composed.document)
     if register_map is None or found:
         return None, found
     return register_map, checks.check(register_map)

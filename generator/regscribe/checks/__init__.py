@@ -6,6 +6,7 @@ A rule is a pure function under a decorator of `rule`, in the module of its subj
 import re
 from collections import defaultdict
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import NamedTuple
 
 from regscribe.checks import (  # noqa: F401 (each declares its rules)
@@ -60,10 +61,32 @@ def check(register_map: RegisterMap) -> list[Diagnostic]:
     scopes = tuple(RuleScope.of(register_map, model) for model in register_map.models)
     rules = [rule for rule in RULES if rule in DECLARED] if scopes else []
     found = [LocatedFinding(rule, *each) for rule in rules for each in DECLARED[rule](scopes)]
+    numbers = _printed_numbers(register_map) if found else {}
+    found = [one._replace(finding=_numbered(one, numbers)) for one in found]
     used: set[Waiver] = set()
     kept = [one for one in found if not _waived(one, register_map, used)]
     kept += [LocatedFinding(rule, "", finding) for rule, finding in _useless(register_map, used)]
     return sorted(_merge(kept, len(register_map.models)), key=lambda diagnostic: (diagnostic.span, diagnostic.rule))
+
+
+def _printed_numbers(register_map: RegisterMap) -> dict[tuple[str, str], str]:
+    """The addresses of registers in the first notation of their space, by model and path."""
+    notations = {notation.space: notation for notation in reversed(register_map.notations)}
+    return {
+        (model.name, register.path): f"{notation.name} {register.address + notation.offset}"
+        for model in register_map.models
+        for register in (model.registers if notations else ())
+        if (notation := notations.get(register.base.space))
+    }
+
+
+def _numbered(found: LocatedFinding, numbers: dict[tuple[str, str], str]) -> Finding:
+    """A finding; one about a register with the number that the manual has for it."""
+    finding, subject = found.finding, f"`{found.finding.subject}` "
+    number = numbers.get((found.model, finding.subject))
+    if number is None or not finding.message.startswith(subject):
+        return finding
+    return replace(finding, message=f"{subject}({number}) {finding.message.removeprefix(subject)}")
 
 
 def _waived(found: LocatedFinding, register_map: RegisterMap, used: set[Waiver]) -> bool:

@@ -19,6 +19,11 @@ from regscribe.checks.rule import (
 )
 from regscribe.model import Register, RegisterMap, Related, Space, View
 
+<<<<<<< HEAD
+=======
+LAST_ADDRESS = 0xFFFF
+WRITE_IN = "name under `written_in` the notation that the rows are written in (`modicon` for 40001 and 400001)"
+>>>>>>> 7798251 (Let rows be written in the numbers of the manual)
 FAR = 10_000
 """A notation that begins here tells spaces apart by a digit in front (30001, 40001, 400001)."""
 
@@ -91,10 +96,16 @@ def _overlaps(every: Iterable[TakenAddresses]) -> Iterator[Finding]:
 def outside_space(register: Register, _: RuleScope) -> Iterator[Problem]:
     """A Modbus address is 16 bits; function 07 has one address, 0, a file records 0 to 9999, a queue 31 values."""
     for stretch in stretches(register):
+<<<<<<< HEAD
         space, bits = stretch.space, stretch.space.part_bits
         part = stretch.first >> bits if bits else 0
         if stretch.first < 0 or stretch.last > (part << bits) + space.last or (space is Space.FILE and not part):
             yield f"takes {stretch}, outside 0..{space.last}", "correct `at` or the view's offset"
+=======
+        limit = 0 if stretch.space is Space.STATUS else LAST_ADDRESS
+        if stretch.first < 0 or stretch.last > limit:
+            yield f"takes {stretch}, outside 0..{limit}", f"correct `at` or the view's offset, or {WRITE_IN}"
+>>>>>>> 7798251 (Let rows be written in the numbers of the manual)
 
 
 @register_rule("RS0403", "Alias equals an address that the register has")
@@ -139,6 +150,15 @@ def listed_twice(scope: RuleScope) -> Iterator[Finding]:
         if space == other_space and first <= high and low <= last:
             message = f"`{other}` lists {space} {low}..{high}, of which `{key}` has {first}..{last} already"
             yield Finding(MAP, scope.register_map.span, message, "remove one entry, or shorten it")
+
+
+@model_rule("RS0672", "Listed address outside the address space")
+def listed_outside(scope: RuleScope) -> Iterator[Finding]:
+    """A Modbus address is 16 bits; rows of 40001 and the like need `written_in`."""
+    for key, space, _, last in without_register(scope):
+        if last > LAST_ADDRESS:
+            message = f"`{key}` lists {space} {last}, outside 0..{LAST_ADDRESS}"
+            yield Finding(MAP, scope.register_map.span, message, f"correct `at`, or {WRITE_IN}")
 
 
 @header_rule("RS0405", "Notation declared twice")
@@ -186,7 +206,23 @@ def in_a_notation(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding
         inside = [one for one in found.values() if one.address >= notation.offset]
         if notation.offset >= FAR and 2 * len(inside) > len(found):
             first = min(inside, key=lambda one: one.address)
-            meant = f"is `at: {first.address - notation.offset}` meant? The offset is added for the docs"
+            meant = f"is `at: {first.address - notation.offset}` meant? Or {WRITE_IN}"
             where = f"which notation `{notation.name}` (offset {notation.offset}) would"
             print_as = f"print as {first.address + notation.offset}"
             yield Finding.at(first, f"stands at wire address {first.address}, {where} {print_as}", meant)
+
+
+MODICON = {Space.DISCRETE: 10_001, Space.INPUT: 30_001, Space.HOLDING: 40_001}
+"""What manuals call the first address of a space, if they count as the first Modbus controllers did."""
+
+
+@map_rule("RS0673", "Addresses that look like manual numbers", warns=True)
+def looks_like_modicon(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
+    """`at` is the address in the request, which counts from 0; a printed 40001 is nearly always address 0 there."""
+    declared = {notation.space for notation in register_map.notations}
+    for space, first in MODICON.items():
+        found = [one for scope in scopes for one in scope.model.registers if one.base.space is space]
+        lowest = min(found, key=lambda one: one.address, default=None)
+        if lowest and lowest.address == first and space not in declared:
+            message = f"is the first of {space}, at wire address {first}"
+            yield Finding.at(lowest, message, f"is address 0 meant? Then {WRITE_IN}")

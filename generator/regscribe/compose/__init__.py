@@ -12,6 +12,7 @@ from regscribe.compose.extend import extended
 from regscribe.compose.file_loader import FileLoader, LoadedFile
 from regscribe.compose.findings import CYCLE, OTHER_ID, RULES, ComposeFindings
 from regscribe.compose.libraries import as_map, left_out, with_libraries
+from regscribe.compose.numbering import Numbering, writes_numbers
 from regscribe.compose.tree import at, cut, elements, in_file, members, text
 from regscribe.map_files import ENDINGS, LIBRARY, MAP, folder_of
 from regscribe.model import Diagnostic, Override
@@ -70,16 +71,19 @@ def misplaced(library: Document, path: Path) -> list[Diagnostic]:
 
 def compose(document: Document, path: Path) -> Composed:
     """The map of `document`, which lies at `path`, with all that it builds on."""
-    if not left_out(document.root) and members(document.root).keys().isdisjoint(COMPOSING):
+    plain = members(document.root).keys().isdisjoint(COMPOSING) and not writes_numbers(document.root)
+    if plain and not left_out(document.root):
         return Composed(document)
     findings = ComposeFindings()
-    root = in_file(document.root, document.name)
+    numbering = Numbering(findings, {})
+    root = numbering.on_the_wire(in_file(document.root, document.name))
     own = LoadedFile(text(at(root, (MAP, "id"))), path, root)
-    loader = FileLoader(folder_of(path, own.id), findings)
+    loader = FileLoader(folder_of(path, own.id), findings, numbering)
     part = _build(own, loader, (own,))
     files = tuple(loader.hashes.items())
     if part is None or findings.diagnostics:
         return Composed(None, tuple(sorted(findings.diagnostics, key=lambda found: found.span)), files=files)
+    part = replace(part, root=numbering.with_notations(part.root))
     hashes = "\n".join((document.content_hash, *loader.hashes.values()))
     content_hash = hashlib.sha256(hashes.encode()).hexdigest() if files else document.content_hash
     return Composed(

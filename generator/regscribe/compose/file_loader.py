@@ -5,6 +5,7 @@ from pathlib import Path
 
 from regscribe import schema, source
 from regscribe.compose.findings import NO_FILE, OTHER_ID, WRONG_FILE, ComposeFindings, suggestion
+from regscribe.compose.numbering import Numbering
 from regscribe.compose.tree import in_file, key_place, text
 from regscribe.map_files import ENDINGS, LIBRARY, ids_in, is_file, shipped
 from regscribe.source import Document, SourceNode
@@ -30,6 +31,7 @@ class FileLoader:
 
     folder: Path
     findings: ComposeFindings
+    numbering: Numbering
     shipped: Path = field(default_factory=shipped)
     hashes: dict[Path, str] = field(default_factory=dict)
     empty: set[Path] = field(default_factory=set)
@@ -77,4 +79,4 @@ class FileLoader:
             self.findings.add(OTHER_ID, message, node.place, advice, ("it says so here", called.place))
             return None
         shipped = path.is_relative_to(self.shipped) and self.folder.resolve() != self.shipped.resolve()
-        return LoadedFile(text(called), path, root, shipped)
+        return LoadedFile(text(called), path, self.numbering.on_the_wire(root), shipped)

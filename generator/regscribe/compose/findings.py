@@ -22,6 +22,8 @@ NAME_CLASH = "RS0510"
 RENUMBERS_NOTHING = "RS0511"
 LEAVES_NOTHING_OUT = "RS0512"
 CHANGED_IN_PASSING = "RS0513"
+UNKNOWN_NOTATION = "RS0514"
+NO_NUMBER = "RS0515"
 
 _SURPLUS = "What does nothing here is meant for something else, or its reason is gone."
 
@@ -48,6 +50,16 @@ RULES: tuple[Rule, ...] = (
         CHANGED_IN_PASSING,
         "Inherited group changed in passing",
         "What differs from the base stands under `override`, with its reason.",
+    ),
+    Rule(
+        UNKNOWN_NOTATION,
+        "Rows written in an unknown notation",
+        "Without the notation nobody knows which wire address a number of the manual means.",
+    ),
+    Rule(
+        NO_NUMBER,
+        "Number that the notation does not have",
+        "A number outside the notation was misread, or stands in a space that the row contradicts.",
     ),
 )
 

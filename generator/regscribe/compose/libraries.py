@@ -3,7 +3,9 @@
 from regscribe.compose.file_loader import LoadedFile
 from regscribe.compose.findings import LEAVES_NOTHING_OUT, ComposeFindings, suggestion
 from regscribe.compose.merge import TABLES, laid_over, replace
-from regscribe.compose.tree import cut, key_place, listing, mapping, members, put, remove
+from regscribe.compose.numbering import Numbering
+from regscribe.compose.tree import cut, in_file, key_place, listing, mapping, members, put, remove
+from regscribe.model import Diagnostic
 from regscribe.source import Document, SourceNode
 
 _LISTS = ("errata", "notes")
@@ -43,9 +45,10 @@ def _without(root: SourceNode, commands: set[str]) -> SourceNode:
     return root
 
 
-def as_map(library: Document) -> Document:
+def as_map(library: Document) -> tuple[Document, list[Diagnostic]]:
     """A map of one model with a group for each set of a library, so that its references can be looked at."""
-    root, place = library.root, library.root.place
+    findings, place = ComposeFindings(), library.root.place
+    root = Numbering(findings, {}).on_the_wire(in_file(library.root, library.name))
     groups = []
     for name, registers in members(root.child("sets")).items():
         label = SourceNode(name, registers.place)
@@ -53,4 +56,4 @@ def as_map(library: Document) -> Document:
     models = mapping({"Library": mapping({}, place)}, place)
     root = put(cut(root, "library"), "map", root.child("library") or root)
     root = put(put(root, "models", models), "groups", listing(groups, place))
-    return Document(library.name, library.text, root.value, library.content_hash, root)
+    return Document(library.name, library.text, root.value, library.content_hash, root), findings.diagnostics

@@ -65,7 +65,7 @@ def places(found: list[Diagnostic]) -> list[str]:
         ("flags: {64: x}", "RS0205 6:10"),
         ("decimals: 19", "RS0204 6:12"),
         ("decimals: 1.5", "RS0203 6:12"),
-        ("aliases: [65536]", "RS0204 6:12"),
+        ("aliases: [465537]", "RS0204 6:12"),
         ("variants: [{default: 1}]", "RS0202 6:13"),
         ("variants: [{models: [A], id: x}]", "RS0201 6:27"),
         ("word_order: {register: r}", "RS0202 6:2"),
