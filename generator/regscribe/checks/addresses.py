@@ -19,11 +19,7 @@ from regscribe.checks.rule import (
 )
 from regscribe.model import Register, RegisterMap, Related, Space, View
 
-<<<<<<< HEAD
-=======
-LAST_ADDRESS = 0xFFFF
 WRITE_IN = "name under `written_in` the notation that the rows are written in (`modicon` for 40001 and 400001)"
->>>>>>> 7798251 (Let rows be written in the numbers of the manual)
 FAR = 10_000
 """A notation that begins here tells spaces apart by a digit in front (30001, 40001, 400001)."""
 
@@ -96,16 +92,10 @@ def _overlaps(every: Iterable[TakenAddresses]) -> Iterator[Finding]:
 def outside_space(register: Register, _: RuleScope) -> Iterator[Problem]:
     """A Modbus address is 16 bits; function 07 has one address, 0, a file records 0 to 9999, a queue 31 values."""
     for stretch in stretches(register):
-<<<<<<< HEAD
         space, bits = stretch.space, stretch.space.part_bits
         part = stretch.first >> bits if bits else 0
         if stretch.first < 0 or stretch.last > (part << bits) + space.last or (space is Space.FILE and not part):
-            yield f"takes {stretch}, outside 0..{space.last}", "correct `at` or the view's offset"
-=======
-        limit = 0 if stretch.space is Space.STATUS else LAST_ADDRESS
-        if stretch.first < 0 or stretch.last > limit:
-            yield f"takes {stretch}, outside 0..{limit}", f"correct `at` or the view's offset, or {WRITE_IN}"
->>>>>>> 7798251 (Let rows be written in the numbers of the manual)
+            yield f"takes {stretch}, outside 0..{space.last}", f"correct `at` or the view's offset, or {WRITE_IN}"
 
 
 @register_rule("RS0403", "Alias equals an address that the register has")
@@ -156,8 +146,8 @@ def listed_twice(scope: RuleScope) -> Iterator[Finding]:
 def listed_outside(scope: RuleScope) -> Iterator[Finding]:
     """A Modbus address is 16 bits; rows of 40001 and the like need `written_in`."""
     for key, space, _, last in without_register(scope):
-        if last > LAST_ADDRESS:
-            message = f"`{key}` lists {space} {last}, outside 0..{LAST_ADDRESS}"
+        if last > space.last and not space.part_bits:
+            message = f"`{key}` lists {space} {last}, outside 0..{space.last}"
             yield Finding(MAP, scope.register_map.span, message, f"correct `at`, or {WRITE_IN}")
 
 

@@ -18,6 +18,8 @@ _INNER = frozenset({"registers", "each", "set_each", "variants", "steps", "set",
 """Keys of a row below which more rows, or keys of it, stand."""
 _NUMBERS = frozenset({"at", "aliases", "write_at"})
 _COILS = (5, 15)
+_NOT_NUMBERED = frozenset({"status", "file", "queue"})
+"""Spaces whose addresses no notation has numbers for."""
 
 
 class Stretch(NamedTuple):
@@ -144,7 +146,8 @@ class _Rows:
         if node.elements is not None:
             return listing((self._wire(each, stated, spaces) for each in node.elements), node.place)
         numbers = [int(end) for end in str(node.value).split("..") if end.strip().isdecimal()]
-        stretch = self._stretch(numbers, stated, node) if self.among and numbers else None
+        numbered = self.among and numbers and stated not in _NOT_NUMBERED
+        stretch = self._stretch(numbers, stated, node) if numbered else None
         if stretch is None:
             return node
         spaces.add(stretch.space)
