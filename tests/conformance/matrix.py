@@ -63,15 +63,18 @@ TRIALS: dict[str, tuple[Trial, ...]] = {
         ({"at": 40, "type": "int32"}, {}),
     ),
     "kind": tuple((kind, {}) for kind in maps.KINDS),
-    "scale": (("0..100", {}), ("cases", {})),
+    "scale": (("0..100", {}), ("cases", {}), ({"from": "low", "to": 100, "raw": "0..50"}, {})),
     "decimals": ((1, {}), ("digits", {}), ("not_stated", {})),
-    "multiply": ((0.5, {}), (2, {})),
-    "add": ((3, {}),),
+    "multiply": ((0.5, {}), (2, {}), ("dig", {}), ("1/3", {}), ({"product": [2, "dig"]}, {})),
+    "divide": ((4, {}), ("dig", {})),
+    "exponent": ((-1, {}), ("dig", {})),
+    "add": ((3, {}), ("low", {}), ([{"when": SEL, "is": 1}, {"is": {"sum": ["low", 1]}}], {})),
     "range": (
         ("1..5", {}),
         ({"from": "low", "to": "high"}, {}),
         ({"from": {"open": "the lowest"}, "to": 4}, {}),
         (["0..1", "3..4"], {}),
+        ({"from": "low", "to": {"sum": ["high", -1]}}, {}),
         ([{"when": SEL, "is": "1..5"}, {"is": "2..3"}], {}),
     ),
     "range_decimals": (("digits", {"range": "10..500"}), ("digits", {})),
@@ -191,7 +194,7 @@ def _is_sound(seed: Seed) -> bool:
     return compiled(maps.whole(seed, {}, {}))[0] is not None
 
 
-RIVALS = ({"views", "type"}, {"scale", "decimals", "multiply", "add"})
+RIVALS = ({"views", "type"}, {"scale", "decimals", "multiply", "divide", "exponent", "add"})
 """Keys that say the same in other words: one of the register takes the place of the other among defaults."""
 
 

@@ -90,13 +90,24 @@ def _condition(draw: Draw, sel: Decider) -> Any:
     return _of(draw, {sel.subject: matcher}, {sel.subject: matcher}, "named", [{sel.subject: matcher}, "named"])
 
 
+def _term(draw: Draw) -> Any:
+    """A number of the map, or one that registers make."""
+    number = _of(draw, 2, 0.1, -3, "1/3", "-5/9")
+    return _of(draw, number, "low", "dig", {"power": "dig"}, {"product": [number, "low"]}, {"sum": ["high", number]})
+
+
 def _conversion(draw: Draw, kind: str) -> Json:
     """How a stored number becomes a value: decimals, a factor and a distance, or the values at the ends of the type."""
-    form = _of(draw, "decimals", "decimals", "line", *["ends"] * (kind in INTEGERS))
+    form = _of(draw, "decimals", "decimals", "line", "terms", "raw", *["ends"] * (kind in INTEGERS))
     if form == "decimals":
         return {"decimals": draw(st.integers(0, 3))}
     if form == "ends":
         return {"from": _of(draw, 0, -100, -199.9), "to": _of(draw, 100, 455.36)}
+    if form == "terms":
+        keys = draw(st.sets(st.sampled_from(("multiply", "divide", "exponent", "add")), min_size=1))
+        return {key: _of(draw, "dig", 1) if key == "exponent" else _term(draw) for key in sorted(keys)}
+    if form == "raw":
+        return {"from": _term(draw), "to": _term(draw), "raw": _of(draw, "0..4095", "-100..100")}
     line = {"multiply": _of(draw, 2, 10, 0.5, -1, 0.1, 0.25, 1000), "add": _of(draw, 3, -40, 0.5, -273.1)}
     return {key: line[key] for key in _of(draw, ("multiply",), ("add",), ("multiply", "add"))}
 
@@ -113,6 +124,8 @@ def _scale(draw: Draw, sel: Decider, name: str, kind: str) -> tuple[Json, Json]:
     if form == "not_stated":
         return {"decimals": "not_stated"}, {}
     own = _conversion(draw, kind) if form == "own" else {}
+    if "raw" in own:
+        return {"scale": own}, {}
     return ({"scale": f"{own['from']}..{own['to']}"} if "from" in own else own), {}
 
 
@@ -122,6 +135,7 @@ def _range(draw: Draw, sel: Decider) -> Any:
         st.just({"from": "low", "to": "high"}),
         st.just({"from": {"open": "the least"}, "to": "high"}),
         st.builds(lambda: {"from": _number(draw, -90, -1), "to": {"open": "the most"}}),
+        st.builds(lambda: {"from": _term(draw), "to": {"sum": ["high", 100]}}),
     )
     form = _of(draw, "part", "part", "union", "cases")
     if form == "part":

@@ -5,7 +5,9 @@ from dataclasses import dataclass, field
 
 from regscribe.checks.probe_states import verdict
 from regscribe.checks.rule import MAP, Finding, RuleScope, Scopes, map_rule
-from regscribe.model import Condition, Identity, Kind, OrderFrom, Register, RegisterMap, Span
+from regscribe.model import ByCase, Condition, Identity, Kind, OrderFrom, Register, RegisterMap, Span
+from regscribe_runtime.values.terms import parts_of
+from regscribe_runtime.values.views import scale_needs
 
 
 @dataclass(slots=True)
@@ -50,6 +52,9 @@ def _conditions(register: Register) -> Iterator[tuple[str, tuple[Condition, ...]
     for what, cases in (("scale", register.scale), ("range", register.range), ("unit", register.unit)):
         if len(cases) > 1 or (cases and not cases[0].when.always):
             yield what, tuple(case.when for case in cases)
+    for part in parts_of((register.scale, register.range)):
+        if isinstance(part, ByCase):
+            yield "term", tuple(case.when for case in part.cases)
     if register.writable:
         yield "condition for a write", (register.writable.when,)
 
@@ -102,7 +107,7 @@ def _why_unknown(register: Register) -> str:
         return f"asks for `{register.path}`, which can only be written"
     scales = (*register.scale, *(register.special_scale if register.specials else ()))
     fixed = any(not isinstance(view.order, OrderFrom) for view in register.views if view.readable)
-    if not fixed or any(case.then.decimals or not case.when.always for case in scales):
+    if not fixed or any(case.then.decimals or not case.when.always for case in scales) or scale_needs(register):
         return f"asks for `{register.path}`, whose value is not known before the model is"
     return ""
 

@@ -10,8 +10,8 @@ from regscribe.checks.representable import HELP_TYPE, Fit, end_values, ends_of, 
 from regscribe.checks.rule import Problem, RuleScope, doubled, register_rule
 from regscribe.model import Interval, Number, Range, Register, show
 from regscribe.reference import RefusedError, UnknownValueError, choose, limits, within
+from regscribe.reference.limits import Limits
 from regscribe.reference.settled_scales import Form, forms, widest
-from regscribe.reference.surroundings import Limits
 
 
 @register_rule("RS0435", "Range that is empty at the defaults")

@@ -1,12 +1,23 @@
 """References to registers: word orders, decimals, limits, conditions, and circles of them."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
 
 from regscribe.checks.held_values import NUMBERS
 from regscribe.checks.rule import Finding, Problem, RuleScope, model_rule, register_rule
-from regscribe.model import Kind, Order, OrderFrom, Ref, Register, Related, View, registers_of, show
+from regscribe.model import (
+    Kind,
+    Order,
+    OrderFrom,
+    Ref,
+    Register,
+    Related,
+    View,
+    registers_of,
+    show,
+)
 from regscribe.reference.states import domain
+from regscribe_runtime.values.terms import parts_of, registers_in
 
 WHOLE = {Kind.INTEGER, Kind.RAW, Kind.ENUM, Kind.BOOLEAN}
 CODES_LISTED = 64
@@ -17,6 +28,7 @@ def needed(register: Register) -> Iterator[tuple[str, str]]:
     """Registers whose values are needed to read a register: path and reason of each."""
     yield from ((path, "its scale depends on") for path in registers_of(register.scale))
     yield from ((case.then.decimals.register, "its decimals are") for case in register.scale if case.then.decimals)
+    yield from ((path, "its scale depends on") for path in _in_scale(register))
     for view in register.views:
         if isinstance(view.order, OrderFrom):
             yield view.order.register, f"the word order of view {view.name} is"
@@ -35,9 +47,18 @@ def limiting(register: Register) -> Iterator[tuple[str, str]]:
 
 
 def _limits(register: Register) -> Iterator[str]:
-    for case in register.range:
-        for interval in case.then.intervals:
-            yield from (end.register for end in (interval.low, interval.high) if isinstance(end, Ref))
+    """The registers in the limits of a register."""
+    yield from registers_in(*(case.then.intervals for case in register.range))
+
+
+def _values(terms: Iterable[tuple[object, ...]]) -> Iterable[str]:
+    """The registers whose values stand in terms, without those of conditions."""
+    return dict.fromkeys(part.register for part in parts_of(tuple(terms)) if isinstance(part, Ref))
+
+
+def _in_scale(register: Register) -> tuple[str, ...]:
+    """The registers in the terms of a register's scale."""
+    return registers_in(*((case.then.multiply, case.then.add) for case in register.scale))
 
 
 @register_rule("RS0461", "Word order from an unsuitable register")
@@ -121,10 +142,19 @@ def decimals_register(register: Register, scope: RuleScope) -> Iterator[Problem]
 @register_rule("RS0465", "Limit from a register that is no number")
 def limit_register(register: Register, scope: RuleScope) -> Iterator[Problem]:
     """A code or a text has no size to compare with."""
-    for other in scope.named(_limits(register)):
+    for other in scope.named(_values(case.then.intervals for case in register.range)):
         if other is register or other.kind not in NUMBERS:
             what = "itself" if other is register else f"`{other.path}`, which is of kind {other.kind}"
             yield f"has a limit that is {what}", "name a register that holds a number"
+
+
+@register_rule("RS0651", "Scale from a register that is no number")
+def scale_register(register: Register, scope: RuleScope) -> Iterator[Problem]:
+    """A text, a version or a word of bits cannot multiply, divide or be added."""
+    for other in scope.named(_values((case.then.multiply, case.then.add) for case in register.scale)):
+        if other is register or other.kind not in NUMBERS | WHOLE:
+            what = "itself" if other is register else f"`{other.path}`, which is of kind {other.kind}"
+            yield f"has a scale that depends on {what}", "name a register that holds a number"
 
 
 @register_rule("RS0466", "Word order not stated for a code")

@@ -44,10 +44,11 @@ def _spelled(view: View, wire: Fraction) -> tuple[Fraction, Fraction] | None:
 
 def tells_apart(register: Register, value: Fraction) -> bool:
     """Whether words of some view spell `value` and nothing beside it; whole numbers do wherever they fit."""
-    return any(
+    every = forms(register)
+    return not every or any(
         view.type.is_integer
         or form.stored(value) * view.factor in (_spelled(view, form.stored(value) * view.factor) or ())
-        for form in forms(register)
+        for form in every
         for view in register.views
     )
 

@@ -11,12 +11,14 @@ from typing import TypeVar
 from regscribe.model import (
     Access,
     BitField,
+    ByCase,
     Case,
     Cases,
     Condition,
     Conversion,
     Decimals,
     Enum,
+    GivenRef,
     Interval,
     Is,
     Limit,
@@ -26,12 +28,16 @@ from regscribe.model import (
     Open,
     Order,
     OrderFrom,
+    Power,
+    Product,
     Range,
     Ref,
     Register,
     Rounding,
     Sentinel,
     Special,
+    Sum,
+    Term,
     show,
 )
 from regscribe.model.identifiers import OPEN
@@ -173,14 +179,46 @@ def divisor_words(decimals: Decimals | None, wording: Wording = PLAIN) -> str:
 
 
 def limit_words(limit: Limit, wording: Wording = PLAIN, decimals: Decimals | None = None) -> str:
-    """Return a limit: its number, the register that holds it, or `open (why)`."""
+    """Return a limit: its number, the term that it is, or `open (why)`."""
     match limit:
         case Open():
             return f"open ({wording.text(one_line(limit))})"
-        case Ref(register):
-            return wording.register(register)
-        case number:
+        case int() | Fraction() as number:
             return show(number) + (divisor_words(decimals, wording) if number else "")
+    return term_words(limit, wording)
+
+
+def term_words(term: Term, wording: Wording = PLAIN) -> str:
+    """Return a term as a formula: `0.1`, `ct`, `10^w_sf`, `0.1*ct*vt/2`, `high - low`, `(wye: 1; otherwise: 2)`."""
+    match term:
+        case Ref(register):
+            words = wording.register(register)
+        case GivenRef(given):
+            words = wording.text(given)
+        case Power(exponent):
+            words = f"10^{_factor(exponent, wording, apart=True)}"
+        case Product(factors, divisors):
+            over = "*".join(_factor(each, wording) for each in factors) or "1"
+            words = "/".join([over, *(_factor(each, wording, apart=True) for each in divisors)])
+        case Sum(terms):
+            words = _joined([term_words(each, wording) for each in terms])
+        case ByCase(cases):
+            words = f"({cases_words(map_cases(cases, lambda each: term_words(each, wording)), wording)})"
+        case _:
+            words = show(term)
+    return words
+
+
+def _factor(term: Term, wording: Wording = PLAIN, *, apart: bool = False) -> str:
+    """A factor, in brackets where they are needed; `apart`: behind a sign of division."""
+    words = term_words(term, wording)
+    return f"({words})" if isinstance(term, Sum) or (apart and isinstance(term, Product)) else words
+
+
+def _joined(terms: Sequence[str]) -> str:
+    """Terms joined by their signs: `high - low + 10`."""
+    first, *others = (f"-{text[3:]}" if text.startswith("-1*") else text for text in terms)
+    return first + "".join(f" - {text[1:]}" if text.startswith("-") else f" + {text}" for text in others)
 
 
 def interval_words(interval: Interval, wording: Wording = PLAIN, decimals: Decimals | None = None) -> str:
@@ -206,9 +244,10 @@ def plain_interval(cases: Cases[Range]) -> tuple[Number, Number] | None:
 
 
 def conversion_words(conversion: Conversion) -> str:
-    """Return the formula of the value for the stored number x: `x`, `x/10`, `0.1*x - 1999.9`, `x/10^dp`."""
+    """Return the formula of the value for the stored number x: `x/10`, `0.1*x - 1999.9`, `x/10^dp`, `x*10^w_sf`."""
     divisor = divisor_words(conversion.decimals)
-    linear = _product(conversion.multiply) + _sum(conversion.add)
+    scaled = _scaled(conversion.multiply)
+    linear = _joined([scaled, term_words(conversion.add)]) if conversion.add else scaled
     formula = f"({linear}){divisor}" if divisor and conversion.add else linear + divisor
     return formula + step_words(conversion)
 
@@ -220,16 +259,23 @@ def step_words(conversion: Conversion, wording: Wording = PLAIN) -> str:
     return f", x in steps of {show(conversion.step)}{divisor_words(conversion.places, wording)}"
 
 
-def _product(multiply: Number) -> str:
+def _scaled(multiply: Term) -> str:
+    """Return x times a term: `x`, `x/10`, `0.1*x`, `x*10^w_sf`, `0.1*x*ct_ratio`."""
+    if isinstance(multiply, Product):
+        number, factors = Fraction(1), multiply.factors
+        if isinstance(factors[0], Number):
+            number, factors = Fraction(factors[0]), factors[1:]
+        rest = [f"*{_factor(each)}" for each in factors] + [
+            f"/{_factor(each, apart=True)}" for each in multiply.divisors
+        ]
+        return _scaled(number) + "".join(rest)
+    if not isinstance(multiply, Number):
+        return f"x*{_factor(multiply)}"
     if multiply == 1:
         return "x"
     if multiply.numerator == 1 and set(str(multiply.denominator)[1:]) <= {"0"} and str(multiply.denominator)[0] == "1":
         return f"x/{multiply.denominator}"
     return f"{show(multiply)}*x"
-
-
-def _sum(add: Number) -> str:
-    return f" {'-' if add < 0 else '+'} {show(abs(Fraction(add)))}" if add else ""
 
 
 def map_cases(cases: Cases[T], words: Callable[[T], str]) -> Cases[str]:

@@ -107,7 +107,9 @@ def _test(test: Is) -> Json:
 def _limit(limit: Limit) -> Json:
     if isinstance(limit, Open):
         return {"text": str(limit)}
-    return _fields(limit) if isinstance(limit, Ref) else {"value": number(limit)}
+    if isinstance(limit, Ref):
+        return _fields(limit)
+    return {"value": number(limit)} if isinstance(limit, Number) else {"term": _plain(limit)}
 
 
 WRITERS: dict[type, Callable[[Any], Json]] = {

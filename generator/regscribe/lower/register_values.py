@@ -11,6 +11,7 @@ from regscribe.lower.node import ZERO, Value
 from regscribe.lower.rules import BAD_DEFAULT, BAD_VERSION, REVERSED
 from regscribe.lower.scales import Scaling, decimals_rule
 from regscribe.lower.scope import Scope
+from regscribe.lower.terms import term_of
 from regscribe.lower.texts import ends, unknown
 from regscribe.lower.tree import TreeNode
 from regscribe.model import (
@@ -25,7 +26,6 @@ from regscribe.model import (
     Number,
     Open,
     Range,
-    Ref,
     Sentinel,
     Special,
     always,
@@ -74,9 +74,8 @@ def _interval(node: Value, scope: Scope) -> Interval:
 def _limit(node: Value | None, scope: Scope) -> Limit:
     if node is None:
         return _NOT_GIVEN
-    if node.is_mapping:
-        return Open(node.text_of("open"))
-    return node.number() if node.is_number else Ref(scope.path(node))
+    stated = node.child("open")
+    return Open(stated.text()) if stated else term_of(node, scope)
 
 
 def _with_decimals(case: Case[Range], rules: Cases[Conversion]) -> Cases[Range]:

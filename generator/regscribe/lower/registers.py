@@ -22,6 +22,7 @@ from regscribe.model import (
     Governs,
     Inferred,
     Kind,
+    Number,
     Register,
     Setting,
     Special,
@@ -94,7 +95,11 @@ def register_of(entry: TreeNode, everywhere: Scope) -> Register:
         index=place.index,
         printed=indexed(settings.text_of("printed"), place.index),
         block=place.block,
-        rules=tuple((use, name) for key, use in _RULES.items() if (name := settings.text_of(key)).isidentifier()),
+        rules=tuple(
+            (use, str(node.value))
+            for key, use in _RULES.items()
+            if (node := settings.get(key)) and node.is_text and node.text().isidentifier()
+        ),
         span=span_of(entry.node),
     )
     report_idle_keys(entry, register)
@@ -137,7 +142,7 @@ def _has_fractions(views: Iterable[View], scaling: Iterable[Scaling], specials: 
 def _makes_fractions(scaling: Scaling) -> bool:
     """Whether a whole stored number can become a value with a fraction."""
     conversion = scaling.conversion
-    whole = conversion.multiply.denominator == conversion.add.denominator == 1
+    whole = all(isinstance(one, Number) and one.denominator == 1 for one in (conversion.multiply, conversion.add))
     return not whole or conversion.decimals is not None or conversion.places is not None
 
 

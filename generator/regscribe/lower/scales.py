@@ -8,13 +8,28 @@ from regscribe.lower.conditions import cases_of, condition_of
 from regscribe.lower.node import Keyed, Value
 from regscribe.lower.rules import NO_ENDS, TWO_SCALES, UNKNOWN_DECIMALS, UNKNOWN_SCALE, UNKNOWN_UNIT, WRONG_SORT
 from regscribe.lower.scope import Scope
-from regscribe.lower.texts import known_name, unknown, unordered
+from regscribe.lower.terms import ONE, divided, power_of, product, summed, term_of
+from regscribe.lower.texts import ends, known_name, unknown, unordered
 from regscribe.lower.tree import TreeNode
-from regscribe.model import ALWAYS, IDENTITY, SAME, Case, Cases, Condition, Conversion, Decimals, WireType, always, show
+from regscribe.model import (
+    ALWAYS,
+    IDENTITY,
+    SAME,
+    Case,
+    Cases,
+    Condition,
+    Conversion,
+    Decimals,
+    Number,
+    Term,
+    WireType,
+    always,
+    show,
+)
 
 NOT_STATED = "not_stated"
 _MOST_DIGITS = 100
-_LINEAR = frozenset({"multiply", "add"})
+_LINEAR = frozenset({"multiply", "divide", "exponent", "add"})
 _WAYS = _LINEAR | {"scale", "decimals"}
 
 KNOWN_UNITS = (
@@ -30,7 +45,7 @@ class Scaling:
 
     when: Condition
     conversion: Conversion
-    ends: tuple[Fraction, Fraction] | None = None
+    ends: tuple[Number, Number] | None = None
 
 
 def scale_of(entry: TreeNode, wire: WireType, scope: Scope) -> tuple[Scaling, ...]:
@@ -44,18 +59,21 @@ def scale_of(entry: TreeNode, wire: WireType, scope: Scope) -> tuple[Scaling, ..
     if node is None and "decimals" in settings:
         return tuple(Scaling(case.when, case.then) for case in decimals_of(settings["decimals"], scope))
     if node is None:
-        return (Scaling(ALWAYS, _linear(settings)),)
+        return (Scaling(ALWAYS, _linear(settings, scope)),)
+    if not node.is_text:
+        return scale_at(node, wire, scope)
     if ".." in node.text():
-        return (_affine(node, ALWAYS, unordered(node), wire),)
+        return (_affine(ALWAYS, unordered(node), _raw_ends(node, wire)),)
     table = scope.named(node, "scales", rule=UNKNOWN_SCALE, what="scale")
     return (scale_at(table, wire, scope) if table else ()) or (Scaling(ALWAYS, IDENTITY),)
 
 
-def _linear(keys: Keyed) -> Conversion:
-    multiply, add = keys.child("multiply"), keys.child("add")
-    if multiply is None and add is None:
-        return IDENTITY
-    return Conversion(multiply.number() if multiply else Fraction(1), add.number() if add else Fraction(0))
+def _linear(keys: Keyed, scope: Scope) -> Conversion:
+    """The straight line that `multiply`, `divide`, `exponent` and `add` describe."""
+    multiply, exponent, add = (keys.child(key) for key in ("multiply", "exponent", "add"))
+    factors = [term_of(multiply, scope, ONE), power_of(exponent, scope) if exponent else ONE]
+    conversion = Conversion(divided(product(factors), keys.child("divide"), scope), term_of(add, scope))
+    return IDENTITY if conversion == IDENTITY else conversion
 
 
 def scale_at(node: Value, wire: WireType, scope: Scope) -> tuple[Scaling, ...]:
@@ -67,17 +85,35 @@ def _case(node: Value, wire: WireType, scope: Scope) -> Scaling:
     when = condition_of(node, scope)
     low, high, digits = node.child("from"), node.child("to"), node.child("decimals")
     if low and high:
-        return _affine(node, when, (low.number(), high.number()), wire)
-    return Scaling(when, Conversion(multiply=_power(digits)) if digits else _linear(node))
+        return _affine(when, (term_of(low, scope), term_of(high, scope)), _raw_ends(node, wire))
+    return Scaling(when, Conversion(multiply=_power(digits)) if digits else _linear(node, scope))
 
 
-def _affine(node: Value, when: Condition, ends: tuple[Fraction, Fraction], wire: WireType) -> Scaling:
-    if not wire.is_integer:
-        message = f"the scale from {show(ends[0])} to {show(ends[1])} needs a whole number on the wire, not {wire}"
-        node.report(NO_ENDS, message, remedy="use `multiply` and `add`")
+def _raw_ends(node: Value, wire: WireType) -> tuple[Fraction, Fraction] | None:
+    """The raw codes at the ends of a scale; RS0328 where neither the map nor the type has two."""
+    stated = node.child("raw") if node.is_mapping else None
+    if stated:
+        low, high = ends(stated)
+        if low < high:
+            return low, high
+        message, remedy = f"the scale has one raw code only, {show(low)}", "give `raw` two ends"
+    elif wire.is_integer:
+        return Fraction(wire.minimum), Fraction(wire.maximum)
+    else:
+        message = f"a scale from end to end needs a whole number on the wire, not {wire}"
+        remedy = "give `raw`, or use `multiply` and `add`"
+    node.report(NO_ENDS, message, remedy=remedy)
+    return None
+
+
+def _affine(when: Condition, ends: tuple[Term, Term], raw: tuple[Fraction, Fraction] | None) -> Scaling:
+    """The straight line through both ends; in use they are the range, where they are numbers."""
+    if raw is None:
         return Scaling(when, IDENTITY)
-    multiply = (ends[1] - ends[0]) / (wire.maximum - wire.minimum)
-    return Scaling(when, Conversion(multiply=multiply, add=ends[0] - multiply * wire.minimum), ends)
+    (low, high), (first, last) = ends, raw
+    multiply = product([summed([high, product([-ONE, low])]), 1 / (last - first)])
+    conversion = Conversion(multiply=multiply, add=summed([low, product([-first, multiply])]))
+    return Scaling(when, conversion, (low, high) if isinstance(low, Number) and isinstance(high, Number) else None)
 
 
 def _power(node: Value) -> Fraction:

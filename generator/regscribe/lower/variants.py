@@ -9,9 +9,8 @@ from regscribe.lower.texts import known_name
 Models = tuple[str, ...]
 
 NOT_SETTINGS = frozenset({"variants", "models", "except"})
-_NUMERIC = frozenset(
-    {"scale", "decimals", "multiply", "add", "range", "range_decimals", "unit", "special", "difference"}
-)
+_LINEAR = frozenset({"multiply", "divide", "exponent", "add"})
+_NUMERIC = frozenset({"scale", "decimals", *_LINEAR, "range", "range_decimals", "unit", "special", "difference"})
 _NO_NUMBERS = {
     "kind": frozenset({"enum", "flags", "fields", "string", "version", "boolean"}),
     "type": frozenset({"string", "bit"}),
@@ -20,9 +19,9 @@ _NO_NUMBERS = {
 _RIVALS = (
     (frozenset({"views"}), frozenset({"type", "length", "word_order", "byte_order", "functions", "write_at", "write"})),
     (frozenset({"type"}), frozenset({"views"})),
-    (frozenset({"scale"}), frozenset({"decimals", "multiply", "add"})),
-    (frozenset({"decimals"}), frozenset({"scale", "multiply", "add"})),
-    (frozenset({"multiply", "add"}), frozenset({"scale", "decimals"})),
+    (frozenset({"scale"}), frozenset({"decimals", *_LINEAR})),
+    (frozenset({"decimals"}), frozenset({"scale", *_LINEAR})),
+    (_LINEAR, frozenset({"scale", "decimals"})),
 )
 _CODES = frozenset({"enum", "flags", "fields", "version"})
 

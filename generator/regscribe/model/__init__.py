@@ -57,9 +57,9 @@ from regscribe_runtime.values.scales import (
     NotANumber,
     Open,
     Range,
-    Ref,
     Sentinel,
 )
+from regscribe_runtime.values.terms import ByCase, GivenRef, Power, Product, Ref, Sum, Term
 from regscribe_runtime.values.views import OrderFrom, View
 from regscribe_runtime.values.wire_types import Order, Rounding, Space, WireType
 
@@ -73,6 +73,7 @@ __all__ = [
     "Alarm",
     "Array",
     "BitField",
+    "ByCase",
     "Case",
     "Cases",
     "Chain",
@@ -91,6 +92,7 @@ __all__ = [
     "FrameExample",
     "Given",
     "GivenKind",
+    "GivenRef",
     "Governs",
     "Group",
     "Header",
@@ -119,7 +121,9 @@ __all__ = [
     "Output",
     "Override",
     "Pid",
+    "Power",
     "Process",
+    "Product",
     "ProgramAction",
     "ProgramCounts",
     "ProgramFinal",
@@ -147,6 +151,8 @@ __all__ = [
     "Space",
     "Span",
     "Special",
+    "Sum",
+    "Term",
     "TimingExample",
     "Trip",
     "TripKind",

@@ -14,6 +14,7 @@ from regscribe.reference.codec import (
     version_text,
 )
 from regscribe.reference.ieee import ieee_bits, ieee_number, shortest
+from regscribe.reference.limits import divided_limits, limits, within
 from regscribe.reference.outcome import Meaning, Reading, RefusalReason, RefusedError, UnknownValueError
 from regscribe.reference.surroundings import (
     MOST_DECIMALS,
@@ -21,11 +22,9 @@ from regscribe.reference.surroundings import (
     Surroundings,
     choose,
     decimal_factor,
-    divided_limits,
     holds,
-    limits,
-    within,
 )
+from regscribe.reference.terms import Straight, amount, straight
 from regscribe.reference.words import (
     bytes_in_order,
     round_by,
@@ -44,8 +43,10 @@ __all__ = [
     "Reading",
     "RefusalReason",
     "RefusedError",
+    "Straight",
     "Surroundings",
     "UnknownValueError",
+    "amount",
     "bytes_in_order",
     "choose",
     "decimal_factor",
@@ -62,6 +63,7 @@ __all__ = [
     "sentinel_number",
     "shortest",
     "special_value",
+    "straight",
     "transmit",
     "version_number",
     "version_text",

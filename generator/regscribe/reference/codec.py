@@ -6,8 +6,10 @@ from math import floor
 from regscribe.model.enums import Special
 from regscribe.model.register import Register
 from regscribe.reference.ieee import ieee_bits
+from regscribe.reference.limits import in_range
 from regscribe.reference.outcome import NOT_DECODABLE, SATURATED, Meaning, Reading, RefusalReason, RefusedError
-from regscribe.reference.surroundings import NOTHING_KNOWN, Known, choose, decimal_factor, in_range
+from regscribe.reference.surroundings import NOTHING_KNOWN, Known, choose, decimal_factor
+from regscribe.reference.terms import straight
 from regscribe.reference.words import HALF, carried, spelled, text_of, wire_number, word_order, words_of_text
 from regscribe_runtime.values.kinds import Kind
 from regscribe_runtime.values.numbers import show
@@ -56,17 +58,16 @@ def special_value(register: Register, special: Special, known: Known) -> Fractio
 
 
 def _meaning(register: Register, view: View, number: Fraction, known: Known) -> Reading:
-    conversion = choose(register.scale, known)
-    factor = None if conversion is None else decimal_factor(conversion.decimals, known)
-    if conversion is None or factor is None:
+    line = straight(choose(register.scale, known), known)
+    if line is None:
         return NOT_DECODABLE
     for special in register.specials:
         named = special_value(register, special, known)
         if named is None:
             return NOT_DECODABLE
-        if carried(view, (named * factor - conversion.add) / conversion.multiply * view.factor) == number:
+        if carried(view, line.stored(named) * view.factor) == number:
             return Reading(Meaning.VALUE, named if special.means is None else special.means)
-    return _of_kind(register, (conversion.multiply * number / view.factor + conversion.add) / factor)
+    return _of_kind(register, line.value(number / view.factor))
 
 
 def _of_kind(register: Register, value: Fraction) -> Reading:
@@ -187,11 +188,10 @@ def _special_code(register: Register, value: Fraction, known: Known) -> Fraction
 
 def _stored(register: Register, value: Fraction, known: Known, *, rounded: bool) -> Fraction:
     conversion = choose(register.scale, known)
-    factor = None if conversion is None else decimal_factor(conversion.decimals, known)
-    if conversion is None or factor is None:
+    line = straight(conversion, known)
+    if conversion is None or line is None:
         raise RefusedError(RefusalReason.CONDITION, "no scale holds as things stand")
-    stored = (value * factor - conversion.add) / conversion.multiply
-    return _on_step(conversion, stored, known, rounded=rounded)
+    return _on_step(conversion, line.stored(value), known, rounded=rounded)
 
 
 def _on_step(conversion: Conversion, stored: Fraction, known: Known, *, rounded: bool) -> Fraction:

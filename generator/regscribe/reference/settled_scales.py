@@ -4,7 +4,7 @@ from fractions import Fraction
 from functools import cache
 from typing import NamedTuple
 
-from regscribe.model import IDENTITY, Conversion, Decimals, Register
+from regscribe.model import IDENTITY, Conversion, Decimals, Number, Register
 
 MOST_DECIMALS = 4
 """Decimals tried where a register holds their number and the map does not limit it (16 bits have five digits)."""
@@ -30,8 +30,11 @@ class Form(NamedTuple):
     @classmethod
     def of(cls, conversion: Conversion, factor: Fraction) -> "Form":
         """Return the form of a conversion, with the divisions done once for all values."""
-        offset = conversion.add / Fraction(conversion.multiply) if conversion.add else Fraction(0)
-        return cls(conversion, factor, factor / conversion.multiply, offset)
+        multiply, add = conversion.multiply, conversion.add
+        if not (isinstance(multiply, Number) and isinstance(add, Number)):
+            message = f"{conversion} is not settled"
+            raise TypeError(message)
+        return cls(conversion, factor, factor / multiply, add / Fraction(multiply) if add else Fraction(0))
 
     def stored(self, value: Fraction) -> Fraction:
         """The stored number of a value of use."""
@@ -52,9 +55,11 @@ PLAIN = (Form.of(IDENTITY, Fraction(1)),)
 
 
 def forms(register: Register) -> tuple[Form, ...]:
-    """All conversions of a register that can be inverted."""
+    """All conversions of a register that can be inverted; none where the device or its user sets a number of one."""
     if len(register.scale) == 1 and (register.scale[0].then is IDENTITY or register.scale[0].then == IDENTITY):
         return PLAIN
+    if any(not isinstance(one, Number) for case in register.scale for one in (case.then.multiply, case.then.add)):
+        return ()
     return tuple(
         Form.of(case.then, factor)
         for case in register.scale

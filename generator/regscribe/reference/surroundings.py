@@ -1,14 +1,13 @@
-"""Conditions, limits and decimals of a register, evaluated with the values of other registers and the givens."""
+"""Conditions and decimals of a register, evaluated with the values of other registers and the givens."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Protocol
 
-from regscribe.model.register import Register
-from regscribe.reference.outcome import RefusalReason, RefusedError, UnknownValueError
+from regscribe.reference.outcome import UnknownValueError
 from regscribe_runtime.values.conditions import Cases, Condition, Is, T
-from regscribe_runtime.values.scales import Decimals, Limit, Open, Range, Ref
+from regscribe_runtime.values.scales import Decimals
 
 MOST_DECIMALS = 9
 """A decimals register above this is no decimal position of any device, and ten to the power of it may be endless."""
@@ -27,13 +26,14 @@ class Known(Protocol):
         """The givens that are true or false."""
         raise NotImplementedError
 
+    @property
+    def numbers(self) -> Mapping[str, Fraction]:
+        """The givens that are a number."""
+        raise NotImplementedError
+
     def look_up(self, subject: str) -> Fraction:
         """Return the present value of `subject`; raises UnknownValueError if it is not known."""
         raise NotImplementedError
-
-
-Limits = tuple[tuple[Fraction | None, Fraction | None], ...]
-"""Lowest and highest value of each interval; None where nothing limits."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +43,7 @@ class Surroundings:
     values: Mapping[str, Fraction] = field(default_factory=dict)
     codes: Mapping[str, frozenset[Fraction]] = field(default_factory=dict)
     facts: Mapping[str, bool] = field(default_factory=dict)
+    numbers: Mapping[str, Fraction] = field(default_factory=dict)
 
     def look_up(self, subject: str) -> Fraction:
         """Return the value of `subject`; raises UnknownValueError if there is none."""
@@ -89,43 +90,3 @@ def decimal_factor(decimals: Decimals | None, known: Known) -> Fraction | None:
         return None
     most = int(count) if decimals.at_most is None else min(int(count), decimals.at_most)
     return Fraction(10**most)
-
-
-def _limit(limit: Limit, factor: Fraction, known: Known) -> Fraction | None:
-    """Return the number of a limit; None for an open one, which nothing is checked against."""
-    if isinstance(limit, Open):
-        return None
-    return known.look_up(limit.register) if isinstance(limit, Ref) else limit / factor
-
-
-def limits(limits_now: Range, known: Known) -> Limits:
-    """Return the limits; raises RefusedError if the decimals register holds no number of decimals."""
-    factor = decimal_factor(limits_now.decimals, known)
-    if factor is None:
-        raise RefusedError(RefusalReason.CONDITION, f"{limits_now.decimals} holds no number of decimals")
-    return divided_limits(limits_now, factor, known)
-
-
-def divided_limits(limits_now: Range, factor: Fraction, known: Known) -> Limits:
-    """Return the limits, those that are numbers divided by `factor`."""
-    return tuple(
-        (_limit(interval.low, factor, known), _limit(interval.high, factor, known)) for interval in limits_now.intervals
-    )
-
-
-def in_range(register: Register, value: Fraction, known: Known) -> bool:
-    """Tell whether `value` lies in one of the intervals that hold now; a register without range takes all.
-
-    Raises RefusedError if the range has cases and none holds.
-    """
-    if not register.range:
-        return True
-    limits_now = choose(register.range, known)
-    if limits_now is None:
-        raise RefusedError(RefusalReason.CONDITION, "no range holds as things stand")
-    return within(limits(limits_now, known), value)
-
-
-def within(limits_now: Limits, value: Fraction) -> bool:
-    """Tell whether `value` lies in one of the intervals."""
-    return any((low is None or low <= value) and (high is None or value <= high) for low, high in limits_now)

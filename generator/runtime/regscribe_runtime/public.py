@@ -123,10 +123,15 @@ from regscribe_runtime.values.scales import Interval as Interval
 from regscribe_runtime.values.scales import NotANumber as NotANumber
 from regscribe_runtime.values.scales import Open as Open
 from regscribe_runtime.values.scales import Range as Range
-from regscribe_runtime.values.scales import Ref as Ref
 from regscribe_runtime.values.scales import Sentinel as Sentinel
 from regscribe_runtime.values.scales import within as within
 from regscribe_runtime.values.serial_line import SerialLine as SerialLine
+from regscribe_runtime.values.terms import ByCase as ByCase
+from regscribe_runtime.values.terms import GivenRef as GivenRef
+from regscribe_runtime.values.terms import Power as Power
+from regscribe_runtime.values.terms import Product as Product
+from regscribe_runtime.values.terms import Ref as Ref
+from regscribe_runtime.values.terms import Sum as Sum
 from regscribe_runtime.values.views import OrderFrom as OrderFrom
 from regscribe_runtime.values.views import View as View
 from regscribe_runtime.values.views import word as word

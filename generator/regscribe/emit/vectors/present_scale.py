@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from regscribe.emit.vectors.scale import range_now
 from regscribe.model import Cases, Conversion, Interval, Kind, Number, Ref, Register
-from regscribe.reference import Surroundings, choose, decimal_factor, holds
+from regscribe.reference import Surroundings, choose, decimal_factor, holds, straight
 from regscribe_runtime.values.conditions import T
 
 LOW_STORED, HIGH_STORED = Fraction(100), Fraction(1500)
@@ -33,9 +33,8 @@ def _index(cases: Cases[T], known: Surroundings) -> int:
 def _numbers(register: Register, known: Surroundings) -> tuple[object, ...]:
     conversion, special = choose(register.scale, known), choose(register.special_scale, known)
     limits_now = range_now(register, known)
-    factor = conversion and decimal_factor(conversion.decimals, known)
     return (
-        (conversion.multiply / factor, conversion.add / factor) if conversion and factor else None,
+        straight(conversion, known),
         _increment(register, conversion, known),
         limits_now and (limits_now.intervals, decimal_factor(limits_now.decimals, known)),
         special and decimal_factor(special.decimals, known),
@@ -67,11 +66,10 @@ def limit_values(register: Register, known: Surroundings) -> dict[str, Fraction]
 
 def _usual(register: Register, known: Surroundings) -> tuple[Fraction, Fraction]:
     """Return LOW_STORED and HIGH_STORED as values of use, the lower one first."""
-    conversion = choose(register.scale, known)
-    factor = conversion and decimal_factor(conversion.decimals, known)
-    if conversion is None or not factor:  # nothing can be written then, whatever the limits
+    line = straight(choose(register.scale, known), known)
+    if line is None:  # nothing can be written then, whatever the limits
         return LOW_STORED, HIGH_STORED
-    low, high = sorted((conversion.multiply * stored + conversion.add) / factor for stored in (LOW_STORED, HIGH_STORED))
+    low, high = sorted(map(line.value, (LOW_STORED, HIGH_STORED)))
     return low, high
 
 

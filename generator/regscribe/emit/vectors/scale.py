@@ -6,7 +6,7 @@ from fractions import Fraction
 from math import ceil, floor, gcd, lcm
 
 from regscribe.model import Range, Register, View, WireType
-from regscribe.reference import Known, choose, decimal_factor, ieee_number, limits, shortest
+from regscribe.reference import Known, RefusedError, choose, decimal_factor, ieee_number, limits, shortest, straight
 
 LARGEST = {
     WireType.FLOAT32: shortest(ieee_number(0x7F7FFFFF, WireType.FLOAT32), WireType.FLOAT32),
@@ -104,21 +104,25 @@ def scale_now(register: Register, view: View, known: Known) -> Scale | None:
     if conversion is None:
         return None
     limits_now = range_now(register, known)
-    factor = decimal_factor(conversion.decimals, known)
+    line = straight(conversion, known)
     places = decimal_factor(conversion.places if register.access.writable else None, known)
-    if factor is None or places is None or (limits_now and decimal_factor(limits_now.decimals, known) is None):
+    try:
+        bounds = limits(limits_now, known) if limits_now else ()
+    except RefusedError:
+        return None
+    if line is None or places is None:
         return None
     if view.type.is_float:
         lowest, highest = -LARGEST[view.type], LARGEST[view.type]
     else:
         lowest, highest = Fraction(view.type.minimum + view.saturates), Fraction(view.type.maximum - view.saturates)
     return Scale(
-        slope=conversion.multiply / factor,
-        offset=conversion.add / factor,
+        slope=line.slope,
+        offset=line.offset,
         wire_step=_wire_step(view, None if conversion.step is None else conversion.step / places),
         lowest=lowest / view.factor,
         highest=highest / view.factor,
-        limits=limits(limits_now, known) if limits_now else (),
+        limits=bounds,
     )
 
 

@@ -5,19 +5,30 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from regscribe.model import (
+    ByCase,
     Condition,
     Decimals,
     GivenKind,
     Is,
     Model,
     Number,
+    Open,
     OrderFrom,
+    Power,
+    Ref,
     Register,
     RegisterMap,
+    Term,
     View,
 )
 from regscribe.reference.settled_scales import MOST_DECIMALS
 from regscribe.reference.states import Stretch, domain, listed, representatives
+from regscribe_runtime.values.terms import parts_of, registers_in
+
+EXPONENTS = tuple(map(Fraction, (-3, -1, 0, 2, 11)))
+"""Numbers to try of an exponent, the last beyond those of any device."""
+AMOUNTS = tuple(map(Fraction, (0, 1, 40)))
+"""Numbers to try of a factor, a divisor, a summand, a limit."""
 
 GivenTry = frozenset[Fraction] | bool
 Values = dict[str, tuple[Fraction, ...]]
@@ -38,28 +49,39 @@ class TriedValues:
 
 @dataclass(frozen=True, slots=True)
 class Dependencies:
-    """Dependencies of the meaning of a register: conditions, numbers of decimals and perhaps the word order."""
+    """Dependencies of the meaning of a register: conditions, numbers of decimals, terms and perhaps the word order."""
 
     conditions: tuple[Condition, ...]
     decimals: tuple[Decimals, ...] = ()
+    terms: tuple[Term, ...] = ()
     order: OrderFrom | None = None
 
     @property
     def tests(self) -> tuple[Is, ...]:
-        """The tests of all conditions."""
-        return tuple(test for condition in self.conditions for test in condition.tests)
+        """The tests of all conditions, those in terms too."""
+        within = (case.when for part in parts_of(self.terms) if isinstance(part, ByCase) for case in part.cases)
+        return tuple(test for condition in (*self.conditions, *within) for test in condition.tests)
 
 
 def dependencies_of(register: Register, view: View) -> Dependencies:
     """Return the dependencies of reading `view`, and of writing it if it can be written."""
     conditions = [case.when for case in (*register.scale, *register.special_scale)]
     decimals = [case.then.decimals for case in (*register.scale, *register.special_scale)]
+    terms = [term for case in register.scale for term in (case.then.multiply, case.then.add)]
     if register.access.writable:
         conditions += [case.when for case in register.range]
         decimals += [case.then.decimals for case in register.range]
         decimals += [case.then.places for case in register.scale]
+        terms += [end for end in _ends(register) if not isinstance(end, Ref)]  # those have values of their own
     order = view.order if isinstance(view.order, OrderFrom) and view.words > 1 else None
-    return Dependencies(tuple(conditions), tuple(filter(None, decimals)), order)
+    unsettled = tuple(term for term in terms if not isinstance(term, Number))
+    return Dependencies(tuple(conditions), tuple(filter(None, decimals)), unsettled, order)
+
+
+def _ends(register: Register) -> Iterator[Term]:
+    """The limits of a register that are not open."""
+    for case in register.range:
+        yield from (end for interval in case.then.intervals for end in interval if not isinstance(end, Open))
 
 
 def tried_values(register_map: RegisterMap, model: Model, dependencies: Dependencies) -> TriedValues:
@@ -86,9 +108,21 @@ def _values(model: Model, dependencies: Dependencies, sets: set[str]) -> Iterato
             yield test.subject, representatives(_domain(model, test), codes.pop(test.subject))
     for decimals in dependencies.decimals:
         yield decimals.register, _places(decimals, domain(model.register(decimals.register)))
+    yield from _amounts(model, dependencies.terms)
     if dependencies.order is not None:
         known = [Fraction(code) for code, _ in dependencies.order.codes]
         yield dependencies.order.register, (*known, max(known) + 1)
+
+
+def _amounts(model: Model, terms: tuple[Term, ...]) -> Iterator[tuple[str, Iterable[Fraction]]]:
+    """The registers of terms with numbers that make a difference to them, as far as these are of the register."""
+    exponents = {part.exponent for part in parts_of(terms) if isinstance(part, Power)}
+    powers = {path for exponent in exponents for path in registers_in(exponent)}
+    for path in dict.fromkeys(part.register for part in parts_of(terms) if isinstance(part, Ref)):
+        stretches = domain(model.register(path))
+        tried = EXPONENTS if path in powers else AMOUNTS
+        found = [number for number in tried if any(stretch.holds(number) for stretch in stretches)]
+        yield path, found or [stretches[0].low]
 
 
 def _given(model: Model, test: Is, sets: set[str]) -> tuple[GivenTry, ...]:

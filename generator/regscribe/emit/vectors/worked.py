@@ -103,6 +103,7 @@ class _ExampleState:
         self._read: dict[str, None] = {}
         self.codes: dict[str, frozenset[Fraction]] = {}
         self.facts: dict[str, bool] = {}
+        self.numbers: dict[str, Fraction] = {}
         for given in register_map.givens:
             if given.kind is GivenKind.CODES:
                 self.codes[given.id] = frozenset({values[given.id]} if given.id in values else ())

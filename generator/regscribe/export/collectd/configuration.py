@@ -12,7 +12,8 @@ from math import isfinite
 from regscribe.emit.words import one_line, sentinel_words
 from regscribe.model import IDENTITY, Kind, Model, Order, Register, RegisterMap, Space, View, WireType
 from regscribe.reference import Surroundings, UnknownValueError
-from regscribe.reference.surroundings import choose, decimal_factor
+from regscribe.reference.surroundings import choose
+from regscribe.reference.terms import straight
 from regscribe.reference.words import word_order
 
 NUMBERS = frozenset({Kind.NUMBER, Kind.INTEGER, Kind.RAW, Kind.ENUM, Kind.FLAGS, Kind.FIELDS})
@@ -138,14 +139,13 @@ def _scale(register: Register, view: View, known: Surroundings) -> tuple[Fractio
     if register.kind not in {Kind.NUMBER, Kind.INTEGER}:
         return Fraction(1), Fraction(0)
     try:
-        conversion = choose(register.scale, known) if register.scale else IDENTITY
-        power = decimal_factor(conversion.decimals, known) if conversion else None
+        line = straight(choose(register.scale, known) if register.scale else IDENTITY, known)
     except UnknownValueError as unknown:
         raise _unknown(unknown, "its scale") from None
-    if conversion is None or power is None:
+    if line is None:
         message = "no scale is stated for this state of the device"
         raise LeftOutError(message)
-    return conversion.multiply / Fraction(view.factor) / power, conversion.add / power
+    return line.slope / Fraction(view.factor), line.offset
 
 
 def _unknown(unknown: UnknownValueError, what: str) -> LeftOutError:

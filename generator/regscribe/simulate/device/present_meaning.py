@@ -18,8 +18,8 @@ from regscribe.model import (
     Special,
     View,
 )
-from regscribe.reference import MOST_DECIMALS, choose, divided_limits, round_by, within
-from regscribe.reference.surroundings import Limits
+from regscribe.reference import MOST_DECIMALS, Straight, choose, divided_limits, round_by, straight, within
+from regscribe.reference.limits import Limits
 from regscribe.simulate.device.device_plan import Blueprint, Stored
 from regscribe.simulate.device.value_arguments import field_value
 from regscribe.simulate.errors import SimulatorError
@@ -28,12 +28,13 @@ from regscribe.simulate.errors import SimulatorError
 class PresentMeaning(ABC):
     """Interprets stored numbers under the present values of a device; a subclass says which value is in effect."""
 
-    __slots__ = ("_model", "blueprint", "codes", "facts")
+    __slots__ = ("_model", "blueprint", "codes", "facts", "numbers")
 
     def __init__(self, blueprint: Blueprint) -> None:
         self.blueprint = blueprint
         self.codes = blueprint.givens.codes
         self.facts = blueprint.givens.facts
+        self.numbers = blueprint.givens.numbers
         self._model: Model = blueprint.model
 
     @abstractmethod
@@ -86,8 +87,7 @@ class PresentMeaning(ABC):
 
     def to_value(self, register: Register, stored: Fraction) -> Fraction:
         """Turn a stored number into the value of use."""
-        scale = self.conversion(register)
-        return (scale.multiply * stored + scale.add) / self.power(scale.decimals)
+        return self.line(register).value(stored)
 
     def usable(self, register: Register, stored: Stored) -> Stored:
         """Turn a stored number into the value of use; a text or NaN stays as it is (so that `put` takes it)."""
@@ -95,8 +95,14 @@ class PresentMeaning(ABC):
 
     def from_value(self, register: Register, value: Fraction) -> Fraction:
         """Turn a value of use into a stored number (exact: as finely as asked, whatever the device can hold)."""
+        return self.line(register).stored(value)
+
+    def line(self, register: Register) -> Straight:
+        """Return the scale as things stand; the identity where one of its numbers has no value."""
         scale = self.conversion(register)
-        return (value * self.power(scale.decimals) - scale.add) / scale.multiply
+        slope, offset = straight(scale._replace(decimals=None), self) or (Fraction(1), Fraction(0))
+        power = self.power(scale.decimals)
+        return Straight(slope / power, offset / power)
 
     def conversion(self, register: Register) -> Conversion:
         """Return the scale that holds now; identity if none holds."""

@@ -6,14 +6,15 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from functools import partial
-from typing import Any, NoReturn, Protocol
+from typing import Any, NamedTuple, NoReturn, Protocol
 
 from regscribe_runtime.errors import NotDecodable, Saturated, SensorFault, ValueNotDecodable, ValueRefused
 from regscribe_runtime.registers.value_types import ValueType
 from regscribe_runtime.values.conditions import Givens, State, choose
 from regscribe_runtime.values.kinds import Kind
-from regscribe_runtime.values.numbers import ROUNDINGS, brief, exact, half_up, rough, shortest
-from regscribe_runtime.values.scales import NAN, Conversion, Decimals, Limit, NotANumber, Open, Ref, Sentinel
+from regscribe_runtime.values.numbers import ROUNDINGS, Number, brief, exact, half_up, rough, shortest
+from regscribe_runtime.values.scales import NAN, Conversion, Decimals, Limit, NotANumber, Open, Sentinel
+from regscribe_runtime.values.terms import Term, UnsettledError, registers_in, resolve
 from regscribe_runtime.values.views import Scaled, View, scale_needs
 from regscribe_runtime.values.wire_types import Order, WireType
 
@@ -52,12 +53,41 @@ def power(name: str, decimals: Decimals | None, state: State) -> int:
     return int(10 ** (digits if decimals.at_most is None else min(digits, decimals.at_most)))
 
 
-def _conversion(register: Coded, state: State, givens: Givens) -> tuple[Conversion, int]:
+class Line(NamedTuple):
+    """A conversion as things stand: value = `slope` x stored + `offset`."""
+
+    slope: Fraction
+    offset: Fraction
+    conversion: Conversion
+
+    def value(self, stored: Fraction) -> Fraction:
+        """The value of use of a stored number."""
+        return self.slope * stored + self.offset
+
+    def stored(self, value: Fraction) -> Fraction:
+        """The stored number of a value of use."""
+        return (value - self.offset) / self.slope
+
+
+def settled(register: str, term: Term, state: State, givens: Givens) -> Fraction:
+    """The number of a term of a register; NotDecodable where it has none as the device is set."""
+    try:
+        return resolve(term, state, givens)
+    except UnsettledError as error:
+        raise NotDecodable(register, str(error)) from None
+
+
+def _line(register: Coded, state: State, givens: Givens) -> Line:
     found = choose(register.scale, state, givens)
     if found is None:
         known = ", ".join(f"{name} = {state[name]}" for name in scale_needs(register))
         raise NotDecodable(register.path, f"no scale of the manual holds with {known}")
-    return found, power(register.path, found.decimals, state)
+    divisor = power(register.path, found.decimals, state)
+    multiply, add = (settled(register.path, term, state, givens) for term in (found.multiply, found.add))
+    if not multiply:
+        known = ", ".join(f"{name} = {state[name]}" for name in registers_in(found.multiply))
+        raise NotDecodable(register.path, f"its scale multiplies by 0 with {known}")
+    return Line(multiply / divisor, add / divisor, found)
 
 
 Words = Sequence[int]
@@ -136,9 +166,8 @@ def _scaled(register: Coded, view: View, state: State, givens: Givens) -> Conver
         return lambda wire: make(wire & mask)
     if register.value_type.coded:
         return register.value_type.make
-    conversion, divisor = _conversion(register, state, givens)
-    factor, multiply, add = Fraction(view.factor), Fraction(conversion.multiply), Fraction(conversion.add)
-    slope, offset = multiply / factor / divisor, add / divisor
+    slope, offset, _ = _line(register, state, givens)
+    slope /= Fraction(view.factor)
     return _ieee(register, view, slope, offset) if view.type.is_float else _whole(register, view, slope, offset)
 
 
@@ -211,11 +240,10 @@ def _with_specials(register: Coded, view: View, state: State, givens: Givens, *,
     specials = _specials(register, state, givens)
     if not specials:
         return scaled
-    conversion, divisor = _conversion(register, state, givens)
-    multiply, add = Fraction(conversion.multiply), Fraction(conversion.add)
+    line = _line(register, state, givens)
     shown: dict[float | None, Any] = {}
     for code, (member, number) in specials.items():
-        wire = _on_wire(view, (code * divisor - add) / multiply)
+        wire = _on_wire(view, line.stored(code))
         shown[wire] = register.value_type.make(number) if member is None or not named else member
     shown.pop(None, None)
     return lambda wire: shown[wire] if wire in shown else scaled(wire)
@@ -366,14 +394,6 @@ def _amount(register: Coded, value: object, state: State, givens: Givens) -> tup
     return amount, amount in specials
 
 
-def _limit(bound: Limit, divisor: int, state: State, unlimited: float) -> Fraction | float:
-    if isinstance(bound, Open):
-        return unlimited
-    if isinstance(bound, Ref):
-        return exact(state[bound.register])
-    return Fraction(bound) / divisor
-
-
 def _within_limits(register: Coded, amount: Fraction, state: State, givens: Givens) -> None:
     if not register.range:
         return
@@ -381,10 +401,13 @@ def _within_limits(register: Coded, amount: Fraction, state: State, givens: Give
     if limits is None:
         raise ValueRefused(register.path, "no range of the manual holds as the device is configured")
     divisor = power(register.path, limits.decimals, state)
-    ends = [
-        (_limit(low, divisor, state, -math.inf), _limit(high, divisor, state, math.inf))
-        for low, high in limits.intervals
-    ]
+
+    def settle(bound: Limit, unlimited: float) -> Fraction | float:
+        if isinstance(bound, Open):
+            return unlimited
+        return Fraction(bound) / divisor if isinstance(bound, Number) else settled(register.path, bound, state, givens)
+
+    ends = [(settle(low, -math.inf), settle(high, math.inf)) for low, high in limits.intervals]
     if not any(low <= amount <= high for low, high in ends):
         shown = [
             ["(open)" if isinstance(end, float) else rough(Fraction(end)) for end in interval] for interval in ends
@@ -394,13 +417,13 @@ def _within_limits(register: Coded, amount: Fraction, state: State, givens: Give
 
 
 def _stored(register: Coded, amount: Fraction, state: State, givens: Givens, *, rounded: bool) -> Fraction:
-    conversion, divisor = _conversion(register, state, givens)
-    stored = (amount * divisor - Fraction(conversion.add)) / Fraction(conversion.multiply)
+    line = _line(register, state, givens)
+    stored, conversion = line.stored(amount), line.conversion
     if conversion.step is not None:
         increment = Fraction(conversion.step) / power(register.path, conversion.places, state)
         steps = stored / increment
         if steps.denominator != 1:
-            step = increment * Fraction(conversion.multiply) / divisor
+            step = increment * line.slope
             if not rounded:
                 of = f" of {conversion.places.register}" if conversion.places else ""
                 message = f"{rough(amount)} is finer than the resolution {rough(abs(step))}{of} (rounded=True rounds)"
@@ -413,11 +436,8 @@ def _carried(register: Coded, view: View, amount: Fraction, stored: Fraction, st
     exactly = stored * Fraction(view.factor)
     if view.type.is_float or exactly.denominator == 1:
         return
-    conversion, divisor = _conversion(register, state, givens)
-    around = sorted(
-        (wire / Fraction(view.factor) * Fraction(conversion.multiply) + Fraction(conversion.add)) / divisor
-        for wire in (math.floor(exactly), math.ceil(exactly))
-    )
+    line = _line(register, state, givens)
+    around = sorted(line.value(wire / Fraction(view.factor)) for wire in (math.floor(exactly), math.ceil(exactly)))
     near = " and ".join(map(rough, around))
     message = f"{rough(amount)} is finer than the {view.name} view can carry; nearest are {near} (rounded=True rounds)"
     raise ValueRefused(register.path, message)

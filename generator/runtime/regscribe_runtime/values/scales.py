@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from regscribe_runtime.values.conditions import Cases, always
 from regscribe_runtime.values.numbers import Number, show
+from regscribe_runtime.values.terms import Term
 
 
 class Decimals(NamedTuple):
@@ -18,12 +19,13 @@ class Decimals(NamedTuple):
 class Conversion(NamedTuple):
     """value = (`multiply` x stored + `add`) / 10^d, d from `decimals` (0 without); exact.
 
-    `step` is the smallest increment of the *stored* value, if the device has one (1: it stores whole digits). With
-    `places`, a register says how many decimals that value can have: the increment is `step` / 10^d of it.
+    `multiply` and `add` are numbers or terms that the device or its user sets. `step` is the smallest increment of the
+    *stored* value, if the device has one (1: it stores whole digits). With `places`, a register says how many decimals
+    that value can have: the increment is `step` / 10^d of it.
     """
 
-    multiply: Number = 1
-    add: Number = 0
+    multiply: Term = 1
+    add: Term = 0
     decimals: Decimals | None = None
     step: Number | None = None
     places: Decimals | None = None
@@ -33,19 +35,13 @@ IDENTITY = Conversion()
 SAME: Cases[Conversion] = always(IDENTITY)
 
 
-class Ref(NamedTuple):
-    """A limit that is the present value of another register."""
-
-    register: str
-
-
 class Open(str):
     """A limit that the manual names, in these words, without a number: nothing is checked against it."""
 
     __slots__ = ()
 
 
-Limit = Number | Ref | Open
+Limit = Term | Open
 
 
 class Interval(NamedTuple):
@@ -56,7 +52,7 @@ class Interval(NamedTuple):
 
 
 class Range(NamedTuple):
-    """A union of intervals; limits that are numbers are divided by 10^d of `decimals`, if there is one."""
+    """A union of intervals; limits that are plain numbers are divided by 10^d of `decimals`, if there is one."""
 
     intervals: tuple[Interval, ...]
     decimals: Decimals | None = None

@@ -5,7 +5,8 @@ from typing import Any, NamedTuple, Protocol
 from regscribe_runtime.values.conditions import Cases, Condition, registers_of
 from regscribe_runtime.values.kinds import Access
 from regscribe_runtime.values.numbers import Number
-from regscribe_runtime.values.scales import Conversion, Range, Ref
+from regscribe_runtime.values.scales import Conversion, Range
+from regscribe_runtime.values.terms import registers_in
 from regscribe_runtime.values.wire_types import Order, Rounding, Space, WireType
 
 
@@ -127,7 +128,7 @@ def scale_needs(register: Scaled) -> tuple[str, ...]:
     """Registers that select or contain the scale, or that of special values."""
     cases = (*register.scale, *register.special_scale)
     found = [*registers_of(cases), *(case.then.decimals.register for case in cases if case.then.decimals)]
-    return tuple(dict.fromkeys(found))
+    return tuple(dict.fromkeys((*found, *registers_in(*((case.then.multiply, case.then.add) for case in cases)))))
 
 
 def needs(register: Scaled, view: View) -> tuple[str, ...]:
@@ -141,5 +142,5 @@ def limit_needs(register: Scaled) -> tuple[str, ...]:
     found += [case.then.places.register for case in register.scale if case.then.places]
     for _, limits in register.range:
         found += [limits.decimals.register] if limits.decimals else []
-        found += [end.register for interval in limits.intervals for end in interval if isinstance(end, Ref)]
+        found += registers_in(limits.intervals)
     return tuple(dict.fromkeys(found))
