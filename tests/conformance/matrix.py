@@ -21,7 +21,9 @@ from .suite import Json, diagnose, errors_of
 ROOT = Path(__file__).parents[2]
 SCHEMA = json.loads((ROOT / "schema" / "map.schema.json").read_text("utf-8"))
 
-DOCS_ONLY = frozenset({"symbol", "printed", "description", "source", "inferred", "name", "endurance", "persistence"})
+DOCS_ONLY = frozenset(
+    "symbol printed description source inferred name endurance persistence poll good_for static mandatory".split()  # noqa: SIM905
+)
 """Keys that are for readers: they are honoured in the docs (`persistence` for what is neither RAM nor EEPROM)."""
 DOCS_WHERE: dict[str, Callable[[Seed], bool]] = {
     "range": lambda seed: seed.access == "r",
@@ -29,6 +31,7 @@ DOCS_WHERE: dict[str, Callable[[Seed], bool]] = {
     "unit": lambda seed: seed.access == "w",
     "type": lambda seed: seed.kind in {"flags", "fields", "version", "boolean"},
     "functions": lambda seed: seed.access == "r" or seed.type not in {"uint16", "int16", "bit"},
+    "write": lambda seed: seed.type not in {"uint16", "int16", "bit"},
     "kind": lambda seed: seed.kind in {"raw", "integer", "number"},
 }
 """Keys that tell readers something where there is nothing to do: limits of what is never written, and their like."""
@@ -99,13 +102,18 @@ TRIALS: dict[str, tuple[Trial, ...]] = {
     "unlock": (("unlock_it", {}),),
     "apply": (("apply_it", {}),),
     "danger": (("burns", {}),),
-    "stays": (("calibration", {}), ("operation", {})),
+    "stays": (("calibration", {}), ("operation", {}), ("momentary", {})),
     "governs": (
         ("address", {"stays": "address"}),
         ({"setting": "baud", "codes": {0: "9600", 1: "19200"}}, {"stays": "line"}),
         ({"setting": "baud", "codes": {0: "9600", 1: "19200"}, "from": "at_once"}, {"stays": "line"}),
     ),
     "settle": ((20, {}),),
+    "reading": (("clears", {}),),
+    "poll": (("slow", {}), (60, {})),
+    "good_for": ((30, {}),),
+    "static": ((True, {}),),
+    "mandatory": ((True, {}), (False, {})),
     "shadows": (("low", {}), ("words", {})),
     "follows": (("low", {}), ([{"when": SEL, "is": "low"}], {}), ("words", {})),
     "difference": ((True, {"unit": "temperature"}), (True, {})),

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
+from itertools import chain
 
 from regscribe.checks.held_values import NUMBERS
 from regscribe.checks.rule import Finding, Problem, RuleScope, model_rule, register_rule
@@ -77,6 +78,16 @@ def _ordering(register: Register, scope: RuleScope) -> Iterator[tuple[View, Orde
     for view in register.views:
         if isinstance(view.order, OrderFrom) and view.order.register in scope.registers:
             yield view, view.order, scope.registers[view.order.register]
+
+
+@register_rule("RS0685", "Deciding register that reading clears")
+def decided_by_clearing(register: Register, scope: RuleScope) -> Iterator[Problem]:
+    """Each time that it is read to decode another one, what it held is lost."""
+    for path, why in dict(chain(needed(register), limiting(register))).items():
+        other = scope.registers.get(path)
+        if other and other.reading.clears:
+            related = Related(f"`{other.path}` has `reading: clears`", other.span)
+            yield f"cannot be used: {why} `{path}`, which reading clears", "correct one of the two", related
 
 
 @model_rule("RS0462", "Registers need each other")

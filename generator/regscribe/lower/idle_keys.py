@@ -66,6 +66,24 @@ TABLE: tuple[Idle, ...] = (
         "remove it, or correct `access`",
     ),
     Idle(
+        frozenset({"reading", "poll", "good_for"}),
+        lambda register, _: not register.access.readable,
+        "it is never read",
+        "remove it, or correct `access`",
+    ),
+    Idle(
+        frozenset({"static"}),
+        lambda register, _: not register.static,
+        "that is so without it",
+        "remove it",
+    ),
+    Idle(
+        frozenset({"poll", "good_for"}),
+        lambda register, _: register.reading.clears,
+        "what reading clears is read only where it is asked for",
+        "remove one of them",
+    ),
+    Idle(
         frozenset({"write_at", "write"}),
         lambda register, _: register.access is not Access.READ_WRITE,
         "it is not both read and written",

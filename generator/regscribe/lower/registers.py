@@ -7,7 +7,7 @@ from fractions import Fraction
 from regscribe.lower.conditions import cases_of, condition, write_condition
 from regscribe.lower.enums import enum_of, fields_of
 from regscribe.lower.idle_keys import report_idle_keys
-from regscribe.lower.node import Keyed, Value
+from regscribe.lower.node import ZERO, Keyed, Value
 from regscribe.lower.register_values import beginning_of, range_of, sentinels_of, specials_of, version_of
 from regscribe.lower.rules import NO_ACCESS
 from regscribe.lower.scales import NOT_STATED, Scaling, decimals_rule, rescaled, scale_of, unit_of
@@ -23,6 +23,7 @@ from regscribe.model import (
     Inferred,
     Kind,
     Number,
+    ReadFacts,
     Register,
     Setting,
     Special,
@@ -85,6 +86,9 @@ def register_of(entry: TreeNode, everywhere: Scope) -> Register:
         stays=settings.text_of("stays"),
         governs=_governs(settings.get("governs")),
         settle=settings.whole_of("settle"),
+        reading=_reading(settings),
+        static=settings.truth_of("static"),
+        mandatory=settings["mandatory"].truth() if "mandatory" in settings else None,
         shadows=scope.path(settings.get("shadows")),
         follows=_follows(settings.get("follows"), scope),
         difference=settings.truth_of("difference"),
@@ -169,6 +173,13 @@ def _follows(node: Value | None, scope: Scope) -> Cases[str]:
     if node.is_text:
         return always(scope.path(node))
     return cases_of(node, scope, lambda case: scope.path(case.child("is")))
+
+
+def _reading(keys: Keyed) -> ReadFacts:
+    poll, clears = keys.child("poll"), keys.text_of("reading") == "clears"
+    usual: str | Fraction = "once" if keys.truth_of("static") else ZERO
+    wanted = usual if poll is None else poll.number() if poll.is_number else poll.text()
+    return ReadFacts(clears, wanted, keys.fraction_of("good_for"))
 
 
 def _governs(node: Value | None) -> Governs | None:

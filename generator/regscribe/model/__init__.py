@@ -30,7 +30,15 @@ from regscribe.model.process import Alarm, Effect, OnOff, Output, Pid, Process, 
 from regscribe.model.register import Array, Group, Inferred, Register
 from regscribe_runtime.values.blocks import Chain, Header, Layout, RegisterBlock
 from regscribe_runtime.values.conditions import ALWAYS, Case, Cases, Condition, Is, always, registers_of
-from regscribe_runtime.values.facts import CommandStep, Governs, Identity, Setting, WriteCondition
+from regscribe_runtime.values.facts import (
+    PLAIN_READING,
+    CommandStep,
+    Governs,
+    Identity,
+    ReadFacts,
+    Setting,
+    WriteCondition,
+)
 from regscribe_runtime.values.kinds import Access, Kind
 from regscribe_runtime.values.numbers import Number, exact, parse, show
 from regscribe_runtime.values.programs import (
@@ -67,6 +75,7 @@ __all__ = [
     "ALWAYS",
     "IDENTITY",
     "NAN",
+    "PLAIN_READING",
     "SAME",
     "SILENCE",
     "Access",
@@ -136,6 +145,7 @@ __all__ = [
     "ProtocolNotes",
     "Ramp",
     "Range",
+    "ReadFacts",
     "Ref",
     "Register",
     "RegisterBlock",

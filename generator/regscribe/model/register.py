@@ -6,7 +6,7 @@ from fractions import Fraction
 from regscribe.model.diagnostic import NOWHERE, Span
 from regscribe.model.enums import BitField, Enum, Special
 from regscribe_runtime.values.conditions import ALWAYS, Cases, Condition, always
-from regscribe_runtime.values.facts import Governs, WriteCondition
+from regscribe_runtime.values.facts import PLAIN_READING, Governs, ReadFacts, WriteCondition
 from regscribe_runtime.values.kinds import Access, Kind
 from regscribe_runtime.values.scales import SAME, Conversion, NotANumber, Range, Sentinel
 from regscribe_runtime.values.views import View, preferred, read_view
@@ -36,7 +36,10 @@ class Register:
     `rescales` names the unit (of the map's units) whose registers the device converts when this one is written.
     `unlock` and `apply` name commands that must precede and follow a write.
     `stays` is why the value must not be copied to another device (`address`, `line`, `calibration`, `identity`,
-    `counter`, `operation`; empty: it may be). `settle` is in milliseconds: before that, a read-back says nothing.
+    `counter`, `operation`, `momentary`; empty: it may be). `settle` is in milliseconds: before that, a read-back
+    says nothing.
+    `reading` is how it wants to be read. `static`: it never changes by itself. `mandatory`: whether each device of the
+    model has it (None: the map does not say).
     `shadows` is the register from which it takes its value when power comes, `follows` by case the register whose
     value it always has (none holding: its own). `difference`: it counts a distance in its unit, whose zero point does
     not matter, as a proportional band does.
@@ -80,6 +83,9 @@ class Register:
     stays: str = ""
     governs: Governs | None = None
     settle: int = 0
+    reading: ReadFacts = PLAIN_READING
+    static: bool = False
+    mandatory: bool | None = None
     shadows: str = ""
     follows: Cases[str] = ()
     difference: bool = False
@@ -123,6 +129,11 @@ class Register:
     def is_written_apart(self) -> bool:
         """Whether it is read in the base view only and written in another one only."""
         return len(self.views) > 1 and not self.base.writable and not any(view.readable for view in self.views[1:])
+
+    @property
+    def is_read_along(self) -> bool:
+        """Whether it is read with its group or with everything; if not, where it is asked for by name."""
+        return self.access.readable and not self.reading.clears
 
     @property
     def beginnings(self) -> tuple[tuple[str, Fraction | str], ...]:

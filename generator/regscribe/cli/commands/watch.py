@@ -59,7 +59,8 @@ def command(
     """
     every_name = (*wanted, *charts)
     with opened(target, check=lambda driver: names.chosen(driver, every_name)) as device:
-        registers = names.chosen(type(device), every_name)
+        named = names.chosen(type(device), every_name)
+        registers = [one for one in named if one.reading.poll != "never" or one.path in every_name]
         curves = [one.path for one in names.chosen(type(device), charts)]
         rounds = watch(device, registers, every=every, count=count, give_up=give_up)
         try:

@@ -26,8 +26,8 @@ class PlannedModel:
 
     @property
     def readable(self) -> list[str]:
-        """The paths of all registers that can be read."""
-        return [path for path, register in self.registers.items() if register.access.readable]
+        """The paths of all registers that are read where all are."""
+        return [path for path, register in self.registers.items() if register.is_read_along]
 
     def terms(self, cost: Cost) -> Terms:
         """Limits, readable ground and cost that a plan is made under."""

@@ -58,6 +58,14 @@ STAYS = {
     "identity": "identifies the device",
     "counter": "what the device counted or measured",
     "operation": "what the device does at the moment, no setting",
+    "momentary": "falls back by itself",
+}
+POLLS = {
+    "fast": "as fast as the line allows",
+    "normal": "every second",
+    "slow": "every ten seconds",
+    "once": "not: reading it once will do",
+    "never": "not, unless it is asked for by name",
 }
 DIFFERENCE = "a difference: its unit is converted without the zero point"
 PERSISTENCE = {"ram": "RAM", "eeprom": "EEPROM", "both": "RAM and EEPROM"}
@@ -83,6 +91,18 @@ def _facts(context: PageContext, leaf: Leaf, model: Model, register: Register) -
     yield "Governs", _governs(register)
     yield "Read back", md(f"{register.settle} ms after the write at the earliest" if register.settle else "")
     yield "Not for another device", md(STAYS.get(register.stays, ""))
+    yield from _reading(register)
+
+
+def _reading(register: Register) -> Iterator[tuple[str, Md]]:
+    """Yield what to know of a register before one reads it, and how often."""
+    clears, poll, good_for = register.reading
+    yield "Reading", md("clears it; a driver reads it only where it is asked for by name" if clears else "")
+    yield "Changes", md("never by itself" if register.static else "")
+    seconds = "" if isinstance(poll, str) else f"every {show(poll)} s"
+    yield "To be followed", md(POLLS.get(str(poll), seconds) if poll else "")
+    yield "A value holds", md(f"{show(good_for)} s" if good_for else "")
+    yield "On each device", md({True: "yes", False: "no, on some only"}.get(register.mandatory, ""))
 
 
 def _value_facts(context: PageContext, model: Model, register: Register) -> Iterator[tuple[str, Md]]:

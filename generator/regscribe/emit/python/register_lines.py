@@ -9,7 +9,7 @@ from regscribe.emit.python.expressions import Specs, expression
 from regscribe.emit.python.formatting import Call, Expression, call, group, lay, mapping
 from regscribe.emit.python.literals import docstring, exact, literal, plain
 from regscribe.emit.words import listed, one_line, range_words
-from regscribe.model import Access, Command, Kind, Register, show
+from regscribe.model import PLAIN_READING, Access, Command, Kind, Register, show
 
 DESCRIPTORS = {Access.READ: "ReadOnly", Access.READ_WRITE: "ReadWrite", Access.WRITE: "WriteOnly"}
 
@@ -49,6 +49,7 @@ class Declarations:
             stays=_text(register.stays),
             governs=specs.governs(register),
             settle=str(register.settle) if register.settle else None,
+            reading=specs.of(register.reading) if register.reading != PLAIN_READING else None,
             rescales=_text(register.rescales),
             block=_text(register.block),
         )

@@ -8,10 +8,10 @@ from regscribe.model import Array, Register, RegisterMap
 RUNTIME = tuple(
     """
     Array AsyncBareDevice AsyncClient AsyncDevice AsyncLink AsyncPart BareDevice Bit ByCase Case Chain Choice
-    ClientSettings Command CommandStep Condition Conversion Decimals Device ExceptionCode Field Flags GivenRef
-    Governs Group Identity Interval Is Latency Link NotANumber Open Order OrderFrom Part Power Product ProgramAction
-    ProgramCounts ProgramFinal ProgramPart ProgramSegments ProgramStates ProgramTimeUnit Protocol Range ReadOnly
-    ReadWrite Ref RegisterBlock Rounding Sentinel SerialDefaults SerialSettings SetpointProgram Setting Space
+    ClientSettings Command CommandStep Condition Conversion Decimals Device ExceptionCode Field Flags GivenRef Governs
+    Group Identity Interval Is Latency Link NotANumber Open Order OrderFrom Part Power Product ProgramAction
+    ProgramCounts ProgramFinal ProgramPart ProgramSegments ProgramStates ProgramTimeUnit Protocol Range ReadFacts
+    ReadOnly ReadWrite Ref RegisterBlock Rounding Sentinel SerialDefaults SerialSettings SetpointProgram Setting Space
     SpecialNumber SubPart Sum SyncClient TcpSettings View WhileRunning WireType Word WriteCondition WriteOnly always
     async_client_link async_serial_link async_tcp boolean choice client_link flags integer integer_or integer_with
     number number_or number_with raw raw_float serial_link tcp text version within word word_of

@@ -9,6 +9,7 @@ from regscribe.emit.common_values import models_by
 from regscribe.emit.vectors.content import case_of, surroundings
 from regscribe.emit.vectors.situations import Finder, Situation, writable_situations
 from regscribe.model import (
+    PLAIN_READING,
     Enum,
     OrderFrom,
     Register,
@@ -73,6 +74,9 @@ def _bare(register: Register) -> Register:
         inferred=(),
         governs=None,
         settle=0,
+        reading=PLAIN_READING,
+        static=False,
+        mandatory=None,
         index=(),
         unit=always(""),
         endurance=None,

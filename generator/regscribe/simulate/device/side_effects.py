@@ -48,6 +48,8 @@ class Conduct:
         self._pass_on(register, after)
         self._own.add(path)
         self._shade(register)
+        if register.stays == "momentary":
+            state.store(path, state.blueprint.stored[path])
 
     def commanded(self, completed: Iterable[str]) -> None:
         """Handle completed commands: what waited for them comes into effect, and they have effects of their own."""

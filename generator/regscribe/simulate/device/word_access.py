@@ -4,6 +4,7 @@ import struct
 import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 
 from regscribe.model import Later, Register, Space
 from regscribe.reference import holds
@@ -64,10 +65,18 @@ class WordAccess:
             place = blueprint.layout.place(space, each)
             if place is not None and not place.view.allows(function):
                 raise Refusal(blueprint.register_map.faults.view_function)
-        return tuple(
+        found = tuple(
             self._fill(space, address + index, first=index == 0) if word is None else word
             for index, word in enumerate(self.state.words(space, address, count))
         )
+        self._clear(space, address, count)
+        return found
+
+    def _clear(self, space: Space, address: int, count: int) -> None:
+        """Set what this reading clears to 0."""
+        places = (self.state.blueprint.layout.place(space, each) for each in range(address, address + count))
+        for path in {place.register.path for place in places if place and place.register.reading.clears}:
+            self.state.store(path, Fraction(0))
 
     def _fill(self, space: Space, address: int, *, first: bool) -> int:
         """The word at an address where no readable register stands; raises Refusal."""

@@ -54,8 +54,8 @@ def chosen(driver: Driver, names: Iterable[str]) -> list[Register[Any]]:
 
 
 def readable(driver: Driver) -> list[Register[Any]]:
-    """Every register of a driver that can be read."""
-    return [register for register in driver.registers.values() if register.access != "w"]
+    """Every register of a driver that is read where all are; what reading clears is not."""
+    return [register for register in driver.registers.values() if register.is_read_along]
 
 
 def completions(driver: Driver) -> Iterator[tuple[str, str]]:

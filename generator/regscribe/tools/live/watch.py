@@ -1,5 +1,6 @@
 """Reads the same registers again and again: rounds with what changed, never faster than the line can carry."""
 
+import math
 import time
 from collections.abc import Callable, Iterator, Sequence
 from datetime import UTC, datetime
@@ -54,13 +55,14 @@ def watch(
     give_up: int = 0,
     sleep: Callable[[float], None] = time.sleep,
 ) -> Iterator[Round]:
-    """Read `registers` every so many seconds, `count` times (0: for ever).
+    """Read `registers` every so many seconds, or less often if their map says so, `count` times (0: for ever).
 
     A round begins at the earliest when the last one is done and the line was idle for a tenth of its time. A device
     that does not answer is asked again in the next round; after `give_up` such rounds in a row (0: never) GaveUp is
     raised.
     """
-    task = readings(registers)
+    held: dict[str, RegisterReading] = {}
+    read_at: dict[str, float] = {}
     last: dict[str, tuple[object, ...]] = {}
     failed = number = 0
     while not count or number < count:
@@ -68,8 +70,11 @@ def watch(
         moment, started = datetime.now(UTC), time.monotonic()
         found: tuple[RegisterReading, ...] = ()
         error = None
+        due = [one for one in registers if started - read_at.get(one.path, -math.inf) >= one.reading.pause - every / 2]
         try:
-            found = device.run(task)
+            held |= {one.name: one for one in (device.run(readings(due)) if due else ())}
+            read_at |= dict.fromkeys((one.path for one in due), started)
+            found = tuple(held[one.path] for one in registers)
         except (NoAnswer, LinkLost, WrongAnswer) as problem:
             error = problem
         seconds = time.monotonic() - started

@@ -18,7 +18,7 @@ TEXTS = frozenset({"string", "version"})
 
 def writable(driver: Driver) -> list[Register[Any]]:
     """The registers of a driver that can be read and written: its settings are among them."""
-    return [register for register in readable(driver) if register.access == "rw"]
+    return [register for register in readable(driver) if register.access == "rw" and register.stays != "momentary"]
 
 
 def _in_groups(driver: Driver) -> dict[str, list[Register[Any]]]:

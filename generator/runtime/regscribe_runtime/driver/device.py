@@ -80,7 +80,7 @@ class _Common:
     def _chosen(self, what: tuple[What, ...]) -> list[Register[Any]]:
         found: list[Register[Any]] = []
         if not what:
-            return [register for register in self.session.registers.values() if register.access.readable]
+            return [register for register in self.session.registers.values() if register.is_read_along]
         for one in what:
             if isinstance(one, Group):
                 found += one.registers(type(self))

@@ -67,7 +67,7 @@ def _members_of(owner: type) -> Mapping[str, list[Register[Any]]]:
     found: dict[str, list[Register[Any]]] = {}
     registers: Mapping[str, Register[Any]] = getattr(owner, "registers", {})
     for path, register in registers.items():
-        if register.access.readable:
+        if register.is_read_along:
             found.setdefault(path.partition("[")[0], []).append(register)
     return found
 
@@ -89,7 +89,7 @@ class _AnyPart(Generic[B]):
         return {
             path: self._in_device(path, register)
             for path, register in type(self).registers.items()
-            if register.access.readable
+            if register.is_read_along
         }
 
     def _in_device(self, path: str, register: Register[T]) -> Register[T]:

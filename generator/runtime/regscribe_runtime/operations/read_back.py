@@ -25,7 +25,6 @@ from regscribe_runtime.registers import codec
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.report import Words
 from regscribe_runtime.values.conditions import State
-from regscribe_runtime.values.kinds import Access
 from regscribe_runtime.values.views import View
 
 Target = tuple["Register[Any]", "View"]
@@ -165,7 +164,7 @@ def fate_of_lost(session: Session, write: RegisterWrite, cause: RegscribeError) 
     register, kind = write.register, WriteUnknown
     reason = "the answer leaves it open" if isinstance(cause, ExceptionAnswer) else "the answer was lost"
     reason = f"{reason} ({cause})"
-    if register.access is not Access.READ_WRITE:
+    if not register.can_be_checked:
         return lost(kind, write.path, f"{reason}, and it cannot be read back", cause)
     found = yield from look_back(session, [write.target], cause)
     if found is None:
@@ -182,7 +181,7 @@ def fate_of_lost(session: Session, write: RegisterWrite, cause: RegscribeError) 
 
 def keeps(register: Register[Any]) -> bool:
     """Whether the device keeps what is written, so that another value read back is an error."""
-    return register.is_configuration or register.persistence == "ram"
+    return register.is_configuration or (register.persistence == "ram" and register.stays != "momentary")
 
 
 def verify_write(session: Session, write: RegisterWrite) -> Operation[None]:

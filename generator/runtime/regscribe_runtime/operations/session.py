@@ -1,5 +1,6 @@
 """The state of a driver between requests: protocol, givens, remembered registers. No I/O."""
 
+import time
 from collections.abc import Callable, Generator, Iterable, Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar
@@ -8,7 +9,7 @@ from regscribe_runtime.errors import ExceptionAnswer, LinkLost, NoAnswer, Regscr
 from regscribe_runtime.link.links import LinkState, Retry
 from regscribe_runtime.link.timing import response_seconds, slowest
 from regscribe_runtime.operations.missing_registers import MissingRegisters
-from regscribe_runtime.planning.address_ranges import AddressRanges, ground_of
+from regscribe_runtime.planning.address_ranges import AddressRanges, ground_of, places
 from regscribe_runtime.planning.cost import Cost
 from regscribe_runtime.planning.plan import RequestLimits, Terms
 from regscribe_runtime.registers.register import Register
@@ -17,7 +18,7 @@ from regscribe_runtime.values.blocks import Chain, Header, RegisterBlock, find
 from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.serial_line import MODBUS, LineChange, SerialLine
 from regscribe_runtime.values.wire_types import Space
-from regscribe_runtime.wire.requests import Reply, Request, verify
+from regscribe_runtime.wire.requests import READ_SPACES, Reply, Request, verify
 
 T = TypeVar("T")
 
@@ -81,6 +82,7 @@ class Session:
         self.places: dict[str, Header] = {}
         self.chains: dict[str, tuple[Header, ...]] = {}
         self.memory: dict[str, Any] = {}
+        self._ends: dict[str, float] = {}
         self.proven: set[str] = set()
         self.prepared: dict[Any, Any] = {}
         self.wear = Wear()
@@ -112,6 +114,8 @@ class Session:
     def remember(self, path: str, value: object) -> None:
         """Keep the value of a register that others depend on."""
         self.memory[path] = value
+        if good_for := self.registers[path].reading.good_for:
+            self._ends[path] = time.monotonic() + float(good_for)
         self.proven.add(path)
         self.prepared.clear()
 
@@ -182,11 +186,20 @@ class Session:
         self.addressing = link.addressing
         self._tries = self.retry or link.retry
         self.wrote, self.home = False, None
+        if self._ends:
+            self._let_expire(time.monotonic())
         line = link.line
         if line is not self.line and line != self.line:
             self.line = line
             self.prepared.clear()
             self._timed.clear()
+
+    def _let_expire(self, now: float) -> None:
+        """Forget what is remembered for longer than it is good for."""
+        gone = [path for path, end in self._ends.items() if end <= now]
+        self.forget(gone)
+        for path in gone:
+            del self._ends[path]
 
     def retuned(self, change: LineChange, *, line: SerialLine | None, addressing: str) -> None:
         """Adopt another unit id, line or addressing; everything remembered is dropped."""
@@ -219,7 +232,7 @@ class Session:
                 assert reply is not None, "an executor answers a request with a reply"  # noqa: S101 (their contract)
                 words = verify(request, reply, unit=self.unit, protocol=self.protocol)
             except (NoAnswer, WrongAnswer, LinkLost, ExceptionAnswer) as error:
-                if not left or not _is_passing(error):
+                if not left or not _is_passing(error) or self._clears(request):
                     raise
                 left = 0 if isinstance(error, LinkLost) else left - 1  # a link that is lost once more is gone
             else:
@@ -227,6 +240,16 @@ class Session:
                     self.prepared.clear()
                 return words
             yield Pause(self._tries.pause)
+
+    def _clears(self, request: Request) -> bool:
+        """Whether a read changed the device even if its answer was lost, so that a second one would tell nothing."""
+        space, end = READ_SPACES[request.function], request.address + request.quantity
+        return any(
+            view.space is space and address < end and request.address < address + view.words
+            for register in self.registers.values()
+            if register.reading.clears
+            for view, address in places(register)
+        )
 
 
 def _is_passing(error: RegscribeError) -> bool:

@@ -20,7 +20,6 @@ from regscribe_runtime.operations.session import Operation, Pause, Session
 from regscribe_runtime.operations.write_order import Batch, batches
 from regscribe_runtime.operations.write_request import EEPROM, run
 from regscribe_runtime.report import Change, Fate, Progress, Sent, Teller, Words, WriteReport
-from regscribe_runtime.values.kinds import Access
 
 TOUCHED = frozenset({Fate.WRITTEN, Fate.DIFFERS, Fate.UNKNOWN})
 """Fates of registers that may hold something else than before."""
@@ -160,7 +159,7 @@ class Transaction:
 
     def settle(self, paths: Sequence[str], after: Exception) -> Operation[None]:
         """Read registers back and record the fates that this shows; one that cannot be read keeps its own."""
-        targets = [self.target(path) for path in paths if self.session.registers[path].access is Access.READ_WRITE]
+        targets = [self.target(path) for path in paths if self.session.registers[path].can_be_checked]
         found = (yield from look_back(self.session, targets, after)) if targets else None
         for path, words in (found or {}).items():
             self._mark_held(path, words)
@@ -180,7 +179,7 @@ class Transaction:
     def verify(self) -> Operation[tuple[str, ...]]:
         """Read back what was written and the device keeps; the registers that hold something else."""
         targets = [self.target(path) for path in self.paths(Fate.WRITTEN)]
-        targets = [one for one in targets if one[0].access is Access.READ_WRITE and keeps(one[0])]
+        targets = [one for one in targets if one[0].can_be_checked and keeps(one[0])]
         if not targets:
             return ()
         yield Pause(settling_seconds(self.session, targets))

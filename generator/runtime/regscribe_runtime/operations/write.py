@@ -34,7 +34,6 @@ from regscribe_runtime.operations.write_request import (
 from regscribe_runtime.registers import codec
 from regscribe_runtime.registers.enums import Flags, unnamed_bits
 from regscribe_runtime.registers.register import Register
-from regscribe_runtime.values.kinds import Access
 
 T = TypeVar("T")
 
@@ -63,7 +62,7 @@ def write(
         words = codec.encode(register, chosen, value, state, session.givens, rounded=rounded, kept=kept)
         planned = RegisterWrite(register, chosen, words, dict(state))  # whatever is forgotten meanwhile
         check_unit(session, planned)
-        if register.persistence in EEPROM and register.access is Access.READ_WRITE:
+        if register.persistence in EEPROM and register.can_be_checked:
             found = yield from words_of(session, [planned.target])
             if in_view(planned.target, found[register.path], state) == words:
                 session.wear.add(register.path, spared=1)

@@ -19,7 +19,7 @@ from regscribe_runtime.registers.enums import unnamed_bits
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.report import Change, Fate, Words
 from regscribe_runtime.values.conditions import registers_of
-from regscribe_runtime.values.kinds import Access, Kind
+from regscribe_runtime.values.kinds import Kind
 from regscribe_runtime.values.views import View
 
 SUGGESTED = 3
@@ -100,7 +100,7 @@ def read_present(session: Session, chosen: Sequence[Assignment]) -> Operation[Pr
         path for one in chosen for path in (*needs(one.register, one.view), *read_back_needs(one.register, one.view))
     ]
     state = dict((yield from know(session, paths, fresh=True)))
-    held = {one.register.path: (one.register, one.view) for one in chosen if one.register.access is Access.READ_WRITE}
+    held = {one.register.path: (one.register, one.view) for one in chosen if one.register.can_be_checked}
     found = yield from _words(session, tuple(held.values()))
     words = {path: in_view(target, found[path], state) for path, target in held.items()}
     return Present(state, {path: one for path, one in words.items() if one is not None})

@@ -1,8 +1,8 @@
 """Address ranges that read requests may cover without being refused.
 
 A hole (an address of no register) is crossed only where the device lets holes be read or the map calls it unused.
-Registers that cannot be read, or that this unit refused, are never read along. A view whose requests must be aligned
-has a stretch of its own.
+Registers that cannot be read, that this unit refused, or that reading clears (`alone`) are never read along. A view
+whose requests must be aligned has a stretch of its own.
 """
 
 from bisect import bisect_right
@@ -43,7 +43,7 @@ class AddressStretch(NamedTuple):
 class AddressRanges:
     """The stretches of every space of one device, and why they end."""
 
-    __slots__ = ("_aligned", "_apart", "_known", "_refused", "_starts", "_stretches", "_unreadable", "holes")
+    __slots__ = ("_aligned", "_alone", "_apart", "_known", "_refused", "_starts", "_stretches", "_unreadable", "holes")
 
     def __init__(
         self,
@@ -53,9 +53,10 @@ class AddressRanges:
         aligned: Mapping[Space, list[AddressStretch]] | None = None,
         refused: Mapping[Space, list[Range]] | None = None,
         apart: Mapping[Space, list[Range]] | None = None,
+        alone: Mapping[Space, list[Range]] | None = None,
         holes: bool = False,
     ) -> None:
-        self.holes, self._aligned = holes, aligned or {}
+        self.holes, self._aligned, self._alone = holes, aligned or {}, alone or {}
         self._known, self._refused, self._apart = _merged(readable), _merged(refused), _merged(apart)
         self._unreadable = {
             space: without(ranges, self._known.get(space, ())) for space, ranges in _merged(unreadable).items()
@@ -73,6 +74,7 @@ class AddressRanges:
             aligned=self._aligned,
             refused=_by_space(items),
             apart=_by_space(apart),
+            alone=self._alone,
             holes=self.holes,
         )
 
@@ -81,7 +83,7 @@ class AddressRanges:
         aligned = list(_disjoint(self._aligned.get(space, [])))
         allowed = [(0, ADDRESSES)] if self.holes else self._known.get(space, [])
         barred = merged([*self._unreadable.get(space, ()), *self._refused.get(space, ())])
-        cuts = [*((one.first, one.end) for one in aligned), *self._apart.get(space, ())]
+        cuts = [*((one.first, one.end) for one in aligned), *self._apart.get(space, ()), *self._alone.get(space, ())]
         edges = sorted(set(chain.from_iterable(cuts)))
         for start, stop in without(allowed, barred):
             inside = [edge for edge in edges if start < edge < stop]
@@ -104,10 +106,12 @@ class AddressRanges:
         return item if found is None or found.align == 1 else _widened(item, found.align)
 
     def between(self, before: RegisterSpan, after: RegisterSpan) -> str:
-        """Why no request reads from `before` to `after`: unreadable, refused, hole or alignment; "" if one may."""
+        """Why none reads from `before` to `after`: refused, unreadable, clears, hole, alignment; "" if one may."""
         if self.stretch(before) == self.stretch(after):
             return ""
         space, gap = before.space, (before.end, after.address)
+        if _touches(self._alone.get(space, ()), (before.address, after.end)):
+            return "clears"
         if _touches(self._refused.get(space, ()), gap) or _touches(self._apart.get(space, ()), gap):
             return "refused"
         if _touches(self._unreadable.get(space, ()), gap):
@@ -150,6 +154,7 @@ def ground_of(
 ) -> AddressRanges:
     """The address ranges of a device with these registers; `unused` (space, first, last address) read as 0."""
     readable: dict[Space, list[Range]] = defaultdict(list)
+    alone: dict[Space, list[Range]] = defaultdict(list)
     unreadable: dict[Space, list[Range]] = defaultdict(list)
     aligned: dict[tuple[Space, str], AddressStretch] = {}
     for register in registers:
@@ -157,6 +162,8 @@ def ground_of(
             end = address + view.words
             ranges = readable if register.access.readable and view.readable else unreadable
             ranges[view.space].append((address, end))
+            if register.reading.clears and view.readable:
+                alone[view.space].append((address, end))
             if view.align > 1:
                 known = aligned.get((view.space, view.name), AddressStretch(address, end, view.align))
                 both = AddressStretch(min(known.first, address), max(known.end, end), view.align)
@@ -166,7 +173,7 @@ def ground_of(
     regions: dict[Space, list[AddressStretch]] = defaultdict(list)
     for (space, _), stretch in sorted(aligned.items(), key=lambda one: one[1]):
         regions[space].append(stretch)
-    return AddressRanges(readable, unreadable=unreadable, aligned=regions, holes=holes)
+    return AddressRanges(readable, unreadable=unreadable, aligned=regions, alone=alone, holes=holes)
 
 
 def places(register: Placed) -> Iterator[tuple[View, int]]:

@@ -71,6 +71,7 @@ class SplitReason(StrEnum):
     UNREADABLE = "unreadable"
     REFUSED = "refused"
     ALIGNMENT = "alignment"
+    CLEARS = "clears"
     CHEAPER = "cheaper apart"
     AGAIN = "once more"
 
@@ -161,7 +162,12 @@ def explain(requests: Sequence[Block], terms: Terms, *, again: int = 0) -> Plan:
     return Plan(tuple(planned))
 
 
-GAPS = {"hole": "no registers", "refused": "refused by this unit", "unreadable": "not readable"}
+GAPS = {
+    "hole": "no registers",
+    "refused": "refused by this unit",
+    "unreadable": "not readable",
+    "clears": "cleared by reading",
+}
 """What may lie between two requests, in words."""
 
 

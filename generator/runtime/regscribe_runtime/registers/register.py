@@ -8,7 +8,7 @@ from regscribe_runtime.errors import ValueRefused
 from regscribe_runtime.registers import codec, element
 from regscribe_runtime.registers.value_types import ValueType
 from regscribe_runtime.values.conditions import ALWAYS, Cases, Condition, Givens, State, always
-from regscribe_runtime.values.facts import Governs, WriteCondition
+from regscribe_runtime.values.facts import PLAIN_READING, Governs, ReadFacts, WriteCondition
 from regscribe_runtime.values.kinds import Access
 from regscribe_runtime.values.scales import SAME, Conversion, Range, Sentinel
 from regscribe_runtime.values.views import View, limit_needs, needs
@@ -26,9 +26,9 @@ class Register(Generic[T]):
     `at` is the n of its views' address formulas. `special_scale` divides the codes of special values, as the range's
     decimals divide its limits. `default` is the manual's, in engineering units. `unit` is an engineering unit, or cases
     of them. `stays` is why the value must not be copied to another device (address, line, calibration, identity,
-    counter, operation; "": it may be), `governs` what it sets of the serial line, `settle` the milliseconds after a
-    write in which reading back is not reliable; `rescales` names the unit whose values the device converts then.
-    It exists only while `when` holds.
+    counter, operation, momentary; "": it may be), `governs` what it sets of the serial line, `settle` the milliseconds
+    after a write in which reading back is not reliable; `rescales` names the unit whose values the device converts.
+    It exists only while `when` holds; `reading` is how it wants to be read.
 
     In a `block` addresses count from its base, which is not known (`origin` is None) before it is `located`;
     `reach` is the first address behind its element in an array that goes to the end of the block, else 0.
@@ -62,6 +62,7 @@ class Register(Generic[T]):
         settle: int = 0,
         rescales: str = "",
         when: Condition = ALWAYS,
+        reading: ReadFacts = PLAIN_READING,
         block: str = "",
     ) -> None:
         self.at, self.views, self.value_type, self.kind = at, views, value_type, value_type.kind
@@ -72,7 +73,7 @@ class Register(Generic[T]):
         self.writable, self.persistence = writable, persistence
         self.unlock, self.apply, self.danger = unlock, apply, danger
         self.stays, self.governs, self.settle, self.rescales = stays, governs, settle, rescales
-        self.when = when
+        self.when, self.reading = when, reading
         self.block, self.reach = block, 0
         self.origin: int | None = None if block else 0
         self.id = self.path = ""
@@ -133,8 +134,18 @@ class Register(Generic[T]):
     @property
     def is_configuration(self) -> bool:
         """Whether it is a setting that the device keeps: no operation, no counter, not in RAM alone."""
-        passing = self.persistence == "ram" or self.stays in {"operation", "counter"}
-        return self.access is Access.READ_WRITE and not passing
+        passing = self.persistence == "ram" or self.stays in {"operation", "counter", "momentary"}
+        return self.can_be_checked and not passing
+
+    @property
+    def can_be_checked(self) -> bool:
+        """Whether it can be read back after a write, without harm."""
+        return self.access is Access.READ_WRITE and not self.reading.clears
+
+    @property
+    def is_read_along(self) -> bool:
+        """Whether it is read with its group or with everything; if not, where it is asked for by name."""
+        return self.access.readable and not self.reading.clears
 
     @property
     def view_names(self) -> tuple[str, ...]:

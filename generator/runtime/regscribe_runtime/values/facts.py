@@ -4,6 +4,7 @@ from enum import StrEnum
 from typing import Any, NamedTuple
 
 from regscribe_runtime.values.conditions import ALWAYS, Condition, State
+from regscribe_runtime.values.numbers import Number
 from regscribe_runtime.values.wire_types import Space
 
 
@@ -34,6 +35,32 @@ class Governs(NamedTuple):
     def value(self, code: Any) -> str | None:
         """The setting of a code; None where the manual does not print it."""
         return next((text for known, text in self.codes if known == code), None)
+
+
+NEVER = float("inf")
+POLLS = {"fast": 0.0, "normal": 1.0, "slow": 10.0, "once": NEVER, "never": 0.0}
+"""Seconds between two readings of a register that is followed, by the word; what is `never` is, by name, like any."""
+
+
+class ReadFacts(NamedTuple):
+    """How a register wants to be read.
+
+    `clears`: reading it changes it, so it is read only where it is asked for by name. `poll` is a word of POLLS, or
+    seconds (0: it is not stated), `good_for` the seconds for which a value that was read holds (0: not stated).
+    """
+
+    clears: bool = False
+    poll: str | Number = 0
+    good_for: Number = 0
+
+    @property
+    def pause(self) -> float:
+        """Seconds after a reading in which another one would tell nothing new, or is not wanted."""
+        wanted = POLLS[self.poll] if isinstance(self.poll, str) else float(self.poll)
+        return wanted or float(self.good_for)
+
+
+PLAIN_READING = ReadFacts()
 
 
 class WriteCondition(NamedTuple):

@@ -3,6 +3,7 @@
 from typing import Any, NamedTuple, Protocol
 
 from regscribe_runtime.values.conditions import Cases, Condition, registers_of
+from regscribe_runtime.values.facts import ReadFacts
 from regscribe_runtime.values.kinds import Access
 from regscribe_runtime.values.numbers import Number
 from regscribe_runtime.values.scales import Conversion, Range
@@ -92,6 +93,8 @@ class Placed(Protocol):
     def aliases(self) -> tuple[int, ...]: ...  # noqa: D102
     @property
     def access(self) -> Access: ...  # noqa: D102
+    @property
+    def reading(self) -> ReadFacts: ...  # noqa: D102
 
 
 class Scaled(Protocol):
