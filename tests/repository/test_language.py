@@ -7,7 +7,10 @@ from typing import Any
 import pytest
 from markdown_it import MarkdownIt
 
+from regscribe.emit.language_index import BY_TASK, SUBJECTS
+from regscribe.emit.language_index import KNOWN_UNITS as KNOWN_UNITS_HEADING
 from regscribe.emit.language_reference import render
+from regscribe.model.units import KNOWN_UNITS
 from regscribe.schema import schema_json
 
 PAGE = Path(__file__).parents[2] / "docs" / "language.md"
@@ -40,6 +43,25 @@ def test_every_link_leads_to_a_heading() -> None:
         line.removeprefix("## ").lower().replace(" ", "-") for line in page.splitlines() if line.startswith("## ")
     }
     assert set(re.findall(r"\]\(#([^)]*)\)", page)) <= headings
+
+
+def _of_recipes(pattern: str) -> list[str]:
+    return re.findall(pattern, PAGE.with_name("recipes.md").read_text(encoding="utf-8"), re.MULTILINE)
+
+
+def test_every_link_of_the_recipes_leads_to_one() -> None:
+    titles = {re.sub(r"[^a-z0-9 -]", "", title.lower()).replace(" ", "-") for title in _of_recipes("^## (.*)$")}
+    assert set(_of_recipes(r"\]\(#([^)]*)\)")) <= titles
+
+
+def test_the_index_by_task_has_something_for_every_subject() -> None:
+    index = render(schema_json()).split(f"\n## {BY_TASK}\n")[1].split("\n## ")[0]
+    assert [one.count("\n- that ") >= 3 for one in index.split("\n**")[1:]] == [True] * len(SUBJECTS)
+
+
+def test_the_known_units_are_listed() -> None:
+    listed = render(schema_json()).split(f"\n## {KNOWN_UNITS_HEADING}\n")[1]
+    assert [symbol for symbol in KNOWN_UNITS if f"`{symbol}`" not in listed] == []
 
 
 def test_headings_are_unique() -> None:

@@ -125,8 +125,10 @@ class _Rows:
         stated = text(node.child("space")) or text(at(node, ("each", "space"))) or stated
         stated = "coil" if text(node.child("function")) in map(str, _COILS) else stated
         spaces = set[str]()
+        relative = node.child("block")  # of a step: counted from the block
         for key, each in members(node).items():
-            node = put(node, key, self._wire(each, stated, spaces)) if key in _NUMBERS else node
+            if key in _NUMBERS and not relative:
+                node = put(node, key, self._wire(each, stated, spaces if key == "at" else set()))
         found = next(iter(spaces), space)
         if spaces and not stated and found != (space or "holding"):
             node = self._with_space(node, found)

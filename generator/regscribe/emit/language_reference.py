@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from regscribe.emit.language_index import contents, known_units, tasks
 from regscribe.schema import inline, schema_json
 
 Schema = Mapping[str, Any]
@@ -34,9 +35,10 @@ _INTRODUCTION = """\
 
 # The map language, format 1
 
-A map is one YAML file for one device family. The [tutorial](tutorial.md) writes one from a page of a manual; this page
-lists every key. A map may extend another one (`extends`) and use libraries of names (`uses`), which lie in the same
-`maps` folder. The same text appears in an editor that knows YAML schemas, if the map starts with the line
+A map is one YAML file for one device family. The [tutorial](tutorial.md) writes one from a page of a manual, the
+[recipes](recipes.md) show what to write for what manuals say; this page lists every key. A map may extend another one
+(`extends`) and use libraries of names (`uses`), which lie in the same `maps` folder. The same text appears in an editor
+that knows YAML schemas, if the map starts with the line
 
 ```yaml
 # yaml-language-server: $schema=../../schema/map.schema.json
@@ -52,9 +54,11 @@ listed here is an error, except that keys starting with `x-` are allowed everywh
 def render(schema: Schema) -> str:
     """Render the reference: a section for the file, then one for each definition, in the schema's order."""
     definitions: Schema = schema["$defs"]
-    parts = [_INTRODUCTION, *_section("The file", schema, definitions)]
+    parts = [_INTRODUCTION, *contents(map(_heading, definitions)), *tasks(schema, _heading)]
+    parts += _section("The file", schema, definitions)
     for name, definition in definitions.items():
         parts += _section(_heading(name), definition, definitions)
+    parts += known_units()
     return "\n".join(parts).rstrip("\n") + "\n"
 
 

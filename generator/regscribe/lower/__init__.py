@@ -9,13 +9,12 @@ from regscribe.lower.map import map_of
 from regscribe.lower.models import members_of
 from regscribe.lower.node import Collector, Value
 from regscribe.lower.rules import RULES
-from regscribe.lower.scales import KNOWN_UNITS
 from regscribe.lower.scope import Scope
 from regscribe.lower.tree import TreePosition, entries_of, items_in
 from regscribe.model import Diagnostic, Library, Model, RegisterMap
 from regscribe.source import Document
 
-__all__ = ["KNOWN_UNITS", "RULES", "library_of", "lower"]
+__all__ = ["RULES", "library_of", "lower"]
 
 _NO_MODELS = ("",)
 """The models of a library: one without a name, so that none can be meant."""

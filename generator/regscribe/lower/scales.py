@@ -2,14 +2,15 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from difflib import get_close_matches
 from fractions import Fraction
 
 from regscribe.lower.conditions import cases_of, condition_of
-from regscribe.lower.node import Keyed, Value
+from regscribe.lower.node import Keyed, Value, brief
 from regscribe.lower.rules import NO_ENDS, TWO_SCALES, UNKNOWN_DECIMALS, UNKNOWN_SCALE, UNKNOWN_UNIT, WRONG_SORT
 from regscribe.lower.scope import Scope
 from regscribe.lower.terms import ONE, divided, power_of, product, summed, term_of
-from regscribe.lower.texts import ends, known_name, unknown, unordered
+from regscribe.lower.texts import ends, known_name, unordered
 from regscribe.lower.tree import TreeNode
 from regscribe.model import (
     ALWAYS,
@@ -26,17 +27,13 @@ from regscribe.model import (
     always,
     show,
 )
+from regscribe.model.units import KNOWN_UNITS, meant_unit
+from regscribe.schema import inline
 
 NOT_STATED = "not_stated"
 _MOST_DIGITS = 100
 _LINEAR = frozenset({"multiply", "divide", "exponent", "add"})
 _WAYS = _LINEAR | {"scale", "decimals"}
-
-KNOWN_UNITS = (
-    *("°C", "°F", "K", "%", "s", "ms", "min", "h", "d", "V", "mV", "A", "mA", "Ω", "Hz", "kHz", "bar", "mbar", "Pa"),
-    *("kPa", "psi", "m", "mm", "m/s", "rpm", "W", "kW", "Wh", "kWh", "VA", "var", "baud", "0.1 s", "0.01 s", "words"),
-)
-"""Unit symbols that a map may use without declaring them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -176,10 +173,11 @@ def unit_at(node: Value, scope: Scope) -> Cases[str]:
 
 def _symbol(node: Value | None, scope: Scope, by_case: Iterable[str] = ()) -> str:
     name = node.text() if node else ""
-    if node and name and name not in KNOWN_UNITS:
-        own = own_units(scope.map)
-        if name not in own:
-            unknown(node, UNKNOWN_UNIT, "unit", name, (*by_case, *own, *KNOWN_UNITS))
+    if node and name and name not in KNOWN_UNITS and name not in (own := own_units(scope.map)):
+        near = [meant_unit(name)] if meant_unit(name) else get_close_matches(name, (*by_case, *own, *KNOWN_UNITS), n=1)
+        guess = f"did you mean `{near[0]}`? Else " if near else ""
+        remedy = f"{guess}declare it under `units:`, as {inline(name)}: {{}}"
+        node.report(UNKNOWN_UNIT, f"there is no unit `{brief(name)}`", remedy=remedy)
     return name
 
 
