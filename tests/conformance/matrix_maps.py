@@ -26,6 +26,7 @@ KINDS: dict[str, Json] = {
 """What makes the register one of a kind."""
 
 WORD_TYPES = ("uint16", "int16", "uint32", "int32", "uint64", "int64", "float32", "float64", "string")
+WORD_TYPES += ("uint8", "int24", "float16", "bcd32", "signmag16", "q8.8")
 TYPES = {
     "holding": WORD_TYPES,
     "input": WORD_TYPES,

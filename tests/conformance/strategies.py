@@ -10,10 +10,19 @@ from .suite import Json
 
 Draw = st.DrawFn
 INTEGERS = ("uint16", "int16", "uint32", "int32", "uint64", "int64")
-FLOATS = ("float32", "float64")
-LIMITS = {f"uint{bits}": (0, 2**bits - 1) for bits in (16, 32, 64)}
-LIMITS |= {f"int{bits}": (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1) for bits in (16, 32, 64)}
-STEP, ELEMENT, OUTER, VIEW, MOST = 4, 60, 200, 1000, 3
+FLOATS = ("float32", "float64", "float16")
+WIDTHS = {"uint8": 8, "int8": 8, "uint24": 24, "int24": 24, "uint48": 48, "int48": 48, "uint128": 128, "int128": 128}
+WIDTHS |= {f"{sign}int{bits}": bits for bits in (16, 32, 64) for sign in ("u", "")}
+"""Types whose bits can have meanings of their own."""
+FIXED = ("q15", "q8.8", "uq8.8", "q16.16")
+LIMITS = {name: (0, 2**bits - 1) for name, bits in WIDTHS.items() if name.startswith("u")}
+LIMITS |= {name: (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1) for name, bits in WIDTHS.items() if name.startswith("i")}
+LIMITS |= {"bcd16": (0, 9999), "bcd32": (0, 99999999), "bcd64": (0, 10**16 - 1)}
+LIMITS |= {"mod10k_2": (0, 99999999), "mod10k_3": (0, 10**12 - 1)}
+LIMITS |= {"signmag16": (-32767, 32767), "signmag32": (1 - 2**31, 2**31 - 1)}
+LIMITS |= {"q15": (-1, 0.5), "q8.8": (-128, 127.5), "uq8.8": (0, 255), "q16.16": (-32768, 0.25)}
+ONE_WORD = ("t16", "d16", "g16", "t8", "q15", "q8.8", "string")
+STEP, ELEMENT, OUTER, VIEW, MOST = 8, 80, 200, 1000, 3
 """Addresses from one register, element, outer element and view to the next; the most of the registers that depend."""
 
 FUZZ = int(os.environ.get("FUZZ_MAPS", "10000"))
@@ -156,6 +165,8 @@ def _sentinels(draw: Draw, kind: str) -> Json:
     if kind in FLOATS:
         return _of(draw, {"nan": "none"}, {-9999.9: "broken"}, {"nan": "none", -32768: "broken"})
     low, high = LIMITS[kind]
+    if kind == "q15":
+        return {low: "low"}
     return _of(draw, {high: "none"}, {low: "none"}, {low: "low", high: "high"}, {draw(st.integers(0, 30)): "broken"})
 
 
@@ -175,9 +186,9 @@ def _of_number(draw: Draw, sel: Decider, name: str, kind: str) -> tuple[Json, Js
 def _meaning(draw: Draw, sel: Decider, name: str, kind: str) -> tuple[Json, Json]:
     """Keys that say what a word, or several, mean, and the tables that they need."""
     form = _of(draw, "number", "number", "number", "number", "enum", "flags", "fields", "version", "boolean")
-    most = int(kind.strip("uintfloa"))
+    most = WIDTHS.get(kind, 0)
     tables: Json = {}
-    if kind in FLOATS or form == "number":
+    if kind in (*FLOATS, *FIXED) or form == "number" or (form in {"flags", "fields"} and not most):
         keys, tables = _of_number(draw, sel, name, kind)
     elif form == "enum":
         off = _of(draw, "off", {"label": "off", "invalid": "not here"}, {"label": "off", "id": "fl14"})
@@ -197,7 +208,7 @@ def _meaning(draw: Draw, sel: Decider, name: str, kind: str) -> tuple[Json, Json
 
 def _orders(draw: Draw, keys: Json) -> Json:
     """The keys with an order of words, where there are several, and of bytes."""
-    if keys.get("length", 1) > 1 or (not keys["type"].endswith(("16", "string")) and _maybe(draw, 2)):
+    if keys.get("length", 1) > 1 or (not keys["type"].endswith(ONE_WORD) and _maybe(draw, 2)):
         by_register = {"register": "order", "codes": {0: "big", 1: "little"}}
         keys["word_order"] = _of(draw, "little", by_register, by_register)
     if _maybe(draw, 4):
@@ -232,7 +243,7 @@ def _words(draw: Draw, sel: Decider, name: str) -> tuple[Json, Json]:
     keys: Json = {"access": access} | ({"space": space} if space == "input" else {})
     if _maybe(draw, 10):
         return _orders(draw, keys | {"type": "string", "length": draw(st.integers(1, STEP))}), {}
-    kind = _of(draw, "int16", "uint16", *INTEGERS, *FLOATS)
+    kind = _of(draw, "int16", "uint16", *INTEGERS, *FLOATS, draw(st.sampled_from(sorted(LIMITS))))
     meaning, tables = _meaning(draw, sel, name, kind)
     keys |= meaning
     if _maybe(draw):

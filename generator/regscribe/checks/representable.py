@@ -99,7 +99,7 @@ def numbers(limits: Range) -> Iterator[Fraction]:
 def ends_of(register: Register) -> str:
     """The types of a register for messages: `int16 (-32768 to 32767)`."""
     types = dict.fromkeys(view.type for view in register.views)
-    return ", ".join(f"{one} ({one.minimum} to {one.maximum})" if one.is_integer else str(one) for one in types)
+    return ", ".join(f"{one} ({' to '.join(map(show, one.ends))})" if one.is_integer else str(one) for one in types)
 
 
 def same_bits(register: Register, values: Iterable[Fraction | int]) -> str:
@@ -107,7 +107,7 @@ def same_bits(register: Register, values: Iterable[Fraction | int]) -> str:
     found = dict[str, str]()
     for view in register.views:
         width = view.type.maximum + 1
-        if view.type.is_integer and view.type.minimum == -width:
+        if view.type.is_integer and not view.type.fraction and view.type.minimum == -width:
             signed = ((value, value - 2 * width) for value in values if width <= value < 2 * width)
             found |= {show(each): f"{show(negative)} for {show(each)}" for each, negative in signed}
     types = ", ".join(dict.fromkeys(view.type for view in register.views))

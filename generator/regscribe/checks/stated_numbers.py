@@ -80,8 +80,8 @@ def _labels(register: Register) -> dict[object, str]:
 
 
 BITS, STATUS, WORDS = {Space.COIL, Space.DISCRETE}, {Space.STATUS}, {space for space in Space if space.is_words}
-_OF_SPACE = {WireType.BIT: BITS, WireType.UINT8: STATUS}
-"""The types that do not stand in words, and where they stand."""
+_OF_SPACE = {WireType.BIT: BITS, WireType.UINT8: STATUS | WORDS}
+"""The types that do not stand in words alone, and where they stand."""
 
 
 @register_rule("RS0602", "Type that the space cannot hold")
@@ -93,7 +93,7 @@ def type_and_space(register: Register, _: RuleScope) -> Iterator[Problem]:
             what = f"has view {view.name} of type {view.type} in {view.space}"
             help_ = "a flag in a word is `flags: {0: ...}` or `kind: boolean`, a number needs words"
             yield f"{what}, which is in {' or '.join(sorted(spaces))}", f"correct `type` or `space`; {help_}"
-        elif spaces in (BITS, STATUS) and (view.order, view.byte_order) != (Order.BIG, Order.BIG):
+        elif view.space not in WORDS and (view.order, view.byte_order) != (Order.BIG, Order.BIG):
             message = f"has an order of words or bytes in {view.space}, where a value has no words"
             yield message, "remove `word_order` and `byte_order`"
 
@@ -115,6 +115,7 @@ def _of_view(kind: Kind, view: View) -> tuple[str, str]:
         (kind is Kind.STRING) != (view.type is WireType.STRING)
         or (kind in UNSCALED - {Kind.STRING} and view.type.is_float)
         or (kind in {*WORDS_OF_BITS, Kind.VERSION} and view.type is WireType.BIT)
+        or (kind in WORDS_OF_BITS and not view.type.bits)
     )
     if wrong:
         return f", but view {view.name} has type {view.type}", "correct `kind` or `type`"

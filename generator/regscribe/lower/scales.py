@@ -95,7 +95,7 @@ def _raw_ends(node: Value, wire: WireType) -> tuple[Fraction, Fraction] | None:
             return low, high
         message, remedy = f"the scale has one raw code only, {show(low)}", "give `raw` two ends"
     elif wire.is_integer:
-        return Fraction(wire.minimum), Fraction(wire.maximum)
+        return wire.ends
     else:
         message = f"a scale from end to end needs a whole number on the wire, not {wire}"
         remedy = "give `raw`, or use `multiply` and `add`"

@@ -129,7 +129,7 @@ def _view(name: str, keys: Keyed, space: Space, words: int, scope: Scope) -> Vie
         offset=keys.whole_of("offset"),
         type=wire,
         words=words if wire is WireType.STRING else wire.words,
-        factor=factor.number() if factor else 1,
+        factor=(factor.number() if factor else 1) * (1 << wire.fraction),
         rounding=keys.choice_of("rounding", Rounding.NONE),
         saturates=keys.truth_of("saturates"),
         order=_order(keys.child("word_order"), scope),

@@ -25,6 +25,7 @@ from regscribe.reference.surroundings import (
     holds,
 )
 from regscribe.reference.terms import Straight, amount, straight
+from regscribe.reference.whole_numbers import whole_bits
 from regscribe.reference.words import (
     bytes_in_order,
     round_by,
@@ -67,6 +68,7 @@ __all__ = [
     "transmit",
     "version_number",
     "version_text",
+    "whole_bits",
     "wire_number",
     "within",
     "word_order",

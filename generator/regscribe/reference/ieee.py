@@ -19,7 +19,11 @@ class Format(NamedTuple):
     digits: int
 
 
-FORMATS = {WireType.FLOAT32: Format(23, 8, 9), WireType.FLOAT64: Format(52, 11, 17)}
+FORMATS = {
+    WireType.FLOAT16: Format(10, 5, 5),
+    WireType.FLOAT32: Format(23, 8, 9),
+    WireType.FLOAT64: Format(52, 11, 17),
+}
 
 CONTEXTS = tuple(
     Context(prec=digits, rounding=rounding, Emax=999999, Emin=-999999)

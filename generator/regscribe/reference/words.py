@@ -14,6 +14,7 @@ from regscribe.reference.ieee import (
 )
 from regscribe.reference.outcome import RefusalReason, RefusedError
 from regscribe.reference.surroundings import NOTHING_KNOWN, Known
+from regscribe.reference.whole_numbers import whole_bits, whole_number
 from regscribe_runtime.values.numbers import show
 from regscribe_runtime.values.scales import NAN, NotANumber
 from regscribe_runtime.values.views import View
@@ -61,19 +62,19 @@ def words_in_order(view: View, raw: list[int], order: Order) -> tuple[int, ...]:
 
 
 def words_of_bits(view: View, bits: int, order: Order) -> tuple[int, ...]:
-    """Return the words on the wire of a number in two's complement, or of the bits of an IEEE number."""
+    """Return the words on the wire of all their bits, as a number."""
     return words_in_order(view, list(bits.to_bytes(2 * view.type.words, "big")), order)
 
 
 def wire_number(view: View, words: tuple[int, ...], order: Order) -> Fraction | NotANumber | None:
-    """Return the number in the words: NAN for IEEE patterns of no number, None for an infinity."""
-    bits = int.from_bytes(bytes_in_order(view, words, order), "big") % (1 << view.type.bits)
+    """Return the number in the words: NAN for IEEE patterns of no number, None for infinity and impossible digits."""
+    bits = int.from_bytes(bytes_in_order(view, words, order), "big")
     if view.type.is_float:
         try:
             return shortest(ieee_number(bits, view.type), view.type)
         except NotFiniteError:
             return None if is_infinity(bits, view.type) else NAN
-    return Fraction(bits if bits <= view.type.maximum else bits - (1 << view.type.bits))
+    return whole_number(bits, view.type)
 
 
 def carried(view: View, number: Fraction) -> Fraction | None:
@@ -115,7 +116,7 @@ def spelled(view: View, number: Fraction, order: Order, *, rounded: bool) -> tup
     lowest, highest = view.type.minimum + view.saturates, view.type.maximum - view.saturates
     if not lowest <= whole <= highest:
         raise RefusedError(RefusalReason.TYPE, f"{whole} lies outside {lowest} to {highest} of {view.type}")
-    return words_of_bits(view, whole % (1 << view.type.bits), order)
+    return words_of_bits(view, whole_bits(whole, view.type), order)
 
 
 def transmit(view: View, stored: Fraction | NotANumber, known: Known = NOTHING_KNOWN) -> tuple[int, ...]:
@@ -142,7 +143,7 @@ def _whole(view: View, number: Fraction, *, clip: bool) -> int:
     clipped = min(max(whole, view.type.minimum), view.type.maximum)
     if clipped != whole and not (view.saturates or clip):
         raise RefusedError(RefusalReason.TYPE, f"{whole} lies outside {view.type}")
-    return clipped % (1 << view.type.bits)
+    return whole_bits(clipped, view.type)
 
 
 def _ieee(view: View, number: Fraction, *, clip: bool) -> int:

@@ -1,6 +1,7 @@
 """The facts of one register that fit on a line each, as a table of two columns."""
 
 from collections.abc import Iterator, Sequence
+from fractions import Fraction
 
 from regscribe.emit.markdown.context import PageContext, fact_table
 from regscribe.emit.markdown.escape import Md, code, escape, join, lines, link, md, prose
@@ -149,17 +150,17 @@ def indices(arrays: Sequence[Array]) -> Md:
 
 def transmission(context: PageContext, view: View) -> Md:
     """Return the transmission of a view: factor, rounding, saturation, orders, functions, alignment."""
-    order = view.order
+    order, factor = view.order, Fraction(view.factor, 1 << view.type.fraction)
     words = Md()  # for the usual order, and for a single word in a fixed order
     if order is not Order.BIG and (view.words > 1 or not isinstance(order, Order)):
         words = md("word order: ", Md(order_words(order, context.wording(context.map.models[0]))))
     parts = (
-        f"stored value times {show(view.factor)}" if view.factor != 1 else "",
+        f"stored value times {show(factor)}" if factor != 1 else "",
         ROUNDING[view.rounding],
         f"stops at {view.type.minimum} and {view.type.maximum}" if view.saturates else "",
         words,
         "least significant byte first" if view.byte_order is Order.LITTLE else "",
-        "read as the shortest decimal of its bits" if view.type.is_float else "",
+        view.type.note,
         f"functions {', '.join(map(str, view.functions))} only" if view.functions else "",
         f"address and count multiples of {view.align}" if view.align > 1 else "",
     )

@@ -8,8 +8,8 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from regscribe.emit.vectors.scale import Scale
-from regscribe.model import BitField, Enum, Kind, NotANumber, Register, View, WireType
-from regscribe.reference import Surroundings, ieee_bits, special_value
+from regscribe.model import BitField, Enum, Kind, NotANumber, Register, Space, View, WireType
+from regscribe.reference import Surroundings, ieee_bits, special_value, whole_bits
 
 
 class Proposal(NamedTuple):
@@ -33,6 +33,15 @@ FLOATS = {
 """Numbers as decimal text and what is special about them, for IEEE views."""
 
 PATTERNS = {
+    WireType.FLOAT16: {
+        0x0400: "smallest normal number",
+        0x7BFF: "largest number",
+        0xFBFF: "lowest number",
+        0x7C00: "infinity",
+        0xFC00: "minus infinity",
+        0x7E00: "not a number",
+        0xFC01: "not a number either",
+    },
     WireType.FLOAT32: {
         0x00800000: "smallest normal number",
         0x7F7FFFFF: "largest number",
@@ -57,17 +66,16 @@ PATTERNS = {
 PATTERNS_OF_BITS = frozenset({Kind.FLAGS, Kind.FIELDS})
 
 ORDERED = 0x0123456789ABCDEF
-"""Its bytes all differ, so that a wrong order of words or bytes shows."""
+"""Its bytes all differ, so that a wrong order of words or bytes shows (of 128 bits the upper half)."""
 
 
 def wire_bits(
     register: Register, view: View, scale: Scale | None, known: Surroundings, *, full: bool
 ) -> dict[int, str]:
-    """Return bits of the wire number to decode (two's complement, most significant first) with their notes."""
+    """Return the bits of the words to decode (most significant first) with their notes."""
     found: dict[int, str] = {}
-    mask = (1 << view.type.bits) - 1
     for bits, note in _patterns(view, full=full):
-        found.setdefault(bits & mask, note)
+        found.setdefault(bits, note)
     numbers = [*_stored_numbers(register, full=full), *(_scaled_numbers(register, scale, known) if scale else ())]
     numbers += [*scale.stored_limits()] if scale and full else []
     for stored, note in numbers:
@@ -80,24 +88,26 @@ def wire_bits(
 def _bits(view: View, number: Fraction) -> int | None:
     if view.type.is_float:
         return ieee_bits(number, view.type)
-    if number.denominator != 1 or not view.type.minimum <= number < 1 << view.type.bits:
-        return None
-    return int(number) & ((1 << view.type.bits) - 1)
+    highest = max(view.type.maximum, (1 << view.type.bits) - 1)  # a pattern of bits has no sign
+    fits = number.denominator == 1 and view.type.minimum <= number <= highest
+    return whole_bits(int(number), view.type) if fits else None
 
 
 def _patterns(view: View, *, full: bool) -> Iterator[tuple[int, str]]:
-    bits = view.type.bits
     if view.type.is_float:
         texts: dict[str, str] = FLOATS if full else {"250.4": FLOATS["250.4"]}
         yield from ((ieee_bits(Fraction(text), view.type) or 0, note) for text, note in texts.items())
         yield from PATTERNS[view.type].items() if full else ()
         return
-    yield ORDERED >> max(0, 56 - bits) & ((1 << bits) - 1), "every byte differs"
+    width = view.type.bits or 16 * view.words
+    words = width if view.type is WireType.BIT or view.space is Space.STATUS else 16 * view.words
+    yield ORDERED << max(0, width - 64) >> max(0, 56 - width) & ((1 << words) - 1), "every byte differs"
     if full:
         lowest, highest = view.type.minimum, view.type.maximum
-        yield from ((lowest, "lowest of the type"), (highest, "highest of the type"))
-        yield from ((lowest + 1, "next to the lowest"), (highest - 1, "next to the highest"))
-        yield from ((0, "zero"), (1, "one"), (1 << (bits - 1), "only the sign bit"), (-1, "all bits"))
+        ends = ((lowest, "lowest of the type"), (highest, "highest of the type"), (lowest + 1, "next to the lowest"))
+        for number, note in (*ends, (highest - 1, "next to the highest"), (0, "zero"), (1, "one")):
+            yield whole_bits(number, view.type), note
+        yield from ((1 << (width - 1), "only the sign bit"), ((1 << words) - 1, "all bits"))
 
 
 def _stored_numbers(register: Register, *, full: bool) -> Iterator[Proposal]:

@@ -9,6 +9,7 @@ from regscribe.model import Range, Register, View, WireType
 from regscribe.reference import Known, RefusedError, choose, decimal_factor, ieee_number, limits, shortest, straight
 
 LARGEST = {
+    WireType.FLOAT16: shortest(ieee_number(0x7BFF, WireType.FLOAT16), WireType.FLOAT16),
     WireType.FLOAT32: shortest(ieee_number(0x7F7FFFFF, WireType.FLOAT32), WireType.FLOAT32),
     WireType.FLOAT64: shortest(ieee_number(0x7FEFFFFFFFFFFFFF, WireType.FLOAT64), WireType.FLOAT64),
 }

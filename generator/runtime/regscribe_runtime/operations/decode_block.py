@@ -82,7 +82,8 @@ def _split(placed: Sequence[Placed]) -> tuple[list[Placed], list[Placed]]:
     end = 0
     for one in placed:
         register, view, start = one
-        plain = register.kind is not Kind.STRING and view.space.is_words and view.byte_order is Order.BIG
+        packed = register.kind is not Kind.STRING and not view.type.spelling
+        plain = packed and view.space.is_words and view.byte_order is Order.BIG
         (together if plain and start >= end else alone).append(one)
         end = max(end, start + view.words)
     return together, alone

@@ -36,6 +36,9 @@ Converter = Callable[[Any], Any]
 
 LARGEST_FLOAT = Fraction(sys.float_info.max)
 
+_NARROW = frozenset({WireType.FLOAT16, WireType.FLOAT32})
+"""Floats of which Python's shortest decimal is not theirs."""
+
 PATTERNS = frozenset({Kind.FLAGS, Kind.FIELDS})
 """Kinds whose words are patterns of bits: never negative, whatever the type of the view."""
 
@@ -292,7 +295,9 @@ def decoder(
     It raises ValueNotDecodable with the words in it.
     """
     arrange = arranger(view, register.path, state)
-    unpack: Callable[[Words], Any] = view.type.unpack
+    unpack: Callable[[Words], Any] = (
+        partial(_number, register.path, view.type) if view.type.spelling else view.type.unpack
+    )
     convert: Converter = same
     if register.kind is Kind.STRING:
         unpack = partial(_text, register.path)
@@ -321,6 +326,13 @@ def decode(
     except ValueNotDecodable as error:
         error.words = tuple(words)
         raise
+
+
+def _number(register: str, wire_type: WireType, words: Words) -> float:
+    try:
+        return wire_type.unpack(words)
+    except ValueError as error:
+        raise NotDecodable(register, f"no number of type {wire_type}: {error}") from None
 
 
 def _text(register: str, words: Words) -> str:
@@ -360,7 +372,7 @@ def encode(
     arrange = arranger(view, register.path, state)
     if register.kind is Kind.STRING:
         return tuple(arrange(_from_text(register, view, value)))
-    if isinstance(value, float) and view.type is WireType.FLOAT32 and view.type.carries(value):
+    if isinstance(value, float) and view.type in _NARROW and view.type.carries(value):
         value = Fraction(value)  # 2.0**63 is meant, whose shortest decimal is another number
     amount, special = _amount(register, int(value) & ~kept if kept else value, state, givens)  # type: ignore[call-overload] # flags are whole numbers
     amount += kept

@@ -14,12 +14,17 @@ MOST_DIGITS = 400
 """More than the largest and the smallest number of 64 bits have; longer numbers would only cost time."""
 _MOST_BITS = (10**MOST_DIGITS).bit_length()
 _LONGEST_SHOWN = 60
-_FLOAT32_DIGITS, _FEWER_DIGITS = range(6, 10), range(1, 10)
-"""Significant digits tried for a float32: 6 are always exact, 9 always suffice (IEEE 754 binary32); subnormal numbers,
-which have fewer bits, may need fewer."""
-_SMALLEST_NORMAL = 2.0**-126
-_ABOVE = {2.0**-96: "1.2621775E-29", 2.0**87: "1.5474251E+26", 2.0**90: "1.2379401E+27"}
-"""The powers of two whose shortest decimal is not the nearest of its length, as float32 lie closer below them."""
+_DIGITS = {
+    WireType.FLOAT16: (range(3, 6), range(1, 6), 2.0**-14),
+    WireType.FLOAT32: (range(6, 10), range(1, 10), 2.0**-126),
+}
+"""Significant digits tried: so many are always exact, so many always suffice (IEEE 754). Subnormal numbers, below the
+smallest normal one, have fewer bits and may need fewer."""
+_ABOVE = {
+    WireType.FLOAT16: {2.0**-6: "0.01563"},
+    WireType.FLOAT32: {2.0**-96: "1.2621775E-29", 2.0**87: "1.5474251E+26", 2.0**90: "1.2379401E+27"},
+}
+"""The powers of two whose shortest decimal is not the nearest of its length, as the numbers lie closer below them."""
 
 
 def exact(value: float | Decimal | Fraction) -> Fraction:
@@ -89,18 +94,19 @@ def shortest(number: float, wire_type: WireType) -> Decimal:
     """
     if wire_type is WireType.FLOAT64:
         return Decimal(repr(number))
-    if abs(number) in _ABOVE:
-        return Decimal(_ABOVE[abs(number)]).copy_sign(Decimal(number))
+    above = _ABOVE[wire_type].get(abs(number))
+    if above:
+        return Decimal(above).copy_sign(Decimal(number))
     packed = wire_type.packer.pack(number)
-    tried = _FLOAT32_DIGITS if abs(number) >= _SMALLEST_NORMAL else _FEWER_DIGITS
-    texts = (f"{number:.{digits}g}" for digits in tried)
-    return Decimal(next((text for text in texts if _packs_to(text, packed)), repr(number)))
+    usual, fewer, normal = _DIGITS[wire_type]
+    texts = (f"{number:.{digits}g}" for digits in (usual if abs(number) >= normal else fewer))
+    return Decimal(next((text for text in texts if _packs_to(text, packed, wire_type)), repr(number)))
 
 
-def _packs_to(text: str, packed: bytes) -> bool:
+def _packs_to(text: str, packed: bytes, wire_type: WireType) -> bool:
     try:
-        return WireType.FLOAT32.packer.pack(float(text)) == packed
-    except OverflowError:  # rounded beyond the largest float32: one digit more is needed
+        return wire_type.packer.pack(float(text)) == packed
+    except OverflowError:  # rounded beyond the largest number: one digit more is needed
         return False
 
 

@@ -7,7 +7,7 @@ from enum import StrEnum
 from fractions import Fraction
 from typing import Self
 
-_BITS_32, _FLOAT_32 = struct.Struct(">I"), struct.Struct(">f")
+from regscribe_runtime.values.spellings import Spelling, bcd, modulo_10000, narrow, sign_and_magnitude
 
 
 class Space(StrEnum):
@@ -69,68 +69,132 @@ def spelled_address(function: int, address: int) -> str:
     return space.spelled(address)
 
 
+_FLOATS, _SIGNED = frozenset("efd"), frozenset("hiq")
+_BYTE = "one byte of the word; the other is not read, and is written as 0"
+_BCD = "a decimal digit in each four bits"
+_MODULO = "a number from 0 to 9999 in each word, four decimal digits"
+_SIGN = "the highest bit is the sign, the others the size"
+_SHORTEST = "read as the shortest decimal of its bits"
+
+
 class WireType(StrEnum):
     """The type of the number in the words (or the bit) of a view.
 
-    A type is one row: its name, the code by which `struct` packs it, and its bits where they do not fill the words.
-    `words` are the registers that one value takes (a bit takes one address; of a string, one of them), `minimum` and
-    `maximum` the limits of whole numbers.
+    A type is one row: its name, the code by which `struct` packs it or else how words spell it, and what the docs say
+    of it beside its name. `words` are the registers that one value takes (a bit takes one address; of a string, one of
+    them), `minimum` and `maximum` the limits of whole numbers, `bits` those of a pattern (0: its bits are none), and
+    2 to the power of `fraction` what the number on the wire is divided by.
     """
 
     code: str
     packer: struct.Struct
+    spelling: Spelling | None
+    note: str
     words: int
     bits: int
+    fraction: int
     minimum: int
     maximum: int
     is_float: bool
     is_integer: bool
 
-    BIT = "bit", "H", 1
-    UINT8 = "uint8", "H", 8
+    BIT = "bit", "H", "", 0, 1
+    UINT8 = "uint8", narrow(8, signed=False, extended=False), _BYTE
+    INT8 = "int8", narrow(8, signed=True, extended=False), _BYTE
     UINT16 = "uint16", "H"
     INT16 = "int16", "h"
+    UINT24 = "uint24", narrow(24, signed=False), "the upper byte is not read, and is written as 0"
+    INT24 = "int24", narrow(24, signed=True), "the upper byte is not read, and is written as copies of the sign"
     UINT32 = "uint32", "I"
     INT32 = "int32", "i"
+    UINT48 = "uint48", narrow(48, signed=False)
+    INT48 = "int48", narrow(48, signed=True)
     UINT64 = "uint64", "Q"
     INT64 = "int64", "q"
-    FLOAT32 = "float32", "f"
-    FLOAT64 = "float64", "d"
+    UINT128 = "uint128", narrow(128, signed=False)
+    INT128 = "int128", narrow(128, signed=True)
+    FLOAT16 = "float16", "e", _SHORTEST
+    FLOAT32 = "float32", "f", _SHORTEST
+    FLOAT64 = "float64", "d", _SHORTEST
+    BCD16 = "bcd16", bcd(1), _BCD
+    BCD32 = "bcd32", bcd(2), _BCD
+    BCD48 = "bcd48", bcd(3), _BCD
+    BCD64 = "bcd64", bcd(4), _BCD
+    MOD10K_2 = "mod10k_2", modulo_10000(2), _MODULO
+    MOD10K_3 = "mod10k_3", modulo_10000(3), _MODULO
+    MOD10K_4 = "mod10k_4", modulo_10000(4), _MODULO
+    SIGNMAG16 = "signmag16", sign_and_magnitude(1), _SIGN
+    SIGNMAG32 = "signmag32", sign_and_magnitude(2), _SIGN
+    Q15 = "q15", "h", "an int16 in units of 1/32768", 15
+    Q31 = "q31", "i", "an int32 in units of 1/2147483648", 31
+    Q4_12 = "q4.12", "h", "an int16 in units of 1/4096", 12
+    Q8_8 = "q8.8", "h", "an int16 in units of 1/256", 8
+    Q12_4 = "q12.4", "h", "an int16 in units of 1/16", 4
+    Q8_24 = "q8.24", "i", "an int32 in units of 1/16777216", 24
+    Q16_16 = "q16.16", "i", "an int32 in units of 1/65536", 16
+    Q24_8 = "q24.8", "i", "an int32 in units of 1/256", 8
+    UQ8_8 = "uq8.8", "H", "a uint16 in units of 1/256", 8
+    UQ16_16 = "uq16.16", "I", "a uint32 in units of 1/65536", 16
     STRING = "string", "H"
 
-    def __new__(cls, name: str, code: str = "H", width: int = 0) -> Self:
+    def __new__(cls, name: str, how: str | Spelling = "H", note: str = "", fraction: int = 0, width: int = 0) -> Self:
         """The type of this row."""
         found = str.__new__(cls, name)
         found._value_ = name
-        found.code, found.packer = code, struct.Struct(">" + code)
+        found.note, found.fraction = note, fraction
+        found.code, found.spelling = (how, None) if isinstance(how, str) else ("", how)
+        found.is_float = found.code in _FLOATS
+        found.is_integer = not found.is_float and name != "string"
+        if found.spelling:
+            found.words, found.bits, found.minimum, found.maximum, *_ = found.spelling
+            found.packer = struct.Struct(f">{2 * found.words}s")
+            return found
+        found.packer = struct.Struct(">" + found.code)
         found.words = found.packer.size // 2
         found.bits = width or 16 * found.words
-        found.is_float = code in "fd"
-        found.is_integer = not found.is_float and name != "string"
-        sign = code in "hiq"
+        sign = found.code in _SIGNED
         found.minimum = -(1 << (found.bits - 1)) if sign else 0
         found.maximum = (1 << (found.bits - sign)) - 1
         return found
 
+    @property
+    def ends(self) -> tuple[Fraction, Fraction]:
+        """The lowest and the highest number that whole numbers on the wire stand for."""
+        return Fraction(self.minimum, 1 << self.fraction), Fraction(self.maximum, 1 << self.fraction)
+
     def unpack(self, words: Sequence[int]) -> float:
-        """The number in `words`, most significant word first: int, or float for IEEE types."""
-        number: int | float = self.packer.unpack(struct.pack(f">{self.words}H", *words))[0]
+        """The number in `words`, most significant word first: int, or float for IEEE types.
+
+        ValueError for words that spell none.
+        """
+        raw = struct.pack(f">{self.words}H", *words)
+        if self.spelling:
+            return self.spelling.read(raw)
+        number: int | float = self.packer.unpack(raw)[0]
         return number
 
     def pack(self, number: float) -> tuple[int, ...]:
         """The words of `number`, most significant first; struct.error or OverflowError if it does not fit."""
-        return struct.unpack(f">{self.words}H", self.packer.pack(number))
+        raw = self.spelling.spell(int(number)) if self.spelling else self.packer.pack(number)
+        return struct.unpack(f">{self.words}H", raw)
 
     def nearest(self, number: Fraction) -> float:
         """The IEEE number of the type nearest to `number`, of two the even one; OverflowError beyond the largest."""
         there = self.packer.unpack(self.packer.pack(float(number)))[0]
-        if self is not WireType.FLOAT32 or not math.isfinite(there):  # Python rounds to a float64 correctly
+        if self is WireType.FLOAT64 or not math.isfinite(there):  # Python rounds to a float64 correctly
             return float(there)
         # through a float64 it is rounded twice, which may lead to the neighbour
-        pattern = _bits_of(there)
-        near = [_FLOAT_32.unpack(_BITS_32.pack(each))[0] for each in (pattern - 1, pattern, pattern + 1) if each >= 0]
+        pattern = self._pattern(there)
+        near = [
+            self.packer.unpack(each.to_bytes(self.packer.size))[0]
+            for each in (pattern - 1, pattern, pattern + 1)
+            if each >= 0
+        ]
         finite = [each for each in near if math.isfinite(each)]
-        return float(min(finite, key=lambda each: (abs(Fraction(each) - number), _bits_of(each) & 1)))
+        return float(min(finite, key=lambda each: (abs(Fraction(each) - number), self._pattern(each) & 1)))
+
+    def _pattern(self, number: float) -> int:
+        return int.from_bytes(self.packer.pack(number))
 
     def carries(self, number: float) -> bool:
         """Whether a float is exactly a number of this IEEE type."""
@@ -138,11 +202,6 @@ class WireType(StrEnum):
             return math.isfinite(number) and self.unpack(self.pack(number)) == number
         except OverflowError:
             return False
-
-
-def _bits_of(float32: float) -> int:
-    bits: int = _BITS_32.unpack(_FLOAT_32.pack(float32))[0]
-    return bits
 
 
 class Order(StrEnum):
