@@ -160,7 +160,7 @@ def transmission(context: PageContext, view: View) -> Md:
         f"stops at {view.type.minimum} and {view.type.maximum}" if view.saturates else "",
         words,
         "least significant byte first" if view.byte_order is Order.LITTLE else "",
-        view.type.note,
+        view.type.note if view.space.is_words else "",
         f"functions {', '.join(map(str, view.functions))} only" if view.functions else "",
         f"address and count multiples of {view.align}" if view.align > 1 else "",
     )
