@@ -9,7 +9,7 @@ from fractions import Fraction
 from typing import Any
 
 from regscribe.emit.vectors import document
-from regscribe.model import Kind, Register, View
+from regscribe.model import BitField, Kind, Register, View
 from regscribe.model import exact as exact_number
 from regscribe.reference import (
     Meaning,
@@ -20,6 +20,7 @@ from regscribe.reference import (
     encode,
     holds,
     special_value,
+    surroundings_of,
 )
 from regscribe.simulate.device import codec as simulated_codec
 from regscribe.simulate.device.device import SimulatedDevice
@@ -135,8 +136,22 @@ class Present(Mapping[str, Fraction]):
 
     def __init__(self, built: Built, memory: Any) -> None:
         self._model, self._memory = built.map.models[0], memory
+        self._given = surroundings_of(built.map, {})
+
+    @property
+    def known(self) -> Surroundings:
+        """The values, and what is given by default."""
+        given = self._given
+        return Surroundings(self, given.codes, given.facts, given.numbers, Texts(self, given.texts))
 
     def __getitem__(self, path: str) -> Fraction:
+        value, field = self.reading(path)
+        if not isinstance(value, Fraction):
+            raise KeyError(path)
+        return value if field is None else Fraction(int(value) >> field.low & (1 << field.width) - 1)
+
+    def reading(self, path: str) -> tuple[Fraction | str | None, BitField | None]:
+        """What a register holds, and the field of it that a path names."""
         try:
             register, field = self._model.register(path), None
         except KeyError:
@@ -145,13 +160,10 @@ class Present(Mapping[str, Fraction]):
             field = next(one for one in register.fields if one.id == name)
         view = register.preferred
         words = self._memory.get(view.space.value, view.address(register.at), view.words)
-        reading = decode(register, view, tuple(words), Surroundings(values=self))
-        value = reading.value
+        value = decode(register, view, tuple(words), self.known).value
         if isinstance(value, str) and register.kind is Kind.VERSION:
             value = Fraction(value.replace(".", ""))
-        if not isinstance(value, Fraction):
-            raise KeyError(path)
-        return value if field is None else Fraction(int(value) >> field.low & (1 << field.width) - 1)
+        return value, field
 
     def __iter__(self) -> Iterator[str]:
         return iter(())
@@ -167,11 +179,32 @@ class Present(Mapping[str, Fraction]):
         return True
 
 
+class Texts(dict[str, str]):
+    """Texts of registers, and choices that are given."""
+
+    def __init__(self, present: Present, given: Mapping[str, str]) -> None:
+        super().__init__(given)
+        self._present = present
+
+    def __missing__(self, path: str) -> str:
+        value, _ = self._present.reading(path)
+        if not isinstance(value, str):
+            raise KeyError(path)
+        return value
+
+    def __contains__(self, path: object) -> bool:
+        try:
+            self[str(path)]
+        except KeyError:
+            return False
+        return True
+
+
 def read_by_reference(built: Built, memory: Any, row: Json) -> object:
     """What the reference makes of the words of a row."""
     register, view = register_of(built, row)
     try:
-        reading = decode(register, view, tuple(words_of(row["words"])), Surroundings(values=Present(built, memory)))
+        reading = decode(register, view, tuple(words_of(row["words"])), Present(built, memory).known)
     except UnknownValueError:
         return {"no value": True}
     if reading.meaning is Meaning.FAULT:
@@ -220,7 +253,7 @@ def of_another_sort(built: Built, row: Json) -> bool:
 def written_by_reference(built: Built, memory: Any, row: Json) -> object:
     """The words that the reference makes of the value of a row."""
     register, view = register_of(built, row, writes=True)
-    value, known = value_for(built, row), Surroundings(values=Present(built, memory))
+    value, known = value_for(built, row), Present(built, memory).known
     if register.writable and not holds(register.writable.when, known):
         return REFUSED
     if isinstance(value, Decimal) or row.get("refuses") in {*NO_NUMBERS, *FAR}:
@@ -236,7 +269,7 @@ def _exact(register: Register, value: Any, row: Json, present: Present) -> Fract
     if "special" not in row:
         return Fraction(int(value)) if isinstance(value, int) else exact_number(value)
     special = next(one for one in register.specials if one.id == row["special"])
-    number = special_value(register, special, Surroundings(values=present))
+    number = special_value(register, special, present.known)
     assert number is not None
     return number
 

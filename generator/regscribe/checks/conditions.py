@@ -71,7 +71,7 @@ def never_holds(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
         for place, condition in enumerate(cases.conditions):
             if place not in cases.possible and condition not in seen:
                 seen.add(condition)
-                tested = ", ".join(dict.fromkeys(f"`{test.subject}`" for test in condition.tests if test.subject))
+                tested = ", ".join(dict.fromkeys(f"`{test.subject}`" for test in condition.leaves if test.register))
                 message = f"`{cases.subject}`: the {cases.what} has {_shown(condition, place)}, which can never hold"
                 help_text = f"compare the codes with what {tested or 'the givens'} can be, and with one another"
                 yield Finding(cases.subject, cases.span, message, help_text)
@@ -150,7 +150,7 @@ def not_covered(_: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
 @map_rule("RS0473", "Given that nothing needs")
 def given_unused(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
     """Users must find out every given; one that decides nothing is in vain."""
-    used = {test.given for one in _case_sets(scopes) for condition in one.conditions for test in condition.tests}
+    used = {test.given for one in _case_sets(scopes) for condition in one.conditions for test in condition.leaves}
     for given in register_map.givens:
         if given.id not in used:
             message = f"given `{given.id}` decides nothing"

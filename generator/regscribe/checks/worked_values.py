@@ -90,7 +90,13 @@ def in_example(scope: RuleScope, state: Iterable[tuple[str, Fraction]]) -> Surro
         if given.kind is GivenKind.CODES
     }
     facts = {given.id: bool(values.pop(given.id, 0)) for given in givens if given.kind is GivenKind.BOOLEAN}
-    return Surroundings(with_fields(scope.model, values), codes, facts)
+    numbers = {
+        given.id: Fraction(values.pop(given.id, given.default or 0))
+        for given in givens
+        if given.kind is GivenKind.NUMBER
+    }
+    texts = {f"given.{given.id}": str(given.default or given.choices[0]) for given in givens if given.choices}
+    return Surroundings(with_fields(scope.model, values), codes, facts, numbers, texts)
 
 
 @example_rule("RS0446", "Worked example of a value is not reproduced", ValueExample, "the example")

@@ -9,7 +9,10 @@ from fractions import Fraction
 from typing import TypeVar
 
 from regscribe.model import (
+    BOTTOM,
+    TOP,
     Access,
+    AnyOf,
     BitField,
     ByCase,
     Case,
@@ -18,6 +21,8 @@ from regscribe.model import (
     Conversion,
     Decimals,
     Enum,
+    Given,
+    GivenKind,
     GivenRef,
     Interval,
     Is,
@@ -41,6 +46,7 @@ from regscribe.model import (
     show,
 )
 from regscribe.model.identifiers import OPEN
+from regscribe_runtime.values.versions import version_of_key
 
 ACCESS = {Access.READ: "read only", Access.READ_WRITE: "read and write", Access.WRITE: "write only"}
 ORDER = {Order.BIG: "most significant word first", Order.LITTLE: "least significant word first"}
@@ -141,16 +147,51 @@ def _labels(test: Is, model: Model | None) -> dict[int, str]:
     return labels_of(enum)
 
 
-def words_of_test(test: Is, model: Model | None = None, wording: Wording = PLAIN) -> str:
+def words_of_test(test: Is | AnyOf, model: Model | None = None, wording: Wording = PLAIN) -> str:
     """Return one test: `input_type is 0 to 12`, `inpt is one of linear_inputs`; labels come from the model's enums."""
+    if isinstance(test, AnyOf):
+        inside = " or ".join(condition_words(each, model, wording) for each in test.conditions)
+        return f"not ({inside})" if test.negated else f"({inside})"
     given = wording.text(test.given)
-    if not test.register:
+    if not test.register and not test.codes:
         return f"not {given}" if test.negated else given
+    if not test.register:
+        return f"{given} is {'not ' if test.negated else ''}{wording.text(ends_words(test))}"
     subject = wording.register(test.register) + (wording.text(f".{test.field}") if test.field else "")
     if test.given:
         return f"{subject} is {'none' if test.negated else 'one'} of {given}"
-    codes = wording.text(codes_words(test.codes, _labels(test, model)))
+    ended = test.version or any(low == BOTTOM or high == TOP for low, high in test.codes)
+    codes = wording.text(ends_words(test) if ended else codes_words(test.codes, _labels(test, model)))
     return f"{subject} is {'not ' if test.negated else ''}{codes}"
+
+
+def given_words(given: Given) -> str:
+    """Return what is to be given: `True or False`, `number, 1 to 5`, `"inside" or "outside"`, with its default."""
+    forms = {GivenKind.CODES: "set of codes", GivenKind.BOOLEAN: "True or False", GivenKind.NUMBER: "number"}
+    form = forms.get(given.kind) or listed([f'"{choice}"' for choice in given.choices])
+    if given.low is not None and given.high is not None:
+        form += f", {span_words(show(given.low), show(given.high))}"
+    if given.default is None:
+        return form
+    return f"{form}; default {given.default if isinstance(given.default, str) else show(given.default)}"
+
+
+def ends_words(test: Is) -> str:
+    """Return codes with open ends, versions or choices: `at least 1.2.0 or at most 3`."""
+    return listed([_span_of(test, *ends) for ends in test.codes])
+
+
+def _span_of(test: Is, low: Number | str, high: Number | str) -> str:
+    first, last = (_end_words(test, end) for end in (low, high))
+    if low == BOTTOM:
+        return f"at most {last}"
+    return f"at least {first}" if high == TOP else span_words(first, last)
+
+
+def _end_words(test: Is, end: Number | str) -> str:
+    if isinstance(end, str):
+        return end
+    return version_of_key(int(end)) if test.version else show(end)
 
 
 def condition_words(condition: Condition, model: Model | None = None, wording: Wording = PLAIN) -> str:

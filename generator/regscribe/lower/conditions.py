@@ -1,19 +1,18 @@
-"""Conditions: names, mappings and lists of them become a flat conjunction of tests."""
+"""Conditions: names, mappings and lists of them become a conjunction of tests, which `any` and `not` nest."""
 
 from collections.abc import Callable
-from fractions import Fraction
 from typing import TypeVar
 
-from regscribe.lower.node import ZERO, Value
-from regscribe.lower.rules import BAD_MATCHER, UNKNOWN_CONDITION, UNKNOWN_GIVEN, WRONG_SORT
+from regscribe.lower.matchers import given_named, test_of, test_of_given
+from regscribe.lower.node import Value
+from regscribe.lower.rules import UNKNOWN_CONDITION, WRONG_SORT
 from regscribe.lower.scope import Scope
-from regscribe.lower.subject import Subject, code_of_text, subject_of
-from regscribe.lower.texts import ends, unknown
-from regscribe.model import ALWAYS, Case, Cases, Condition, Is, WriteCondition
+from regscribe.lower.subject import subject_of
+from regscribe.model import ALWAYS, AnyOf, Case, Cases, Condition, Is, WriteCondition
 
 Made = TypeVar("Made")
 
-_SETS = ("in", "not_in")
+_GIVEN = "given."
 
 
 def condition(node: Value | None, scope: Scope) -> Condition:
@@ -23,7 +22,7 @@ def condition(node: Value | None, scope: Scope) -> Condition:
     if node.is_text:
         return _named(node, scope)
     if node.is_mapping:
-        return Condition(tuple(test for key, matcher in node.items() for test in _tests(key, matcher, scope)))
+        return Condition(tuple(test for key, part in node.items() for test in _part(key, part, scope)))
     if not node.is_list:
         node.report(
             WRONG_SORT, f"`{node.text()}` is no condition", remedy="write a name, a mapping, or a list of these"
@@ -68,50 +67,38 @@ def excludes(one: Condition, other: Condition) -> bool:
     return any(_contrary(test, against) for test in one.tests for against in other.tests)
 
 
-def _contrary(test: Is, other: Is) -> bool:
+def _contrary(test: Is | AnyOf, other: Is | AnyOf) -> bool:
     if test._replace(negated=not test.negated) == other:
         return True
-    if test.subject != other.subject or test.negated or other.negated or not (test.codes and other.codes):
+    for mixed, single in ((test, other), (other, test)):
+        if isinstance(mixed, AnyOf):
+            alone = Condition((single,))
+            return not mixed.negated and all(excludes(each, alone) for each in mixed.conditions)
+    if not (isinstance(test, Is) and isinstance(other, Is)) or test.subject != other.subject:
         return False
+    if not (test.codes and other.codes) or (test.negated and other.negated):
+        return False
+    if test.negated or other.negated:
+        inner, outer = (other, test) if test.negated else (test, other)
+        return all(any(low <= of and to <= high for low, high in outer.codes) for of, to in inner.codes)
     return not any(low <= to and of <= high for low, high in test.codes for of, to in other.codes)
 
 
-def _tests(key: str, matcher: Value, scope: Scope) -> list[Is]:
+def _part(key: str, part: Value, scope: Scope) -> list[Is | AnyOf]:
     if key == "given":
-        givens = ((element.child("not"), element) for element in matcher.elements())
-        return [Is("", given=_given(no or yes, scope, "boolean"), negated=no is not None) for no, yes in givens]
-    subject = subject_of(matcher, key, scope)
-    return [] if subject is None else [_test(matcher, subject, scope, negated=False)]
+        givens = ((element.child("not"), element) for element in part.elements())
+        return [Is("", given=given_named(no or yes, scope, "boolean"), negated=no is not None) for no, yes in givens]
+    if key == "any":
+        return [AnyOf(tuple(condition(one, scope) for one in part.elements()))]
+    if key == "not":
+        return [_negated(condition(part, scope))]
+    if key.startswith(_GIVEN):
+        return [*test_of_given(part, key.removeprefix(_GIVEN), scope)]
+    subject = subject_of(part, key, scope)
+    return [] if subject is None else [test_of(part, subject, scope)]
 
 
-def _given(node: Value, scope: Scope, kind: str) -> str:
-    found = scope.named(node, "givens", rule=UNKNOWN_GIVEN, what="given")
-    stated = found.child("type") if found else None
-    if stated and stated.text() != kind:
-        message = f"the given `{node.text()}` is of type {stated.text()}, {kind} is needed here"
-        node.report(UNKNOWN_GIVEN, message, remedy=f"refer to a given of type {kind}")
-    return node.text()
-
-
-def _test(matcher: Value, subject: Subject, scope: Scope, *, negated: bool) -> Is:
-    test = Is(subject.entry.path, field=subject.field, bits=subject.bits)
-    for key, node in matcher.items():
-        if key == "not":
-            return _test(node, subject, scope, negated=not negated)
-        if key in _SETS:
-            given = _given(node, scope, "codes")
-            return test._replace(given=given, negated=negated != (key == "not_in"))
-        unknown(matcher, BAD_MATCHER, "matcher", key, [*_SETS, "not"])
-    codes = tuple(_code(node, subject, scope) for node in matcher.elements() if not matcher.is_mapping)
-    return test._replace(codes=codes, negated=negated)
-
-
-def _code(node: Value, subject: Subject, scope: Scope) -> tuple[Fraction, Fraction]:
-    if node.is_mapping or node.is_list:
-        remedy = "a list holds numbers, ranges and enum members; use one `not`, `in` or `not_in` beside no others"
-        node.report(BAD_MATCHER, "this cannot stand in a list of codes", remedy=remedy)
-        return ZERO, ZERO
-    if node.is_text and ".." in node.text():
-        return ends(node)
-    code = code_of_text(node, subject, scope) if node.is_text else node.number()
-    return code, code
+def _negated(found: Condition) -> Is | AnyOf:
+    if len(found.tests) == 1:
+        return found.tests[0]._replace(negated=not found.tests[0].negated)
+    return AnyOf((found,), negated=True)

@@ -3,6 +3,7 @@
 import keyword
 from collections.abc import Iterator
 from dataclasses import replace
+from fractions import Fraction
 
 from regscribe.lower.blocks import blocks_of
 from regscribe.lower.conditions import condition, condition_of
@@ -12,11 +13,11 @@ from regscribe.lower.idle_keys import report_idle_defaults
 from regscribe.lower.models import model_of, scopes_of, stretch_of
 from regscribe.lower.node import Value
 from regscribe.lower.protocol import faults_of, notes_of, protocol_of
-from regscribe.lower.rules import NO_MODULE, UNKNOWN_REGISTER
+from regscribe.lower.rules import NO_MODULE, UNKNOWN_MEMBER, UNKNOWN_REGISTER
 from regscribe.lower.scales import own_units, rule_at, scale_at, unit_at
 from regscribe.lower.scope import Scope
 from regscribe.lower.subject import subject_of
-from regscribe.lower.texts import known_name
+from regscribe.lower.texts import ends, known_name
 from regscribe.lower.variants import named_models
 from regscribe.lower.views import set_at
 from regscribe.model import (
@@ -98,14 +99,29 @@ def _notation(node: Value) -> Notation:
 def _given(node: Value, products: list[Product]) -> Given:
     """A fact from elsewhere that a program must give; RS0301 where it is about an unknown register."""
     register, owners = node.child("register"), products[0].scope.owners if products else {}
+    stated = node.child("range")
+    low, high = ends(stated) if stated else (None, None)
     return Given(
         id=node.key,
         kind=node.choice_of("type", GivenKind.CODES),
         description=node.text_of("description"),
         reason=node.text_of("reason"),
         register=known_name(register, UNKNOWN_REGISTER, "register", owners) if register else "",
+        choices=node.texts_of("choices"),
+        low=low,
+        high=high,
+        default=_default(node),
         span=node.key_span,
     )
+
+
+def _default(node: Value) -> Fraction | str | None:
+    """The default of a given; RS0305 where it is none of the choices."""
+    default = node.child("default")
+    if default is None:
+        return None
+    choices = node.texts_of("choices")
+    return known_name(default, UNKNOWN_MEMBER, "choice", choices) if choices else default.number()
 
 
 def _waiver(node: Value) -> Waiver:

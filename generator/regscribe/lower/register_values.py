@@ -8,7 +8,7 @@ from fractions import Fraction
 from regscribe.lower.conditions import both, cases_of, excludes
 from regscribe.lower.enums import identifier_of, label_of
 from regscribe.lower.node import ZERO, Value
-from regscribe.lower.rules import BAD_DEFAULT, BAD_VERSION, REVERSED
+from regscribe.lower.rules import BAD_DEFAULT, REVERSED
 from regscribe.lower.scales import Scaling, decimals_rule
 from regscribe.lower.scope import Scope
 from regscribe.lower.terms import term_of
@@ -111,18 +111,6 @@ def sentinels_of(entry: TreeNode) -> tuple[Sentinel, ...]:
         stored = NAN if key == NAN.value else node.key_number()
         found.append(Sentinel(stored, identifier_of(node, label).upper(), label))
     return tuple(found)
-
-
-def version_of(node: Value | None) -> tuple[int, int]:
-    """Decimal digits and digits of a group of a version pattern such as nn.nn.nn; RS0329 for any other text."""
-    if node is None:
-        return 0, 0
-    groups = node.text().split(".")
-    if not all(group and group == "n" * len(groups[0]) for group in groups):
-        message = f"`{node.text()}` is no version pattern"
-        node.report(BAD_VERSION, message, remedy="write one n a digit, in groups of equal length, as nn.nn.nn")
-        return 0, 0
-    return len(groups) * len(groups[0]), len(groups[0])
 
 
 def beginning_of(

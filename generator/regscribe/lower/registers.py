@@ -8,10 +8,11 @@ from regscribe.lower.conditions import cases_of, condition, write_condition
 from regscribe.lower.enums import enum_of, fields_of
 from regscribe.lower.idle_keys import report_idle_keys
 from regscribe.lower.node import ZERO, Keyed, Value
-from regscribe.lower.register_values import beginning_of, range_of, sentinels_of, specials_of, version_of
+from regscribe.lower.register_values import beginning_of, range_of, sentinels_of, specials_of
 from regscribe.lower.rules import NO_ACCESS
 from regscribe.lower.scales import NOT_STATED, Scaling, decimals_rule, rescaled, scale_of, unit_of
 from regscribe.lower.scope import Scope
+from regscribe.lower.texts import version_of
 from regscribe.lower.tree import TreeNode, span_of
 from regscribe.lower.views import at_of, views_of
 from regscribe.model import (

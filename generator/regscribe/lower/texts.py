@@ -1,4 +1,4 @@
-"""Texts of a map with a form of their own: identifiers, names of other things, and ranges `a..b`."""
+"""Texts of a map with a form of their own: identifiers, names of other things, ranges `a..b`, version patterns."""
 
 import re
 from collections.abc import Callable, Collection, Iterable
@@ -6,7 +6,7 @@ from difflib import get_close_matches
 from fractions import Fraction
 
 from regscribe.lower.node import ZERO, Value, brief
-from regscribe.lower.rules import NO_IDENTIFIER, REVERSED, WRONG_SORT
+from regscribe.lower.rules import BAD_VERSION, NO_IDENTIFIER, REVERSED, WRONG_SORT
 from regscribe.model import parse, show
 from regscribe.model.identifiers import snake, unindexed
 
@@ -59,6 +59,14 @@ def ends(node: Value) -> tuple[Fraction, Fraction]:
     return low, high
 
 
+def ordered(node: Value, low: Fraction, high: Fraction) -> tuple[Fraction, Fraction]:
+    """The two ends of `{from: a, to: b}`; RS0315 where the first is above the second."""
+    if low > high:
+        node.report(REVERSED, "the range is reversed: `from` is more than `to`", remedy="exchange the two")
+        return high, low
+    return low, high
+
+
 def unordered(node: Value) -> tuple[Fraction, Fraction]:
     """The two ends that `a..b` spells, in whatever order; RS0330 for any other text."""
     if node.is_number:
@@ -83,3 +91,15 @@ def whole_ends(node: Value | None, otherwise: tuple[int, int] = (0, 0)) -> tuple
         node.report(WRONG_SORT, f"`{node.text()}` is no range of whole numbers", remedy="write whole numbers, as 1..8")
         return 0, 0
     return low.numerator, high.numerator
+
+
+def version_of(node: Value | None) -> tuple[int, int]:
+    """Decimal digits and digits of a group of a version pattern such as nn.nn.nn; RS0329 for any other text."""
+    if node is None:
+        return 0, 0
+    groups = node.text().split(".")
+    if not all(group and group == "n" * len(groups[0]) for group in groups):
+        message = f"`{node.text()}` is no version pattern"
+        node.report(BAD_VERSION, message, remedy="write one n a digit, in groups of equal length, as nn.nn.nn")
+        return 0, 0
+    return len(groups) * len(groups[0]), len(groups[0])

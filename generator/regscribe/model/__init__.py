@@ -29,7 +29,18 @@ from regscribe.model.map import (
 from regscribe.model.process import Alarm, Effect, OnOff, Output, Pid, Process, Ramp, Trip, TripKind
 from regscribe.model.register import Array, Group, Inferred, Register
 from regscribe_runtime.values.blocks import Chain, Header, Layout, RegisterBlock
-from regscribe_runtime.values.conditions import ALWAYS, Case, Cases, Condition, Is, always, registers_of
+from regscribe_runtime.values.conditions import (
+    ALWAYS,
+    BOTTOM,
+    TOP,
+    AnyOf,
+    Case,
+    Cases,
+    Condition,
+    Is,
+    always,
+    registers_of,
+)
 from regscribe_runtime.values.facts import (
     PLAIN_READING,
     CommandStep,
@@ -73,13 +84,16 @@ from regscribe_runtime.values.wire_types import Order, Rounding, Space, WireType
 
 __all__ = [
     "ALWAYS",
+    "BOTTOM",
     "IDENTITY",
     "NAN",
     "PLAIN_READING",
     "SAME",
     "SILENCE",
+    "TOP",
     "Access",
     "Alarm",
+    "AnyOf",
     "Array",
     "BitField",
     "ByCase",

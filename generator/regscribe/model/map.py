@@ -37,22 +37,36 @@ class Notation:
 
 
 class GivenKind(StrEnum):
-    """What a given is: a set of register codes, or yes/no."""
+    """What a given is: a set of register codes, yes/no, a number, or one of some texts."""
 
     CODES = "codes"
     BOOLEAN = "boolean"
+    NUMBER = "number"
+    CHOICE = "choice"
 
 
 @dataclass(frozen=True, slots=True)
 class Given:
-    """A fact that decoding needs and this manual does not hold: a constructor argument without default."""
+    """A fact that decoding needs and this manual does not hold: a constructor argument.
+
+    A number lies between `low` and `high` (None: no end), a choice is one of `choices`; only these may have a default.
+    """
 
     id: str
     kind: GivenKind
     description: str
     reason: str
     register: str = ""
+    choices: tuple[str, ...] = ()
+    low: Fraction | None = None
+    high: Fraction | None = None
+    default: Fraction | str | None = None
     span: Span = NOWHERE
+
+    @property
+    def is_value(self) -> bool:
+        """Whether conditions compare it as they compare a register."""
+        return self.kind in {GivenKind.NUMBER, GivenKind.CHOICE}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

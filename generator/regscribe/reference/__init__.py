@@ -13,6 +13,7 @@ from regscribe.reference.codec import (
     version_number,
     version_text,
 )
+from regscribe.reference.givens import surroundings_of
 from regscribe.reference.ieee import ieee_bits, ieee_number, shortest
 from regscribe.reference.limits import divided_limits, limits, within
 from regscribe.reference.outcome import Meaning, Reading, RefusalReason, RefusedError, UnknownValueError
@@ -65,6 +66,7 @@ __all__ = [
     "shortest",
     "special_value",
     "straight",
+    "surroundings_of",
     "transmit",
     "version_number",
     "version_text",

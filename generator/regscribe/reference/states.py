@@ -5,7 +5,7 @@ from fractions import Fraction
 from itertools import groupby, product
 from typing import NamedTuple, TypeVar
 
-from regscribe.model import Enum, Kind, Limit, Number, Register, WireType
+from regscribe.model import Enum, Given, Kind, Limit, Number, Register, WireType
 from regscribe.reference.settled_scales import forms, widest
 
 K = TypeVar("K", bound=Hashable)
@@ -39,6 +39,12 @@ def domain(register: Register, field: str = "") -> tuple[Stretch, ...]:
     if register.kind is Kind.STRING or register.base.type is WireType.STRING:
         return ANYTHING
     return _without_faults(register, _of_number(register))
+
+
+def domain_of_given(given: Given) -> tuple[Stretch, ...]:
+    """Return the numbers that may be given."""
+    low, high = ANYTHING[0]
+    return (Stretch(low if given.low is None else given.low, high if given.high is None else given.high),)
 
 
 def _of_bits(enum: Enum | None, width: int) -> tuple[Stretch, ...]:

@@ -91,9 +91,20 @@ def known(case: Json) -> tuple[dict[str, Any], dict[str, Any]]:
     givens = case.get("givens", {})
     stated = {**case.get("assumed", {}), **case.get("state", {})}
     return (
-        {path: number(text) for path, text in stated.items()},
-        {
-            name: codes if isinstance(codes, bool) else {number(text) for text in codes}
-            for name, codes in givens.items()
-        },
+        {path: _number_or_text(text) for path, text in stated.items()},
+        {name: _given(value) for name, value in givens.items()},
     )
+
+
+def _number_or_text(text: str) -> int | float | Fraction | str:
+    """The number that a text spells; of a version or a choice the text itself."""
+    try:
+        return number(text)
+    except ValueError:
+        return text
+
+
+def _given(value: bool | str | list[str]) -> Any:  # noqa: ANN401, FBT001 (as JSON has it)
+    if isinstance(value, list):
+        return {number(text) for text in value}
+    return value if isinstance(value, bool) else _number_or_text(value)

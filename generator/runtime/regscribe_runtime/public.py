@@ -95,6 +95,9 @@ from regscribe_runtime.report import WriteReport as WriteReport
 from regscribe_runtime.values.blocks import Chain as Chain
 from regscribe_runtime.values.blocks import Header as Header
 from regscribe_runtime.values.blocks import RegisterBlock as RegisterBlock
+from regscribe_runtime.values.conditions import BOTTOM as BOTTOM
+from regscribe_runtime.values.conditions import TOP as TOP
+from regscribe_runtime.values.conditions import AnyOf as AnyOf
 from regscribe_runtime.values.conditions import Case as Case
 from regscribe_runtime.values.conditions import Condition as Condition
 from regscribe_runtime.values.conditions import Is as Is
@@ -105,6 +108,7 @@ from regscribe_runtime.values.facts import Identity as Identity
 from regscribe_runtime.values.facts import ReadFacts as ReadFacts
 from regscribe_runtime.values.facts import Setting as Setting
 from regscribe_runtime.values.facts import WriteCondition as WriteCondition
+from regscribe_runtime.values.givens import Fact as Fact
 from regscribe_runtime.values.programs import ProgramAction as ProgramAction
 from regscribe_runtime.values.programs import ProgramCounts as ProgramCounts
 from regscribe_runtime.values.programs import ProgramFinal as ProgramFinal

@@ -15,9 +15,9 @@ from regscribe.cli.shared.compiled_maps import compiled_maps
 from regscribe.cli.shared.diagnostic_text import findings
 from regscribe.cli.shared.map_arguments import did_you_mean, find_map
 from regscribe.cli.shared.output import raised_as, refuse, show
-from regscribe.model import GivenKind, RegisterMap
+from regscribe.model import RegisterMap
 from regscribe.simulate import SimulatedDevice, SimulatorError, ThermalProcess
-from regscribe.tools.live.givens import codes_in, flag_of
+from regscribe.tools.live.givens import Given, given_of
 from regscribe_runtime.values.serial_line import ADDRESSINGS, MODBUS
 
 KEYS = ("map", "model", "unit", "given", "state", "process", "seed", "addressing")
@@ -161,13 +161,12 @@ def _model(model: str | None, register_map: RegisterMap) -> str:
     return model
 
 
-def _given(text: str, register_map: RegisterMap) -> tuple[str, bool | frozenset[int]]:
+def _given(text: str, register_map: RegisterMap) -> tuple[str, Given]:
     name, equals, value = text.partition("=")
-    kinds = {given.id: given.kind for given in register_map.givens}
-    if not equals or name not in kinds:
-        refuse(f"--given {text}: write ID=VALUE; {register_map.id} has the givens {', '.join(kinds) or '(none)'}")
+    known = {given.id: given for given in register_map.givens}
+    if not equals or name not in known:
+        refuse(f"--given {text}: write ID=VALUE; {register_map.id} has the givens {', '.join(known) or '(none)'}")
     try:
-        codes = kinds[name] is GivenKind.CODES
-        return name, codes_in(value.split(",")) if codes else flag_of(name, value)
+        return name, given_of(name, known[name].kind, value, known[name].choices)
     except ValueError as error:
         refuse(f"--given {text}: {error}")

@@ -9,8 +9,8 @@ from regscribe.emit.markdown.escape import Md, code, escape, md, prose
 from regscribe.emit.markdown.page_values import PageTable, Titled, table
 from regscribe.emit.markdown.register_facts import transmission, view_type
 from regscribe.emit.outline import leaves
-from regscribe.emit.words import condition_words, listed, one_line, span_words, when_words
-from regscribe.model import GivenKind, Kind, Register, View, show
+from regscribe.emit.words import condition_words, given_words, listed, one_line, span_words, when_words
+from regscribe.model import Kind, Register, View, show
 
 Shape = tuple[tuple[str, View], ...]
 """Address formula in n (the base view's address) and the rest of each view, its address left out."""
@@ -113,7 +113,7 @@ def givens(context: PageContext) -> PageTable:
     rows = (
         (
             code(item.id),
-            "set of codes" if item.kind is GivenKind.CODES else "True or False",
+            given_words(item),
             context.register(item.register) if item.register else Md(),
             prose(item.description),
             prose(item.reason),

@@ -16,13 +16,18 @@ from regscribe.emit.python.constants import PROTOCOL, Pool
 from regscribe.emit.python.enum_classes import NamedClasses, Origin
 from regscribe.emit.python.expressions import expression
 from regscribe.emit.python.formatting import WIDTH, lay, width
+from regscribe.emit.python.givens import checked, default_of, type_of
 from regscribe.emit.python.library_modules import libraries, module_path, offered
 from regscribe.emit.python.literals import camel, docstring, literal
 from regscribe.emit.python.reserved_names import RUNTIME, hidden
 from regscribe.emit.words import one_line
-from regscribe.model import GivenKind, Library, RegisterMap
+from regscribe.model import Library, RegisterMap
 
-STANDARD = {"collections.abc": ["Collection"], "fractions": ["Fraction"], "typing": ["Any", "Self", "Unpack"]}
+STANDARD = {
+    "collections.abc": ["Collection"],
+    "fractions": ["Fraction"],
+    "typing": ["Any", "Literal", "Self", "Unpack"],
+}
 """What a module imports of the standard library, as far as it uses it."""
 
 NOT_CODE = re.compile(r'"""[\s\S]*?"""|"(?:[^"\\\n]|\\.)*"|\'(?:[^\'\\\n]|\\.)*\'|#[^\n]*')
@@ -63,7 +68,7 @@ def _driver(register_map: RegisterMap, named: NamedClasses) -> str:
         classes=classes.lines,
         stem=classes.stem,
         givens=[
-            {"id": given.id, "type": "Collection[int]" if given.kind is GivenKind.CODES else "bool"}
+            {"id": given.id, "type": type_of(given), "value": checked(given), "default": default_of(given)}
             for given in register_map.givens
         ],
     )

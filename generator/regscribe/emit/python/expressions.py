@@ -9,7 +9,7 @@ from regscribe.emit.python.constants import Pool, names_of
 from regscribe.emit.python.formatting import Call, Expression, call, group
 from regscribe.emit.python.literals import exact, literal, member
 from regscribe.emit.words import cases_words, conversion_words, range_words
-from regscribe.model import SAME, Case, Cases, Condition, Conversion, Model, Open, Range, Register, Space
+from regscribe.model import BOTTOM, SAME, TOP, Case, Cases, Condition, Conversion, Model, Open, Range, Register, Space
 from regscribe_runtime.values.views import word
 
 Known = Callable[[object], Expression | None]
@@ -32,7 +32,7 @@ def expression(value: object, known: Known = lambda _: None) -> Expression:
         case str():
             return call("Open", literal(value)) if isinstance(value, Open) else literal(value)
         case int() | Fraction():
-            return exact(value)
+            return "BOTTOM" if value == BOTTOM else "TOP" if value == TOP else exact(value)
         case tuple():
             return _record(value, known) if hasattr(value, "_fields") else group([expression(i, known) for i in value])
     message = f"a declaration cannot hold {value!r}, a {type(value).__name__}"

@@ -46,10 +46,12 @@ def case_of(register: Register, view: View, situation: Situation) -> Json:
 def surroundings(situation: Situation) -> Json:
     """Return the state and the givens of a situation."""
     found: Json = {}
-    if situation.state:
-        found["state"] = {name: show(value) for name, value in situation.state.items()}
+    state = {name: show(value) for name, value in situation.state.items()} | situation.texts
+    if state:
+        found["state"] = state
     givens: Json = {name: [show(code) for code in sorted(codes)] for name, codes in situation.codes}
-    givens |= dict(situation.facts)
+    givens |= dict(situation.facts) | dict(situation.choices)
+    givens |= {name: show(value) for name, value in situation.numbers.items()}
     if givens:
         found["givens"] = givens
     return found

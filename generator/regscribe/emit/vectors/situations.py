@@ -10,7 +10,9 @@ from regscribe.emit.vectors.tried_values import Dependencies, TriedValues, Value
 from regscribe.model import Model, Register, RegisterMap, View
 from regscribe.reference import Surroundings, holds, word_order
 from regscribe.reference.states import combinations
+from regscribe_runtime.values.versions import version_of_key
 
+GIVEN = "given."
 MOST_COMBINATIONS = 20_000
 """Enough for every combination of six registers with five values each; more would only repeat what was tried."""
 
@@ -19,7 +21,8 @@ MOST_COMBINATIONS = 20_000
 class Situation:
     """Values of other registers and givens. Not `full`: it differs from another situation in the codes only.
 
-    `parts` are the names in `values` that are a field of a register; `words` those of such registers.
+    `parts` are the names in `values` that are a field of a register; `words` those of such registers. `choices` are
+    givens, `versions` registers of texts, whose values are keys of versions.
     """
 
     values: tuple[tuple[str, Fraction], ...] = ()
@@ -28,16 +31,30 @@ class Situation:
     parts: tuple[str, ...] = ()
     words: tuple[str, ...] = ()
     full: bool = True
+    choices: tuple[tuple[str, str], ...] = ()
+    versions: tuple[str, ...] = ()
 
     @property
     def state(self) -> dict[str, Fraction]:
         """The values of whole registers, as a driver takes them."""
-        return {name: value for name, value in self.values if name not in self.parts}
+        left_out = (*self.parts, *self.versions)
+        return {name: value for name, value in self.values if name not in left_out and not name.startswith(GIVEN)}
+
+    @property
+    def texts(self) -> dict[str, str]:
+        """The texts of registers, as a driver takes them."""
+        return {name: f"v{version_of_key(int(value))}" for name, value in self.values if name in self.versions}
+
+    @property
+    def numbers(self) -> dict[str, Fraction]:
+        """The numbers that are given, by id."""
+        return {name.removeprefix(GIVEN): value for name, value in self.values if name.startswith(GIVEN)}
 
     @property
     def known(self) -> Surroundings:
         """The situation as the reference takes it."""
-        return Surroundings(dict(self.values), dict(self.codes), dict(self.facts))
+        texts = self.texts | {f"{GIVEN}{name}": choice for name, choice in self.choices}
+        return Surroundings(dict(self.values), dict(self.codes), dict(self.facts), self.numbers, texts)
 
 
 class Finder:
@@ -102,6 +119,8 @@ def _combinations(tried: TriedValues) -> list[Situation]:
             tuple((name, fact) for name, fact in givens.items() if isinstance(fact, bool)),
             parts,
             words,
+            choices=tuple((name, choice) for name, choice in givens.items() if isinstance(choice, str)),
+            versions=tried.versions,
         )
         for values, givens in islice(every, MOST_COMBINATIONS)
     ]
@@ -139,7 +158,7 @@ def _effects(name: str, meanings: Mapping[Situation, object]) -> dict[Situation,
 
 def _without(situation: Situation, name: str) -> object:
     others = tuple(pair for pair in situation.values if pair[0] != name and pair[0] not in situation.words)
-    return others, situation.codes, situation.facts
+    return others, situation.codes, situation.facts, situation.choices
 
 
 def _with_limits(register: Register, situation: Situation) -> Situation:

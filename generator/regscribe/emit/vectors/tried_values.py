@@ -22,29 +22,33 @@ from regscribe.model import (
     View,
 )
 from regscribe.reference.settled_scales import MOST_DECIMALS
-from regscribe.reference.states import Stretch, domain, listed, representatives
 from regscribe_runtime.values.terms import parts_of, registers_in
 
 EXPONENTS = tuple(map(Fraction, (-3, -1, 0, 2, 11)))
 """Numbers to try of an exponent, the last beyond those of any device."""
 AMOUNTS = tuple(map(Fraction, (0, 1, 40)))
 """Numbers to try of a factor, a divisor, a summand, a limit."""
+from regscribe.reference.states import Stretch, domain, domain_of_given, listed, representatives
+from regscribe_runtime.values.versions import version_key
 
-GivenTry = frozenset[Fraction] | bool
+GivenTry = frozenset[Fraction] | bool | str
 Values = dict[str, tuple[Fraction, ...]]
 Domain = tuple[Stretch, ...]
+VERSIONS = (Stretch(Fraction(0), Fraction(version_key("99.99.99") or 0)),)
+"""Keys of the versions that are tried."""
 
 
 @dataclass(frozen=True, slots=True)
 class TriedValues:
     """Values to try by `register` or `register.field`, and what the givens may be, by id.
 
-    `parts` has the register and the lowest bit of each `register.field`.
+    `parts` has the register and the lowest bit of each `register.field`; `versions` are texts: their values are keys.
     """
 
     values: Values
     givens: dict[str, tuple[GivenTry, ...]]
     parts: dict[str, tuple[str, int]]
+    versions: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +64,7 @@ class Dependencies:
     def tests(self) -> tuple[Is, ...]:
         """The tests of all conditions, those in terms too."""
         within = (case.when for part in parts_of(self.terms) if isinstance(part, ByCase) for case in part.cases)
-        return tuple(test for condition in (*self.conditions, *within) for test in condition.tests)
+        return tuple(test for condition in (*self.conditions, *within) for test in condition.leaves)
 
 
 def dependencies_of(register: Register, view: View) -> Dependencies:
@@ -88,24 +92,33 @@ def tried_values(register_map: RegisterMap, model: Model, dependencies: Dependen
     """Return the values to try of everything in `dependencies`."""
     sets = {given.id for given in register_map.givens if given.kind is GivenKind.CODES}
     values: dict[str, set[Fraction]] = {}
-    for subject, found in _values(model, dependencies, sets):
+    chosen = {test.given for test in dependencies.tests if not test.asks_given}
+    givens: dict[str, tuple[GivenTry, ...]] = {
+        given.id: given.choices for given in register_map.givens if given.choices and given.id in chosen
+    }
+    for subject, found in _values(register_map, model, dependencies, sets):
         values.setdefault(subject, set()).update(found)
     return TriedValues(
         {subject: tuple(sorted(found)) for subject, found in values.items()},
-        {test.given: _given(model, test, sets) for test in dependencies.tests if test.given},
+        givens | {test.given: _given(model, test, sets) for test in dependencies.tests if test.asks_given},
         {test.subject: (test.register, test.bits[0]) for test in dependencies.tests if test.bits},
+        tuple(dict.fromkeys(test.register for test in dependencies.tests if test.version)),
     )
 
 
-def _values(model: Model, dependencies: Dependencies, sets: set[str]) -> Iterator[tuple[str, Iterable[Fraction]]]:
+def _values(
+    register_map: RegisterMap, model: Model, dependencies: Dependencies, sets: set[str]
+) -> Iterator[tuple[str, Iterable[Fraction]]]:
     codes: dict[str, list[tuple[Number, Number]]] = {}
+    choices = {given.id for given in register_map.givens if given.choices}
     for test in dependencies.tests:
         codes.setdefault(test.subject, []).extend(test.codes)
     for test in dependencies.tests:
-        if test.given in sets:
+        if test.register and test.given in sets:
             yield test.subject, _first_two(_domain(model, test))
-        elif not test.given and test.subject in codes:
-            yield test.subject, representatives(_domain(model, test), codes.pop(test.subject))
+        elif not test.asks_given and test.given not in choices and test.subject in codes:
+            domain_now = _domain_in(register_map, model, test)
+            yield test.subject, representatives(domain_now, codes.pop(test.subject))
     for decimals in dependencies.decimals:
         yield decimals.register, _places(decimals, domain(model.register(decimals.register)))
     yield from _amounts(model, dependencies.terms)
@@ -128,6 +141,15 @@ def _amounts(model: Model, terms: tuple[Term, ...]) -> Iterator[tuple[str, Itera
 def _given(model: Model, test: Is, sets: set[str]) -> tuple[GivenTry, ...]:
     """Return the choices for a given: false and true, or a set of the second value of its register alone."""
     return (frozenset({_first_two(_domain(model, test))[1]}),) if test.given in sets else (False, True)
+
+
+def _domain_in(register_map: RegisterMap, model: Model, test: Is) -> Domain:
+    """The domain of what a test of codes asks for."""
+    if test.version:
+        return VERSIONS
+    if not test.register:
+        return next(domain_of_given(given) for given in register_map.givens if given.id == test.given)
+    return _domain(model, test)
 
 
 def _domain(model: Model, test: Is) -> Domain:

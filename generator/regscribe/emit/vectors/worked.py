@@ -104,10 +104,13 @@ class _ExampleState:
         self.codes: dict[str, frozenset[Fraction]] = {}
         self.facts: dict[str, bool] = {}
         self.numbers: dict[str, Fraction] = {}
+        self.texts = {f"given.{given.id}": str(given.default) for given in register_map.givens if given.choices}
         for given in register_map.givens:
-            if given.kind is GivenKind.CODES:
+            if given.kind is GivenKind.NUMBER:
+                self.numbers[given.id] = values.get(given.id, Fraction(given.default or 0))
+            elif given.kind is GivenKind.CODES:
                 self.codes[given.id] = frozenset({values[given.id]} if given.id in values else ())
-            else:
+            elif given.kind is GivenKind.BOOLEAN:
                 self.facts[given.id] = bool(values.get(given.id, 0))
 
     def look_up(self, subject: str) -> Fraction:
@@ -117,10 +120,17 @@ class _ExampleState:
         self._read[subject] = None
         return self._values[subject]
 
+    def read(self, subject: str) -> str:
+        """Return the text of `subject`; raises UnknownValueError if there is none."""
+        if subject not in self.texts:
+            raise UnknownValueError(subject)
+        return self.texts[subject]
+
     def as_json(self) -> Json:
         """Return `state` as the example states it, `assumed` for defaults that were read so far, and `givens`."""
         givens: Json = {name: [show(code) for code in sorted(codes)] for name, codes in self.codes.items()}
         givens |= self.facts
+        givens |= {name: show(number) for name, number in self.numbers.items()}
         read = dict.fromkeys(self._owners.get(name, name) for name in self._read)
         state = {name: show(value) for name, value in self._stated.items() if name not in givens}
         assumed = {name: show(self._values.get(name, Fraction(0))) for name in read if name not in self._known}

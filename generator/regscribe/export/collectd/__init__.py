@@ -9,7 +9,7 @@ from regscribe.checks.held_values import default_values, with_fields
 from regscribe.export.collectd.configuration import EVERY, Poll, collectd_text
 from regscribe.model import GivenKind, Model, RegisterMap, parse
 from regscribe.plugins import Option, OptionError
-from regscribe.reference import Surroundings
+from regscribe.reference import Surroundings, surroundings_of
 
 name = "collectd"
 summary = "a configuration of collectd's modbus plugin that polls one model"
@@ -68,22 +68,28 @@ def _surroundings(register_map: RegisterMap, model: Model, state: Sequence[str],
     Each of `state` is PATH=VALUE (a number or a member's id), each of `givens` ID=VALUE.
     """
     values = with_fields(model, default_values(model) | dict(_register_value(model, text) for text in state))
-    codes: dict[str, frozenset[Fraction]] = {}
-    facts: dict[str, bool] = {}
+    stated = dict(_given(register_map, text) for text in givens)
+    try:
+        return surroundings_of(register_map, stated, values)
+    except ValueError as error:
+        message = f"--given: {error}"
+        raise OptionError(message) from None
+
+
+def _given(register_map: RegisterMap, text: str) -> tuple[str, bool | str | Fraction | frozenset[Fraction]]:
+    name, _, value = text.partition("=")
     kinds = {given.id: given.kind for given in register_map.givens}
-    for text in givens:
-        name, _, value = text.partition("=")
-        if name not in kinds:
-            message = f"--given {text}: write ID=VALUE; {register_map.id} has the givens {', '.join(kinds) or '(none)'}"
-            raise OptionError(message)
-        if kinds[name] is GivenKind.CODES:
-            codes[name] = _codes(text, value)
-        elif value not in FACTS:
+    if name not in kinds:
+        message = f"--given {text}: write ID=VALUE; {register_map.id} has the givens {', '.join(kinds) or '(none)'}"
+        raise OptionError(message)
+    if kinds[name] is GivenKind.CODES:
+        return name, _codes(text, value)
+    if kinds[name] is GivenKind.BOOLEAN:
+        if value not in FACTS:
             message = f"--given {text}: it is true or false"
             raise OptionError(message)
-        else:
-            facts[name] = FACTS[value]
-    return Surroundings(values, codes, facts)
+        return name, FACTS[value]
+    return name, Fraction(value) if NUMBER.fullmatch(value) else value
 
 
 def _register_value(model: Model, text: str) -> tuple[str, Fraction]:

@@ -2,7 +2,7 @@
 
 from fractions import Fraction
 
-from regscribe.model import Identity, Is, Kind, Register
+from regscribe.model import BOTTOM, Identity, Is, Kind, Register
 from regscribe.reference import number_of
 from regscribe.simulate.device.present_meaning import PresentMeaning
 from regscribe.simulate.device.value_arguments import with_field
@@ -44,7 +44,7 @@ def _initial_text(register: Register, identities: list[Identity]) -> str:
 
 
 def _identity_tests(register: Register, identities: list[Identity]) -> list[Is]:
-    tests = [test for identity in identities[:1] for test in identity.when.tests if test.register == register.path]
+    tests = [test for identity in identities[:1] for test in identity.when.leaves if test.register == register.path]
     return [test for test in tests if test.codes and not test.negated]
 
 
@@ -52,7 +52,8 @@ def _identifying(register: Register, tests: list[Is]) -> Fraction:
     """The default, with every test on the register or on one of its fields made true."""
     value = number_of(register, register.default) or Fraction(0)
     for test in tests:
-        code = Fraction(test.codes[0][0])
+        low, high = test.codes[0]
+        code = Fraction(high if low == BOTTOM else low)
         field = next((each for each in register.fields if each.id == test.field), None)
         if field is not None:
             value = with_field(value, field, code)

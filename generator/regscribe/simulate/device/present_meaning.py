@@ -68,6 +68,12 @@ class PresentMeaning(ABC):
             return Fraction(0)
         return self.number(register, stored) if field is None else field_value(stored, field)
 
+    def read(self, subject: str) -> str:
+        """Return the present text of a register, or of a choice that is given."""
+        if subject in self.blueprint.givens.texts:
+            return self.blueprint.givens.texts[subject]
+        return str(self.in_effect(self.register(subject).path))
+
     def number(self, register: Register, stored: Fraction) -> Fraction:
         """Return the value of use of a stored number: 0 or 1 of a boolean, of a special value what it stands for."""
         value = self.to_value(register, stored)

@@ -5,7 +5,7 @@ from fractions import Fraction
 from threading import Lock
 
 from regscribe.model import NAN, BitField, Kind, Model, NotANumber, Register, RegisterMap, Space, parse
-from regscribe.reference import holds, version_text
+from regscribe.reference import Surroundings, holds, version_text
 from regscribe.simulate.device import codec
 from regscribe.simulate.device.device_plan import Blueprint, Image, Stored, draw
 from regscribe.simulate.device.initial_values import initial_value
@@ -28,6 +28,11 @@ _BLUEPRINTS: dict[tuple[int, str, frozenset[object]], Blueprint] = {}
 """The latest blueprints by map (the id of the object, which the blueprint keeps alive), model and givens."""
 _MOST_BLUEPRINTS = 64
 _LOCK = Lock()
+
+
+def _key(known: Surroundings) -> frozenset[object]:
+    known_all = (known.codes, known.facts, known.numbers, known.texts)
+    return frozenset(item for each in known_all for item in each.items())
 
 
 class DeviceState(PresentMeaning):
@@ -54,7 +59,7 @@ class DeviceState(PresentMeaning):
     def of(cls, register_map: RegisterMap, model: Model, givens: Mapping[str, GivenValue]) -> "DeviceState":
         """The state of a new device. SimulatorError where the model needs givens that are not there."""
         known = known_givens(register_map, model, givens)
-        key = id(register_map), model.name, frozenset((*known.codes.items(), *known.facts.items()))
+        key = id(register_map), model.name, _key(known)
         blueprint = _BLUEPRINTS.get(key)
         if blueprint is None:
             blueprint = draw(register_map, model, known)

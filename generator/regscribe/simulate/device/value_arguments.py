@@ -19,13 +19,13 @@ from regscribe.model import (
     exact,
     parse,
 )
-from regscribe.reference import Surroundings
+from regscribe.reference import Surroundings, surroundings_of
 from regscribe.simulate.errors import SimulatorError
 
 Plain = str | float | Fraction | Decimal | NotANumber
 """A value that a user may give: a number or NaN, or a text that is a number or its name."""
 
-GivenValue = bool | Iterable[int]
+GivenValue = bool | float | Fraction | str | Iterable[int]
 """A boolean given is True or False; a codes given is the register's codes, such as {8, 9} or range(13, 19)."""
 
 
@@ -107,23 +107,30 @@ def known_givens(register_map: RegisterMap, model: Model, values: Mapping[str, G
             message = f"given {name!r} is not declared by the map (it declares: {known}): remove it or correct the name"
             raise SimulatorError(message)
     used = {*_used_givens(model)} - values.keys()
-    missing = [given for given in register_map.givens if given.id in used]
+    missing = [given for given in register_map.givens if given.id in used and given.default is None]
     if missing:
         raise _missing(missing[0], model)
-    facts = {name: bool(value) for name, value in values.items() if declared[name].kind is GivenKind.BOOLEAN}
-    codes = {name: _codes(name, value) for name, value in values.items() if name not in facts}
-    return Surroundings(codes=codes, facts=facts)
+    try:
+        return surroundings_of(register_map, {name: _stated(declared[name], value) for name, value in values.items()})
+    except ValueError as error:
+        raise SimulatorError(str(error)) from None
+
+
+def _stated(given: Given, value: GivenValue) -> bool | str | Fraction | frozenset[Fraction]:
+    if given.kind is GivenKind.CODES or not isinstance(value, bool | str | int | float | Fraction):
+        return _codes(given.id, value)
+    return value if isinstance(value, bool | str) else exact(value)
 
 
 def _used_givens(model: Model) -> Iterator[str]:
     for register in model.registers:
         permission = (register.writable,) if register.writable else ()
         for case in (*register.scale, *register.range, *permission):
-            yield from (test.given for test in case.when.tests)
+            yield from (test.given for test in case.when.leaves)
 
 
 def _codes(name: str, value: GivenValue) -> frozenset[Fraction]:
-    if isinstance(value, bool | str):
+    if isinstance(value, bool | str | int | float | Fraction):
         message = (
             f"given {name!r} is {value!r}, but the map asks for a collection of register codes: give e.g. {{1, 2}}"
         )
@@ -132,7 +139,12 @@ def _codes(name: str, value: GivenValue) -> frozenset[Fraction]:
 
 
 def _missing(given: Given, model: Model) -> SimulatorError:
-    form = "True or False" if given.kind is GivenKind.BOOLEAN else f"the codes of {given.register}, e.g. {{1, 2}}"
+    form = {
+        GivenKind.BOOLEAN: "True or False",
+        GivenKind.CODES: f"the codes of {given.register}, e.g. {{1, 2}}",
+        GivenKind.NUMBER: "a number",
+        GivenKind.CHOICE: f"one of {', '.join(given.choices)}",
+    }[given.kind]
     why = f" ({given.reason})" if given.reason else ""
     return SimulatorError(
         f"model {model.name} needs the given {given.id!r}: {given.description}{why}. Supply {form}: "

@@ -5,6 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 from regscribe.tools.live.capture import RECEIVED, SENT
+from regscribe.tools.live.givens import defaults
 from regscribe.tools.live.names import Driver, commands_of
 from regscribe.tools.live.reading import reason, unit_of
 from regscribe.tools.live.value_text import Plain, as_text, show
@@ -75,7 +76,7 @@ class Decoder:
         first: int = 0,
     ) -> None:
         self.driver, self.first = driver, first
-        self._givens, self._initial = dict(givens or {}), dict(state or {})
+        self._givens, self._initial = {**defaults(driver), **(givens or {})}, dict(state or {})
         self._states: defaultdict[int, dict[str, Any]] = defaultdict(self._initial.copy)
         self._pending: dict[int, Request] = {}
         """The request that waits for its answer, by its unit."""

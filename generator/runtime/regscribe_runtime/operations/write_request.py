@@ -67,7 +67,7 @@ def check_condition(register: Register[Any], state: State, givens: Givens) -> No
         return
     when, reason = register.writable
     if not when.holds(state, givens):
-        present = dict(_tested_value(test, state) for test in when.tests if test.register)
+        present = dict(_tested_value(test, state) for test in when.leaves if test.register)
         raise ConditionNotMet(register.path, reason, present)
 
 
