@@ -9,6 +9,8 @@ from typing import Any
 
 from regscribe.emit.header import FORMAT
 from regscribe.model import (
+    BOTTOM,
+    TOP,
     Array,
     Command,
     FrameExample,
@@ -29,6 +31,7 @@ from regscribe.model import (
     show,
 )
 from regscribe.plugins import Option
+from regscribe_runtime.values.versions import version_of_key
 
 name = "json"
 summary = "the whole model, for programs in any language"
@@ -100,8 +103,15 @@ def _view(view: View, at: int) -> Json:
 
 
 def _test(test: Is) -> Json:
-    codes = [{"low": number(low), "high": number(high)} for low, high in test.codes]
+    codes = [{"low": _end(test, low), "high": _end(test, high)} for low, high in test.codes]
     return _fields(test, "bits") | {"codes": codes}
+
+
+def _end(test: Is, end: Number | str) -> Json:
+    """A number, a choice, or a version as text; null for an open end."""
+    if isinstance(end, str) or end in {BOTTOM, TOP}:
+        return end if isinstance(end, str) else None
+    return version_of_key(int(end)) if test.version else number(end)
 
 
 def _limit(limit: Limit) -> Json:

@@ -22,14 +22,14 @@ from regscribe.model import (
     View,
 )
 from regscribe.reference.settled_scales import MOST_DECIMALS
+from regscribe.reference.states import Stretch, domain, domain_of_given, listed, representatives
 from regscribe_runtime.values.terms import parts_of, registers_in
+from regscribe_runtime.values.versions import version_key
 
 EXPONENTS = tuple(map(Fraction, (-3, -1, 0, 2, 11)))
 """Numbers to try of an exponent, the last beyond those of any device."""
 AMOUNTS = tuple(map(Fraction, (0, 1, 40)))
 """Numbers to try of a factor, a divisor, a summand, a limit."""
-from regscribe.reference.states import Stretch, domain, domain_of_given, listed, representatives
-from regscribe_runtime.values.versions import version_key
 
 GivenTry = frozenset[Fraction] | bool | str
 Values = dict[str, tuple[Fraction, ...]]

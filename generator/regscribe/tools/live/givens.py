@@ -4,10 +4,10 @@ import inspect
 import re
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
-from typing import NamedTuple
+from typing import NamedTuple, get_args
 
 from regscribe.tools.live.errors import TargetError, unknown
-from regscribe_runtime import BareDevice, Fact
+from regscribe_runtime import AsyncBareDevice, BareDevice, Fact
 from regscribe_runtime.values.numbers import parse
 
 Given = bool | str | Fraction | frozenset[int]
@@ -51,14 +51,15 @@ def givens_of(driver: type[BareDevice]) -> tuple[GivenArgument, ...]:
     )
 
 
-def defaults(driver: type[BareDevice]) -> dict[str, object]:
+def defaults(driver: type[BareDevice] | type[AsyncBareDevice]) -> dict[str, object]:
     """What counts where nothing is given."""
     parameters = inspect.signature(driver.__init__).parameters.values()
     return {one.name: one.default for one in parameters if one.default is not inspect.Parameter.empty}
 
 
 def _spelled(annotation: object) -> str:
-    return annotation.__name__ if isinstance(annotation, type) else str(annotation).rpartition("typing.")[2]
+    plain = isinstance(annotation, type) and not get_args(annotation)
+    return annotation.__name__ if plain else re.sub(r"^(typing|collections\.abc)\.", "", str(annotation))
 
 
 def understood(driver: type[BareDevice], texts: Mapping[str, str]) -> dict[str, Given]:
