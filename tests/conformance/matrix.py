@@ -81,6 +81,7 @@ TRIALS: dict[str, tuple[Trial, ...]] = {
         ([{"when": SEL, "is": "1..5"}, {"is": "2..3"}], {}),
     ),
     "range_decimals": (("digits", {"range": "10..500"}), ("digits", {})),
+    "valid": (("1..5", {}), ({"from": "low", "to": "high"}, {}), ([{"when": SEL, "is": "1..5"}], {})),
     "special": (
         ({3: "three"}, {}),
         ({3: {"label": "three", "means": 30}}, {}),
@@ -93,7 +94,13 @@ TRIALS: dict[str, tuple[Trial, ...]] = {
     "flags": (({1: "middle"}, {}),),
     "fields": (({"wide": {"bits": "0..3"}}, {}),),
     "version": (("nn.nn", {}),),
-    "sentinels": (({7: "broken"}, {}), ({0: "broken"}, {}), ({"nan": "broken"}, {})),
+    "sentinels": (
+        ({7: "broken"}, {}),
+        ({0: "broken"}, {}),
+        ({"nan": "broken"}, {}),
+        ({"5..9": "broken"}, {}),
+        ([{"when": SEL, "is": {7: "broken"}}], {}),
+    ),
     "aliases": (([50], {}),),
     "persistence": (("ram", {}), ("eeprom", {}), ("both", {}), ("in a drawer", {})),
     "endurance": ((1000, {}), (1000, {"persistence": "eeprom"})),

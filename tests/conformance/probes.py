@@ -46,7 +46,10 @@ def _transmitted(view: View, numbers: Iterable[Fraction | int | NotANumber]) -> 
 
 def _stored(register: Register) -> Iterator[Fraction | NotANumber]:
     """Stored numbers with a meaning of their own, and limits, as far as no scale is between."""
-    yield from (one.stored for one in register.sentinels)
+    yield from (
+        one.stored if isinstance(one.stored, NotANumber) else Fraction(one.stored) for one in register.sentinels
+    )
+    yield from (Fraction(one.high) for one in register.sentinels if one.high is not None)
     yield from (one.code for one in register.specials)
     yield from _codes(register)
     yield from _limits(register)
@@ -58,7 +61,7 @@ def _codes(register: Register) -> Iterator[Fraction]:
 
 
 def _limits(register: Register) -> Iterator[Fraction]:
-    intervals = [interval for case in register.range for interval in case.then.intervals]
+    intervals = [interval for case in (*register.range, *register.valid) for interval in case.then.intervals]
     yield from (end for one in intervals for end in (one.low, one.high) if isinstance(end, Number))
 
 

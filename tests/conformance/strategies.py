@@ -167,7 +167,10 @@ def _sentinels(draw: Draw, kind: str) -> Json:
     low, high = LIMITS[kind]
     if kind == "q15":
         return {low: "low"}
-    return _of(draw, {high: "none"}, {low: "none"}, {low: "low", high: "high"}, {draw(st.integers(0, 30)): "broken"})
+    interval = {f"{high - 5}..{high}": "none", low: "low"}
+    return _of(
+        draw, {high: "none"}, {low: "none"}, {low: "low", high: "high"}, {draw(st.integers(0, 30)): "broken"}, interval
+    )
 
 
 def _of_number(draw: Draw, sel: Decider, name: str, kind: str) -> tuple[Json, Json]:
@@ -176,6 +179,8 @@ def _of_number(draw: Draw, sel: Decider, name: str, kind: str) -> tuple[Json, Js
         keys["range"] = _range(draw, sel)
         if _maybe(draw, 4):
             keys["range_decimals"] = "digits"
+    if _maybe(draw, 5):
+        keys["valid"] = _range(draw, sel)
     if _maybe(draw):
         keys["special"] = _specials(draw)
     if _maybe(draw, 5):
@@ -202,7 +207,8 @@ def _meaning(draw: Draw, sel: Decider, name: str, kind: str) -> tuple[Json, Json
     else:
         keys = {"version": _of(draw, "n.n", "nn.nn", "nnn")} if form == "version" else {"kind": "boolean"}
     if _maybe(draw):
-        keys["sentinels"] = _sentinels(draw, kind)
+        table = _sentinels(draw, kind)
+        keys["sentinels"] = [{"when": _condition(draw, sel), "is": table}] if _maybe(draw) else table
     return keys, tables
 
 

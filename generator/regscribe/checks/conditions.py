@@ -49,12 +49,15 @@ def _collect_case_sets(scopes: Scopes) -> list[CaseSet]:
 
 def _conditions(register: Register) -> Iterator[tuple[str, tuple[Condition, ...]]]:
     """The conditions of each set of cases of a register, with what they decide."""
-    for what, cases in (("scale", register.scale), ("range", register.range), ("unit", register.unit)):
+    ranges = (("range", register.range), ("valid range", register.valid))
+    for what, cases in (("scale", register.scale), *ranges, ("unit", register.unit)):
         if len(cases) > 1 or (cases and not cases[0].when.always):
             yield what, tuple(case.when for case in cases)
-    for part in parts_of((register.scale, register.range)):
+    for part in parts_of((register.scale, register.range, register.valid)):
         if isinstance(part, ByCase):
             yield "term", tuple(case.when for case in part.cases)
+    if any(not sentinel.when.always for sentinel in register.sentinels):
+        yield "table of sentinels", tuple(dict.fromkeys(sentinel.when for sentinel in register.sentinels))
     if register.writable:
         yield "condition for a write", (register.writable.when,)
 
@@ -106,6 +109,9 @@ def _why_unknown(register: Register) -> str:
     if not register.access.readable:
         return f"asks for `{register.path}`, which can only be written"
     scales = (*register.scale, *(register.special_scale if register.specials else ()))
+    others = [one.when for one in register.sentinels] + [one.when for one in register.valid]
+    if not all(when.always for when in others):
+        return f"asks for `{register.path}`, whose faults are not known before the model is"
     fixed = any(not isinstance(view.order, OrderFrom) for view in register.views if view.readable)
     if not fixed or any(case.then.decimals or not case.when.always for case in scales) or scale_needs(register):
         return f"asks for `{register.path}`, whose value is not known before the model is"

@@ -87,9 +87,9 @@ def is_fault(register: Register, value: Fraction | str) -> bool:
     if number is None or is_meant(register, number):
         return False
     if register.kind in PATTERNS:
-        return number in {fault % (1 << register.bits) for fault in register.faults}
-    stored = {form.stored(number) for form in forms(register)} if register.faults else set()
-    return bool(stored) and stored <= set(register.faults)
+        return any(register.is_fault(each) for each in (number, number - (1 << register.bits)))
+    stored = [form.stored(number) for form in forms(register)] if register.faults else []
+    return bool(stored) and all(map(register.is_fault, stored))
 
 
 def no_member(register: Register, value: Fraction | str) -> str:

@@ -2,13 +2,13 @@
 
 from collections.abc import Iterator
 from fractions import Fraction
-from itertools import pairwise
+from itertools import chain, combinations, pairwise
 from math import ceil, floor
 
 from regscribe.checks.held_values import NUMBERS
 from regscribe.checks.representable import HELP_TYPE, Fit, end_values, ends_of, listed, numbers, unfit_limits, values_of
 from regscribe.checks.rule import Problem, RuleScope, doubled, register_rule
-from regscribe.model import Interval, Number, Range, Register, show
+from regscribe.model import Cases, Interval, Number, Range, Register, Sentinel, show
 from regscribe.reference import RefusedError, UnknownValueError, choose, limits, within
 from regscribe.reference.limits import Limits
 from regscribe.reference.settled_scales import Form, forms, widest
@@ -17,7 +17,7 @@ from regscribe.reference.settled_scales import Form, forms, widest
 @register_rule("RS0435", "Range that is empty at the defaults")
 def empty(register: Register, scope: RuleScope) -> Iterator[Problem]:
     """A device is not shipped so that nothing can be written to it."""
-    for low, high in _limits_at_defaults(register, scope):
+    for low, high in chain(*(_limits_at_defaults(cases, scope) for cases in _all_of(register))):
         if low is not None and high is not None and low > high:
             message = f"has the range {show(low)}..{show(high)} with all other registers at their defaults"
             yield message, "swap the ends, or correct the defaults of the registers they name"
@@ -26,7 +26,7 @@ def empty(register: Register, scope: RuleScope) -> Iterator[Problem]:
 @register_rule("RS0436", "Intervals of a range overlap")
 def intervals_overlap(register: Register, _: RuleScope) -> Iterator[Problem]:
     """Parts of a union are apart; where they touch, one end was misread."""
-    for case in register.range:
+    for case in chain(*_all_of(register)):
         numeric = [
             (low, high) for low, high in case.then.intervals if isinstance(low, Number) and isinstance(high, Number)
         ]
@@ -49,7 +49,9 @@ def specials_twice(register: Register, _: RuleScope) -> Iterator[Problem]:
 @register_rule("RS0438", "Sentinels not told apart")
 def sentinels_twice(register: Register, _: RuleScope) -> Iterator[Problem]:
     """Two faults of one number or id cannot both be reported."""
-    for other, one in doubled(register.sentinels, lambda one: (("stored", one.stored), ("id", one.id))):
+    for other, one in combinations(register.sentinels, 2):
+        if one.when != other.when or not (one.id == other.id or _meet(one, other)):
+            continue
         message = f'has sentinels {other.spelled} ("{other.label}") and {one.spelled} ("{one.label}")'
         yield f"{message}, which cannot be told apart", "correct one of them"
 
@@ -59,14 +61,20 @@ SPECIAL_OR_FAULT = (
 )
 
 
+def _meet(one: Sentinel, other: Sentinel) -> bool:
+    """Whether a number is both faults."""
+    if one.ends is None or other.ends is None:
+        return one.ends == other.ends
+    return one.ends[0] <= other.ends[1] and other.ends[0] <= one.ends[1]
+
+
 @register_rule("RS0439", "Special value is a fault too")
 def special_is_sentinel(register: Register, _: RuleScope) -> Iterator[Problem]:
     """One number cannot be both a setting and the report of a fault."""
-    faults = {sentinel.stored for sentinel in register.sentinels}
-    every = forms(register) if register.specials and faults else ()
-    for special in register.specials if faults else ():
-        stored = {form.stored(value) for value in values_of(register, special) for form in every}
-        if stored and stored <= faults:
+    every = forms(register) if register.specials and register.sentinels else ()
+    for special in register.specials if register.sentinels else ():
+        stored = [form.stored(value) for value in values_of(register, special) for form in every]
+        if stored and all(map(register.is_fault, stored)):
             message = f'has {show(special.code)} as special value "{special.label}" and as a fault'
             yield message, f"remove one of them: {SPECIAL_OR_FAULT}"
 
@@ -104,18 +112,24 @@ def default_outside_range(register: Register, scope: RuleScope) -> Iterator[Prob
     """Manuals do print such defaults; then the map needs a special value, another range, or a waiver that says why."""
     named = [(special.value, special.value) for special in register.specials]
     for what, value in register.beginnings if register.kind in NUMBERS else ():
-        ends = _limits_at_defaults(register, scope)
-        if ends and isinstance(value, Fraction) and not within((*ends, *named), value):
+        for ends in (_limits_at_defaults(cases, scope) for cases in _all_of(register)):
+            if not ends or not isinstance(value, Fraction) or within((*ends, *named), value):
+                continue
             parts = [["open" if end is None else show(end) for end in part] for part in ends]
             text = " or ".join(map("..".join, parts))
             message = f"has {what} {show(value)}, outside {text} with all other registers at their defaults"
             yield message, f"correct one of them, or add the {what} under `special`"
 
 
-def _limits_at_defaults(register: Register, scope: RuleScope) -> Limits:
+def _all_of(register: Register) -> tuple[Cases[Range], Cases[Range]]:
+    """What may be written to a register, and what may be read of it."""
+    return register.range, register.valid
+
+
+def _limits_at_defaults(cases: Cases[Range], scope: RuleScope) -> Limits:
     """The limits of a register with all other registers at their defaults; none where they are not known."""
     try:
-        now = choose(register.range, scope.at_defaults)
+        now = choose(cases, scope.at_defaults)
         return limits(now, scope.at_defaults) if now else ()
     except (UnknownValueError, RefusedError):
         return ()
@@ -124,8 +138,8 @@ def _limits_at_defaults(register: Register, scope: RuleScope) -> Limits:
 @register_rule("RS0424", "Limit outside the type")
 def limit_outside_type(register: Register, _: RuleScope) -> Iterator[Problem]:
     """A range that is wider than the words was misread, or the type was."""
-    every = forms(register) if register.range else ()
-    for case in register.range:
+    every = forms(register) if register.range or register.valid else ()
+    for case in chain(*_all_of(register)):
         outside = unfit_limits(register, case.then, Fit.TOO_LARGE, every)
         if outside and _reachable(widest(register), case.then):
             yield f"has limits {listed(outside)}, outside {ends_of(register)} as scaled", HELP_TYPE
@@ -134,8 +148,8 @@ def limit_outside_type(register: Register, _: RuleScope) -> Iterator[Problem]:
 @register_rule("RS0425", "Range that cannot be encoded")
 def range_outside_type(register: Register, _: RuleScope) -> Iterator[Problem]:
     """No value of the range has words: nothing could ever be written."""
-    reach = widest(register) if register.range else None
-    for case in register.range:
+    reach = widest(register) if register.range or register.valid else None
+    for case in chain(*_all_of(register)):
         if case.then.intervals and not _reachable(reach, case.then):
             found = listed(list(numbers(case.then)))
             yield f"has a range ({found}) that lies wholly outside {ends_of(register)} as scaled", HELP_TYPE
@@ -145,13 +159,22 @@ def range_outside_type(register: Register, _: RuleScope) -> Iterator[Problem]:
 
 def _only_faults(register: Register, one: Range) -> bool:
     """Whether all numbers within a range that the base view can spell are faults, under every scale."""
-    faults = {number * register.base.factor for number in register.faults}
-    if not faults:
+    if not register.faults:
         return False
     spelled = [_spelled(register, form, one, interval) for form in forms(register) for interval in one.intervals]
-    return bool(spelled) and all(
-        0 < each.stop - each.start <= len(faults) and faults.issuperset(each) for each in spelled
-    )
+    faults = [
+        sorted(Fraction(end * register.base.factor) for end in each.ends) for each in register.sentinels if each.ends
+    ]
+    return bool(spelled) and all(each and _covered(each, faults) for each in spelled)
+
+
+def _covered(numbers: range, stretches: list[list[Fraction]]) -> bool:
+    """Whether every whole number lies in one of the stretches."""
+    at = numbers.start
+    for low, high in sorted(stretches):
+        if low <= at:
+            at = max(at, floor(high) + 1)
+    return at >= numbers.stop
 
 
 def _spelled(register: Register, form: Form, one: Range, interval: Interval) -> range:

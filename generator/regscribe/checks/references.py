@@ -7,9 +7,11 @@ from itertools import chain
 from regscribe.checks.held_values import NUMBERS
 from regscribe.checks.rule import Finding, Problem, RuleScope, model_rule, register_rule
 from regscribe.model import (
+    Cases,
     Kind,
     Order,
     OrderFrom,
+    Range,
     Ref,
     Register,
     Related,
@@ -30,6 +32,9 @@ def needed(register: Register) -> Iterator[tuple[str, str]]:
     yield from ((path, "its scale depends on") for path in registers_of(register.scale))
     yield from ((case.then.decimals.register, "its decimals are") for case in register.scale if case.then.decimals)
     yield from ((path, "its scale depends on") for path in _in_scale(register))
+    yield from ((path, "its faults depend on") for one in register.sentinels for path in one.when.registers)
+    yield from ((path, "what is valid depends on") for path in registers_of(register.valid))
+    yield from ((path, "a limit of what is valid is") for path in _limits(register.valid))
     for view in register.views:
         if isinstance(view.order, OrderFrom):
             yield view.order.register, f"the word order of view {view.name} is"
@@ -38,7 +43,7 @@ def needed(register: Register) -> Iterator[tuple[str, str]]:
 def limiting(register: Register) -> Iterator[tuple[str, str]]:
     """Registers whose values are needed besides to write a register, for limits and conditions: path and reason."""
     yield from ((path, "its range depends on") for path in registers_of(register.range))
-    yield from ((path, "a limit is") for path in _limits(register))
+    yield from ((path, "a limit is") for path in _limits(register.range))
     decimals = [(case.then.decimals, "the decimals of its range are") for case in register.range]
     decimals += [(case.then.places, "its finest step depends on") for case in register.scale]
     yield from ((one.register, why) for one, why in decimals if one)
@@ -47,9 +52,9 @@ def limiting(register: Register) -> Iterator[tuple[str, str]]:
     yield from ((path, "its unit depends on") for path in registers_of(register.unit))
 
 
-def _limits(register: Register) -> Iterator[str]:
-    """The registers in the limits of a register."""
-    yield from registers_in(*(case.then.intervals for case in register.range))
+def _limits(cases: Cases[Range]) -> tuple[str, ...]:
+    """The registers in limits."""
+    return registers_in(*(case.then.intervals for case in cases))
 
 
 def _values(terms: Iterable[tuple[object, ...]]) -> Iterable[str]:
@@ -153,7 +158,7 @@ def decimals_register(register: Register, scope: RuleScope) -> Iterator[Problem]
 @register_rule("RS0465", "Limit from a register that is no number")
 def limit_register(register: Register, scope: RuleScope) -> Iterator[Problem]:
     """A code or a text has no size to compare with."""
-    for other in scope.named(_values(case.then.intervals for case in register.range)):
+    for other in scope.named(_values(case.then.intervals for case in (*register.range, *register.valid))):
         if other is register or other.kind not in NUMBERS:
             what = "itself" if other is register else f"`{other.path}`, which is of kind {other.kind}"
             yield f"has a limit that is {what}", "name a register that holds a number"

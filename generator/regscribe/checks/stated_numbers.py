@@ -50,7 +50,11 @@ def sentinel_outside_type(register: Register, _: RuleScope) -> Iterator[Problem]
 def _reports(view: View, sentinel: Sentinel) -> bool:
     if isinstance(sentinel.stored, NotANumber):
         return view.type.is_float
-    number = sentinel.stored * view.factor
+    return all(_carries(view, sentinel._replace(stored=end)) for end in sentinel.ends or ())
+
+
+def _carries(view: View, sentinel: Sentinel) -> bool:
+    number = Fraction(sentinel.spelled.partition("..")[0]) * view.factor
     clipped = view.saturates and not view.type.minimum <= number <= view.type.maximum
     return clipped or sentinel_number(view, sentinel) is not None
 
@@ -64,18 +68,19 @@ def sentinel_is_code(register: Register, _: RuleScope) -> Iterator[Problem]:
         return
     codes = _labels(register)
     for sentinel in register.sentinels:
-        if sentinel.stored in codes:
-            message = f'has {sentinel.spelled} as "{codes[sentinel.stored]}" and as the fault "{sentinel.label}"'
-            yield message, "remove one of them: reading a sentinel raises an error, whatever else the code means"
+        for code, label in codes.items():
+            if sentinel.reports(code):
+                message = f'has {show(code)} as "{label}" and as the fault "{sentinel.label}"'
+                yield message, "remove one of them: reading a sentinel raises an error, whatever else the code means"
     for what, value in register.beginnings if register.sentinels else ():
         if number_of(register, value) not in codes and is_fault(register, value):
             yield f"has {what} {shown(value)}, by which it reports a fault", f"correct the {what} or the sentinels"
 
 
-def _labels(register: Register) -> dict[object, str]:
+def _labels(register: Register) -> dict[Fraction, str]:
     """What the codes of an enum, true and false are called."""
     members = register.enum.members if register.enum else ()
-    truths: dict[object, str] = {Fraction(0): "false", Fraction(1): "true"} if register.kind is Kind.BOOLEAN else {}
+    truths = {Fraction(0): "false", Fraction(1): "true"} if register.kind is Kind.BOOLEAN else {}
     return {Fraction(member.code): member.label for member in members} | truths
 
 

@@ -331,8 +331,10 @@ def special_words(special: Special, wording: Wording = PLAIN) -> str:
 
 
 def sentinel_words(sentinel: Sentinel, wording: Wording = PLAIN) -> str:
-    """Return `-32768 = sensor low`: a stored number that reports a fault."""
-    return f"{sentinel.spelled} = {wording.text(one_line(sentinel.label))}"
+    """Return `-32768 = sensor low`: a stored number that reports a fault, with the condition of its case."""
+    low, _, high = sentinel.spelled.partition("..")
+    when = "" if sentinel.when.always else f" ({wording.condition(sentinel.when)})"
+    return f"{span_words(low, high or low)} = {wording.text(one_line(sentinel.label))}{when}"
 
 
 def value_words(register: Register, value: Fraction | str | None, wording: Wording = PLAIN) -> str:

@@ -180,7 +180,7 @@ def _limits(register: Register) -> tuple[str, str]:
 
     Cases that differ in their decimals only are the one range that the manual's table prints.
     """
-    cases = register.range
+    cases = register.range or register.valid
     printed = [case.then._replace(decimals=None) for case in cases]
     if len(cases) > 1 and all(one == printed[0] for one in printed):
         cases = always(printed[0])

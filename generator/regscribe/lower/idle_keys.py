@@ -24,7 +24,7 @@ class Idle(NamedTuple):
 
 TABLE: tuple[Idle, ...] = (
     Idle(
-        frozenset({"special", "difference", "range", "range_decimals"}),
+        frozenset({"special", "difference", "range", "range_decimals", "valid"}),
         lambda register, _: register.kind in _CODES,
         "its values are no numbers",
         "remove it, or correct what makes codes, bits or a text of the register",

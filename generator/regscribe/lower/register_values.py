@@ -5,19 +5,21 @@ A range may be a union or differ by case; limits may be registers or open, and h
 
 from fractions import Fraction
 
-from regscribe.lower.conditions import both, cases_of, excludes
+from regscribe.lower.conditions import both, cases_of, condition_of, excludes
 from regscribe.lower.enums import identifier_of, label_of
 from regscribe.lower.node import ZERO, Value
 from regscribe.lower.rules import BAD_DEFAULT, REVERSED
 from regscribe.lower.scales import Scaling, decimals_rule
 from regscribe.lower.scope import Scope
 from regscribe.lower.terms import term_of
-from regscribe.lower.texts import ends, unknown
+from regscribe.lower.texts import ends, key_ends, unknown
 from regscribe.lower.tree import TreeNode
 from regscribe.model import (
+    ALWAYS,
     NAN,
     Case,
     Cases,
+    Condition,
     Conversion,
     Enum,
     Interval,
@@ -40,14 +42,20 @@ def range_of(entry: TreeNode, scaling: tuple[Scaling, ...], scope: Scope) -> Cas
     node = entry.settings.get("range")
     if node is None:
         return _between_ends(scaling)
-    if any(element.child("is") for element in node.elements()):
-        cases = cases_of(node, scope, lambda case: _range(case.child("is") or case, scope))
-    else:
-        cases = always(_range(node, scope))
+    cases = ranges_at(node, scope)
     if "range_decimals" not in entry.settings:
         return cases
     rules = decimals_rule(entry.settings["range_decimals"], scope)
     return tuple(part for case in cases for part in _with_decimals(case, rules))
+
+
+def ranges_at(node: Value | None, scope: Scope) -> Cases[Range]:
+    """The ranges that stand at `node` by case; none without it."""
+    if node is None:
+        return ()
+    if any(element.child("is") for element in node.elements()):
+        return cases_of(node, scope, lambda case: _range(case.child("is") or case, scope))
+    return always(_range(node, scope))
 
 
 def _between_ends(scaling: tuple[Scaling, ...]) -> Cases[Range]:
@@ -103,14 +111,23 @@ def specials_of(entry: TreeNode) -> tuple[Special, ...]:
     return tuple(found)
 
 
-def sentinels_of(entry: TreeNode) -> tuple[Sentinel, ...]:
-    """The stored numbers of a register that are faults."""
-    found = []
-    for key, node in entry.settings.items_of("sentinels"):
-        label = label_of(node)
-        stored = NAN if key == NAN.value else node.key_number()
-        found.append(Sentinel(stored, identifier_of(node, label).upper(), label))
-    return tuple(found)
+def sentinels_of(entry: TreeNode, scope: Scope) -> tuple[Sentinel, ...]:
+    """The stored numbers of a register that are faults, of all cases."""
+    node = entry.settings.get("sentinels")
+    if node is None or node.is_mapping:
+        return tuple(_sentinel(each, ALWAYS) for _, each in entry.settings.items_of("sentinels"))
+    return tuple(
+        _sentinel(each, condition_of(case, scope)) for case in node.elements() for _, each in case.items_of("is")
+    )
+
+
+def _sentinel(node: Value, when: Condition) -> Sentinel:
+    label = label_of(node)
+    name = identifier_of(node, label).upper()
+    if node.key == NAN.value:
+        return Sentinel(NAN, name, label, when=when)
+    low, high = key_ends(node) if ".." in node.key else (node.key_number(), None)
+    return Sentinel(low, name, label, high, when)
 
 
 def beginning_of(

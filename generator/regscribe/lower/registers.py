@@ -8,7 +8,7 @@ from regscribe.lower.conditions import cases_of, condition, write_condition
 from regscribe.lower.enums import enum_of, fields_of
 from regscribe.lower.idle_keys import report_idle_keys
 from regscribe.lower.node import ZERO, Keyed, Value
-from regscribe.lower.register_values import beginning_of, range_of, sentinels_of, specials_of
+from regscribe.lower.register_values import beginning_of, range_of, ranges_at, sentinels_of, specials_of
 from regscribe.lower.rules import NO_ACCESS
 from regscribe.lower.scales import NOT_STATED, Scaling, decimals_rule, rescaled, scale_of, unit_of
 from regscribe.lower.scope import Scope
@@ -70,9 +70,10 @@ def register_of(entry: TreeNode, everywhere: Scope) -> Register:
         unit=unit,
         unit_id=unit_id,
         range=range_of(entry, scaling, scope),
+        valid=ranges_at(settings.get("valid"), scope),
         specials=specials,
         special_scale=decimals_rule(range_decimals, scope) if range_decimals and divided else SAME,
-        sentinels=sentinels_of(entry),
+        sentinels=sentinels_of(entry, scope),
         default=beginning_of(settings.get("default"), kind, enum, specials),
         delivered=beginning_of(settings.get("delivered"), kind, enum, specials),
         enum=enum,

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable, Collection, Iterable
+from dataclasses import replace
 from difflib import get_close_matches
 from fractions import Fraction
 
@@ -80,6 +81,11 @@ def unordered(node: Value) -> tuple[Fraction, Fraction]:
     shown = f"`{brief(node.text())}`" if node.is_text else "this"
     node.report(WRONG_SORT, f"{shown} is no range", remedy="write two numbers as a..b, for example -10..250.5")
     return ZERO, ZERO
+
+
+def key_ends(node: Value) -> tuple[Fraction, Fraction]:
+    """The two ends that the key `a..b` of a value spells; RS0330 and RS0315 at the key where it does not."""
+    return ends(replace(node, value=node.key))
 
 
 def whole_ends(node: Value | None, otherwise: tuple[int, int] = (0, 0)) -> tuple[int, int]:

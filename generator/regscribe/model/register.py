@@ -8,7 +8,7 @@ from regscribe.model.enums import BitField, Enum, Special
 from regscribe_runtime.values.conditions import ALWAYS, Cases, Condition, always
 from regscribe_runtime.values.facts import PLAIN_READING, Governs, ReadFacts, WriteCondition
 from regscribe_runtime.values.kinds import Access, Kind
-from regscribe_runtime.values.scales import SAME, Conversion, NotANumber, Range, Sentinel
+from regscribe_runtime.values.scales import SAME, Conversion, Range, Sentinel
 from regscribe_runtime.values.views import View, preferred, read_view
 
 UNITLESS = always("")
@@ -32,7 +32,8 @@ class Register:
     `scale` goes from the stored value to the value of use, `special_scale` from the code of a special value to its
     value of use (the decimals that divide the range); `default` is a value of use: a number (an enum's code, a word's
     bits), a text or version, or None where the manual gives none; `delivered` is what a new device holds instead.
-    `section` is where the manual describes it. It exists only while `when` holds.
+    `valid` is what a reading must lie in. `section` is where the manual describes it. It exists only while `when`
+    holds.
     `rescales` names the unit (of the map's units) whose registers the device converts when this one is written.
     `unlock` and `apply` name commands that must precede and follow a write.
     `stays` is why the value must not be copied to another device (`address`, `line`, `calibration`, `identity`,
@@ -65,6 +66,7 @@ class Register:
     unit: Cases[str] = UNITLESS
     unit_id: str = ""
     range: Cases[Range] = ()
+    valid: Cases[Range] = ()
     specials: tuple[Special, ...] = ()
     special_scale: Cases[Conversion] = SAME
     sentinels: tuple[Sentinel, ...] = ()
@@ -143,8 +145,13 @@ class Register:
 
     @property
     def faults(self) -> tuple[Fraction, ...]:
-        """The stored numbers that are faults, without that which is no number."""
-        return tuple(Fraction(one.stored) for one in self.sentinels if not isinstance(one.stored, NotANumber))
+        """The stored numbers that are faults in any case: of intervals both ends; without that which is no number."""
+        ends = [Fraction(end) for one in self.sentinels for end in one.ends or ()]
+        return tuple(dict.fromkeys(ends))
+
+    def is_fault(self, stored: object) -> bool:
+        """Whether a stored number is a fault in any case."""
+        return any(one.reports(stored) for one in self.sentinels)
 
     @property
     def fractional(self) -> bool:

@@ -8,6 +8,7 @@ from regscribe.reference.codec import (
     decode,
     encode,
     number_of,
+    present_sentinels,
     sentinel_number,
     special_value,
     version_number,
@@ -15,7 +16,7 @@ from regscribe.reference.codec import (
 )
 from regscribe.reference.givens import surroundings_of
 from regscribe.reference.ieee import ieee_bits, ieee_number, shortest
-from regscribe.reference.limits import divided_limits, limits, within
+from regscribe.reference.limits import divided_limits, is_valid, limits, within
 from regscribe.reference.outcome import Meaning, Reading, RefusalReason, RefusedError, UnknownValueError
 from regscribe.reference.surroundings import (
     MOST_DECIMALS,
@@ -58,8 +59,10 @@ __all__ = [
     "holds",
     "ieee_bits",
     "ieee_number",
+    "is_valid",
     "limits",
     "number_of",
+    "present_sentinels",
     "round_by",
     "sent_words",
     "sentinel_number",

@@ -6,9 +6,17 @@ from math import floor
 from regscribe.model.enums import Special
 from regscribe.model.register import Register
 from regscribe.reference.ieee import ieee_bits
-from regscribe.reference.limits import in_range
-from regscribe.reference.outcome import NOT_DECODABLE, SATURATED, Meaning, Reading, RefusalReason, RefusedError
-from regscribe.reference.surroundings import NOTHING_KNOWN, Known, choose, decimal_factor
+from regscribe.reference.limits import in_range, is_valid
+from regscribe.reference.outcome import (
+    NOT_DECODABLE,
+    OUT_OF_RANGE,
+    SATURATED,
+    Meaning,
+    Reading,
+    RefusalReason,
+    RefusedError,
+)
+from regscribe.reference.surroundings import NOTHING_KNOWN, Known, choose, decimal_factor, holds
 from regscribe.reference.terms import straight
 from regscribe.reference.words import HALF, carried, spelled, text_of, wire_number, word_order, words_of_text
 from regscribe_runtime.values.kinds import Kind
@@ -35,8 +43,8 @@ def decode(register: Register, view: View, words: tuple[int, ...], known: Known 
 def _of_number(register: Register, view: View, number: Fraction | NotANumber | None, known: Known) -> Reading:
     if view.saturates and view.type.is_integer and number in {view.type.minimum, view.type.maximum}:
         return SATURATED
-    for sentinel in register.sentinels:
-        if number is not None and number == sentinel_number(view, sentinel):
+    for sentinel in present_sentinels(register, known):
+        if number is not None and is_reported(view, sentinel, number):
             return Reading(Meaning.FAULT, fault=sentinel.id)
     if not isinstance(number, Fraction):
         return NOT_DECODABLE
@@ -48,6 +56,23 @@ def _of_number(register: Register, view: View, number: Fraction | NotANumber | N
 def sentinel_number(view: View, sentinel: Sentinel) -> Fraction | NotANumber | None:
     """Return the wire number by which a view reports a fault; None if it cannot."""
     return NAN if isinstance(sentinel.stored, NotANumber) else carried(view, Fraction(sentinel.stored * view.factor))
+
+
+def present_sentinels(register: Register, known: Known) -> tuple[Sentinel, ...]:
+    """Return the sentinels of the first case that holds."""
+    for first in register.sentinels:
+        if holds(first.when, known):
+            return tuple(sentinel for sentinel in register.sentinels if sentinel.when == first.when)
+    return ()
+
+
+def is_reported(view: View, sentinel: Sentinel, number: Fraction | NotANumber) -> bool:
+    """Tell whether a number on the wire of a view reports a fault."""
+    low = sentinel_number(view, sentinel)
+    if sentinel.high is None or not isinstance(low, Fraction) or not isinstance(number, Fraction):
+        return low == number
+    high = carried(view, Fraction(sentinel.high * view.factor))
+    return high is not None and min(low, high) <= number <= max(low, high)
 
 
 def special_value(register: Register, special: Special, known: Known) -> Fraction | None:
@@ -67,7 +92,14 @@ def _meaning(register: Register, view: View, number: Fraction, known: Known) -> 
             return NOT_DECODABLE
         if carried(view, line.stored(named) * view.factor) == number:
             return Reading(Meaning.VALUE, named if special.means is None else special.means)
-    return _of_kind(register, line.value(number / view.factor))
+    value = line.value(number / view.factor)
+    reading = _of_kind(register, value)
+    if reading is NOT_DECODABLE or not register.valid:
+        return reading
+    try:
+        return reading if is_valid(register, value, known) else OUT_OF_RANGE
+    except RefusedError:
+        return NOT_DECODABLE
 
 
 def _of_kind(register: Register, value: Fraction) -> Reading:
@@ -136,7 +168,7 @@ def encode(
     stored = _pattern(view, number) if pattern else _stored(register, number, known, rounded=rounded)
     words = spelled(view, stored * view.factor, order, rounded=rounded)
     sent = wire_number(view, words, order)
-    if any(sent == sentinel_number(view, sentinel) for sentinel in register.sentinels):
+    if sent is not None and any(is_reported(view, each, sent) for each in present_sentinels(register, known)):
         raise RefusedError(RefusalReason.SENTINEL, f"{show(stored)} is how the device reports a fault")
     return words
 
@@ -155,7 +187,7 @@ def _checked(register: Register, value: Fraction, known: Known) -> Fraction:
     if code is not None:
         return code
     _check_kind(register, value)
-    if not in_range(register, value, known):
+    if not in_range(register, value, known) or not is_valid(register, value, known):
         raise RefusedError(RefusalReason.RANGE, f"{show(value)} lies outside the range")
     return value
 

@@ -53,6 +53,15 @@ def in_range(register: Register, value: Fraction, known: Known) -> bool:
     return within(limits(limits_now, known), value)
 
 
+def is_valid(register: Register, value: Fraction, known: Known) -> bool:
+    """Tell whether `value` lies in what is valid now; where no case holds, everything is.
+
+    Raises RefusedError as `limits` does.
+    """
+    valid_now = choose(register.valid, known)
+    return valid_now is None or within(limits(valid_now, known), value)
+
+
 def within(limits_now: Limits, value: Fraction) -> bool:
     """Tell whether `value` lies in one of the intervals."""
     return any((low is None or low <= value) and (high is None or value <= high) for low, high in limits_now)

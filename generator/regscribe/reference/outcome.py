@@ -36,6 +36,7 @@ class Meaning(StrEnum):
     UNKNOWN_MEMBER = "unknown_member"
     SATURATED = "saturated"
     FAULT = "fault"
+    OUT_OF_RANGE = "out_of_range"
     NOT_DECODABLE = "not_decodable"
 
 
@@ -50,3 +51,4 @@ class Reading:
 
 NOT_DECODABLE = Reading(Meaning.NOT_DECODABLE)
 SATURATED = Reading(Meaning.SATURATED)
+OUT_OF_RANGE = Reading(Meaning.OUT_OF_RANGE)

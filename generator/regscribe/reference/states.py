@@ -22,6 +22,11 @@ class Stretch(NamedTuple):
         """Tell whether `value` lies inside."""
         return self.low <= value <= self.high
 
+    def common(self, other: "Stretch") -> "Stretch | None":
+        """Return the values that lie in both; None if there are none."""
+        low, high = max(self.low, other.low), min(self.high, other.high)
+        return Stretch(low, high) if low <= high else None
+
 
 MOST_LISTED = 32
 """A domain of up to as many whole numbers is taken as the list of its values."""
@@ -56,11 +61,14 @@ def _of_bits(enum: Enum | None, width: int) -> tuple[Stretch, ...]:
 
 def _of_number(register: Register) -> tuple[Stretch, ...]:
     low, high = widest(register) or ANYTHING[0]
-    intervals = [interval for case in register.range for interval in case.then.intervals]
-    if not intervals or any(case.then.decimals for case in register.range):
-        return (Stretch(low, high),)
-    stretches = [Stretch(_end(interval.low, low), _end(interval.high, high)) for interval in intervals]
-    return (*stretches, *(Stretch(special.value, special.value) for special in register.specials))
+    stretches = [Stretch(low, high)]
+    for cases in (register.range, register.valid):
+        intervals = [interval for case in cases for interval in case.then.intervals]
+        if intervals and not any(case.then.decimals for case in cases):
+            limits = [Stretch(_end(interval.low, low), _end(interval.high, high)) for interval in intervals]
+            stretches = [both for one in stretches for other in limits if (both := one.common(other))]
+    specials = register.specials if register.range or register.valid else ()
+    return (*stretches, *(Stretch(special.value, special.value) for special in specials))
 
 
 def _end(limit: Limit, otherwise: Fraction) -> Fraction:
@@ -73,18 +81,18 @@ def _without_faults(register: Register, stretches: tuple[Stretch, ...]) -> tuple
     if len(every) != 1 or any(view.factor != 1 or view.type.is_float for view in register.views):
         return stretches
     step = 1 / abs(every[0].gain)
-    for stored in register.faults:
-        value = every[0].used(stored)
-        stretches = tuple(part for stretch in stretches for part in _cut(stretch, value, step))
+    for low, high in filter(None, (sentinel.ends for sentinel in register.sentinels)):
+        first, last = sorted((every[0].used(Fraction(low)), every[0].used(Fraction(high))))
+        stretches = tuple(part for stretch in stretches for part in _cut(stretch, first, last, step))
     return stretches
 
 
-def _cut(stretch: Stretch, value: Fraction, step: Fraction) -> Iterator[Stretch]:
-    """Yield what is left of a stretch without one value in it."""
-    if not stretch.holds(value):
+def _cut(stretch: Stretch, low: Fraction, high: Fraction, step: Fraction) -> Iterator[Stretch]:
+    """Yield what is left of a stretch without the values from `low` to `high` in it."""
+    if stretch.common(Stretch(low, high)) is None:
         yield stretch
         return
-    sides = (Stretch(stretch.low, value - step), Stretch(value + step, stretch.high))
+    sides = (Stretch(stretch.low, low - step), Stretch(high + step, stretch.high))
     yield from (side for side in sides if side.low <= side.high)
 
 

@@ -5,7 +5,7 @@ from fractions import Fraction
 from typing import Any
 
 from regscribe.testing.vectors import Json, Trial, number
-from regscribe_runtime import Flags, NotDecodable, Saturated, SensorFault, ValueNotDecodable, ValueRefused
+from regscribe_runtime import Flags, NotDecodable, OutOfRange, Saturated, SensorFault, ValueNotDecodable, ValueRefused
 
 MOST_SHOWN = 12
 """Differences listed in a failure; more would hide the pattern."""
@@ -43,6 +43,8 @@ def decoded(trial: Trial, vector: Json) -> Iterator[str]:
         yield from differs(where, "fault", fault.fault, vector.get("fault", expected))
     except Saturated:
         yield from differs(where, "outcome", "saturated", vector.get("outcome", expected))
+    except OutOfRange:
+        yield from differs(where, "outcome", "out_of_range", vector.get("outcome", expected))
     except NotDecodable as error:
         yield from differs(where, "outcome", "not_decodable", vector.get("outcome", f"{expected} ({error})"))
     else:

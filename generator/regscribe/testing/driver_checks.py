@@ -58,7 +58,7 @@ class DriverUnderTest:
             tried: list[tuple[object, ...]] = []
             paths = (place["path"] for place in entry["registers"] if self.model in place["models"])
             for register in filter(None, map(self._register, paths)):
-                scaling = (register.scale, register.special_scale, register.range, register.sentinels)
+                scaling = (register.scale, register.special_scale, register.range, register.valid, register.sentinels)
                 declared = (register.views, id(register.value_type), register.access, *scaling)
                 if declared not in tried:
                     tried.append(declared)

@@ -23,6 +23,7 @@ RegscribeError
 └── ValueNotDecodable   words that are no value of the register
     ├── SensorFault     a sentinel: the device reports a fault instead of a number
     ├── Saturated       the view was clipped: the true value lies at or beyond its end
+    ├── OutOfRange      a number that the register never has while all is well
     └── NotDecodable    anything else (no scale holds, not a number, a version with too many digits)
 
 A lost answer to a write is never answered by sending it again: the register is read back. If that shows the value, the
@@ -245,6 +246,10 @@ class SensorFault(ValueNotDecodable):
 
 class Saturated(ValueNotDecodable):
     """The view stands at the end of its range: the true value lies there or beyond, so it is not decoded."""
+
+
+class OutOfRange(ValueNotDecodable):
+    """The number lies outside what the manual calls valid: whatever is wrong, it is no value."""
 
 
 class NotDecodable(ValueNotDecodable):

@@ -40,6 +40,7 @@ from regscribe_runtime.errors import NotConfigured as NotConfigured
 from regscribe_runtime.errors import NotDecodable as NotDecodable
 from regscribe_runtime.errors import NotPresent as NotPresent
 from regscribe_runtime.errors import NotWritten as NotWritten
+from regscribe_runtime.errors import OutOfRange as OutOfRange
 from regscribe_runtime.errors import PartialWrite as PartialWrite
 from regscribe_runtime.errors import ReadBackDiffers as ReadBackDiffers
 from regscribe_runtime.errors import RegscribeError as RegscribeError

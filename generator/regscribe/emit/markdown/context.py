@@ -101,10 +101,11 @@ def _conditions(
 ) -> Iterator[tuple[Model, Condition]]:
     """Yield every condition that a fact of a register or of an identification depends on."""
     for model, register in versions:
-        for cases in (register.scale, register.unit, register.range):
+        for cases in (register.scale, register.unit, register.range, register.valid):
             yield from ((model, case.when) for case in cases)
         if register.writable:
             yield model, register.writable.when
+        yield from ((model, sentinel.when) for sentinel in register.sentinels)
         yield from ((model, case.when) for case in register.follows)
         yield from ((model, field.follows) for field in register.fields if field.follows is not None)
     for identity in register_map.identity:

@@ -116,6 +116,8 @@ def _value_facts(context: PageContext, model: Model, register: Register) -> Iter
     yield "Value", _kind(register)
     plain = len(limits) == 1 and limits[0].when.always
     yield "Range", Md(range_words(limits[0].then, wording) if plain else "")
+    valid = cases_words(map_cases(register.valid, lambda limits: range_words(limits, wording)), wording)
+    yield "Valid readings", Md(f"{valid}; anything else is a fault" if valid else "")
     yield "Special values", _specials(register, wording)
     faults = [Md(sentinel_words(sentinel, wording)) for sentinel in register.sentinels]
     yield "Faults instead of a value", lines(*faults)

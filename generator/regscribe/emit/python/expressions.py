@@ -89,15 +89,15 @@ class Specs:
         words = cases_words(tuple(Case(case.when, conversion_words(case.then)) for case in cases))
         return self._share(register, use, self.of(cases), f"{about}: {words}")
 
-    def range(self, register: Register) -> Expression | None:
-        """The cases of a range; None where the manual gives none."""
-        cases = register.range
+    def range(self, register: Register, use: str) -> Expression | None:
+        """The cases of `range` or `valid` (`use`); None where the manual gives none."""
+        cases: Cases[Range] = getattr(register, use)
         if all(isinstance(end, Open) for case in cases for one in case.then.intervals for end in one):
             return None  # nothing could be checked
         if len(cases) == 1 and cases[0].when.always:
-            return self.maybe(register, "range", self.of(cases))
+            return self.maybe(register, use, self.of(cases))
         words = cases_words(tuple(Case(case.when, range_words(case.then)) for case in cases))
-        return self._share(register, "range", self.of(cases), words)
+        return self._share(register, use, self.of(cases), words)
 
     def unit(self, register: Register) -> Expression | None:
         """A unit, or its cases; None without one."""

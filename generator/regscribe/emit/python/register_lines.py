@@ -9,7 +9,7 @@ from regscribe.emit.python.expressions import Specs, expression
 from regscribe.emit.python.formatting import Call, Expression, call, group, lay, mapping
 from regscribe.emit.python.literals import docstring, exact, literal, plain
 from regscribe.emit.words import listed, one_line, range_words
-from regscribe.model import PLAIN_READING, Access, Command, Kind, Register, show
+from regscribe.model import PLAIN_READING, Access, Cases, Command, Kind, Range, Register, show
 
 DESCRIPTORS = {Access.READ: "ReadOnly", Access.READ_WRITE: "ReadWrite", Access.WRITE: "WriteOnly"}
 
@@ -35,7 +35,8 @@ class Declarations:
             self._kind(register),
             scale=specs.scale(register, "scale", "value of the stored x"),
             special_scale=specs.scale(register, "special_scale", "value of the special code x"),
-            range=specs.range(register),
+            range=specs.range(register, "range"),
+            valid=specs.range(register, "valid"),
             default=_default(register),
             unit=specs.unit(register),
             section=_text(register.section),
@@ -106,7 +107,8 @@ def _about(register: Register) -> str:
     name = one_line(register.name)
     symbol = f" ({one_line(register.symbol)})" if register.symbol else ""
     facts = [
-        _range_text(register),
+        _range_text(register.range),
+        f"valid {valid}" if (valid := _range_text(register.valid)) else "",
         f"special: {listed([f'{show(one.code)} = {one_line(one.label)}' for one in register.specials])}"
         if register.specials
         else "",
@@ -117,11 +119,11 @@ def _about(register: Register) -> str:
     return f"{name}{symbol}: {'; '.join(map(one_line, filter(None, (*facts, register.section))))}."
 
 
-def _range_text(register: Register) -> str:
-    """The range in words; empty where it depends on other registers: its cases are a constant with a comment."""
-    if len(register.range) > 1 or any(not case.when.always for case in register.range):
+def _range_text(cases: Cases[Range]) -> str:
+    """A range in words; empty where it depends on other registers: its cases are a constant with a comment."""
+    if len(cases) > 1 or any(not case.when.always for case in cases):
         return ""
-    return listed([range_words(case.then) for case in register.range])
+    return listed([range_words(case.then) for case in cases])
 
 
 def command_call(command: Command, pool: Pool) -> Call:

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from regscribe.emit.vectors.scale import Scale
-from regscribe.model import BitField, Enum, Kind, NotANumber, Register, Space, View, WireType
+from regscribe.model import BitField, Enum, Kind, Register, Space, View, WireType
 from regscribe.reference import Surroundings, ieee_bits, special_value, whole_bits
 
 
@@ -111,12 +111,11 @@ def _patterns(view: View, *, full: bool) -> Iterator[tuple[int, str]]:
 
 
 def _stored_numbers(register: Register, *, full: bool) -> Iterator[Proposal]:
-    for sentinel in register.sentinels:
-        if isinstance(sentinel.stored, NotANumber):  # among the patterns of a float already
-            continue
-        stored = Fraction(sentinel.stored)
-        yield Proposal(stored, f"fault: {sentinel.id}")
-        yield from (Proposal(stored + step, f"beside fault {sentinel.id}") for step in (-1, 1) if full)
+    for sentinel in register.sentinels:  # what is no number is among the patterns of a float already
+        for end, outward in zip(sentinel.ends or (), (-1, 1), strict=False):
+            yield Proposal(Fraction(end), f"fault: {sentinel.id}")
+            sides = (-1, 1) if sentinel.high is None else (outward,)
+            yield from (Proposal(Fraction(end) + side, f"beside fault {sentinel.id}") for side in sides if full)
     yield from codes(register)
 
 

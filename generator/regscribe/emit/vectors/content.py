@@ -75,7 +75,7 @@ def _words(register: Register, view: View, scale: Scale | None, situation: Situa
 def _outcome(register: Register, reading: Reading, known: Surroundings) -> Json:
     if reading.meaning is Meaning.FAULT:
         return {"fault": reading.fault}
-    if reading.meaning in {Meaning.SATURATED, Meaning.NOT_DECODABLE}:
+    if reading.meaning in {Meaning.SATURATED, Meaning.OUT_OF_RANGE, Meaning.NOT_DECODABLE}:
         return {"outcome": reading.meaning.value}
     found: Json = {"value": reading.value if isinstance(reading.value, str) else show(reading.value or Fraction(0))}
     if reading.meaning is Meaning.UNKNOWN_MEMBER:

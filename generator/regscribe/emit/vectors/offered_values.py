@@ -1,13 +1,14 @@
 """Values to write to a register: those worth trying, and the intervals of all that can be written."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
+from math import ceil, floor
 from typing import Any
 
 from regscribe.emit.vectors.candidates import PATTERNS_OF_BITS, Proposal, codes, with_neighbours
 from regscribe.emit.vectors.scale import LARGEST, Scale
 from regscribe.model import Kind, Register, View, WireType, show
-from regscribe.reference import Surroundings, special_value
+from regscribe.reference import Surroundings, present_sentinels, special_value
 
 Json = dict[str, Any]
 CODED = frozenset({Kind.ENUM, Kind.FLAGS, Kind.FIELDS, Kind.BOOLEAN})
@@ -131,7 +132,7 @@ def domain(register: Register, view: View, scale: Scale | None, known: Surroundi
     elif scale is not None and register.kind not in CODED | TEXTS:
         line = _line(scale, view)
         holes = _holes(register, scale, known)
-        for low, high, step in _stretches(register, scale, line):
+        for low, high, step in _faultless(register, scale, known, _stretches(register, scale, line)):
             inside = [show(value) for value in holes if low <= value <= high]
             found = {"low": show(low), "high": show(high), "step": step, **line, "except": inside}
             yield {key: value for key, value in found.items() if value}
@@ -145,6 +146,28 @@ def _stretches(register: Register, scale: Scale, line: dict[str, str]) -> Iterat
     elif not line:  # which whole numbers an IEEE number can carry along a line has no form here
         whole_step, stretches = scale.whole_domain()
         yield from ((low, high, show(whole_step)) for low, high in stretches)
+
+
+def _faultless(
+    register: Register, scale: Scale, known: Surroundings, stretches: Iterable[tuple[Fraction, Fraction, str]]
+) -> Iterable[tuple[Fraction, Fraction, str]]:
+    """Return the stretches without the intervals of numbers that are faults."""
+    for sentinel in present_sentinels(register, known):
+        if sentinel.high is not None and sentinel.ends is not None:
+            low, high = sorted(scale.value(Fraction(end)) for end in sentinel.ends)
+            stretches = [part for stretch in stretches for part in _beside(low, high, scale.step, stretch)]
+    return stretches
+
+
+def _beside(
+    low: Fraction, high: Fraction, least: Fraction, stretch: tuple[Fraction, Fraction, str]
+) -> Iterator[tuple[Fraction, Fraction, str]]:
+    """Yield what of a stretch lies below and above an interval."""
+    first, last, step = stretch
+    size = Fraction(step) if step else least
+    below = min(last, first + size * (ceil((low - first) / size) - 1))
+    above = max(first, first + size * (floor((high - first) / size) + 1))
+    yield from ((one, other, step) for one, other in ((first, below), (above, last)) if one <= other)
 
 
 def _line(scale: Scale, view: View) -> dict[str, str]:

@@ -3,9 +3,9 @@
 from fractions import Fraction
 from typing import NamedTuple
 
-from regscribe.emit.vectors.scale import range_now
-from regscribe.model import Cases, Conversion, Interval, Kind, Number, Ref, Register
-from regscribe.reference import Surroundings, choose, decimal_factor, holds, straight
+from regscribe.emit.vectors.scale import range_now, valid_now
+from regscribe.model import Case, Cases, Conversion, Interval, Number, Ref, Register
+from regscribe.reference import Surroundings, choose, decimal_factor, holds, present_sentinels, straight
 from regscribe_runtime.values.conditions import T
 
 LOW_STORED, HIGH_STORED = Fraction(100), Fraction(1500)
@@ -13,17 +13,30 @@ LOW_STORED, HIGH_STORED = Fraction(100), Fraction(1500)
 
 
 class CasesNow(NamedTuple):
-    """Indices of the cases of scale and range that hold, and the numbers in them: equal ones behave the same."""
+    """Indices of the cases that hold, and the numbers in them: equal ones behave the same."""
 
     scale: int
     range: int
+    valid: int
+    faults: int
     numbers: tuple[object, ...]
 
 
 def cases_of(register: Register, known: Surroundings) -> CasesNow:
-    """Return which cases of scale and range hold, with their numbers."""
+    """Return which cases hold, with their numbers."""
     ranges = register.range if register.access.writable else ()
-    return CasesNow(_index(register.scale, known), _index(ranges, known), _numbers(register, known))
+    return CasesNow(
+        _index(register.scale, known),
+        _index(ranges, known),
+        _index(register.valid, known),
+        _index(fault_cases(register), known),
+        _numbers(register, known),
+    )
+
+
+def fault_cases(register: Register) -> Cases[str]:
+    """Return the cases in which sentinels are faults."""
+    return tuple(Case(sentinel.when, sentinel.id) for sentinel in register.sentinels)
 
 
 def _index(cases: Cases[T], known: Surroundings) -> int:
@@ -32,11 +45,12 @@ def _index(cases: Cases[T], known: Surroundings) -> int:
 
 def _numbers(register: Register, known: Surroundings) -> tuple[object, ...]:
     conversion, special = choose(register.scale, known), choose(register.special_scale, known)
-    limits_now = range_now(register, known)
+    limited = [one for one in (range_now(register, known), valid_now(register, known)) if one]
     return (
         straight(conversion, known),
         _increment(register, conversion, known),
-        limits_now and (limits_now.intervals, decimal_factor(limits_now.decimals, known)),
+        tuple((one.intervals, decimal_factor(one.decimals, known)) for one in limited),
+        tuple(sentinel[:-1] for sentinel in present_sentinels(register, known)),
         special and decimal_factor(special.decimals, known),
     )
 
@@ -50,17 +64,16 @@ def _increment(register: Register, conversion: Conversion | None, known: Surroun
 
 
 def limit_values(register: Register, known: Surroundings) -> dict[str, Fraction]:
-    """Return a value for each register that holds a limit of what may be written now."""
-    limits_now = range_now(register, known)
-    if limits_now is None or register.kind is Kind.STRING:
-        return {}
+    """Return a value for each register that holds a limit of what may be read or written now."""
     lowest, highest = _usual(register, known)
-    factor = decimal_factor(limits_now.decimals, known) or Fraction(1)
     values: dict[str, Fraction] = {}
-    for interval in limits_now.intervals:
-        for limit, value in zip((interval.low, interval.high), _ends(interval, lowest, highest, factor), strict=True):
-            if isinstance(limit, Ref):
-                values.setdefault(limit.register, value)
+    for limits_now in filter(None, (range_now(register, known), valid_now(register, known))):
+        factor = decimal_factor(limits_now.decimals, known) or Fraction(1)
+        for interval in limits_now.intervals:
+            ends = _ends(interval, lowest, highest, factor)
+            for limit, value in zip((interval.low, interval.high), ends, strict=True):
+                if isinstance(limit, Ref):
+                    values.setdefault(limit.register, value)
     return values
 
 

@@ -3,10 +3,12 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import reduce
 from math import ceil, floor, gcd, lcm
 
 from regscribe.model import Range, Register, View, WireType
 from regscribe.reference import Known, RefusedError, choose, decimal_factor, ieee_number, limits, shortest, straight
+from regscribe.reference.limits import Limits
 
 LARGEST = {
     WireType.FLOAT16: shortest(ieee_number(0x7BFF, WireType.FLOAT16), WireType.FLOAT16),
@@ -29,7 +31,7 @@ class Scale:
     wire_step: Fraction
     lowest: Fraction
     highest: Fraction
-    limits: tuple[tuple[Fraction | None, Fraction | None], ...]
+    limits: Limits
 
     def value(self, stored: Fraction) -> Fraction:
         """Return the value of use of a stored number."""
@@ -94,6 +96,11 @@ class Scale:
         )
 
 
+def valid_now(register: Register, known: Known) -> Range | None:
+    """Return what is valid in this situation; None if no case holds."""
+    return choose(register.valid, known)
+
+
 def range_now(register: Register, known: Known) -> Range | None:
     """Return the range that holds for writing in this situation; None if nothing can be written or no case holds."""
     return choose(register.range, known) if register.access.writable else None
@@ -105,10 +112,11 @@ def scale_now(register: Register, view: View, known: Known) -> Scale | None:
     if conversion is None:
         return None
     limits_now = range_now(register, known)
+    checked = [one for one in (limits_now, valid_now(register, known)) if one is not None]
     line = straight(conversion, known)
     places = decimal_factor(conversion.places if register.access.writable else None, known)
     try:
-        bounds = limits(limits_now, known) if limits_now else ()
+        bounds = _common([limits(one, known) for one in checked])
     except RefusedError:
         return None
     if line is None or places is None:
@@ -124,6 +132,22 @@ def scale_now(register: Register, view: View, known: Known) -> Scale | None:
         lowest=lowest / view.factor,
         highest=highest / view.factor,
         limits=bounds,
+    )
+
+
+def _common(every: list[Limits]) -> Limits:
+    """Return the intervals of what all limits allow; reversed ones where two of them have nothing in common."""
+    return reduce(_both, every) if every else ()
+
+
+def _both(ones: Limits, others: Limits) -> Limits:
+    return tuple(
+        (
+            max((end for end in (low, least) if end is not None), default=None),
+            min((end for end in (high, most) if end is not None), default=None),
+        )
+        for low, high in ones
+        for least, most in others
     )
 
 

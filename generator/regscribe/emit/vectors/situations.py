@@ -73,7 +73,8 @@ class Finder:
         tried = tried_values(self._map, model, dependencies_of(register, view))
         asked = tuple(tried.values.items()), tuple(tried.givens.items()), tuple(tried.parts.items())
         ranges = register.range if register.access.writable else ()
-        key = (register.scale, register.special_scale, ranges, register.kind, view.order, view.words, asked)
+        cases = (register.scale, register.special_scale, ranges, register.valid, register.sentinels)
+        key = (*cases, register.kind, view.order, view.words, asked)
         if key not in self._known:
             self._known[key] = _situations(tried, register, view)
         return self._known[key]

@@ -6,6 +6,7 @@ from fractions import Fraction
 
 from regscribe.model import (
     ByCase,
+    Cases,
     Condition,
     Decimals,
     GivenKind,
@@ -15,6 +16,7 @@ from regscribe.model import (
     Open,
     OrderFrom,
     Power,
+    Range,
     Ref,
     Register,
     RegisterMap,
@@ -70,21 +72,23 @@ class Dependencies:
 def dependencies_of(register: Register, view: View) -> Dependencies:
     """Return the dependencies of reading `view`, and of writing it if it can be written."""
     conditions = [case.when for case in (*register.scale, *register.special_scale)]
+    conditions += [sentinel.when for sentinel in register.sentinels]
     decimals = [case.then.decimals for case in (*register.scale, *register.special_scale)]
     terms = [term for case in register.scale for term in (case.then.multiply, case.then.add)]
+    ranges = (*register.valid, *(register.range if register.access.writable else ()))
+    conditions += [case.when for case in ranges]
+    decimals += [case.then.decimals for case in ranges]
+    terms += [end for end in _ends(ranges) if not isinstance(end, Ref)]  # those have values of their own
     if register.access.writable:
-        conditions += [case.when for case in register.range]
-        decimals += [case.then.decimals for case in register.range]
         decimals += [case.then.places for case in register.scale]
-        terms += [end for end in _ends(register) if not isinstance(end, Ref)]  # those have values of their own
     order = view.order if isinstance(view.order, OrderFrom) and view.words > 1 else None
     unsettled = tuple(term for term in terms if not isinstance(term, Number))
     return Dependencies(tuple(conditions), tuple(filter(None, decimals)), unsettled, order)
 
 
-def _ends(register: Register) -> Iterator[Term]:
-    """The limits of a register that are not open."""
-    for case in register.range:
+def _ends(cases: Cases[Range]) -> Iterator[Term]:
+    """The limits that are not open."""
+    for case in cases:
         yield from (end for interval in case.then.intervals for end in interval if not isinstance(end, Open))
 
 

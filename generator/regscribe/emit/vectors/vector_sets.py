@@ -146,7 +146,11 @@ def _names(register: Register) -> Json:
             for special in register.specials
         ]
     if register.sentinels:
-        found["faults"] = [{"stored": one.spelled, "id": one.id, "label": one.label} for one in register.sentinels]
+        found["faults"] = [
+            {"stored": one._replace(high=None).spelled, "id": one.id, "label": one.label}
+            | ({} if one.high is None else {"high": show(one.high)})
+            for one in register.sentinels
+        ]
     if register.fields:
         found["fields"] = [
             {"id": bits.id, "label": bits.label, "low": bits.low, "high": bits.high}

@@ -35,7 +35,8 @@ def _first_accepted(register: Register, state: PresentMeaning) -> Fraction:
         return Fraction(0)
     if register.enum is not None and register.enum.members:
         return Fraction(register.enum.members[0].code)
-    return next((low for low, _ in state.limits(register) or () if low is not None), Fraction(0))
+    lows = [low for low, _ in (*(state.limits(register) or ()), *state.valid(register)) if low is not None]
+    return next((low for low in lows if state.accepts(register, low)), (lows or [Fraction(0)])[0])
 
 
 def _initial_text(register: Register, identities: list[Identity]) -> str:

@@ -18,7 +18,7 @@ from regscribe.model import (
     Special,
     View,
 )
-from regscribe.reference import MOST_DECIMALS, Straight, choose, divided_limits, round_by, straight, within
+from regscribe.reference import MOST_DECIMALS, Straight, choose, divided_limits, is_valid, round_by, straight, within
 from regscribe.reference.limits import Limits
 from regscribe.simulate.device.device_plan import Blueprint, Stored
 from regscribe.simulate.device.value_arguments import field_value
@@ -162,12 +162,17 @@ class PresentMeaning(ABC):
         if any(self.special(register, special) == value for special in register.specials):
             return True
         limits = self.limits(register)
-        return limits is None or within(limits, value)
+        return (limits is None or within(limits, value)) and is_valid(register, value, self)
 
     def limits(self, register: Register) -> Limits | None:
         """Return the limits that hold now; None if no case of the range holds."""
         found = choose(register.range, self)
         return None if found is None else divided_limits(found, self.power(found.decimals), self)
+
+    def valid(self, register: Register) -> Limits:
+        """Return what is valid now; nothing where everything is."""
+        found = choose(register.valid, self)
+        return () if found is None else divided_limits(found, self.power(found.decimals), self)
 
 
 def _is_member(enum: Enum | None, value: Fraction) -> bool:

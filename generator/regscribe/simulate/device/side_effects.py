@@ -129,7 +129,7 @@ def _values_in(state: DeviceState, unit: str) -> Iterator[tuple[Register, str, F
     """Registers of a unit of measure with its present symbol and their values of use; none without a number."""
     for register in state.blueprint.model.registers:
         stored = state.stored(register.path)
-        if register.unit_id != unit or not isinstance(stored, Fraction) or stored in register.faults:
+        if register.unit_id != unit or not isinstance(stored, Fraction) or register.is_fault(stored):
             continue
         value = state.to_value(register, stored)
         if value not in {state.special(register, each) for each in register.specials}:

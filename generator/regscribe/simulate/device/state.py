@@ -5,7 +5,7 @@ from fractions import Fraction
 from threading import Lock
 
 from regscribe.model import NAN, BitField, Kind, Model, NotANumber, Register, RegisterMap, Space, parse
-from regscribe.reference import Surroundings, holds, version_text
+from regscribe.reference import Surroundings, holds, present_sentinels, version_text
 from regscribe.simulate.device import codec
 from regscribe.simulate.device.device_plan import Blueprint, Image, Stored, draw
 from regscribe.simulate.device.initial_values import initial_value
@@ -204,7 +204,7 @@ class DeviceState(PresentMeaning):
 
     def fault(self, register: Register, stored: Stored) -> str:
         """Return the id of the sentinel that a stored number is; empty where it is none."""
-        return next((each.id for each in register.sentinels if each.stored == stored), "")
+        return next((each.id for each in present_sentinels(register, self) if each.reports(stored)), "")
 
     def meant(self, register: Register, stored: Stored) -> Value:
         """Return the value of use of a stored value, or the id of the sentinel that it is (`nan` without one)."""

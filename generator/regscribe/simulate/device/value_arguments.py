@@ -125,7 +125,7 @@ def _stated(given: Given, value: GivenValue) -> bool | str | Fraction | frozense
 def _used_givens(model: Model) -> Iterator[str]:
     for register in model.registers:
         permission = (register.writable,) if register.writable else ()
-        for case in (*register.scale, *register.range, *permission):
+        for case in (*register.scale, *register.range, *register.valid, *register.sentinels, *permission):
             yield from (test.given for test in case.when.leaves)
 
 

@@ -101,7 +101,7 @@ class Controller:
         if stored != self._value[0]:
             register = self._state.register(self._process.value)
             number = None
-            if isinstance(stored, Fraction) and stored not in register.faults:
+            if isinstance(stored, Fraction) and not register.is_fault(stored):
                 number = float(self._state.to_value(register, stored))
             self._value = (stored, number)
         return self._value[1]

@@ -47,8 +47,8 @@ class Readable(BoundRegister[T, Part]):
         Registers that its meaning depends on (decimals, word order) are read once and remembered until they are written
         through this driver. `device.read(register)` reads them every time: for when others configure the device too.
 
-        Raises SensorFault, Saturated or NotDecodable for words that are no value, and NoAnswer, ExceptionAnswer,
-        WrongAnswer or LinkLost.
+        Raises ValueNotDecodable (SensorFault, Saturated, OutOfRange, NotDecodable) for words that are no value, and
+        NoAnswer, ExceptionAnswer, WrongAnswer or LinkLost.
         """
         return self._part.run(tasks.read(self.register, view))
 

@@ -15,7 +15,8 @@ Answers = tuple[tuple["PreparedBlock", "Sequence[int | None]"], ...]
 class Snapshot(Mapping[str, Any]):
     """Values by register path; looking up a register without a value raises its error.
 
-    That is ValueNotDecodable (SensorFault, Saturated, NotDecodable), or Absent if this unit does not have the register.
+    That is ValueNotDecodable (SensorFault, Saturated, OutOfRange, NotDecodable), or Absent if this unit does not have
+    the register.
     With a register of the driver's class as key the value is typed: `snapshot[Athena16C.process_value]`.
     """
 

@@ -166,7 +166,7 @@ def encoded(session: Session, one: Assignment, present: Present, *, rounded: boo
     register, kept = one.register, 0
     if not limited:
         register = copy.copy(register)
-        register.range = ()
+        register.range = register.valid = ()
     if register.kind is Kind.FLAGS and isinstance(one.value, int):
         held = meaning(register, one.view, present.words.get(register.path), present.state, session)
         kept = int(one.value) & unnamed_bits(held) if held is not None else 0

@@ -8,12 +8,19 @@ from fractions import Fraction
 from functools import partial
 from typing import Any, NamedTuple, NoReturn, Protocol
 
-from regscribe_runtime.errors import NotDecodable, Saturated, SensorFault, ValueNotDecodable, ValueRefused
+from regscribe_runtime.errors import (
+    NotDecodable,
+    OutOfRange,
+    Saturated,
+    SensorFault,
+    ValueNotDecodable,
+    ValueRefused,
+)
 from regscribe_runtime.registers.value_types import ValueType
-from regscribe_runtime.values.conditions import Givens, State, choose
+from regscribe_runtime.values.conditions import Cases, Givens, State, choose
 from regscribe_runtime.values.kinds import Kind
 from regscribe_runtime.values.numbers import ROUNDINGS, Number, brief, exact, half_up, rough, shortest
-from regscribe_runtime.values.scales import NAN, Conversion, Decimals, Limit, NotANumber, Open, Sentinel
+from regscribe_runtime.values.scales import Conversion, Decimals, Limit, Open, Range, in_case
 from regscribe_runtime.values.terms import Term, UnsettledError, registers_in, resolve
 from regscribe_runtime.values.views import Scaled, View, scale_needs
 from regscribe_runtime.values.wire_types import Order, WireType
@@ -25,7 +32,6 @@ class Coded(Scaled, Protocol):
     path: str
     kind: Kind
     value_type: ValueType[Any]
-    sentinels: tuple[Sentinel, ...]
 
 
 Unknown = Mapping[str, object]
@@ -122,14 +128,19 @@ def _swapped(words: Words) -> Words:
 def reader(register: Coded, view: View, state: State, givens: Givens, *, named: bool = True) -> Converter:
     """A function from a wire number of `view` to a value, under the present `state`.
 
-    It raises Saturated, SensorFault or NotDecodable for numbers that are no values; SensorFault even where the scale is
-    unknown. A special value is returned as its enum member; without `named` as its number, as conditions compare it.
+    It raises Saturated, SensorFault, OutOfRange or NotDecodable for numbers that are no values; SensorFault even where
+    the scale is unknown. A special value is returned as its enum member; without `named` as its number, as conditions
+    compare it.
     """
     try:
         convert = _with_specials(register, view, state, givens, named=named)
     except ValueNotDecodable as error:
         convert = failing(error)
-    return _guarded(register, view, convert)
+    try:
+        faults = _faults(register, view, state, givens)
+    except ValueNotDecodable as error:
+        faults, convert = (), failing(error)
+    return _guarded(register, view, convert, faults)
 
 
 class _Known(dict[str, Any]):
@@ -171,7 +182,27 @@ def _scaled(register: Coded, view: View, state: State, givens: Givens) -> Conver
         return register.value_type.make
     slope, offset, _ = _line(register, state, givens)
     slope /= Fraction(view.factor)
-    return _ieee(register, view, slope, offset) if view.type.is_float else _whole(register, view, slope, offset)
+    scaled = _ieee(register, view, slope, offset) if view.type.is_float else _whole(register, view, slope, offset)
+    try:
+        limits = _interval_ends(register, register.valid, state, givens)
+    except ValueNotDecodable as error:  # special values are read nevertheless
+        return failing(error)
+    if limits is None:
+        return scaled
+
+    def checked(wire: Any) -> Any:
+        value = scaled(wire)
+        why = _outside(limits, _exactly(view, wire) * slope + offset)
+        if why:
+            raise OutOfRange(register.path, why)
+        return value
+
+    return checked
+
+
+def _exactly(view: View, wire: float) -> Fraction:
+    """The number that a number on the wire stands for: of a float the shortest decimal."""
+    return Fraction(shortest(wire, view.type)) if view.type.is_float else Fraction(wire)
 
 
 def _whole(register: Coded, view: View, slope: Fraction, offset: Fraction) -> Callable[[int], Any]:
@@ -206,7 +237,7 @@ def _ieee(register: Coded, view: View, slope: Fraction, offset: Fraction) -> Cal
     def scaled(wire: float) -> Any:
         if not math.isfinite(wire):
             raise NotDecodable(register.path, f"the {view.name} view holds {wire}, which is no number")
-        value = Fraction(shortest(wire, view.type)) * slope + offset
+        value = _exactly(view, wire) * slope + offset
         return _float(register, value) if register.value_type.make is float else _no_fraction(register, value)
 
     return scaled
@@ -252,32 +283,36 @@ def _with_specials(register: Coded, view: View, state: State, givens: Givens, *,
     return lambda wire: shown[wire] if wire in shown else scaled(wire)
 
 
-Faults = dict[float | None, tuple[str, str]]
-"""Id and label of each fault by its number on the wire; None stands for NaN."""
+Faults = tuple[tuple[float | None, float | None, str, str], ...]
+"""The first and the last number on the wire of each fault (None: NaN), its id and label."""
 
 
-def _faults(register: Coded, view: View) -> Faults:
-    found: Faults = {}
-    for stored, name, label in register.sentinels:
-        wire = None if isinstance(stored, NotANumber) else _on_wire(view, Fraction(stored))
-        if wire is not None or stored is NAN:
-            found[wire] = (name, label)
-    return found
+def _faults(register: Coded, view: View, state: State, givens: Givens) -> Faults:
+    found: list[tuple[float | None, float | None, str, str]] = []
+    for one in in_case(register.sentinels, state, givens):
+        ends = one.ends and [_on_wire(view, Fraction(end)) for end in one.ends]
+        if ends is None:
+            found.append((None, None, one.id, one.label))
+        elif None not in ends:
+            found.append((*sorted(end for end in ends if end is not None), one.id, one.label))  # type: ignore[arg-type] # two ends
+    return tuple(found)
 
 
 def _fault(faults: Faults, wire: float) -> tuple[str, str] | None:
-    return faults.get(None if math.isnan(wire) else wire)
+    for low, high, name, label in faults:
+        if math.isnan(wire) if low is None or high is None else low <= wire <= high:
+            return name, label
+    return None
 
 
-def _guarded(register: Coded, view: View, scaled: Converter) -> Converter:
+def _guarded(register: Coded, view: View, scaled: Converter, faults: Faults) -> Converter:
     ends = (view.type.minimum, view.type.maximum) if view.saturates and view.type.is_integer else ()
-    faults = _faults(register, view)
     if not ends and not faults:
         return scaled
 
     def checked(wire: Any) -> Any:
         if wire in ends:
-            also = f" (or {' or '.join(label for *_, label in register.sentinels)})" if register.sentinels else ""
+            also = f" (or {' or '.join(one.label for one in register.sentinels)})" if register.sentinels else ""
             raise Saturated(register.path, f"the {view.name} view stands at its end, {wire}{also}: read another view")
         fault = _fault(faults, wire)
         if fault:
@@ -349,8 +384,7 @@ def carried_over(register: Coded, view: View, other: View, words: Words, state: 
     if register.kind is Kind.STRING:
         return tuple(arranger(other, register.path, state)(numbers))
     wire = view.type.unpack(numbers)
-    exactly = Fraction(shortest(wire, view.type)) if view.type.is_float else Fraction(wire)
-    shown = _wire_words(register, other, exactly / Fraction(view.factor), rounded=True)
+    shown = _wire_words(register, other, _exactly(view, wire) / Fraction(view.factor), rounded=True)
     return tuple(arranger(other, register.path, state)(shown))
 
 
@@ -384,7 +418,7 @@ def encode(
             _carried(register, view, amount, stored, state, givens)
         amount = stored
     words = _wire_words(register, view, amount, rounded=rounded)
-    fault = _fault(_faults(register, view), view.type.unpack(words))
+    fault = _fault(_faults(register, view, state, givens), view.type.unpack(words))
     if fault:
         raise ValueRefused(register.path, f"{brief(value)} is how the device reports {fault[1]}")
     return tuple(arrange(words))
@@ -406,12 +440,15 @@ def _amount(register: Coded, value: object, state: State, givens: Givens) -> tup
     return amount, amount in specials
 
 
-def _within_limits(register: Coded, amount: Fraction, state: State, givens: Givens) -> None:
-    if not register.range:
-        return
-    limits = choose(register.range, state, givens)
+Ends = list[tuple[Fraction | float, Fraction | float]]
+"""Lowest and highest value of each interval; infinite where nothing limits."""
+
+
+def _interval_ends(register: Coded, cases: Cases[Range], state: State, givens: Givens) -> Ends | None:
+    """The limits that hold now; None where no case does."""
+    limits = choose(cases, state, givens)
     if limits is None:
-        raise ValueRefused(register.path, "no range of the manual holds as the device is configured")
+        return None
     divisor = power(register.path, limits.decimals, state)
 
     def settle(bound: Limit, unlimited: float) -> Fraction | float:
@@ -419,13 +456,25 @@ def _within_limits(register: Coded, amount: Fraction, state: State, givens: Give
             return unlimited
         return Fraction(bound) / divisor if isinstance(bound, Number) else settled(register.path, bound, state, givens)
 
-    ends = [(settle(low, -math.inf), settle(high, math.inf)) for low, high in limits.intervals]
-    if not any(low <= amount <= high for low, high in ends):
-        shown = [
-            ["(open)" if isinstance(end, float) else rough(Fraction(end)) for end in interval] for interval in ends
-        ]
-        allowed = " or ".join(map(" to ".join, shown))
-        raise ValueRefused(register.path, f"{rough(amount)} lies outside {allowed}")
+    return [(settle(low, -math.inf), settle(high, math.inf)) for low, high in limits.intervals]
+
+
+def _outside(ends: Ends, amount: Fraction) -> str:
+    """Why a value lies in none of the intervals; empty where it lies in one."""
+    if any(low <= amount <= high for low, high in ends):
+        return ""
+    shown = [["(open)" if isinstance(end, float) else rough(Fraction(end)) for end in interval] for interval in ends]
+    return f"{rough(amount)} lies outside {' or '.join(map(' to '.join, shown))}"
+
+
+def _within_limits(register: Coded, amount: Fraction, state: State, givens: Givens) -> None:
+    for cases in filter(None, (register.range, register.valid)):
+        ends = _interval_ends(register, cases, state, givens)
+        if ends is None and cases is register.range:
+            raise ValueRefused(register.path, "no range of the manual holds as the device is configured")
+        why = _outside(ends, amount) if ends is not None else ""
+        if why:
+            raise ValueRefused(register.path, why)
 
 
 def _stored(register: Coded, amount: Fraction, state: State, givens: Givens, *, rounded: bool) -> Fraction:

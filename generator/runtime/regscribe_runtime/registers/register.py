@@ -14,7 +14,7 @@ from regscribe_runtime.values.scales import SAME, Conversion, Range, Sentinel
 from regscribe_runtime.values.views import View, limit_needs, needs
 
 T = TypeVar("T")
-SPEAKING = ("views", "scale", "special_scale", "range", "unit", "writable", "when")
+SPEAKING = ("views", "scale", "special_scale", "range", "valid", "sentinels", "unit", "writable", "when")
 """The attributes of a register that may refer to other registers."""
 NOWHERE = -(1 << 20)
 """The base of a block that was not found: no request can be made to such an address."""
@@ -24,11 +24,11 @@ class Register(Generic[T]):
     """The declaration of a register: its address, what its words mean and when it may be written.
 
     `at` is the n of its views' address formulas. `special_scale` divides the codes of special values, as the range's
-    decimals divide its limits. `default` is the manual's, in engineering units. `unit` is an engineering unit, or cases
-    of them. `stays` is why the value must not be copied to another device (address, line, calibration, identity,
-    counter, operation, momentary; "": it may be), `governs` what it sets of the serial line, `settle` the milliseconds
-    after a write in which reading back is not reliable; `rescales` names the unit whose values the device converts.
-    It exists only while `when` holds; `reading` is how it wants to be read.
+    decimals divide its limits; `valid` is what a reading must lie in. `default` is the manual's, in engineering units.
+    `unit` is an engineering unit, or cases of them. `stays` is why the value must not be copied to another device
+    (address, line, calibration, identity, counter, operation, momentary; "": it may be), `governs` what it sets of the
+    serial line, `settle` the milliseconds after a write in which reading back is not reliable; `rescales` names the
+    unit whose values the device converts. It exists only while `when` holds; `reading` is how it wants to be read.
 
     In a `block` addresses count from its base, which is not known (`origin` is None) before it is `located`;
     `reach` is the first address behind its element in an array that goes to the end of the block, else 0.
@@ -47,6 +47,7 @@ class Register(Generic[T]):
         scale: Cases[Conversion] = SAME,
         special_scale: Cases[Conversion] = SAME,
         range: Cases[Range] = (),  # noqa: A002 (the manuals' own word)
+        valid: Cases[Range] = (),
         default: float | str | None = None,
         unit: str | Cases[str] = "",
         section: str = "",
@@ -66,7 +67,7 @@ class Register(Generic[T]):
         block: str = "",
     ) -> None:
         self.at, self.views, self.value_type, self.kind = at, views, value_type, value_type.kind
-        self.scale, self.range, self.sentinels = scale, range, sentinels
+        self.scale, self.range, self.valid, self.sentinels = scale, range, valid, sentinels
         self.special_scale = special_scale
         self.default, self.section, self.aliases = default, section, aliases
         self.unit: Cases[str] = always(unit) if isinstance(unit, str) else unit
@@ -201,7 +202,7 @@ class Register(Generic[T]):
     def decode(
         self, words: Sequence[int], *, view: str | None = None, state: State | None = None, givens: Givens | None = None
     ) -> T:
-        """The value of `words` in `view`; raises ValueNotDecodable (SensorFault, Saturated, NotDecodable)."""
+        """The value of `words` in `view`; raises ValueNotDecodable (SensorFault, OutOfRange, ...)."""
         chosen = self.view(view) if view else self.read_view()
         return cast("T", codec.decode(self, chosen, words, state or {}, givens or {}))
 

@@ -4,7 +4,7 @@ from enum import Enum
 from functools import cache
 from typing import NamedTuple
 
-from regscribe_runtime.values.conditions import Cases, always
+from regscribe_runtime.values.conditions import ALWAYS, Cases, Condition, Givens, State, always
 from regscribe_runtime.values.numbers import Number, show
 from regscribe_runtime.values.terms import Term
 
@@ -77,13 +77,38 @@ class Sentinel(NamedTuple):
     """A stored number that is a fault and no value: -32768 = sensor low; `NAN`: no number at all.
 
     It counts before any scale, and whatever the kind of the register: for bits, as the number that the type spells.
+    With `high`, every number from `stored` to there is the fault. `when` is the case in which it is one: of all cases
+    of a register the first whose condition holds counts.
     """
 
     stored: Number | NotANumber
     id: str
     label: str
+    high: Number | None = None
+    when: Condition = ALWAYS
 
     @property
     def spelled(self) -> str:
-        """The stored number as decimal text, or `nan`."""
-        return self.stored.value if isinstance(self.stored, NotANumber) else show(self.stored)
+        """The stored number as decimal text, as `low..high`, or `nan`."""
+        if isinstance(self.stored, NotANumber):
+            return self.stored.value
+        return show(self.stored) if self.high is None else f"{show(self.stored)}..{show(self.high)}"
+
+    @property
+    def ends(self) -> tuple[Number, Number] | None:
+        """The lowest and the highest stored number; None for what is no number."""
+        if isinstance(self.stored, NotANumber):
+            return None
+        return self.stored, self.stored if self.high is None else self.high
+
+    def reports(self, stored: object) -> bool:
+        """Whether a stored number is the fault, in its case."""
+        if self.ends is None or not isinstance(stored, Number):
+            return self.stored is stored
+        return self.ends[0] <= stored <= self.ends[1]
+
+
+def in_case(sentinels: tuple[Sentinel, ...], state: State, givens: Givens) -> tuple[Sentinel, ...]:
+    """The sentinels of the first case whose condition holds."""
+    when = next((each.when for each in sentinels if each.when.holds(state, givens)), None)
+    return tuple(each for each in sentinels if each.when == when)

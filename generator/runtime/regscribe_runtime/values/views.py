@@ -6,7 +6,7 @@ from regscribe_runtime.values.conditions import Cases, Condition, registers_of
 from regscribe_runtime.values.facts import ReadFacts
 from regscribe_runtime.values.kinds import Access
 from regscribe_runtime.values.numbers import Number
-from regscribe_runtime.values.scales import Conversion, Range
+from regscribe_runtime.values.scales import Conversion, Range, Sentinel
 from regscribe_runtime.values.terms import registers_in
 from regscribe_runtime.values.wire_types import Order, Rounding, Space, WireType
 
@@ -110,6 +110,10 @@ class Scaled(Protocol):
     def range(self) -> Cases[Range]: ...  # noqa: D102
     @property
     def when(self) -> Condition: ...  # noqa: D102
+    @property
+    def valid(self) -> Cases[Range]: ...  # noqa: D102
+    @property
+    def sentinels(self) -> tuple[Sentinel, ...]: ...  # noqa: D102
 
 
 class Readable(Placed, Scaled, Protocol):
@@ -136,14 +140,20 @@ def scale_needs(register: Scaled) -> tuple[str, ...]:
 
 def needs(register: Scaled, view: View) -> tuple[str, ...]:
     """Registers that must be known to decode `view`: first those that tell whether the register exists."""
-    return tuple(dict.fromkeys((*register.when.registers, *view.needs(), *scale_needs(register))))
+    faults = [name for one in register.sentinels for name in one.when.registers]
+    others = (*scale_needs(register), *faults, *_range_needs(register.valid))
+    return tuple(dict.fromkeys((*register.when.registers, *view.needs(), *others)))
 
 
 def limit_needs(register: Scaled) -> tuple[str, ...]:
     """Registers that select, scale or contain the limits of a write."""
-    found = list(registers_of(register.range))
-    found += [case.then.places.register for case in register.scale if case.then.places]
-    for _, limits in register.range:
+    found = [case.then.places.register for case in register.scale if case.then.places]
+    return tuple(dict.fromkeys((*_range_needs(register.range), *_range_needs(register.valid), *found)))
+
+
+def _range_needs(cases: Cases[Range]) -> list[str]:
+    found = list(registers_of(cases))
+    for _, limits in cases:
         found += [limits.decimals.register] if limits.decimals else []
         found += registers_in(limits.intervals)
-    return tuple(dict.fromkeys(found))
+    return found

@@ -45,6 +45,7 @@ EVERYTHING = Register(
     special_scale=always(Conversion(Fraction(1, 10))),
     unit=always("s"),
     range=always(Range((Interval(0, 5),))),
+    valid=always(Range((Interval(0, 9),))),
     sentinels=(Sentinel(-1, "LOW", "low"),),
     default=Fraction(3),
     writable=WriteCondition(ALWAYS, "always"),
