@@ -158,8 +158,8 @@ def _values_in_part(sent: SentStep, found: list[TakenAddresses]) -> Iterator[Pro
 def step_too_long(sent: SentStep, scope: RuleScope) -> Iterator[Problem]:
     """A step is one request; the device refuses or ignores longer ones."""
     step, protocol = sent.step, scope.register_map.protocol
-    what, limit = ("bits", protocol.write_bits) if sent.space.is_bits else ("words", protocol.write_words)
-    most = 1 if step.function in ONE_VALUE else limit
+    what = "bits" if sent.space.is_bits else "words"
+    most = 1 if step.function in ONE_VALUE else protocol.most_written(sent.space)
     if len(step.words) > most:
         message = f"writes {len(step.words)} {what} by function {step.function:02d}, which takes {most} at most"
         yield message, f"split the step, or correct `function` or `protocol.limits.write_{what}`"

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import fields
 
 from regscribe.checks.rule import MAP, Finding, Problem, RuleScope, Scopes, header_rule, map_rule, register_rule
-from regscribe.model import SILENCE, Identity, Register, RegisterMap
+from regscribe.model import SILENCE, Identity, Protocol, Register, RegisterMap
 
 READS = frozenset({1, 2, 3, 4, 7, 11, 12, 17, 20, 24})
 """Functions whose point is the answer, so that they cannot be broadcast."""
@@ -37,12 +37,23 @@ def accepts(register_map: RegisterMap) -> Iterator[Problem]:
             yield message, "leave it out, or lower the limit that a driver keeps to"
 
 
+@header_rule("RS0686", "Limit of a space that Modbus does not have")
+def space_limits(register_map: RegisterMap) -> Iterator[Problem]:
+    """One frame carries no more, and a space that cannot be written has no limit of writing."""
+    plain = Protocol()
+    for space, read, write in register_map.protocol.spaces:
+        most = plain.most_read(space), plain.most_written(space) if space.write_functions else 0
+        for way, own, limit in zip(("read", "write"), (read, write), most, strict=True):
+            if own > limit:
+                yield f"`protocol.space_limits` has {way} {own} for {space}, of {limit} at most", "correct it"
+
+
 @header_rule("RS0488", "Unit ids that cannot be")
 def unit_ids(register_map: RegisterMap) -> Iterator[Problem]:
-    """A unit id is 1 to 255 (0 broadcasts); the default is one of them."""
+    """A unit id is 1 to 255, or 0 of a device over TCP (on serial lines 0 broadcasts); the default is one of them."""
     low, high = register_map.protocol.unit_ids
-    if not 0 < low <= high <= LAST_UNIT:
-        yield f"unit ids {low}..{high} are not within 1..{LAST_UNIT}", "correct `protocol.unit_ids`"
+    if not 0 <= low <= high <= LAST_UNIT or (not low and register_map.protocol.broadcast):
+        yield f"unit ids {low}..{high} are not within {int(not low)}..{LAST_UNIT}", "correct `protocol.unit_ids`"
     elif register_map.default_unit is not None and not low <= register_map.default_unit <= high:
         message = f"the default unit id {register_map.default_unit} is outside {low}..{high}"
         yield message, "correct `protocol.default_unit` or `unit_ids`"

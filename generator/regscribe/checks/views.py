@@ -73,9 +73,10 @@ def regions_overlap(scope: RuleScope) -> Iterator[Finding]:
 def longer_than_request(register: Register, scope: RuleScope) -> Iterator[Problem]:
     """A value that does not fit one request can never be read whole."""
     protocol, access = scope.register_map.protocol, register.access
-    limits = (("read", access.readable, protocol.read_words), ("write", access.writable, protocol.write_words))
+    limits = (("read", access.readable, protocol.most_read), ("write", access.writable, protocol.most_written))
     for view in register.views:
-        for way, allowed, most in limits:
+        for way, allowed, limit in limits:
+            most = limit(view.space)
             if view.words > most and allowed and not view.space.is_bits:
                 message = f"has view {view.name} of {view.words} words; a {way} request takes {most} at most"
                 yield message, f"correct the type, `length` or `protocol.limits.{way}_words`"

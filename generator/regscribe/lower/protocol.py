@@ -6,7 +6,17 @@ from fractions import Fraction
 from regscribe.lower.node import ZERO, Value
 from regscribe.lower.rules import WRONG_SORT
 from regscribe.lower.texts import ends, whole_ends
-from regscribe.model import SILENCE, ExceptionCode, Faults, Latency, Protocol, ProtocolNotes, SerialDefaults
+from regscribe.model import (
+    SILENCE,
+    ExceptionCode,
+    Faults,
+    Latency,
+    Protocol,
+    ProtocolNotes,
+    SerialDefaults,
+    Space,
+    SpaceLimits,
+)
 
 _CODES = (
     *("function", "address", "value", "read_only", "condition", "quantity"),
@@ -34,6 +44,11 @@ def protocol_of(node: Value) -> Protocol:
         latencies=tuple(_latency(latency) for _, latency in node.items_of("latency")),
         serial=_serial(node.mapping_of("serial")),
         absent=faults_of(node).address,
+        spaces=tuple(
+            SpaceLimits(Space(name), each.whole_of("read"), each.whole_of("write"))
+            for name, each in node.items_of("space_limits")
+        ),
+        pause=node.fraction_of("pause"),
     )
 
 

@@ -64,7 +64,7 @@ from regscribe_runtime.values.programs import (
     WhileRunning,
     numbered,
 )
-from regscribe_runtime.values.protocol import ExceptionCode, Latency, Protocol, SerialDefaults
+from regscribe_runtime.values.protocol import ExceptionCode, Latency, Protocol, SerialDefaults, SpaceLimits
 from regscribe_runtime.values.scales import (
     IDENTITY,
     NAN,
@@ -173,6 +173,7 @@ __all__ = [
     "Setting",
     "Severity",
     "Space",
+    "SpaceLimits",
     "Span",
     "Special",
     "Sum",

@@ -321,6 +321,11 @@ class RegisterMap:
         """Whether the map covers a model of this name."""
         return any(model.name == name for model in self.models)
 
+    def most(self, space: Space, way: str) -> int:
+        """Return the most addresses of a space that the device takes in one request; `way` is read or write."""
+        own = next((one.read if way == "read" else one.write for one in self.protocol.spaces if one.space is space), 0)
+        return own or self.accepted(f"{way}_bits" if space.is_bits else f"{way}_words")
+
     def accepted(self, limit: str) -> int:
         """Return the most that the device answers: `limit` (`read_words` and so on), or what it accepts beyond it."""
         return dict(self.accepts).get(limit, int(getattr(self.protocol, limit)))

@@ -82,7 +82,7 @@ def wrong_requests(driver: Any, chosen: Sequence[Register[Any]]) -> list[str]:  
 
 
 def _most(driver: Any, space: Space) -> int:  # noqa: ANN401 (as above)
-    most: int = driver.protocol.read_bits if space in BITS else driver.protocol.read_words
+    most: int = driver.protocol.most_read(space)
     return most
 
 

@@ -123,6 +123,7 @@ from regscribe_runtime.values.protocol import ExceptionCode as ExceptionCode
 from regscribe_runtime.values.protocol import Latency as Latency
 from regscribe_runtime.values.protocol import Protocol as Protocol
 from regscribe_runtime.values.protocol import SerialDefaults as SerialDefaults
+from regscribe_runtime.values.protocol import SpaceLimits as SpaceLimits
 from regscribe_runtime.values.scales import Conversion as Conversion
 from regscribe_runtime.values.scales import Decimals as Decimals
 from regscribe_runtime.values.scales import Interval as Interval

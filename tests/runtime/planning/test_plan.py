@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from regscribe_runtime.planning.address_ranges import AddressRanges, AddressStretch, RegisterSpan
 from regscribe_runtime.planning.cost import Cost
 from regscribe_runtime.planning.plan import Block, RequestLimits, SplitReason, Terms, blocks, explain
-from regscribe_runtime.values.protocol import Latency
+from regscribe_runtime.values.protocol import Latency, SpaceLimits
 from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.values.wire_types import Space
 
@@ -27,7 +27,10 @@ SPACES = [Space.HOLDING, Space.COIL]
 items = st.builds(RegisterSpan, st.sampled_from(SPACES), st.integers(0, 40), st.integers(1, 3))
 wants = st.lists(items, max_size=6)
 costs = st.sampled_from(LINES)
-limits = st.builds(RequestLimits, words=st.integers(4, 40), bits=st.integers(4, 40))
+own = st.sampled_from(
+    [(), (SpaceLimits(Space.COIL, 5), SpaceLimits(Space.INPUT, write=3)), (SpaceLimits(Space.INPUT, 4),)]
+)
+limits = st.builds(RequestLimits, words=st.integers(4, 40), bits=st.integers(4, 40), spaces=own)
 holes = st.lists(st.tuples(st.integers(0, 44), st.integers(1, 4)), max_size=3)
 
 

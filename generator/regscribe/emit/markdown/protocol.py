@@ -3,11 +3,11 @@
 from collections.abc import Iterable
 from itertools import chain
 
-from regscribe.emit.markdown.context import PageContext
+from regscribe.emit.markdown.context import SPACES, PageContext
 from regscribe.emit.markdown.escape import Md, escape, md, prose
 from regscribe.emit.markdown.page_values import PageTable, table
 from regscribe.emit.words import listed, one_line
-from regscribe.model import SILENCE, Latency, Later, RegisterMap, show
+from regscribe.model import SILENCE, Latency, Later, RegisterMap, SpaceLimits, show
 
 FUNCTIONS = {
     1: "read coils",
@@ -62,6 +62,8 @@ def _requests(register_map: RegisterMap) -> Iterable[tuple[str, Md]]:
     yield "Most words in a request", md(_most(register_map, "words"))
     if BIT_FUNCTIONS & set(protocol.functions):
         yield "Most bits in a request", md(_most(register_map, "bits"))
+    yield "In single spaces", md("; ".join(map(_space_limits, protocol.spaces)))
+    yield "Pause between requests", md(f"{show(protocol.pause)} ms" if protocol.pause else "")
     yield "Reading over unused addresses", md("allowed" if protocol.read_holes else "not relied upon")
     yield "Writing what is there already", md("spares the lasting memory" if register_map.spares_memory else "")
 
@@ -75,6 +77,11 @@ def _most(register_map: RegisterMap, what: str) -> str:
         beyond = f" (a device also answers {accepted})" if accepted != most else ""
         found.append(f"{most} to {verb}{_usual(register_map, limit)}{beyond}")
     return ", ".join(found)
+
+
+def _space_limits(limits: SpaceLimits) -> str:
+    parts = ((limits.read, "to read"), (limits.write, "to write"))
+    return f"{SPACES[limits.space].lower()}: {', '.join(f'{most} {verb}' for most, verb in parts if most)}"
 
 
 def _usual(register_map: RegisterMap, key: str) -> str:

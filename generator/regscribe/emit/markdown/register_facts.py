@@ -68,6 +68,7 @@ POLLS = {
     "once": "not: reading it once will do",
     "never": "not, unless it is asked for by name",
 }
+MANDATORY = {None: "", True: "yes", False: "no, on some only"}
 DIFFERENCE = "a difference: its unit is converted without the zero point"
 PERSISTENCE = {"ram": "RAM", "eeprom": "EEPROM", "both": "RAM and EEPROM"}
 
@@ -103,7 +104,7 @@ def _reading(register: Register) -> Iterator[tuple[str, Md]]:
     seconds = "" if isinstance(poll, str) else f"every {show(poll)} s"
     yield "To be followed", md(POLLS.get(str(poll), seconds) if poll else "")
     yield "A value holds", md(f"{show(good_for)} s" if good_for else "")
-    yield "On each device", md({True: "yes", False: "no, on some only"}.get(register.mandatory, ""))
+    yield "On each device", md(MANDATORY[register.mandatory])
 
 
 def _value_facts(context: PageContext, model: Model, register: Register) -> Iterator[tuple[str, Md]]:

@@ -267,8 +267,8 @@ def _model(register_map: RegisterMap, name: str) -> Model:
 def _unit(register_map: RegisterMap, unit: int | None) -> int:
     low, high = register_map.protocol.unit_ids
     if unit is None:
-        return register_map.default_unit or max(1, low)
-    if not max(1, low) <= unit <= high:
-        message = f"unit {unit} is outside {max(1, low)}..{high}, the unit ids of this device (0 is the broadcast)"
+        return low if register_map.default_unit is None else register_map.default_unit
+    if not low <= unit <= high:
+        message = f"unit {unit} is outside {low}..{high}, the unit ids of this device (elsewhere 0 is the broadcast)"
         raise SimulatorError(message)
     return unit

@@ -31,7 +31,7 @@ def check_request(blueprint: Blueprint, space: Space, function: int, address: in
     The form is checked before any register is looked up, as devices do.
     """
     faults = blueprint.register_map.faults
-    if not 1 <= count <= blueprint.register_map.accepted(f"{most}_bits" if space.is_bits else f"{most}_words"):
+    if not 1 <= count <= blueprint.register_map.most(space, most):
         raise Refusal(faults.quantity)
     region = blueprint.layout.region(space, address, function)
     if region is None:

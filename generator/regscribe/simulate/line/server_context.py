@@ -79,7 +79,7 @@ class ServerContext:
 
     def answer(self, unit: int, pdu: bytes) -> bytes | None:
         """Let the devices act on a request; return the answer, None for silence."""
-        if unit == BROADCAST:
+        if unit == BROADCAST and self._at(unit) is None:
             for device in self._devices:
                 device.handle(pdu, broadcast=True)
             return None

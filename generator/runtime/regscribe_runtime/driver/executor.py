@@ -89,6 +89,8 @@ def _timed(asked: Request, session: Session | None, link: Link | AsyncLink) -> R
         return asked
     if not asked.reads:
         session.wrote = True
+    if not session.unit:
+        asked = asked._replace(answered=True)
     return asked if asked.seconds or link.timeout else session.timed(asked)
 
 

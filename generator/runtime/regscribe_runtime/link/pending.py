@@ -31,7 +31,7 @@ class PendingRequest(NamedTuple):
     @property
     def is_broadcast(self) -> bool:
         """Whether nobody answers it."""
-        return self.unit == BROADCAST and not self.wire.reads
+        return self.unit == BROADCAST and not self.wire.reads and not self.wire.answered
 
     @property
     def resembles_its_answer(self) -> bool:

@@ -82,6 +82,7 @@ class Session:
         self.places: dict[str, Header] = {}
         self.chains: dict[str, tuple[Header, ...]] = {}
         self.memory: dict[str, Any] = {}
+        self._rested, self._pause = 0.0, float(protocol.pause) / 1000
         self._ends: dict[str, float] = {}
         self.proven: set[str] = set()
         self.prepared: dict[Any, Any] = {}
@@ -189,6 +190,9 @@ class Session:
         if self._ends:
             self._let_expire(time.monotonic())
         line = link.line
+        if line is not None and not self.unit:
+            message = "unit 0 is a broadcast on a serial line; the device has it over TCP only"
+            raise ValueError(message)
         if line is not self.line and line != self.line:
             self.line = line
             self.prepared.clear()
@@ -227,8 +231,13 @@ class Session:
         """Send one request and verify its answer; a read is sent again as `retry` says, a write never."""
         left = self._tries.reads if request.reads else 0
         while True:
+            if self.protocol.pause and (left_to_rest := self._rested - time.monotonic()) > 0:
+                yield Pause(left_to_rest)
             try:
-                reply = yield request
+                try:
+                    reply = yield request
+                finally:
+                    self._rested = time.monotonic() + self._pause
                 assert reply is not None, "an executor answers a request with a reply"  # noqa: S101 (their contract)
                 words = verify(request, reply, unit=self.unit, protocol=self.protocol)
             except (NoAnswer, WrongAnswer, LinkLost, ExceptionAnswer) as error:

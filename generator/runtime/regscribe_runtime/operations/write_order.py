@@ -76,7 +76,7 @@ def _fits(protocol: Protocol, batch: list[RegisterWrite], other: RegisterWrite) 
     """Whether the device takes a value in one request with those of a batch."""
     last, count = batch[-1], sum(len(each.words) for each in (*batch, other))
     space = last.view.space
-    function, most = space.write_functions[-1], protocol.write_bits if space.is_bits else protocol.write_words
+    function, most = space.write_functions[-1], protocol.most_written(space)
     return (
         last.address + last.view.words == other.address
         and not last.register.governs

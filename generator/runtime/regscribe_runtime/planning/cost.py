@@ -59,7 +59,8 @@ class Cost(NamedTuple):
     """Cost of requests to one device: `line` is the serial line (None: none is known), `framing` rtu or ascii.
 
     `round_trip` is what a network adds to every request, in ms. Of the device's `latencies` the expected time is the
-    mean of the shortest and the longest. What the map does not state costs nothing.
+    mean of the shortest and the longest; `pause` is the ms that it needs between requests. What the map does not state
+    costs nothing.
     """
 
     line: SerialLine | None = None
@@ -67,29 +68,32 @@ class Cost(NamedTuple):
     round_trip: float = 0.0
     latencies: tuple[Latency, ...] = ()
     framing: str = "rtu"
+    pause: Number = 0
 
     @classmethod
     def of(cls, protocol: Protocol, line: SerialLine | None) -> "Cost":
         """Over the line of a link; over TCP without one."""
-        return cls(line, protocol.serial.gap, 0, protocol.latencies) if line else cls.tcp(protocol)
+        return (
+            cls(line, protocol.serial.gap, 0, protocol.latencies, pause=protocol.pause) if line else cls.tcp(protocol)
+        )
 
     @classmethod
     def serial(cls, protocol: Protocol, *, baud: int = 0, form: str = "", framing: str = "rtu") -> "Cost":
         """Over a serial line, by default with the device's own speed and format."""
         line = SerialLine.of("", baud or protocol.serial.baud, form or protocol.serial.format)
-        return cls(line, protocol.serial.gap, 0, protocol.latencies, framing)
+        return cls(line, protocol.serial.gap, 0, protocol.latencies, framing, protocol.pause)
 
     @classmethod
     def tcp(cls, protocol: Protocol, *, line: SerialLine | None = None, framing: str = "rtu") -> "Cost":
         """Over TCP; `line` is the one behind a gateway, if it is known."""
-        return cls(line, protocol.serial.gap, TCP_ROUND_TRIP, protocol.latencies, framing)
+        return cls(line, protocol.serial.gap, TCP_ROUND_TRIP, protocol.latencies, framing, protocol.pause)
 
     def tariff(self, space: Space) -> Tariff:
         """The cost of reads of one space."""
         function, bits = space.read_function, space.is_bits
         latency = next((one for one in self.latencies if one.function == function), None)
         fixed, per_byte = self._frames(REQUEST_BYTES.get(space, 5), ANSWER_BYTES.get(space, 2))
-        per_word = 0.0
+        fixed, per_word = fixed + float(self.pause), 0.0
         if latency:
             character = 1000 * self.line.character if self.line else 0
             fixed += float(latency.minimum + latency.maximum) / 2 + float(latency.characters) * character

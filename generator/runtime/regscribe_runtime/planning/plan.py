@@ -13,7 +13,7 @@ from typing import NamedTuple
 from regscribe_runtime.planning.address_ranges import AddressRanges, AddressStretch, RegisterSpan
 from regscribe_runtime.planning.block_cover import cheapest_cover
 from regscribe_runtime.planning.cost import Cost, milliseconds
-from regscribe_runtime.values.protocol import Protocol
+from regscribe_runtime.values.protocol import Protocol, SpaceLimits
 from regscribe_runtime.values.wire_types import Space
 
 
@@ -37,20 +37,24 @@ class Block(NamedTuple):
 
 
 class RequestLimits(NamedTuple):
-    """Most words and bits in one read, and whether addresses of no register may be read along."""
+    """Most words and bits in one read (in `spaces` others), and whether addresses of no register may be read along."""
 
     words: int = 125
     bits: int = 2000
     holes: bool = False
+    spaces: tuple[SpaceLimits, ...] = ()
 
     @classmethod
     def of(cls, protocol: Protocol) -> "RequestLimits":
         """The limits of a device."""
-        return cls(protocol.read_words, protocol.read_bits, protocol.read_holes)
+        return cls(protocol.read_words, protocol.read_bits, protocol.read_holes, protocol.spaces)
 
     def most(self, space: Space) -> int:
         """The most addresses of one read; a queue comes as a whole."""
-        return space.most if space is Space.QUEUE else min(space.most, self.bits if space.is_bits else self.words)
+        if space is Space.QUEUE:
+            return space.most
+        own = next((one.read for one in self.spaces if one.space is space), 0)
+        return min(space.most, own or (self.bits if space.is_bits else self.words))
 
 
 class Terms(NamedTuple):

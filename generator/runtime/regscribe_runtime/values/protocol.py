@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 from regscribe_runtime.values.numbers import Number
 from regscribe_runtime.values.serial_line import SerialLine
+from regscribe_runtime.values.wire_types import Space
 
 SHORTEST_TIMEOUT, MARGIN = 1.0, 0.5
 """In seconds: the least timeout, and the time of the frames, which is added to the longest latency."""
@@ -55,12 +56,21 @@ class SerialDefaults(NamedTuple):
         return SerialLine.of("", self.baud, self.format)
 
 
+class SpaceLimits(NamedTuple):
+    """The most registers or bits of one space that one request reads or writes; 0: as in other spaces."""
+
+    space: Space
+    read: int = 0
+    write: int = 0
+
+
 class Protocol(NamedTuple):
     """What a device accepts: function codes, unit ids, words or bits in a request; its exceptions and latencies.
 
     `read_holes`: whether a read may run over addresses of no register (a planner may then bridge gaps). `broadcast` are
     the functions that may be sent to all units at once. `absent` is the exception code by which the device refuses an
-    address that it does not have; 0: it keeps silent.
+    address that it does not have; 0: it keeps silent. `spaces` are the limits of single spaces, `pause` is what the
+    device needs from an answer to the next request, in milliseconds.
     """
 
     functions: tuple[int, ...] = (3, 6, 16)
@@ -75,6 +85,18 @@ class Protocol(NamedTuple):
     latencies: tuple[Latency, ...] = ()
     serial: SerialDefaults = SerialDefaults()
     absent: int = 2
+    spaces: tuple[SpaceLimits, ...] = ()
+    pause: Number = 0
+
+    def most_read(self, space: Space) -> int:
+        """The most addresses of a space in one read."""
+        own = next((one.read for one in self.spaces if one.space is space), 0)
+        return own or (self.read_bits if space.is_bits else self.read_words)
+
+    def most_written(self, space: Space) -> int:
+        """The most addresses of a space in one write."""
+        own = next((one.write for one in self.spaces if one.space is space), 0)
+        return own or (self.write_bits if space.is_bits else self.write_words)
 
     @property
     def timeout(self) -> float:

@@ -18,7 +18,7 @@ _GROUP, _SUB_ANSWER, _COUNTS = struct.Struct(">BHHH"), struct.Struct("BB"), stru
 
 def encode_request(request: Request) -> bytes:
     """Function code and data; struct.error for numbers beyond 16 bits."""
-    function, address, quantity, words, _ = request
+    function, address, quantity, words = request[:4]
     if function == READ_QUEUE:
         return struct.pack(">BH", function, address >> Space.QUEUE.part_bits)
     group = _group(address, quantity) + pack_words(words)

@@ -39,7 +39,7 @@ class CoilStateError(MalformedError):
 
 def encode_request(request: Request) -> bytes:
     """Encode function code and data; ValueError for numbers beyond 16 bits."""
-    function, address, quantity, words, _ = request
+    function, address, quantity, words = request[:4]
     try:
         if function in WORD_READS or function in BIT_READS:
             return ADDRESSED.pack(function, address, quantity)

@@ -34,7 +34,8 @@ FILE_HEAD_SIZE, QUEUE_HEAD_SIZE = 8, 4
 class Request(NamedTuple):
     """One request: `quantity` addresses from `address`; `words` are what a write sends (bits as 0 and 1).
 
-    `seconds` is its response timeout, set on the way to the link; 0 leaves it to the link.
+    `seconds` is its response timeout, set on the way to the link; 0 leaves it to the link. `answered`: unit 0 is no
+    broadcast but a device that answers.
     """
 
     function: int
@@ -42,6 +43,7 @@ class Request(NamedTuple):
     quantity: int = 1
     words: tuple[int, ...] = ()
     seconds: float = 0.0
+    answered: bool = False
 
     @property
     def reads(self) -> bool:
