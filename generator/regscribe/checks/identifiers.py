@@ -18,6 +18,7 @@ RUNTIME_NAMES = frozenset(
 HIDDEN = {
     "register": RUNTIME_NAMES,
     "array": RUNTIME_NAMES,
+    "computed value": RUNTIME_NAMES,
     "command": frozenset({"bind", "placed", "read", "registers", "run"}),
     "bit field": frozenset({"int", "parts", "replace"}),
 }
@@ -46,6 +47,7 @@ def _named(scope: RuleScope) -> Iterator[tuple[str, str, Span]]:
             yield from ((part, bits.id, member.span) for bits in member.fields)
     yield from (("group", group.id, group.span) for group in scope.model.groups)
     yield from (("command", command.id, command.span) for command in scope.model.commands)
+    yield from (("computed value", computed.id, computed.span) for computed in scope.model.computed)
 
 
 def _members(members: tuple[Register | Array, ...], owner: str = "") -> Iterator[tuple[str, Register | Array]]:
@@ -80,6 +82,7 @@ def hides_runtime(scope: RuleScope) -> Iterator[Finding]:
 def id_twice(scope: RuleScope) -> Iterator[Finding]:
     """Two things of one id cannot both be reached from the driver."""
     named = [(f"{owner}register", one.id, one.span) for owner, one in _members(scope.model.members)]
+    named += [("register", one.id, one.span) for one in scope.model.computed]
     named += [("group", group.id, group.span) for group in scope.model.groups]
     named += [("command", command.id, command.span) for command in scope.model.commands]
     for (_, first, place), (what, name, span) in doubled(named, lambda one: [(one[0], normalised(one[1]))]):

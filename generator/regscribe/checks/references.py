@@ -67,6 +67,20 @@ def _in_scale(register: Register) -> tuple[str, ...]:
     return registers_in(*((case.then.multiply, case.then.add) for case in register.scale))
 
 
+@model_rule("RS0697", "Computed value of what is no number")
+def computed_of_no_number(scope: RuleScope) -> Iterator[Finding]:
+    """A sum has a meaning only if each of its parts is a number that can be read."""
+    for one in scope.model.computed:
+        for other in scope.named(_values([(one.term,)])):
+            if other.kind not in NUMBERS or not other.access.readable:
+                message = f"`{one.id}` follows from `{other.path}`, of kind {other.kind} and access {other.access}"
+                related = Related(f"`{other.path}` stands here", other.span)
+                yield Finding(one.id, one.span, message, "name registers that hold numbers and can be read", related)
+        if not registers_in(one.term):
+            message = f"`{one.id}` follows from no register"
+            yield Finding(one.id, one.span, message, "name the registers, or put the number into a `note`")
+
+
 @register_rule("RS0461", "Word order from an unsuitable register")
 def order_register(register: Register, scope: RuleScope) -> Iterator[Problem]:
     """It is read before the first long value, so it must be one whole word of an order that does not depend on it."""

@@ -18,6 +18,7 @@ TABLES = {
     "scales": "scale",
     "sets": "set",
     "commands": "command",
+    "computed": "computed value",
     "programs": "program",
 }
 """Top-level mappings from a name to a thing, and what the thing is called."""

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from regscribe.lower.blocks import block_named
 from regscribe.lower.commands import CommandScope, commands_of
+from regscribe.lower.computed import computed_of
 from regscribe.lower.node import Value
 from regscribe.lower.process import process_of
 from regscribe.lower.programs import programs_of
@@ -69,6 +70,7 @@ def model_of(node: Value, root: Value, scope: Scope, bundles: list[Bundle], prot
         registers=registers,
         groups=_groups(bundles, root),
         commands=commands,
+        computed=computed_of(root, scope),
         programs=tuple(program for program, _ in programs),
         program_notes=tuple(notes for _, notes in programs),
         process=process_of(root.child("process"), scope),

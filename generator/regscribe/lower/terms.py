@@ -43,7 +43,7 @@ def _zero(node: Value) -> Fraction:
 
 
 def _built(node: Value, scope: Scope) -> Term:
-    """The term of a mapping of one key: a given, a power, a product or a sum."""
+    """The term of a mapping of one key: a given, a power, a product, a quotient or a sum."""
     for key, inside in node.items():
         match key:
             case "given":
@@ -52,6 +52,9 @@ def _built(node: Value, scope: Scope) -> Term:
                 return power_of(inside, scope)
             case "product":
                 return product(term_of(each, scope) for each in inside.elements())
+            case "quotient":
+                first, *others = inside.elements()
+                return product([term_of(first, scope)], [_divisor(each, scope) for each in others])
             case "sum":
                 return summed(term_of(each, scope) for each in inside.elements())
     return ZERO
@@ -81,8 +84,12 @@ def divided(term: Term, node: Value | None, scope: Scope) -> Term:
     """A term divided by the term at `node`, if there is one."""
     if node is None:
         return term
+    return product([term], [_divisor(node, scope)])
+
+
+def _divisor(node: Value, scope: Scope) -> Term:
     divisor = term_of(node, scope)
-    return product([term], [_zero(node) if divisor == 0 else divisor])
+    return _zero(node) if divisor == 0 else divisor
 
 
 def product(factors: Iterable[Term], divisors: Iterable[Term] = ()) -> Term:

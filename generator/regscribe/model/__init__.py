@@ -27,7 +27,7 @@ from regscribe.model.map import (
     Waiver,
 )
 from regscribe.model.process import Alarm, Effect, OnOff, Output, Pid, Process, Ramp, Trip, TripKind
-from regscribe.model.register import Array, Group, Inferred, Register
+from regscribe.model.register import Array, Computed, Group, Inferred, Register
 from regscribe_runtime.values.blocks import Chain, Header, Layout, RegisterBlock
 from regscribe_runtime.values.conditions import (
     ALWAYS,
@@ -102,6 +102,7 @@ __all__ = [
     "Chain",
     "Command",
     "CommandStep",
+    "Computed",
     "Condition",
     "Conversion",
     "Decimals",

@@ -9,7 +9,7 @@ from regscribe.model.enums import Enum
 from regscribe.model.faults import Faults, ProtocolNotes
 from regscribe.model.identifiers import ways_to_say
 from regscribe.model.process import Effect, Process
-from regscribe.model.register import Array, Group, Inferred, Register
+from regscribe.model.register import Array, Computed, Group, Inferred, Register
 from regscribe_runtime.values.blocks import RegisterBlock
 from regscribe_runtime.values.facts import CommandStep, Identity
 from regscribe_runtime.values.programs import SetpointProgram
@@ -127,6 +127,7 @@ class Model:
     registers: tuple[Register, ...] = ()
     groups: tuple[Group, ...] = ()
     commands: tuple[Command, ...] = ()
+    computed: tuple[Computed, ...] = ()
     programs: tuple[SetpointProgram, ...] = ()
     program_notes: tuple[ProgramNotes, ...] = ()
     process: Process | None = None

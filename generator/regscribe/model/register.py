@@ -9,6 +9,7 @@ from regscribe_runtime.values.conditions import ALWAYS, Cases, Condition, always
 from regscribe_runtime.values.facts import PLAIN_READING, Governs, ReadFacts, WriteCondition
 from regscribe_runtime.values.kinds import Access, Kind
 from regscribe_runtime.values.scales import SAME, Conversion, Range, Sentinel
+from regscribe_runtime.values.terms import Term
 from regscribe_runtime.values.views import View, preferred, read_view
 
 UNITLESS = always("")
@@ -204,4 +205,17 @@ class Group:
     description: str = ""
     section: str = ""
     order: int | None = None
+    span: Span = NOWHERE
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Computed:
+    """A number that follows from registers of one snapshot: `term` over their values in engineering units."""
+
+    id: str
+    name: str
+    term: Term
+    unit: str = ""
+    description: str = ""
+    section: str = ""
     span: Span = NOWHERE

@@ -5,6 +5,7 @@ Nothing here imports the compiler; pymodbus is loaded when a link is made.
 
 from regscribe_runtime.driver.bus import AsyncBus as AsyncBus
 from regscribe_runtime.driver.bus import Bus as Bus
+from regscribe_runtime.driver.computed import Computed as Computed
 from regscribe_runtime.driver.declarations import ReadOnly as ReadOnly
 from regscribe_runtime.driver.declarations import ReadWrite as ReadWrite
 from regscribe_runtime.driver.declarations import WriteOnly as WriteOnly

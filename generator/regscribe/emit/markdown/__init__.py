@@ -6,6 +6,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from regscribe.emit.header import header
 from regscribe.emit.markdown.alt_text import address_map
+from regscribe.emit.markdown.computed import computed
 from regscribe.emit.markdown.context import context
 from regscribe.emit.markdown.entries import commands, sections
 from regscribe.emit.markdown.escape import Md, code, escape, join, link, md, prose
@@ -75,6 +76,7 @@ def _page(register_map: RegisterMap) -> dict[str, object]:
         "unused": unused(found),
         "groups": groups,
         "commands": commands(found),
+        "computed": computed(found),
         "programs": programs(found),
         "process": process(found),
         "assumptions": assumptions(found),

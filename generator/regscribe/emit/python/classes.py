@@ -14,7 +14,7 @@ from regscribe.emit.python.groups import groups_body, with_group_facts
 from regscribe.emit.python.literals import camel, docstring, literal, member
 from regscribe.emit.python.register_lines import Declarations, command_call, command_text, declaration_lines
 from regscribe.emit.python.reserved_names import free
-from regscribe.emit.words import one_line
+from regscribe.emit.words import one_line, term_words
 from regscribe.model import Array, Chain, Model, Register, RegisterMap
 
 Members = Mapping[str, Sequence[Register | Array]]
@@ -152,6 +152,7 @@ class Classes:
                 *self._blocks(model),
                 *([f"{INDENT}_unused = {self._unused(model)}"] if model.unused else []),
                 *self._identity(model),
+                *self._computed(model),
                 f"{INDENT}groups = {self.stem}Groups",
                 *([f"{INDENT}commands = SubPart({commands}, Async{commands})"] if commands else []),
                 *([f"{INDENT}setpoint_programs = {self._programs(model)}"] if model.programs else []),
@@ -161,6 +162,14 @@ class Classes:
             parent = f"{hidden}{prefix}{device}"
             self._class(name, [*parents, parent], f"{': '.join(filter(None, about))} ({kind}).", body)
             self.public.append(name)
+
+    def _computed(self, model: Model) -> list[str]:
+        lines = []
+        for one in model.computed:
+            stated = {"unit": literal(one.unit)} if one.unit else {}
+            lines += lay(call("Computed", expression(one.term), **stated), head=f"{one.id} = ", depth=1)
+            lines += docstring(f"{one_line(one.name)}: {term_words(one.term)}.", 1)
+        return lines
 
     def _programs(self, model: Model) -> str:
         built = Specs(model, self.pool).of(model.programs)

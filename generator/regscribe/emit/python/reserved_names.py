@@ -3,13 +3,13 @@
 import keyword
 from collections.abc import Iterable
 
-from regscribe.model import Array, Register, RegisterMap
+from regscribe.model import Array, Model, Register, RegisterMap
 
 RUNTIME = tuple(
     """
     AnyOf Array AsyncBareDevice AsyncClient AsyncDevice AsyncLink AsyncPart BOTTOM BareDevice Bit ByCase Case Chain
-    Choice ClientSettings Command CommandStep Condition Conversion Decimals Device ExceptionCode Fact Field Flags
-    GivenRef Governs Group Identity Interval Is Latency Link NotANumber Open Order OrderFrom Part Power Product
+    Choice ClientSettings Command CommandStep Computed Condition Conversion Decimals Device ExceptionCode Fact Field
+    Flags GivenRef Governs Group Identity Interval Is Latency Link NotANumber Open Order OrderFrom Part Power Product
     ProgramAction ProgramCounts ProgramFinal ProgramPart ProgramSegments ProgramStates ProgramTimeUnit Protocol Range
     ReadFacts ReadOnly ReadWrite Ref RegisterBlock Rounding Sentinel SerialDefaults SerialSettings SetpointProgram
     Setting Space SpaceLimits SpecialNumber SubPart Sum SyncClient TOP TcpSettings View WhileRunning WireType Word
@@ -53,4 +53,8 @@ def hidden(register_map: RegisterMap) -> frozenset[str]:
             if isinstance(member, Array):
                 yield from ids(member.members)
 
-    return HELPERS & {name for model in register_map.models for name in ids(model.members)}
+    return HELPERS & {name for model in register_map.models for name in (*ids(model.members), *_computed(model))}
+
+
+def _computed(model: Model) -> Iterable[str]:
+    return (one.id for one in model.computed)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from regscribe_runtime.operations import read as reads
 from regscribe_runtime.operations import write as writes
+from regscribe_runtime.operations.compute import compute
 from regscribe_runtime.operations.configure import configure
 from regscribe_runtime.operations.locate import headers as headers_of
 from regscribe_runtime.operations.locate import locating
@@ -17,6 +18,7 @@ from regscribe_runtime.wire.requests import LOOPBACK, READ_STATUS, Request
 __all__ = [
     "Task",
     "change",
+    "compute",
     "configure",
     "exception_status",
     "headers",

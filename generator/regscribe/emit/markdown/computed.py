@@ -1,0 +1,24 @@
+"""Computed values: what they are called, and how they follow from registers."""
+
+from regscribe.emit.common_values import merge
+from regscribe.emit.markdown.context import PageContext, by_model
+from regscribe.emit.markdown.escape import Md, code, escape, lines, prose
+from regscribe.emit.markdown.page_values import PageTable, table
+from regscribe.emit.words import one_line, term_words
+
+
+def computed(context: PageContext) -> PageTable:
+    """Return a row for each computed value of the models."""
+    found = merge(context.map.models, lambda model: model.computed, lambda one: one.id)
+    rows = (
+        (
+            lines(*map(prose, filter(None, (shared.first.name, shared.first.description)))),
+            code(shared.first.id),
+            by_model(shared, lambda model, one: Md(term_words(one.term, context.wording(model)))),
+            escape(one_line(shared.first.unit)),
+            escape(one_line(shared.first.section)),
+            context.covers(shared.models),
+        )
+        for shared in found
+    )
+    return table(("Value", "Name in Python", "Follows from", "Unit", "Source", "Models"), rows)
