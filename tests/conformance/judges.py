@@ -332,7 +332,7 @@ def _asked(register: Register, view: View) -> bytes:
 def decoded_by_tool(built: Built, memory: Any, row: Json) -> str:
     """What `decode` prints of a value in a captured answer, after it saw what the value depends on."""
     driver = built.module.CaseA
-    decoder = Decoder(driver)
+    decoder = Decoder(driver, bases=built.bases)
     text = ""
     for register, view in [*_others(built, memory, row), register_of(built, row)]:
         own = register.path == row["register"]

@@ -6,6 +6,8 @@ from typing import Any
 Json = dict[str, Any]
 
 WIRE_KEYS = ("type", "word_order", "byte_order", "functions")
+CHAIN, BLOCK = 30000, 7
+"""Where a chain begins, and the id of its blocks."""
 INNER, OUTER, VIEW = 100, 250, 600
 """The distance of elements of an array, of an array around it, and of a second view from the first."""
 
@@ -100,6 +102,45 @@ def _in_second_view(case: Json) -> Json | None:
     return {**case, "map": {**case["map"], "registers": registers, "views": views}, "rows": rows}
 
 
+def _in_block(case: Json) -> Json | None:
+    """Behind the header of the second block of an id, which follows the first, empty one, in a chain."""
+    tables = case["map"].keys() & {"views", "commands", "process", "reserved", "unused", "identify"}
+    if tables or _spaces(case) != {"holding"}:
+        return None
+    chain = {"at": CHAIN, "marker": [0x5375, 0x6E53]}
+    block = {"chain": "chain", "id": BLOCK, "index": 2}
+    registers = [_behind_header(one) for one in case["map"]["registers"]]
+    headers = {CHAIN: f"53 75 6E 53 00 {BLOCK:02X} 00 00 00 {BLOCK:02X} 10 00", CHAIN + 6 + 0x1000: "FF FF 00 00"}
+    held = _shifted(case.get("holds", {}), (), CHAIN + 6)
+    return {
+        **case,
+        "map": {
+            **case["map"],
+            "registers": registers,
+            "chains": {"chain": chain},
+            "blocks": {"block": block},
+            "block": "block",
+        },
+        "holds": {**held, "holding": headers | held.get("holding", {})},
+        "rows": [row | {"holds": _shifted(row.get("holds", {}), (), CHAIN + 6)} for row in case["rows"]],
+    }
+
+
+def _behind_header(one: Any) -> Any:
+    """A register or array two addresses further: addresses in a block count from its header."""
+    if not isinstance(one, dict):
+        return one
+    moved = {
+        key: [_behind_header(each) for each in value] if key == "registers" else value for key, value in one.items()
+    }
+    for key in moved.keys() & {"at", "write_at", "aliases"}:
+        value = moved[key]
+        moved[key] = [each + 2 for each in value] if isinstance(value, list) else value + 2
+    if isinstance(one.get("write"), dict):
+        moved["write"] = _behind_header(one["write"])
+    return moved
+
+
 def _as_inputs(case: Json) -> Json | None:
     rows = [row for row in case["rows"] if "words" in row and row.get("only") != "write"]
     if _has_arrays(case) or _spaces(case) != {"holding"} or not rows:
@@ -120,5 +161,11 @@ def _as_inputs(case: Json) -> Json | None:
     }
 
 
-MOVES = {"array": _in_array, "nested": _in_nested_array, "view": _in_second_view, "input": _as_inputs}
+MOVES = {
+    "array": _in_array,
+    "nested": _in_nested_array,
+    "view": _in_second_view,
+    "input": _as_inputs,
+    "block": _in_block,
+}
 """What makes the like of a case at each other place, or nothing where there is none."""

@@ -3,16 +3,18 @@
 import importlib.util
 import itertools
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from decimal import Decimal
 from functools import cache
 from pathlib import Path
-from types import ModuleType
+from types import MappingProxyType, ModuleType
 from typing import Any, NamedTuple
 
 from regscribe import checks, compose, lower, schema, source
 from regscribe.emit import python
 from regscribe.files import dump
 from regscribe.model import Diagnostic, RegisterMap, Severity
+from regscribe.model.located import layout_of, located
 
 from .places import places_of
 
@@ -38,10 +40,11 @@ class Case(NamedTuple):
 
 
 class Built(NamedTuple):
-    """A case's map, compiled, and its driver."""
+    """A case's map, compiled, its registers where the device has them, and its driver; `bases` of its blocks."""
 
     map: RegisterMap
     module: Any
+    bases: Mapping[str, int] = MappingProxyType({})
 
 
 def load(path: Path) -> list[Json]:
@@ -77,7 +80,9 @@ def words_of(text: str) -> list[int]:
 
 def whole_map(parts: Json) -> str:
     """A map of the parts that a case gives, as YAML: one model, all registers in one group, read-write unless told."""
-    tables = {key: value for key, value in parts.items() if key != "registers"}
+    tables = {key: value for key, value in parts.items() if key not in {"registers", "block"}}
+    group = {"id": "all", "name": "All", "source": "1", "each": {"access": "rw"}, "registers": parts["registers"]}
+    group |= {"block": parts["block"]} if "block" in parts else {}
     document: Json = {
         "format": 1,
         "map": {"id": "test/case", "title": "Case", "maker": "Test", "class_prefix": "Case"},
@@ -85,9 +90,7 @@ def whole_map(parts: Json) -> str:
         "models": {"A": {}},
         "protocol": {"functions": FUNCTIONS},
         **tables,
-        "groups": [
-            {"id": "all", "name": "All", "source": "1", "each": {"access": "rw"}, "registers": parts["registers"]}
-        ],
+        "groups": [group],
     }
     return dump(_plain(document))
 
@@ -129,7 +132,10 @@ def build(text: str) -> Built:
     assert register_map is not None, found
     assert not errors_of(found), found
     ((_, code),) = python.render(register_map).items()
-    return Built(register_map, module_of(code))
+    (model,) = register_map.models
+    layout = layout_of(register_map, model, {})
+    placed = replace(register_map, models=(located(model, layout),)) if layout.headers else register_map
+    return Built(placed, module_of(code), {name: header.base for name, header in layout.headers.items()})
 
 
 def module_of(code: str) -> ModuleType:

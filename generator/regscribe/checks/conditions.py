@@ -157,7 +157,8 @@ def not_covered(_: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
 def given_unused(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
     """Users must find out every given; one that decides nothing is in vain."""
     used = {test.given for one in _case_sets(scopes) for condition in one.conditions for test in condition.leaves}
+    used |= {block.given for block in register_map.blocks}
     for given in register_map.givens:
         if given.id not in used:
             message = f"given `{given.id}` decides nothing"
-            yield Finding(given.id, given.span, message, "use it in a condition, or remove it")
+            yield Finding(given.id, given.span, message, "use it in a condition or for a block, or remove it")

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from regscribe.emit.words import one_line
 from regscribe.evidence.coverage_values import Addresses, MapCoverage, ModelCoverage, Remark
 from regscribe.model import FrameExample, Kind, Model, Open, Register, RegisterMap, Space, ValueExample
+from regscribe.model.located import layout_of, located
 
 INFERRED, OPEN_LIMIT, NOT_STATED = KINDS = ("inferred", "open limit", "decimals not stated")
 """Kinds of remarks about registers, in the order in which they are listed."""
@@ -77,7 +78,9 @@ def _carried(register_map: RegisterMap, frame: FrameExample) -> set[str]:
         register.path
         for register in register_map.model(frame.model).registers
         for view in register.views
-        if view.space in spaces and start <= view.address(register.at) <= view.last(register.at) < end
+        if view.space in spaces
+        and not register.block
+        and start <= view.address(register.at) <= view.last(register.at) < end
     }
     return found if frame.words or len(found) == 1 else set()
 
@@ -98,6 +101,7 @@ def open_limits(register: Register) -> tuple[str, ...]:
 
 def _addresses(register_map: RegisterMap, model: Model) -> Iterator[Addresses]:
     """Yield the counts of each space that holds anything, in the order of `Space`."""
+    model = located(model, layout_of(register_map, model, {}))  # a block counts where a device may have it
     registers = model.registers
     stretches: dict[str, Iterable[Stretch]] = {
         "mapped": ((view.space, view.address(one.at), view.last(one.at)) for one in registers for view in one.views),

@@ -65,6 +65,7 @@ class Row(NamedTuple):
     persistence: str = ""
     group: str = ""
     section: str = ""
+    block: str = ""
 
 
 COLUMNS = Row._fields
@@ -126,6 +127,7 @@ def _register_row(register_map: RegisterMap, model: Model, register: Register) -
         persistence=one_line(register.persistence),
         group=register.group,
         section=one_line(register.section),
+        block=register.block,
     )
 
 
@@ -148,6 +150,7 @@ def _command_row(register_map: RegisterMap, model: Model, command: Command) -> R
         values=_object({address: ", ".join(words) for address, words in written.items()}),
         group=command.group,
         section=one_line(command.section),
+        block=first.block if first else "",
     )
 
 

@@ -2,6 +2,7 @@
 
 from regscribe.emit import picture_paths
 from regscribe.emit.header import header
+from regscribe.emit.markdown.alt_text import fixed
 from regscribe.emit.outline import Branch, leaves, outline
 from regscribe.model import RegisterMap
 from regscribe.pictures.addresses import addresses
@@ -25,9 +26,7 @@ def drawings(register_map: RegisterMap) -> dict[str, Drawing]:
     registers = [register for model in register_map.models for register in model.registers]
     if not registers:
         return {}
-    found = {}
-    if not all(register.base.space.part_bits for register in registers):
-        found[picture_paths.ADDRESSES] = addresses(register_map)
+    found = {picture_paths.ADDRESSES: addresses(register_map)} if fixed(register_map) else {}
     nodes = outline(register_map.models)
     for leaf in leaves(nodes):
         if any(register.fields for _, register in leaf.register.versions):

@@ -1,4 +1,7 @@
-"""Addresses with the registers that they transmit, by model: every view and every alias of every register."""
+"""Addresses with the registers that they transmit, by model: every view and every alias of every register.
+
+Those in blocks are left out: where they stand differs from device to device.
+"""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -35,7 +38,7 @@ def address_uses(register_map: RegisterMap) -> tuple[AddressUse, ...]:
 
 
 def _uses(model: Model) -> Iterator[AddressUse]:
-    for register in model.registers:
+    for register in (one for one in model.registers if not one.block):
         yield from (_use(register, view) for view in register.views if not view.space.part_bits)
         for address in register.aliases:
             base = _use(register, register.base)

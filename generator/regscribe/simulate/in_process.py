@@ -82,17 +82,18 @@ def simulate(  # noqa: PLR0913 (all but two are keywords for tests)
     addressing: str = "modbus",
     process: ThermalProcess | bool = False,
     state: str | Path | None = None,
+    bases: Mapping[str, int] | None = None,
     **options: Unpack[SimulatorOptions],
 ) -> Iterator[Running]:
     """Serve one device from a thread of its own while the block runs; for sync and async clients in tests.
 
     `register_map` may be the id of a map (`athena/series-c`) or a map file. `transport` is tcp, rtu-tcp, ascii-tcp or
     pty. `process` lets the process value move as time passes: by `advance`, or with a `speed` by itself. `state` is a
-    state file to load. Raises SimulatorError as `SimulatedDevice` and `start` do.
+    state file to load; `bases` as of `SimulatedDevice`. Raises SimulatorError as that and `start` do.
     """
     simulated = find_map(register_map)
     device = SimulatedDevice(
-        simulated, model, unit=unit, givens=givens, seed=seed, addressing=addressing, process=process
+        simulated, model, unit=unit, givens=givens, seed=seed, addressing=addressing, process=process, bases=bases
     )
     if state is not None:
         device.load(state)

@@ -79,6 +79,7 @@ class DriverUnderTest:
                 continue
             addresses = {view.name: view.address(register.at) for view in register.views}
             yield from differs(place["path"], "addresses", addresses, place["addresses"])
+            yield from differs(place["path"], "block", register.block, place.get("block", ""))
             yield from differs(place["path"], "aliases", list(register.aliases), place.get("aliases", []))
             default = "" if register.default is None else register.default
             if default != place.get("default", "") and not same(default, place.get("default", "0")):
@@ -209,4 +210,4 @@ def _step(step: Json) -> CommandStep:
     """Return a step of a command as the runtime has it."""
     if "wait" in step:
         return CommandStep(0, 0, (), step["wait"])
-    return CommandStep(step["function"], step["address"], tuple(step["words"]))
+    return CommandStep(step["function"], step["address"], tuple(step["words"]), block=step.get("block", ""))

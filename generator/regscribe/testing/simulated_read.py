@@ -10,6 +10,7 @@ from regscribe_runtime.operations.session import Session
 from regscribe_runtime.operations.snapshot import Snapshot
 from regscribe_runtime.planning.read_places import ReadPlace, read_places
 from regscribe_runtime.registers.register import Register
+from regscribe_runtime.values.blocks import RegisterBlock, lay_out
 from regscribe_runtime.values.wire_types import Space
 from regscribe_runtime.wire.requests import READ_SPACES, Reply, Request
 
@@ -32,14 +33,7 @@ def read_through(driver: Any, chosen: Sequence[Register[Any]], *, seed: int = 0,
 
     Registers that the meaning of the chosen ones depends on are known to hold `code`, so that they are not read.
     """
-    session = Session(
-        unit=driver.protocol.unit_ids[0],
-        protocol=driver.protocol,
-        registers=driver.registers,
-        commands={},
-        givens=defaultdict(frozenset),
-        unused=unused_of(driver),
-    )
+    session = _session(driver)
     needs = (path for register in chosen for path in register.needs(register.read_view()))
     session.memory.update(dict.fromkeys(needs, code))
     operation = tasks.read_many(chosen, fresh=False)(session)
@@ -57,6 +51,28 @@ def read_through(driver: Any, chosen: Sequence[Register[Any]], *, seed: int = 0,
     raise TypeError(message)
 
 
+def _session(driver: Any) -> Session:  # noqa: ANN401 (as above)
+    """A session of a device where the blocks of the driver stand one behind the other."""
+    blocks: tuple[RegisterBlock, ...] = driver._blocks  # noqa: SLF001 (a fact for the runtime and its judges)
+    ends: dict[str, int] = {}
+    for register in driver.registers.values():
+        ends[register.block] = max(ends.get(register.block, 0), *(end for _, _, end in _places(register)))
+    headers = lay_out(blocks, ends, {}).headers
+    session = Session(
+        unit=driver.protocol.unit_ids[0],
+        protocol=driver.protocol,
+        registers=driver.registers,
+        commands={},
+        givens=defaultdict(frozenset, {block.given: headers[block.id].base for block in blocks if block.given}),
+        unused=unused_of(driver),
+        blocks=blocks,
+    )
+    for chain in dict.fromkeys(block.chain for block in blocks if block.chain):
+        here = (headers[block.id] for block in blocks if block.chain == chain)
+        session.found(chain, tuple(sorted(here, key=lambda header: header.base)))
+    return session
+
+
 def word_at(space: str, address: int, seed: int) -> int:
     """Return the word (the bit, the status byte) at an address, always the same for a seed; 0 for the seed 0."""
     most = 1 if space in BITS else 0xFF if space == "status" else 0xFFFF
@@ -65,15 +81,16 @@ def word_at(space: str, address: int, seed: int) -> int:
 
 def wrong_requests(driver: Any, chosen: Sequence[Register[Any]]) -> list[str]:  # noqa: ANN401 (a generated class)
     """Return what is wrong with the requests: registers left out or asked for twice, holes, limits."""
-    requests = read_through(driver, chosen).requests
+    requests, _, session = read_through(driver, chosen)
     asked = Counter(
         (READ_SPACES[request.function], request.address + offset)
         for request in requests
         for offset in range(request.quantity)
     )
-    found = [f"{register.path} is not asked for" for register in chosen if not _is_read(register, asked)]
+    here = [session.registers[register.path] for register in chosen]
+    found = [f"{register.path} is not asked for" for register in here if not _is_read(register, asked)]
     found += [f"{space} {address} is asked for again" for (space, address), times in asked.items() if times > 1]
-    found += [f"{space} {address} is no register" for space, address in sorted(_holes(driver, asked))]
+    found += [f"{space} {address} is no register" for space, address in sorted(_holes(driver, session, asked))]
     for request in requests:
         most = _most(driver, READ_SPACES[request.function])
         if request.quantity > most:
@@ -86,11 +103,12 @@ def _most(driver: Any, space: Space) -> int:  # noqa: ANN401 (as above)
     return most
 
 
-def _holes(driver: Any, asked: Iterable[Cell]) -> set[Cell]:  # noqa: ANN401 (as above)
-    """Return the addresses of no register and not unused; none where the device answers for holes."""
+def _holes(driver: Any, session: Session, asked: Iterable[Cell]) -> set[Cell]:  # noqa: ANN401 (as above)
+    """Return the addresses of no register, not unused and in no block; none where the device answers for holes."""
     if driver.protocol.read_holes:
         return set()
-    known = {cell for register in driver.registers.values() for cell in _cells(register)}
+    known = {cell for register in session.registers.values() for cell in _cells(register)}
+    known |= {(one.chain.space, at) for one in session.blocks.values() if one.chain for at in _inside(session, one.id)}
     known |= {(space, at) for space, first, last in unused_of(driver) for at in range(first, last + 1)}
     return set(asked) - known
 
@@ -108,11 +126,21 @@ def _is_read(register: Register[Any], asked: Container[Cell]) -> bool:
     )
 
 
+def _inside(session: Session, block: str) -> range:
+    header = session.places[block]
+    return range(header.base, header.end)
+
+
 def _cells(register: Register[Any]) -> Iterator[Cell]:
+    return ((space, address) for space, start, end in _places(register) for address in range(start, end))
+
+
+def _places(register: Register[Any]) -> Iterator[tuple[Space, int, int]]:
+    """Return the space, the first address and the first behind of each place of a register."""
     base = register.views[0]
     starts = [(view, view.address(register.at)) for view in register.views]
     starts += [(base, alias) for alias in register.aliases]
-    return ((view.space, start + offset) for view, start in starts for offset in range(view.words))
+    return ((view.space, start, start + view.words) for view, start in starts)
 
 
 def wrong_values(driver: Any, chosen: Sequence[Register[Any]], *, seed: int, code: int) -> list[str]:  # noqa: ANN401 (as above)
@@ -123,7 +151,7 @@ def wrong_values(driver: Any, chosen: Sequence[Register[Any]], *, seed: int, cod
         together = _outcome(lambda path=register.path: reading.snapshot[path])  # type: ignore[misc]
         alone = [
             _outcome(lambda register=register, place=place: _alone(register, place, reading.session, seed))  # type: ignore[misc]
-            for place in read_places(register)
+            for place in read_places(reading.session.registers[register.path])
         ]
         if together not in alone:
             found.append(f"{register.path}: {together} with others, {alone[0]} alone")

@@ -53,7 +53,7 @@ def subjects(*maps: str) -> Iterator[tuple[str, PlannedModel]]:
         found = compile_map(path).map
         assert found is not None
         for model in found.models:
-            yield f"{found.maker.split()[0]} {model.name}", PlannedModel.of(found, model.name)
+            yield f"{found.maker.split()[0]} {model.name}", PlannedModel.of(found, model.name, {})
 
 
 def lines(subject: PlannedModel) -> dict[str, Cost]:

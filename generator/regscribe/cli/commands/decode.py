@@ -9,14 +9,15 @@ import click
 from regscribe.cli.shared.completion_values import complete_model
 from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.live_report import refused_if, reported
-from regscribe.cli.shared.output import print_json, remark, tell
-from regscribe.cli.shared.target_options import driver_options
+from regscribe.cli.shared.output import print_json, raised_as, remark, tell
+from regscribe.cli.shared.target_options import base_option, driver_options
 from regscribe.tools.live import capture, catalogue, givens, names, target, value_text
 from regscribe.tools.live import config as configuration
 from regscribe.tools.live.decode import Decoded, DecodedItem, Decoder
 from regscribe.tools.live.errors import TargetError
 from regscribe.visible import safe
 from regscribe_runtime import BareDevice
+from regscribe_runtime.values.blocks import bases_in
 from regscribe_runtime.values.serial_line import ADDRESSINGS, FRAMINGS
 
 ARROWS = {"request": "->", "response": "<-"}
@@ -33,6 +34,7 @@ PAIR = 2
 @click.option("--framing", type=click.Choice(FRAMINGS), help="Take all frames for this kind, whatever they look like.")
 @click.option("--addressing", type=click.Choice(ADDRESSINGS), default="modbus", help="jbus: counted from 1.")
 @click.option("--with", "state", multiple=True, metavar="NAME=VALUE", help="What a register holds that others need.")
+@base_option
 @click.option("--given", "given", multiple=True, metavar="ID=VALUE", help="A fact that the manual leaves to another.")
 @driver_options
 def command(  # noqa: PLR0913 - the options of the command
@@ -44,6 +46,7 @@ def command(  # noqa: PLR0913 - the options of the command
     addressing: str,
     state: tuple[str, ...],
     given: tuple[str, ...],
+    bases: tuple[str, ...],
     packages: tuple[str, ...],
     config: str | None,
     as_json: bool,
@@ -56,7 +59,7 @@ def command(  # noqa: PLR0913 - the options of the command
     """
     with reported():
         driver = catalogue.find(model, (*packages, *configuration.load(config).packages)).driver
-        decoder = _decoder(driver, state, given, first=int(addressing == "jbus"))
+        decoder = _decoder(driver, state, given, bases, first=int(addressing == "jbus"))
     lines = _lines(digits) if digits else log or sys.stdin
     decoded = [
         (part.line, decoder.feed(frame, part.direction))
@@ -72,7 +75,9 @@ def command(  # noqa: PLR0913 - the options of the command
     return refused_if(not decoded or any(one.complaint for _, one in decoded))
 
 
-def _decoder(driver: type[BareDevice], state: Sequence[str], given: Sequence[str], *, first: int) -> Decoder:
+def _decoder(
+    driver: type[BareDevice], state: Sequence[str], given: Sequence[str], bases: Sequence[str], *, first: int
+) -> Decoder:
     known = {}
     for text in state:
         name, equals, value = text.partition("=")
@@ -81,7 +86,11 @@ def _decoder(driver: type[BareDevice], state: Sequence[str], given: Sequence[str
             raise TargetError(message)
         known[name] = value_text.parse(names.register_named(driver, name), value)
     texts = target.given_texts(given)
-    return Decoder(driver, givens=givens.understood(driver, texts) if texts else {}, state=known, first=first)
+    stated = givens.understood(driver, texts) if texts else {}
+    with raised_as(click.UsageError, ValueError):
+        blocks = [block._replace(chain=None) for block in driver._blocks]  # noqa: SLF001 (its facts)
+        known_bases = bases_in(driver.map_id, blocks, bases)
+    return Decoder(driver, givens=stated, state=known, first=first, bases=known_bases)
 
 
 def _lines(digits: Sequence[str]) -> list[str]:

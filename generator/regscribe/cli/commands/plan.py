@@ -8,8 +8,9 @@ import click
 from regscribe.cli.shared.compiled_maps import compiled_maps
 from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.map_arguments import find_map
-from regscribe.cli.shared.output import print_json, refuse, remark, show_table, tell
+from regscribe.cli.shared.output import print_json, raised_as, refuse, remark, show_table, tell
 from regscribe.cli.shared.planned_model import PlannedModel
+from regscribe.cli.shared.target_options import base_option
 from regscribe.emit.words import span_words
 from regscribe.model import RegisterMap
 from regscribe.tools.live.errors import unknown
@@ -19,6 +20,7 @@ from regscribe_runtime.planning.cost import Cost, milliseconds
 from regscribe_runtime.planning.plan import Planned, SplitReason, Terms
 from regscribe_runtime.planning.read_order import ReadOrder
 from regscribe_runtime.planning.read_places import read_places
+from regscribe_runtime.values.blocks import bases_in
 from regscribe_runtime.values.serial_line import FORMATS, SerialLine
 
 COLUMNS = ("FC", "ADDRESSES", "WANTED", "CARRIED", "BYTES", "MS", "APART BECAUSE", "REGISTERS")
@@ -42,6 +44,7 @@ MOST_NAMED = 3
 @click.option("--ascii", "framing", flag_value="ascii", default="rtu", help="ASCII instead of RTU frames.")
 @click.option("--tcp", is_flag=True, help="Over TCP; with --baud through a gateway to such a line.")
 @click.option("--remembered", is_flag=True, help="Without the registers that the meaning of others depends on.")
+@base_option
 @click.option("--json", "as_json", is_flag=True, help="One JSON object.")
 def command(  # noqa: PLR0913 - one parameter an option
     *,
@@ -55,6 +58,7 @@ def command(  # noqa: PLR0913 - one parameter an option
     framing: str,
     tcp: bool,
     remembered: bool,
+    bases: tuple[str, ...],
     as_json: bool,
 ) -> None:
     """Show the requests that read registers of a model at the least cost on a line, and why they are not one.
@@ -62,10 +66,11 @@ def command(  # noqa: PLR0913 - one parameter an option
     ID is a register, or an array or element of one; MAP is a map file or the id of a map (fdc/series-100). The plan is
     that of the model's driver on such a line, in the order of sending: what the meaning of others depends on (decimals,
     input type, word order) is read behind them. Times are the expected ones: the mean of the
-    manual's shortest and longest.
+    manual's shortest and longest. Where a device tells the base of blocks, an assumed one counts unless --base says
+    it; a driver finds them by requests of its own, once per connection.
     """
     (register_map,) = compiled_maps([find_map(map_name)], nothing="nothing is planned")
-    subject = _subject(register_map, model)
+    subject = _subject(register_map, model, bases)
     wanted = _selected(subject, ids, groups, everything=everything)
     terms = subject.terms(_cost(subject, baud, form, framing, tcp=tcp))
     selected = [subject.registers[path] for path in wanted]
@@ -80,11 +85,13 @@ def command(  # noqa: PLR0913 - one parameter an option
         report.print(f"{register_map.title} {subject.model.name}", also)
 
 
-def _subject(register_map: RegisterMap, model: str) -> PlannedModel:
+def _subject(register_map: RegisterMap, model: str, bases: Sequence[str]) -> PlannedModel:
     names = {one.name.casefold(): one.name for one in register_map.models}
     if model.casefold() not in names:
         refuse(unknown("model", model, names.values(), where=f"in {register_map.id}"))
-    return PlannedModel.of(register_map, names[model.casefold()])
+    with raised_as(click.UsageError, ValueError):
+        stated = bases_in(register_map.id, register_map.blocks, bases)
+    return PlannedModel.of(register_map, names[model.casefold()], stated)
 
 
 def _selected(subject: PlannedModel, ids: Sequence[str], groups: Sequence[str], *, everything: bool) -> list[str]:

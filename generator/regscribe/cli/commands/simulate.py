@@ -15,7 +15,7 @@ from regscribe.cli.shared import simulated_devices
 from regscribe.cli.shared.output import raised_as, refuse, tell
 from regscribe.cli.shared.request_log import RequestLog, table
 from regscribe.cli.shared.simulated_devices import WantedDevice
-from regscribe.cli.shared.target_options import given_option
+from regscribe.cli.shared.target_options import base_option, given_option
 from regscribe.simulate import Foreign, Server, Service, SimulatedDevice, SimulatorError, Transport
 from regscribe.simulate.line.server_context import factor_of
 from regscribe.simulate.line.serving import line_of
@@ -57,6 +57,7 @@ class Options(TypedDict):
 @click.option("--model", metavar="M", help="The manual's name of the model.")
 @click.option("--unit", type=click.IntRange(0, 255), metavar="N", help="Unit id; without it the map's default.")
 @given_option
+@base_option
 @click.option(
     "--device",
     "devices",
@@ -90,6 +91,7 @@ def command(  # noqa: PLR0913 - one for each option that makes devices
     model: str | None,
     unit: int | None,
     givens: tuple[str, ...],
+    bases: tuple[str, ...],
     devices: tuple[str, ...],
     file: str | None,
     addressing: str,
@@ -107,7 +109,8 @@ def command(  # noqa: PLR0913 - one for each option that makes devices
         refuse("choose one of --tcp HOST:PORT and --rtu DEVICE")
     motion = simulated_devices.process_of(process)
     common = {"addressing": addressing, "seed": seed, "process": motion, "state": state}
-    wanted = [WantedDevice(map=map_name, model=model, unit=unit, givens=givens)] if map_name is not None else []
+    one = WantedDevice(map=map_name or "", model=model, unit=unit, givens=givens, bases=bases)
+    wanted = [one] if map_name is not None else []
     wanted += [simulated_devices.wanted_device(text) for text in devices]
     wanted += simulated_devices.wanted_devices(Path(file)) if file is not None else []
     if not wanted:

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from regscribe import model as compiled
+from regscribe.model.located import layout_of, located
 from regscribe_runtime.planning.address_ranges import ground_of
 from regscribe_runtime.planning.cost import Cost
 from regscribe_runtime.planning.plan import RequestLimits, Terms
@@ -17,12 +18,15 @@ class PlannedModel:
     model: compiled.Model
     registers: Mapping[str, compiled.Register]
     protocol: Protocol
+    layout: compiled.Layout
 
     @classmethod
-    def of(cls, register_map: compiled.RegisterMap, name: str) -> "PlannedModel":
-        """A model of a map."""
+    def of(cls, register_map: compiled.RegisterMap, name: str, bases: Mapping[str, int]) -> "PlannedModel":
+        """A model of a map; `bases` are addresses by the ids of its blocks and chains, as far as they are stated."""
         model = register_map.model(name)
-        return cls(model, {register.path: register for register in model.registers}, register_map.protocol)
+        layout = layout_of(register_map, model, bases)
+        model = located(model, layout)
+        return cls(model, {register.path: register for register in model.registers}, register_map.protocol, layout)
 
     @property
     def readable(self) -> list[str]:
@@ -31,5 +35,6 @@ class PlannedModel:
 
     def terms(self, cost: Cost) -> Terms:
         """Limits, readable ground and cost that a plan is made under."""
-        ground = ground_of(self.registers.values(), unused=self.model.unused, holes=self.protocol.read_holes)
+        unused = (*self.model.unused, *self.layout.stretches)
+        ground = ground_of(self.registers.values(), unused=unused, holes=self.protocol.read_holes)
         return Terms(RequestLimits.of(self.protocol), ground, cost)

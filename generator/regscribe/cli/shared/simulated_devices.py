@@ -18,9 +18,10 @@ from regscribe.cli.shared.output import raised_as, refuse, show
 from regscribe.model import RegisterMap
 from regscribe.simulate import SimulatedDevice, SimulatorError, ThermalProcess
 from regscribe.tools.live.givens import Given, given_of
+from regscribe_runtime.values.blocks import bases_in
 from regscribe_runtime.values.serial_line import ADDRESSINGS, MODBUS
 
-KEYS = ("map", "model", "unit", "given", "state", "process", "seed", "addressing")
+KEYS = ("map", "model", "unit", "given", "base", "state", "process", "seed", "addressing")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -31,6 +32,7 @@ class WantedDevice:
     model: str | None = None
     unit: int | None = None
     givens: tuple[str, ...] = ()
+    bases: tuple[str, ...] = ()
     state: str = ""
     process: ThermalProcess | None = None
     seed: int | None = None
@@ -64,13 +66,16 @@ def wanted_devices(path: Path) -> list[WantedDevice]:
 def _wanted(entry: object, where: str) -> WantedDevice:
     given = _mapping(entry, where)
     givens, unit, seed = given.get("given") or {}, given.get("unit"), given.get("seed")
-    if not isinstance(givens, dict) or not all(isinstance(each, int | None) for each in (unit, seed)):
-        refuse(f"{where}: `given` is a mapping, `unit` and `seed` are whole numbers")
+    bases = given.get("base") or {}
+    mappings = isinstance(givens, dict) and isinstance(bases, dict)
+    if not mappings or not all(isinstance(each, int | None) for each in (unit, seed)):
+        refuse(f"{where}: `given` and `base` are mappings, `unit` and `seed` are whole numbers")
     return WantedDevice(
         map=str(given["map"]),
         model=str(given["model"]),
         unit=unit,
         givens=tuple(f"{name}={_option_text(value)}" for name, value in givens.items()),
+        bases=tuple(f"{name}={value}" for name, value in bases.items()),
         state=str(given.get("state") or ""),
         process=_process(given.get("process"), where),
         seed=seed,
@@ -127,6 +132,8 @@ def compiled_by_name(names: Iterable[str]) -> dict[str, RegisterMap]:
 def device_of(wanted: WantedDevice, register_map: RegisterMap) -> SimulatedDevice:
     """Make a device; UsageError where the wish is at fault, SimulatorError where its state cannot be loaded."""
     model = _model(wanted.model, register_map)
+    with raised_as(click.UsageError, ValueError):
+        bases = bases_in(register_map.id, register_map.blocks, wanted.bases)
     values = dict(_given(one, register_map) for one in wanted.givens)
     addressing = wanted.addressing or MODBUS
     if addressing not in ADDRESSINGS:
@@ -140,6 +147,7 @@ def device_of(wanted: WantedDevice, register_map: RegisterMap) -> SimulatedDevic
             seed=wanted.seed or 0,
             addressing=addressing,
             process=wanted.process or False,
+            bases=bases,
         )
     except SimulatorError as error:
         tips = (f"\nOn the command line: --given {one.id}=VALUE" for one in register_map.givens if one.id not in values)

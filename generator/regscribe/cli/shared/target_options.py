@@ -56,6 +56,13 @@ given_option = click.option(
     metavar="ID=VALUE",
     help="A fact that the manual leaves to another: codes (1,4..6) or true or false. Repeat for several.",
 )
+base_option = click.option(
+    "--base",
+    "bases",
+    multiple=True,
+    metavar="NAME=ADDRESS",
+    help="Where a block begins, or the marker of a chain; without it an assumed address. Repeat for several.",
+)
 confirm_option = click.option("--confirm", is_flag=True, help="Write where the map calls it dangerous, too.")
 identity_option = click.option(
     "--check-identity/--no-check-identity",

@@ -18,7 +18,17 @@ from regscribe.emit.markdown.process import assumptions, process
 from regscribe.emit.markdown.programs import programs
 from regscribe.emit.markdown.protocol import exceptions, faults, latency, line
 from regscribe.emit.markdown.quickstart import quick_start
-from regscribe.emit.markdown.transmission import conditions, givens, identity, plain, reserved, units, unused, views
+from regscribe.emit.markdown.transmission import (
+    blocks,
+    conditions,
+    givens,
+    identity,
+    plain,
+    reserved,
+    units,
+    unused,
+    views,
+)
 from regscribe.emit.words import one_line
 from regscribe.model import Manual, RegisterMap
 
@@ -68,6 +78,7 @@ def _page(register_map: RegisterMap) -> dict[str, object]:
         "givens": givens(found),
         "transmission": plain(found),
         "views": views(found),
+        "blocks": blocks(found),
         "conditions": conditions(found),
         "units": units(found),
         "address_map": address_map(found),

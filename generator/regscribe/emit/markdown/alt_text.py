@@ -17,7 +17,7 @@ def addresses(register_map: RegisterMap) -> str:
     """Return which spaces the address map shows, from the lowest address to the highest."""
     found: dict[Space, list[int]] = {}
     for model in register_map.models:
-        for register in model.registers:
+        for register in (one for one in model.registers if not one.block):
             for view in register.views:
                 found.setdefault(view.space, []).extend((view.address(register.at), view.last(register.at)))
             found[register.base.space].extend(register.aliases)
@@ -49,9 +49,15 @@ def _few(parts: Sequence[str]) -> Sequence[str]:
 
 
 def address_map(context: PageContext) -> Md:
-    """Return the picture of the address spaces; nothing if no model has a register."""
-    drawn = any(not register.base.space.part_bits for model in context.map.models for register in model.registers)
+    """Return the picture of the address spaces; nothing if no register has an address of its own."""
+    drawn = fixed(context.map)
     return _picture(context, picture_paths.ADDRESSES, addresses(context.map)) if drawn else Md()
+
+
+def fixed(register_map: RegisterMap) -> bool:
+    """Whether any register stands outside blocks, at the same address on every device."""
+    registers = (register for model in register_map.models for register in model.registers)
+    return any(not register.block and not register.base.space.part_bits for register in registers)
 
 
 def bit_fields(context: PageContext, leaf: Leaf) -> tuple[Md, ...]:

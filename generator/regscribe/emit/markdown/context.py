@@ -69,9 +69,9 @@ class PageContext:
         found = [item for item in self.map.notations if item.space is space]
         return md(", ".join(f"{one_line(item.name)} {address + item.offset}" for item in found))
 
-    def address(self, space: Space, address: int) -> Md:
-        """Return an address with its other notations in brackets."""
-        notations = self.notations(space, address)
+    def address(self, space: Space, address: int, block: str = "") -> Md:
+        """Return an address with its other notations in brackets; none of one that counts from the base of a block."""
+        notations = Md() if block else self.notations(space, address)
         shown = space.spelled(address)
         return md(shown, " (", notations, ")") if notations else md(shown)
 

@@ -40,7 +40,8 @@ def _place(context: PageContext, leaf: Leaf, register: Register, view: View) -> 
     if leaf.arrays:
         return md(code(formula(view, register.at, leaf.arrays)), space), Md()
     address = view.address(register.at)
-    return md(escape(view.space.spelled(address)), space), context.notations(view.space, address)
+    notations = Md() if register.block else context.notations(view.space, address)
+    return md(escape(view.space.spelled(address)), space), notations
 
 
 def by_condition(context: PageContext, leaf: Leaf) -> tuple[Titled, ...]:

@@ -173,13 +173,6 @@ def _step(context: PageContext, number: int, step: CommandStep, path: str) -> tu
     register = context.register(path) if path else Md()
     words = " ".join(map(str, step.words))
     hexadecimal = "" if step.space.is_bits else " ".join(f"{word & 0xFFFF:04X}" for word in step.words)
-    cells = (
-        str(number),
-        "write",
-        f"{step.function:02d}",
-        step.space.spelled(step.address),
-        register,
-        words,
-        hexadecimal,
-    )
+    address = f"{step.block} + {step.address}" if step.block else step.space.spelled(step.address)
+    cells = (str(number), "write", f"{step.function:02d}", address, register, words, hexadecimal)
     return tuple(map(md, cells))

@@ -16,16 +16,22 @@ MANY = 3
 
 
 def overview(context: PageContext) -> tuple[Titled, ...]:
-    """Return a table for each space that has registers."""
-    found: dict[Space, list[Leaf]] = {}
+    """Return a table for each space that has registers, and for each block."""
+    found: dict[tuple[str, Space], list[Leaf]] = {}
     for leaf in leaves(context.nodes):
-        found.setdefault(leaf.register.first.base.space, []).append(leaf)
-    return tuple(Titled(SPACES[space], _table(context, space, found[space])) for space in Space if space in found)
+        found.setdefault((leaf.register.first.block, leaf.register.first.base.space), []).append(leaf)
+    order = ["", *(block.id for block in context.map.blocks)]
+    ordered = sorted(found.items(), key=lambda one: (order.index(one[0][0]), list(Space).index(one[0][1])))
+    return tuple(Titled(_title(*where), _table(context, where, own)) for where, own in ordered)
 
 
-def _table(context: PageContext, space: Space, found: Sequence[Leaf]) -> PageTable:
+def _title(block: str, space: Space) -> str:
+    return f"{SPACES[space]} of block {block}, addresses from its base" if block else SPACES[space]
+
+
+def _table(context: PageContext, where: tuple[str, Space], found: Sequence[Leaf]) -> PageTable:
     ordered = sorted(found, key=lambda leaf: leaf.register.first.address)
-    notations = [item for item in context.map.notations if item.space is space]
+    notations = [item for item in context.map.notations if ("", item.space) == where]
     names = dict.fromkeys(view.name for leaf in found for view in leaf.register.first.views[1:])
     headers = ("Address", *(one_line(item.name) for item in notations), *names, "Also at", *HEADERS)
     return table(headers, (_row(context, leaf, [item.offset for item in notations], list(names)) for leaf in ordered))

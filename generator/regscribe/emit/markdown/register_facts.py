@@ -137,8 +137,10 @@ def _address(context: PageContext, leaf: Leaf, register: Register) -> Md:
         first = md(code(formula(base, register.at, leaf.arrays)), ", ", indices(leaf.arrays))
         others = [code(formula(alias, register.at, leaf.arrays)) for alias in aliases(register)]
     else:
-        first = context.address(base.space, register.address)
-        others = [context.address(base.space, alias.address(register.at)) for alias in aliases(register)]
+        first = context.address(base.space, register.address, register.block)
+        others = [context.address(base.space, each.address(register.at), register.block) for each in aliases(register)]
+    if register.block:
+        first = md(first, " from the base of block ", code(register.block))
     return lines(first if len(register.views) == 1 else Md(), md("also at ", join(", ", others)) if others else Md())
 
 

@@ -10,7 +10,7 @@ from regscribe.emit.markdown.page_values import PageTable, Titled, table
 from regscribe.emit.markdown.register_facts import transmission, view_type
 from regscribe.emit.outline import leaves
 from regscribe.emit.words import condition_words, given_words, listed, one_line, span_words, when_words
-from regscribe.model import Kind, Register, View, show
+from regscribe.model import Kind, Register, RegisterBlock, View, show
 
 Shape = tuple[tuple[str, View], ...]
 """Address formula in n (the base view's address) and the rest of each view, its address left out."""
@@ -133,6 +133,23 @@ def identity(context: PageContext) -> PageTable:
         tests += [f"{wording.register(path)} begins with {wording.text(text)}" for path, text in texts]
         rows.append((Md(" and ".join(tests)), listed([one_line(name) for name in rule.models])))
     return table(("If", "The device is"), rows)
+
+
+def blocks(context: PageContext) -> PageTable:
+    """Return the blocks, and how a device tells where each begins."""
+    rows = ((code(block.id), _base(block)) for block in context.map.blocks)
+    return table(("Block", "Its base"), rows)
+
+
+def _base(block: RegisterBlock) -> Md:
+    if block.chain is None:
+        return md("stated by the given ", code(block.given))
+    which = f"the header of id {' or '.join(map(str, block.ids))}"
+    which += f", number {block.number} of them" if block.number > 1 else ""
+    chain = block.chain
+    marker = f" behind the marker {' '.join(f'{word:04X}' for word in chain.marker)}" if chain.marker else ""
+    at = " or ".join(map(str, chain.at))
+    return md(f"{which}, in the chain of headers{marker} at {at}, whose end is id {chain.end}")
 
 
 def reserved(context: PageContext) -> PageTable:

@@ -79,7 +79,8 @@ def _command(command: Command) -> Json:
 def _step(step: CommandStep) -> Json:
     if not step.words:
         return {"wait": step.wait}
-    return {"function": step.function, "address": step.address, "words": [word & 0xFFFF for word in step.words]}
+    found: Json = {"function": step.function, "address": step.address, "words": [word & 0xFFFF for word in step.words]}
+    return found | ({"block": step.block} if step.block else {})
 
 
 def _given(given: Given) -> dict[str, str]:

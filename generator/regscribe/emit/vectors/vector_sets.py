@@ -96,6 +96,8 @@ def _place(register: Register) -> Json:
         "path": register.path,
         "addresses": {view.name: view.address(register.at) for view in register.views},
     }
+    if register.block:
+        found["block"] = register.block
     if register.aliases:
         found["aliases"] = list(register.aliases)
     if register.default is not None:

@@ -2,14 +2,17 @@
 
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from difflib import get_close_matches
 from fractions import Fraction
 
 from regscribe.checks.held_values import default_values, with_fields
 from regscribe.export.collectd.configuration import EVERY, Poll, collectd_text
 from regscribe.model import GivenKind, Model, RegisterMap, parse
+from regscribe.model.located import layout_of, located
 from regscribe.plugins import Option, OptionError
 from regscribe.reference import Surroundings, surroundings_of
+from regscribe_runtime.values.blocks import bases_in
 
 name = "collectd"
 summary = "a configuration of collectd's modbus plugin that polls one model"
@@ -20,6 +23,7 @@ options = (
     Option("unit", "unit id; else the map's default.", metavar="N"),
     Option("every", "how often.", default=str(EVERY), metavar="SECONDS"),
     Option("with", "what a register holds for good.", metavar="PATH=VALUE", several=True),
+    Option("base", "where a block begins; blocks without it are not polled.", metavar="NAME=ADDRESS", several=True),
     Option("given", "a fact that the manual does not say.", metavar="ID=VALUE", several=True),
 )
 
@@ -43,7 +47,7 @@ def export(maps: Sequence[RegisterMap], options: Mapping[str, str]) -> dict[str,
         message = "--format collectd polls one device: name one MAP, its --model, and where it answers (--at)"
         raise OptionError(message)
     (register_map,) = maps
-    model = _model(register_map, options["model"])
+    model = _located(register_map, _model(register_map, options["model"]), _each(options["base"]))
     known = _surroundings(register_map, model, _each(options["with"]), _each(options["given"]))
     return {"": collectd_text(register_map, model, _poll(register_map, model, options), known)}
 
@@ -60,6 +64,23 @@ def _model(register_map: RegisterMap, wanted: str) -> Model:
     meant = f"; did you mean `{near[0]}`?" if near else ""
     message = f"{register_map.id} has no model `{wanted}`: it has {', '.join(known)}{meant}"
     raise OptionError(message)
+
+
+def _located(register_map: RegisterMap, model: Model, texts: Sequence[str]) -> Model:
+    """The model with the blocks whose base is stated, and without the registers of others."""
+    try:
+        bases = bases_in(register_map.id, register_map.blocks, texts)
+    except ValueError as error:
+        message = f"--base {error}"
+        raise OptionError(message) from None
+    blocks = {register.block for register in model.registers} - {""}
+    if blocks and not blocks & bases.keys():
+        where = f"say where they begin, as --base {min(blocks)}=ADDRESS"
+        message = f"registers stand in blocks ({', '.join(sorted(blocks))}), which collectd cannot look for: {where}"
+        raise OptionError(message)
+    stated = tuple(one for one in model.registers if one.block in bases or not one.block)
+    layout = layout_of(register_map, model, bases)
+    return located(replace(model, registers=stated), layout) if blocks else model
 
 
 def _surroundings(register_map: RegisterMap, model: Model, state: Sequence[str], givens: Sequence[str]) -> Surroundings:

@@ -35,7 +35,8 @@ class SimulatedDevice:
     send for addresses that they do not have, the noise of `process` and the latencies. `addressing` is modbus, or
     jbus for a device that counts its addresses from 1; a register that governs these or the unit id changes them. With
     a `process`, the map's process value moves as time passes (`advance`); without one it stays where it is put, and
-    outputs and alarms follow it.
+    outputs and alarms follow it. `bases` are addresses by the ids of blocks, and of chains (their markers); where none
+    is stated, a chain begins where the device may have it, with the blocks of the map one behind the other.
     """
 
     def __init__(
@@ -48,11 +49,12 @@ class SimulatedDevice:
         seed: int = 0,
         addressing: str = "modbus",
         process: ThermalProcess | bool = False,
+        bases: Mapping[str, int] | None = None,
     ) -> None:
         self.register_map = register_map
-        self.model = _model(register_map, model)
+        self.state = DeviceState.of(register_map, _model(register_map, model), givens or {}, bases or {})
+        self.model = self.state.blueprint.model
         self.seed = seed
-        self.state = DeviceState.of(register_map, self.model, givens or {})
         self._tuning = Tuning(self.state, unit=_unit(register_map, unit), addressing=addressing)
         self._protocol = register_map.protocol
         self._commands = Commands(self.model.commands)

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
+from types import MappingProxyType
 
 from regscribe.model import Model, NotANumber, Register, RegisterMap, Space, View
 from regscribe.reference import Surroundings
@@ -29,11 +30,23 @@ class AddressSpan:
 
 
 class AddressIndex:
-    """The address index of one model, which reads and writes consult; immutable once built."""
+    """The address index of one model, which reads and writes consult; immutable once built.
 
-    __slots__ = ("_bounds", "_places", "_regions", "_written", "command_addresses", "reserved", "silent", "unused")
+    `fixed` are the words of chains around blocks, which read as they are.
+    """
 
-    def __init__(self, model: Model, reserved: Iterable[tuple[Space, int, int]]) -> None:
+    __slots__ = (
+        *("_bounds", "_places", "_regions", "_written"),
+        *("command_addresses", "fixed", "reserved", "silent", "unused"),
+    )
+
+    def __init__(
+        self,
+        model: Model,
+        reserved: Iterable[tuple[Space, int, int]],
+        fixed: Mapping[tuple[Space, int], int] = MappingProxyType({}),
+    ) -> None:
+        self.fixed = fixed
         self._places: dict[Space, dict[int, AddressSpan]] = {space: {} for space in Space}
         self._written: dict[Space, dict[int, AddressSpan]] = {space: {} for space in Space}
         self._regions: dict[tuple[Space, range, int, tuple[int, ...]], View] = {}
@@ -83,7 +96,8 @@ class AddressIndex:
 
     def _bounds_of(self, space: Space) -> range:
         silent = (address for kind, address in self.silent if kind is space)
-        documented = (*self._places[space], *silent)
+        fixed = (address for kind, address in self.fixed if kind is space)
+        documented = (*self._places[space], *silent, *fixed)
         return range(min(documented), max(documented) + 1) if documented else range(0)
 
 
@@ -119,14 +133,16 @@ class Blueprint:
     image: Image = field(default_factory=lambda: {space: {} for space in Space})
 
 
-def draw(register_map: RegisterMap, model: Model, givens: Surroundings) -> Blueprint:
+def draw(
+    register_map: RegisterMap, model: Model, givens: Surroundings, fixed: Mapping[tuple[Space, int], int]
+) -> Blueprint:
     """Return a new blueprint, its state still empty."""
     origins = {register.path: register.shadows for register in model.registers if register.shadows}
     return Blueprint(
         register_map,
         model,
         givens,
-        AddressIndex(model, register_map.reserved),
+        AddressIndex(model, register_map.reserved, fixed),
         {register.path: places_of(register) for register in model.registers},
         _by_source(model.registers, lambda register: {path for view in register.views for path in view.needs()}),
         _by_source(model.registers, sources_of),

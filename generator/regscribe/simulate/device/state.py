@@ -3,8 +3,10 @@
 from collections.abc import Mapping
 from fractions import Fraction
 from threading import Lock
+from types import MappingProxyType
 
 from regscribe.model import NAN, BitField, Kind, Model, NotANumber, Register, RegisterMap, Space, parse
+from regscribe.model.located import layout_of, located
 from regscribe.reference import Surroundings, holds, present_sentinels, version_text
 from regscribe.simulate.device import codec
 from regscribe.simulate.device.device_plan import Blueprint, Image, Stored, draw
@@ -20,19 +22,20 @@ from regscribe.simulate.device.value_arguments import (
     with_field,
 )
 from regscribe.simulate.errors import SimulatorError
+from regscribe_runtime.values.blocks import stated_bases
 
 Value = Fraction | str
 """A value of use: the number in the unit of use, a text, or the id of a sentinel."""
 
-_BLUEPRINTS: dict[tuple[int, str, frozenset[object]], Blueprint] = {}
+_BLUEPRINTS: dict[tuple[int, str, tuple[object, ...]], Blueprint] = {}
 """The latest blueprints by map (the id of the object, which the blueprint keeps alive), model and givens."""
 _MOST_BLUEPRINTS = 64
 _LOCK = Lock()
 
 
 def _key(known: Surroundings) -> frozenset[object]:
-    known_all = (known.codes, known.facts, known.numbers, known.texts)
-    return frozenset(item for each in known_all for item in each.items())
+    every = (known.codes, known.facts, known.numbers, known.texts)
+    return frozenset(item for each in every for item in each.items())
 
 
 class DeviceState(PresentMeaning):
@@ -56,13 +59,22 @@ class DeviceState(PresentMeaning):
         self.touched: set[str] = set()
 
     @classmethod
-    def of(cls, register_map: RegisterMap, model: Model, givens: Mapping[str, GivenValue]) -> "DeviceState":
-        """The state of a new device. SimulatorError where the model needs givens that are not there."""
+    def of(
+        cls,
+        register_map: RegisterMap,
+        model: Model,
+        givens: Mapping[str, GivenValue],
+        bases: Mapping[str, int] = MappingProxyType({}),
+    ) -> "DeviceState":
+        """The state of a new device; `bases` as in `layout_of`. SimulatorError where givens are not there."""
         known = known_givens(register_map, model, givens)
-        key = id(register_map), model.name, _key(known)
+        bases = stated_bases(register_map.blocks, known.numbers) | dict(bases)
+        layout = layout_of(register_map, model, bases)
+        key = id(register_map), model.name, (*_key(known), *sorted(bases.items()))
         blueprint = _BLUEPRINTS.get(key)
         if blueprint is None:
-            blueprint = draw(register_map, model, known)
+            placed = located(model, layout) if layout.headers else model
+            blueprint = draw(register_map, placed, known, layout.words)
             cls(blueprint)._begin()  # noqa: SLF001 - its own
             with _LOCK:
                 _BLUEPRINTS[key] = blueprint

@@ -106,7 +106,9 @@ def known_givens(register_map: RegisterMap, model: Model, values: Mapping[str, G
             known = ", ".join(declared) or "none"
             message = f"given {name!r} is not declared by the map (it declares: {known}): remove it or correct the name"
             raise SimulatorError(message)
-    used = {*_used_givens(model)} - values.keys()
+    inside = {register.block for register in model.registers}
+    bases = {block.given for block in register_map.blocks if block.id in inside}
+    used = {*_used_givens(model), *bases} - values.keys()
     missing = [given for given in register_map.givens if given.id in used and given.default is None]
     if missing:
         raise _missing(missing[0], model)

@@ -82,6 +82,8 @@ class WordAccess:
         """The word at an address where no readable register stands; raises Refusal."""
         layout, register_map = self.state.blueprint.layout, self.state.blueprint.register_map
         later = register_map.faults.later_read
+        if (space, address) in layout.fixed:
+            return layout.fixed[space, address]
         if (space, address) in layout.silent:
             return 0
         hole = layout.documents(space, address) and layout.place(space, address) is None
@@ -135,7 +137,7 @@ class WordAccess:
         faults, layout = self.state.blueprint.register_map.faults, self.state.blueprint.layout
         place = layout.place(space, address, writing=True)
         if place is None:
-            if (space, address) in layout.reserved:
+            if (space, address) in layout.reserved or (space, address) in layout.fixed:
                 raise Refusal(faults.read_only)
             if (space, address) in layout.command_addresses:
                 raise Refusal(faults.value)

@@ -7,11 +7,13 @@ from typing import Any, NamedTuple
 from regscribe.tools.live.capture import RECEIVED, SENT
 from regscribe.tools.live.givens import defaults
 from regscribe.tools.live.names import Driver, commands_of
+from regscribe.tools.live.places import RegisterPlaces
 from regscribe.tools.live.reading import reason, unit_of
 from regscribe.tools.live.value_text import Plain, as_text, show
 from regscribe_runtime import Register, RegscribeError, View
 from regscribe_runtime.errors import STANDARD
 from regscribe_runtime.registers import codec
+from regscribe_runtime.values.blocks import stated_bases
 from regscribe_runtime.values.facts import CommandStep
 from regscribe_runtime.wire.capture import CapturedFrame
 from regscribe_runtime.wire.packing import MalformedError
@@ -65,6 +67,7 @@ class Decoder:
     """Decodes the frames of one line in their order; values seen before decide the scales and units of later ones.
 
     `state` are values of use known beforehand, by register path, for all units; `first` is 1 for JBUS addresses.
+    `bases` are known bases of blocks; those in chains are learned from the headers that a driver reads.
     """
 
     def __init__(
@@ -74,17 +77,15 @@ class Decoder:
         givens: Mapping[str, Any] | None = None,
         state: Mapping[str, Any] | None = None,
         first: int = 0,
+        bases: Mapping[str, int] | None = None,
     ) -> None:
         self.driver, self.first = driver, first
         self._givens, self._initial = {**defaults(driver), **(givens or {})}, dict(state or {})
         self._states: defaultdict[int, dict[str, Any]] = defaultdict(self._initial.copy)
         self._pending: dict[int, Request] = {}
         """The request that waits for its answer, by its unit."""
-        self._index: dict[tuple[str, int], list[tuple[Register[Any], View]]] = defaultdict(list)
-        for register in driver.registers.values():
-            for view in register.views:
-                for at in (register.at, *register.aliases):
-                    self._index[view.space, view.address(at)].append((register, view))
+        known = stated_bases(driver._blocks, self._givens) | dict(bases or {})  # noqa: SLF001 (its facts)
+        self._places: defaultdict[int, RegisterPlaces] = defaultdict(lambda: RegisterPlaces(driver, known))
 
     def feed(self, frame: CapturedFrame, direction: str = "") -> Decoded:
         """Decode the next frame; `direction` is sent, received, or "" where only the frames themselves tell."""
@@ -103,7 +104,7 @@ class Decoder:
             return self._strange("request", frame, "of a form that is not known")
         self._pending = {frame.unit: request}
         items = self._items(frame.unit, request, request.words if request.function in WRITES else None)
-        return _decoded("request", frame, self._action(request), request, items)
+        return _decoded("request", frame, self._action(frame.unit, request), request, items)
 
     def _answer(self, frame: CapturedFrame, request: Request | None) -> Decoded:
         if frame.pdu[0] & EXCEPTION_BIT:
@@ -127,7 +128,7 @@ class Decoder:
     def _strange(self, kind: str, frame: CapturedFrame, what: str) -> Decoded:
         return _decoded(kind, frame, f"function {frame.function if frame.pdu else 0:02d}, {what}")
 
-    def _action(self, request: Request) -> str:
+    def _action(self, unit: int, request: Request) -> str:
         """What a request does, for people."""
         if request.function == LOOPBACK:
             return "loopback"
@@ -136,21 +137,24 @@ class Decoder:
         space, end = SPACES[request.function], request.address + request.quantity - 1
         where = f"{space} {request.address}" + (f" to {end}" if end > request.address else "")
         step = CommandStep(request.function, request.address, request.words)
-        commands = [name for name, command in commands_of(self.driver).items() if step in command.steps]
+        placed = self._places[unit].placed
+        steps = {name: map(placed, command.steps) for name, command in commands_of(self.driver).items()}
+        commands = [name for name, own in steps.items() if step in own]
         named = f" (command {' or '.join(commands)})" if commands else ""
         return f"{'write' if request.function in WRITES else 'read'} {where}{named}"
 
     def _learn(self, unit: int, request: Request, words: tuple[int, ...]) -> None:
         """Keep the values of registers; decoded twice, since the values of some decide those of others."""
         state = self._states[unit]
-        for register, view, part in list(self._registers(request, words)) * 2:
+        self._places[unit].saw(SPACES.get(request.function, ""), request.address, words)
+        for register, view, part in list(self._registers(unit, request, words)) * 2:
             try:
                 state[register.path] = codec.decode(register, view, part, state, self._givens, named=False)
             except (RegscribeError, KeyError, ValueError):
                 state.pop(register.path, None)
 
     def _items(self, unit: int, request: Request, words: tuple[int, ...] | None) -> Iterator[DecodedItem]:
-        for register, view, part in self._registers(request, words):
+        for register, view, part in self._registers(unit, request, words):
             item = DecodedItem(register.path, view.name)
             yield item if words is None else self._decode(item, unit, register, view, part)
 
@@ -171,7 +175,7 @@ class Decoder:
         return item._replace(value=show(register, value), text=as_text(register, value), unit=unit_name)
 
     def _registers(
-        self, request: Request, words: tuple[int, ...] | None
+        self, unit: int, request: Request, words: tuple[int, ...] | None
     ) -> Iterator[tuple[Register[Any], View, tuple[int, ...]]]:
         """The registers that begin within a request, each with its part of the words.
 
@@ -179,7 +183,7 @@ class Decoder:
         """
         space = SPACES.get(request.function, "")
         for offset in range(request.quantity):
-            here = self._index.get((space, request.address + offset), ())
+            here = self._places[unit].at(space, request.address + offset)
             meant = [one for one in here if _serves(*one, reading=request.reads)]
             for register, view in meant or here:
                 yield register, view, (words or ())[offset : offset + view.words]

@@ -80,6 +80,9 @@ def absence(session: Session, register: Register[Any]) -> NotPresent | None:
     header = session.places.get(register.block)
     if header is None:
         return _lacking(session, register.path, block)
+    if header.length is None:
+        end = header.base + session.declared[register.path].end
+        return NotPresent(register.path, "its addresses end by 65535", {"the first one behind it": str(end)})
     what = f"block {block.id} has {session.declared[register.path].end - HEADER} words or more"
     return NotPresent(register.path, what, {f"the length of the block at {header.base}": str(header.length)})
 

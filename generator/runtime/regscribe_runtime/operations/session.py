@@ -1,7 +1,7 @@
 """The state of a driver between requests: protocol, givens, remembered registers. No I/O."""
 
 import time
-from collections.abc import Callable, Generator, Iterable, Mapping
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar
 
@@ -14,7 +14,7 @@ from regscribe_runtime.planning.cost import Cost
 from regscribe_runtime.planning.plan import RequestLimits, Terms
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.report import Wear, WriteReport
-from regscribe_runtime.values.blocks import Chain, Header, RegisterBlock, find
+from regscribe_runtime.values.blocks import Chain, Header, RegisterBlock, find, stated_bases
 from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.serial_line import MODBUS, LineChange, SerialLine
 from regscribe_runtime.values.wire_types import Space
@@ -151,7 +151,7 @@ class Session:
     def _lose_chains(self) -> None:
         """Forget where chains have their blocks; those with a given stay where it says."""
         if self.blocks:
-            given = {block.id: int(self.givens[block.given]) for block in self.blocks.values() if block.given}
+            given = stated_bases(self.blocks.values(), self.givens)
             self.places = {name: Header(0, base) for name, base in given.items()}
             self.chains = {}
             self.registers = {path: one.located(None) if one.block else one for path, one in self.declared.items()}
@@ -173,13 +173,20 @@ class Session:
             if self._ground is None:
                 holes = self.protocol.read_holes
                 here = [one for one in self.registers.values() if one.origin is not None]
-                self._ground = ground_of(here, unused=self.unused, holes=holes)
+                unused = (*self.unused, *self._inside_blocks())
+                self._ground = ground_of(here, unused=unused, holes=holes)
             ground = self._ground
             if self.absences:
                 ground = ground.refusing(self.absences.items(alone=True), apart=self.absences.items(alone=False))
             self.prepared[TERMS] = Terms(RequestLimits.of(self.protocol), ground, Cost.of(self.protocol, self.line))
         found: Terms = self.prepared[TERMS]
         return found
+
+    def _inside_blocks(self) -> Iterator[tuple[Space, int, int]]:
+        """The addresses of blocks in chains, all of which a device answers for: space, first, last."""
+        for name, header in self.places.items():
+            if chain := self.blocks[name].chain:
+                yield chain.space, header.base, header.end - 1
 
     def begin(self, link: LinkState) -> None:
         """Adopt the present state of the link before an operation."""

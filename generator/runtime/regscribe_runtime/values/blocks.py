@@ -1,13 +1,16 @@
 """Blocks: registers that stand together, and whose base address a device or its user tells."""
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from regscribe_runtime.values.wire_types import Space
 
 HEADER = 2
 """Words of a header: the id of a block, and how many words follow."""
 END_OF_SPACE = 1 << 16
+ADDRESS = re.compile(r"0[xX][0-9A-Fa-f]{1,4}|0|[1-9][0-9]{0,4}")
+"""How an address is written on a command line."""
 
 
 class Chain(NamedTuple):
@@ -53,10 +56,28 @@ class Header(NamedTuple):
 
 
 class Layout(NamedTuple):
-    """Where blocks stand, by their ids, and the words of the chains around them, by space and address."""
+    """Where blocks stand, by their ids, and the words of chains by space and address (0 inside the blocks)."""
 
     headers: Mapping[str, Header]
     words: Mapping[tuple[Space, int], int]
+
+    @property
+    def stretches(self) -> tuple[tuple[Space, int, int], ...]:
+        """Addresses (space, first, last) of chains, which a device that has the blocks answers for."""
+        return tuple((space, address, address) for space, address in self.words)
+
+
+def stated_bases(blocks: Iterable[RegisterBlock], givens: Mapping[str, Any]) -> dict[str, int]:
+    """The bases that givens state, by block; ValueError for one that is no address."""
+    bases = {}
+    for block in blocks:
+        if block.given in givens:
+            base = givens[block.given]
+            if base != int(base) or not 0 <= base < END_OF_SPACE:
+                message = f"{block.given}={base}: the base of block {block.id} is a whole number from 0 to 65535"
+                raise ValueError(message)
+            bases[block.id] = int(base)
+    return bases
 
 
 def find(block: RegisterBlock, headers: Iterable[Header]) -> Header | None:
@@ -65,11 +86,39 @@ def find(block: RegisterBlock, headers: Iterable[Header]) -> Header | None:
     return fitting[block.number - 1] if len(fitting) >= block.number else None
 
 
+def bases_in(owner: str, blocks: Sequence[RegisterBlock], texts: Iterable[str]) -> dict[str, int]:
+    """The addresses that texts NAME=ADDRESS give to blocks and chains of a map `owner`; ValueError for another text."""
+    known = [*dict.fromkeys(block.chain.id for block in blocks if block.chain), *(block.id for block in blocks)]
+    bases = {}
+    for text in texts:
+        name, _, address = text.partition("=")
+        if name not in known or not ADDRESS.fullmatch(address) or int(address, 0) >= END_OF_SPACE:
+            has = f"blocks and chains of {owner} are {', '.join(known) or '(none)'}"
+            message = f"{text}: write NAME=ADDRESS, for example sunspec=40000; {has}"
+            raise ValueError(message)
+        bases[name] = int(address, 0)
+    return bases
+
+
+def headers_in(chain: Chain, words: Mapping[int, int]) -> tuple[Header, ...]:
+    """The headers of a chain as far as the known words, by address, lead to them."""
+    for start in chain.at:
+        address = start + len(chain.marker)
+        if [words.get(at) for at in range(start, address)] != list(chain.marker):
+            continue
+        found: list[Header] = []
+        while {address, address + 1} <= words.keys() and words[address] != chain.end:
+            found.append(Header(words[address], address, words[address + 1]))
+            address = found[-1].end
+        return tuple(found)
+    return ()
+
+
 def lay_out(blocks: Sequence[RegisterBlock], ends: Mapping[str, int], bases: Mapping[str, int]) -> Layout:
     """A device that has the blocks in `ends`, which are the first addresses behind their registers ("": behind others).
 
-    `bases` are the addresses of blocks with a given, and those of the markers of chains; where they are not stated, a
-    marker stands where the device may have it, and such a block behind everything else.
+    `bases` are addresses by the ids of blocks, and of chains for their markers; where none is stated, a marker stands
+    where the device may have it, and a block without a chain behind everything else.
     """
     headers: dict[str, Header] = {}
     words: dict[tuple[Space, int], int] = {}
@@ -81,8 +130,8 @@ def lay_out(blocks: Sequence[RegisterBlock], ends: Mapping[str, int], bases: Map
             for _ in range(block.number - 1 - sum(one.id in block.ids for one in headers.values())):
                 address = _put(words, chain.space, address, (block.ids[0], 0))
             header = Header(block.ids[0], address, max(0, ends[block.id] - HEADER))
-            _put(words, chain.space, address, (header.id, header.length or 0))
-            headers[block.id], address = header, header.end
+            _put(words, chain.space, address, (header.id, header.length or 0, *[0] * (header.length or 0)))
+            headers[block.id], address = header._replace(base=bases.get(block.id, header.base)), header.end
         _put(words, chain.space, address, (chain.end, 0))
     free = max([ends.get("", 0), *(header.end for header in headers.values())])
     for block in here:

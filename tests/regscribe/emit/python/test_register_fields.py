@@ -57,6 +57,7 @@ EVERYTHING = Register(
     stays="line",
     governs=Governs(Setting.BAUD),
     settle=5,
+    block="head",
 )
 
 

@@ -1,0 +1,61 @@
+"""A model as it stands on one device: the registers of blocks at the addresses where a layout has them."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from fractions import Fraction
+
+from regscribe.model.map import Command, Model, RegisterMap
+from regscribe.model.register import Array, Register
+from regscribe_runtime.values.blocks import HEADER, Layout, lay_out
+from regscribe_runtime.values.kinds import Kind
+
+
+def layout_of(register_map: RegisterMap, model: Model, bases: Mapping[str, int]) -> Layout:
+    """A layout of a device of the model: its blocks one behind the other, as long as the registers need.
+
+    `bases` are addresses by the ids of chains (where the marker stands) and of blocks (where their base is).
+    """
+    ends: dict[str, int] = {}
+    for register in model.registers:
+        last = [view.last(register.at) for view in register.views]
+        last += [alias + register.base.words - 1 for alias in register.aliases]
+        ends[register.block] = max(ends.get(register.block, 0), *(one + 1 for one in last))
+    return lay_out(register_map.blocks, ends, bases)
+
+
+def located(model: Model, layout: Layout) -> Model:
+    """The model with the registers of blocks, and steps of commands there, where the layout has them.
+
+    A register at a word of a header holds what the chain says.
+    """
+
+    def moved(register: Register) -> Register:
+        header = layout.headers.get(register.block)
+        if header is None:
+            return register
+        word = layout.words.get((register.base.space, header.base + register.at))
+        headed = 0 <= register.at < HEADER and register.base.words == 1
+        number = headed and word is not None and register.kind in {Kind.INTEGER, Kind.RAW, Kind.NUMBER}
+        return replace(
+            register,
+            at=register.at + header.base,
+            aliases=tuple(alias + header.base for alias in register.aliases),
+            delivered=Fraction(word or 0) if number else register.delivered,
+            block="",
+        )
+
+    def member(one: Register | Array) -> Register | Array:
+        return replace(one, members=tuple(map(member, one.members))) if isinstance(one, Array) else moved(one)
+
+    def command(one: Command) -> Command:
+        bases = {name: header.base for name, header in layout.headers.items()}
+        steps = (step._replace(address=step.address + bases.get(step.block, 0), block="") for step in one.steps)
+        return replace(one, steps=tuple(steps))
+
+    return replace(
+        model,
+        members=tuple(map(member, model.members)),
+        registers=tuple(map(moved, model.registers)),
+        commands=tuple(map(command, model.commands)),
+        by_path={},
+    )

@@ -1,0 +1,185 @@
+"""Blocks through the whole house: a driver finds them on its simulated device, tools know where they are."""
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from regscribe.cli.shared.planned_model import PlannedModel
+from regscribe.export.collectd import export as collectd
+from regscribe.model import Access
+from regscribe.plugins import OptionError
+from regscribe.simulate.device.device import SimulatedDevice
+from regscribe.tools.live.decode import Decoder
+from regscribe.tools.settings.take import backup
+from regscribe_runtime import NotPresent
+from regscribe_runtime.wire import pdu
+from regscribe_runtime.wire.capture import CapturedFrame
+
+MAP = """
+format: 1
+map: {id: test/sun, title: Sun, maker: Test, class_prefix: Sun}
+manual: {title: Manual, number: "1"}
+models: {A: {}}
+protocol: {functions: [3, 6, 16]}
+chains: {sunspec: {at: [40000, 0], marker: [0x5375, 0x6E53]}}
+givens: {offset: {type: number, description: where the table begins, reason: it is set at installation}}
+blocks:
+  table: {base: {given: offset}}
+  common: {chain: sunspec, id: 1}
+  inverter: {chain: sunspec, id: [101, 103]}
+  spare: {chain: sunspec, id: 101, index: 2}
+decimals: {power: [{register: power_decimals}]}
+groups:
+  - id: common
+    name: Common
+    source: "1"
+    block: common
+    each: {access: r}
+    registers:
+      - {at: 0, id: model_id, name: Id}
+      - {at: 2, name: Maker, type: string, length: 4}
+  - id: inverter
+    name: Inverter
+    source: "2"
+    block: inverter
+    each: {access: rw}
+    registers:
+      - {at: 2, name: Power, decimals: power, default: 5}
+      - {at: 4, name: Power Decimals, range: 0..3, default: 1}
+      - {at: 8, name: Limit, range: 0..100}
+  - id: spare
+    name: Spare
+    source: "3"
+    block: spare
+    each: {access: rw}
+    registers: [{at: 3, name: Spare Limit}]
+  - id: table
+    name: Table
+    source: "4"
+    block: table
+    each: {access: rw}
+    registers:
+      - {at: 0, name: Level}
+      - {at: 4, name: Volume, type: uint32}
+commands:
+  stop: {name: Stop, steps: [{register: limit, value: 0}, {block: spare, at: 3, words: [7]}]}
+"""
+
+
+TABLE: dict[str, Any] = {"offset": 300}
+
+
+@pytest.fixture(scope="module")
+def sun(build: Callable[[str], Any]) -> Any:
+    return build(MAP)
+
+
+def test_the_driver_finds_the_blocks_of_a_simulated_device_wherever_its_chain_begins(sun: Any, direct: Any) -> None:
+    for base in (40000, 0):
+        simulated = SimulatedDevice(sun.map, "A", unit=1, givens=TABLE, bases={"sunspec": base})
+        device = sun.driver("A")(direct(simulated), unit=1, **TABLE)
+        simulated.poke("maker", "Acme")
+        simulated.poke("power", 12.5)
+
+        found = device.read()
+        assert dict(found) == {
+            "model_id": 1,
+            "maker": "Acme",
+            "power": 12.5,
+            "power_decimals": 1,
+            "limit": 0,
+            "spare_limit": 0,
+            "level": 0,
+            "volume": 0,
+        }
+        assert [one.id for one in device.chain_headers()["sunspec"]] == [1, 101, 101]
+        device.limit.write(40)
+        device.power.write(7.5)
+        device.spare_limit.write(9)
+        assert [int(simulated.peek(path)) for path in ("limit", "power_decimals", "spare_limit")] == [40, 1, 9]
+        device.commands.stop()
+        assert [int(simulated.peek(path)) for path in ("limit", "spare_limit")] == [0, 7]
+
+
+def test_headers_of_a_simulated_chain_cannot_be_written(sun: Any) -> None:
+    simulated = SimulatedDevice(sun.map, "A", unit=1, givens=TABLE)
+
+    assert simulated.handle(bytes.fromhex("06 9C 41 00 07")) == bytes.fromhex("86 02")
+    assert simulated.handle(bytes.fromhex("03 9C 40 00 04")) == bytes.fromhex("03 08 53 75 6E 53 00 01 00 04")
+
+
+def test_a_backup_has_the_settings_in_blocks(sun: Any, direct: Any) -> None:
+    device = sun.driver("A")(direct(SimulatedDevice(sun.map, "A", unit=1, givens=TABLE)), unit=1, **TABLE)
+
+    saved = device.run(backup(type(device))).groups
+    assert saved["inverter"]["power"].value == 5
+    assert saved["spare"]["spare_limit"].value == 0
+
+
+def test_a_plan_has_the_requests_of_the_driver(sun: Any, direct: Any) -> None:
+    link = direct(SimulatedDevice(sun.map, "A", unit=1, givens=TABLE))
+    device = sun.driver("A")(link, unit=1, **TABLE)
+    device.read()
+    link.log.clear()
+    device.read()
+
+    planned = PlannedModel.of(sun.map, "A", {}).registers
+    assert planned["power"].at == 40002 + 6 + 2
+    assert [(one.address, one.quantity) for one in link.log] == [(300, 1), (304, 2), (40002, 19)]
+    assert PlannedModel.of(sun.map, "A", {"sunspec": 0, "spare": 900, "table": 7}).registers["spare_limit"].at == 903
+
+
+def test_decode_learns_from_a_log_where_the_blocks_are(sun: Any, direct: Any) -> None:
+    simulated = SimulatedDevice(sun.map, "A", unit=1, givens=TABLE, bases={"sunspec": 0})
+    link = direct(simulated)
+    device = sun.driver("A")(link, unit=1, **TABLE)
+    device.limit.read()
+    device.commands.stop()
+
+    decoder, said = Decoder(type(device)), []
+    for request in link.log:
+        sent = pdu.encode_request(request)
+        for direction, frame in (("sent", sent), ("received", simulated.handle(sent) or b"")):
+            decoded = decoder.feed(CapturedFrame("tcp", 1, frame, frame), direction)
+            said.append((decoded.what, [item.name for item in decoded.items]))
+    assert ("read holding 16", ["limit"]) in said
+    assert ("write holding 16 (command stop)", ["limit"]) in said
+    known = Decoder(type(device), bases={"spare": 500})
+    frame = bytes.fromhex("03 01 F7 00 01")
+    assert [item.name for item in known.feed(CapturedFrame("tcp", 1, frame, frame), "sent").items] == ["spare_limit"]
+
+
+def test_collectd_polls_the_blocks_whose_base_is_stated(sun: Any) -> None:
+    options = dict.fromkeys(("name", "unit", "with", "given", "base"), "") | {"every": "10"}
+    options |= {"model": "A", "at": "10.0.0.1:502"}
+
+    with pytest.raises(OptionError, match=r"registers stand in blocks \(common, inverter, spare, table\)"):
+        collectd([sun.map], options)
+    text = collectd([sun.map], options | {"base": "spare=500"})[""]
+    assert "RegisterBase 503" in text
+    assert "limit" in text
+    assert "power" not in text
+    with pytest.raises(OptionError, match="--base spar=500: write NAME=ADDRESS"):
+        collectd([sun.map], options | {"base": "spar=500"})
+
+
+def test_a_declaration_has_the_distance_and_its_block(sun: Any) -> None:
+    register = sun.driver("A").limit
+
+    assert (register.at, register.block, register.access) == (8, "inverter", Access.READ_WRITE)
+
+
+def test_a_given_tells_the_base_of_a_table(sun: Any, direct: Any) -> None:
+    simulated = SimulatedDevice(sun.map, "A", unit=1, givens={"offset": 700})
+    link = direct(simulated)
+    device = sun.driver("A")(link, unit=1, offset=700)
+    device.volume.write(70000)
+
+    assert int(simulated.peek("volume")) == 70000
+    assert [(one.address, one.quantity) for one in link.log] == [(704, 2)] * 2
+    with pytest.raises(ValueError, match="offset=70000: the base of block table is a whole number from 0 to 65535"):
+        sun.driver("A")(link, unit=1, offset=70000)
+    beyond = sun.driver("A")(link, unit=1, offset=65531)
+    with pytest.raises(NotPresent, match="volume: it exists only while its addresses end by 65535"):
+        beyond.volume.read()
