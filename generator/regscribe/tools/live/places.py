@@ -4,7 +4,7 @@ from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from regscribe_runtime import BareDevice, Register
+from regscribe_runtime import AsyncBareDevice, BareDevice, Register
 from regscribe_runtime.values.blocks import Chain, Header, RegisterBlock, find, headers_in
 from regscribe_runtime.values.facts import CommandStep
 from regscribe_runtime.values.views import View
@@ -15,7 +15,7 @@ Here = list[tuple[Register[Any], View]]
 class RegisterPlaces:
     """Registers and their views by space and address; `bases` are known bases of blocks."""
 
-    def __init__(self, driver: type[BareDevice], bases: Mapping[str, int]) -> None:
+    def __init__(self, driver: type[BareDevice | AsyncBareDevice], bases: Mapping[str, int]) -> None:
         self._registers = driver.registers.values()
         self._blocks: dict[str, RegisterBlock] = {one.id: one for one in driver._blocks}  # noqa: SLF001 (its facts)
         self._headers = {name: Header(0, base) for name, base in bases.items()}
