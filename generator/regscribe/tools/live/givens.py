@@ -59,7 +59,11 @@ def defaults(driver: type[BareDevice] | type[AsyncBareDevice]) -> dict[str, obje
 
 def _spelled(annotation: object) -> str:
     plain = isinstance(annotation, type) and not get_args(annotation)
-    return annotation.__name__ if plain else re.sub(r"^(typing|collections\.abc)\.", "", str(annotation))
+    return (
+        str(getattr(annotation, "__name__", ""))
+        if plain
+        else re.sub(r"^(typing|collections\.abc)\.", "", str(annotation))
+    )
 
 
 def understood(driver: type[BareDevice], texts: Mapping[str, str]) -> dict[str, Given]:

@@ -12,7 +12,8 @@ from regscribe_runtime.errors import LeftAt, NotWritten, RegscribeError, ValueRe
 from regscribe_runtime.operations.read import read_request
 from regscribe_runtime.operations.read_back import RegisterWrite, is_lost, words_of
 from regscribe_runtime.operations.session import Operation, Pause, Session
-from regscribe_runtime.operations.write_request import apply, send, value_text
+from regscribe_runtime.operations.write_request import apply, send
+from regscribe_runtime.registers.presence import value_text
 from regscribe_runtime.report import Words
 from regscribe_runtime.values.facts import Governs, Setting
 from regscribe_runtime.values.kinds import Kind

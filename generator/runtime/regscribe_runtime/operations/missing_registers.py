@@ -5,7 +5,7 @@ link was reopened, since another unit may answer then.
 """
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from datetime import UTC, datetime
 from typing import NamedTuple
 
@@ -53,6 +53,10 @@ class MissingRegisters:
             return False
         space, first, end = READ_SPACES.get(request.function), request.address, request.address + request.quantity
         return self._forget(lambda one: one.item.space == space and first <= one.item.address and one.item.end <= end)
+
+    def drop(self, items: Collection[RegisterSpan]) -> bool:
+        """Forget refusals of these addresses; whether there were any."""
+        return self._forget(lambda one: one.item in items)
 
     def clear(self) -> bool:
         """Forget all; whether there was anything."""

@@ -5,7 +5,7 @@ all values that depend on them. If they hold at the end what was known before th
 time, so every value is decoded with the state under which it was sent.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
 from typing import Any, TypeVar
 
@@ -17,6 +17,7 @@ from regscribe_runtime.planning.plan import Terms
 from regscribe_runtime.planning.read_order import ReadOrder, WordPosition, lay_out
 from regscribe_runtime.planning.read_places import place_of, read_places
 from regscribe_runtime.registers import codec
+from regscribe_runtime.registers.presence import absence
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.views import Readable, needs, read_view
 
@@ -112,23 +113,28 @@ def dependencies(registers: Mapping[str, R], wanted: Iterable[R]) -> dict[str, f
 
 
 def laid_out(
-    registers: Mapping[str, R], chosen: Sequence[R], terms: Terms, *, fresh: bool
+    registers: Mapping[str, R], chosen: Sequence[R], terms: Terms, *, fresh: bool, gone: Collection[str] = ()
 ) -> tuple[ReadOrder, dict[str, R], dict[str, frozenset[str]]]:
-    """The read order of registers and, with `fresh`, of their dependencies; all of these, and dependencies, by path."""
+    """The read order of registers and, with `fresh`, of their dependencies; all of these, and dependencies, by path.
+
+    The registers `gone` do not exist now: they are not read.
+    """
     depends = dependencies(registers, chosen) if fresh else {}
     needed = frozenset().union(*depends.values())
     wanted = {register.path: register for register in chosen}
     wanted |= {path: registers[path] for path in depends if path in needed and path not in wanted}
-    there = {path: place for path, one in wanted.items() if (place := place_of(one, terms.ground))}
-    return lay_out(there, depends, terms), wanted, depends
+    here = {path: one for path, one in wanted.items() if path not in gone}
+    there = {path: place for path, one in here.items() if (place := place_of(one, terms.ground))}
+    return lay_out(there, depends, terms, gone), wanted, depends
 
 
 def make_ready(
     session: Session, registers: Sequence[Register[Any]], *, fresh: bool, unknown: Mapping[str, RegscribeError]
 ) -> PreparedRead:
     """Plan a read of registers and, with `fresh`, of their dependencies; `unknown`: errors of dependencies by path."""
-    layout, wanted, depends = laid_out(session.registers, registers, session.terms(), fresh=fresh)
     chosen = {register.path: register for register in registers}
+    absent = {one.path: one for one in session.conditional if not session.has(one)}
+    layout, wanted, depends = laid_out(session.registers, registers, session.terms(), fresh=fresh, gone=absent)
     placed: list[list[Placed]] = [[] for _ in layout.blocks]
     for path, place in layout.places.items():
         if path in chosen:
@@ -137,7 +143,12 @@ def make_ready(
         PreparedBlock(block, sorted(own, key=lambda one: one[2]), session, unknown)
         for block, own in zip(layout.blocks, placed, strict=True)
     ]
-    entries = {path: missing(session, one) for path, one in chosen.items()}
+    entries = {
+        path: absence(path, one.when, session.memory, session.givens, unknown)
+        if path in absent
+        else missing(session, one)
+        for path, one in chosen.items()
+    }
     watched = [(wanted[path], layout.checks[path]) for path in depends if path in layout.checks]
     return PreparedRead(made, entries, watched=watched, atomic=layout.atomic, unknown=unknown)
 

@@ -22,7 +22,9 @@ from regscribe_runtime.operations.session import Operation, Session, Task
 from regscribe_runtime.operations.snapshot import Snapshot
 from regscribe_runtime.planning.address_ranges import RegisterSpan
 from regscribe_runtime.planning.plan import Block, RequestLimits, blocks
+from regscribe_runtime.planning.read_places import read_places
 from regscribe_runtime.registers import codec
+from regscribe_runtime.registers.presence import absence
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.conditions import choose, registers_of
 from regscribe_runtime.values.views import View
@@ -93,6 +95,7 @@ def know(session: Session, paths: Iterable[str], *, fresh: bool = False, depth: 
         message = f"the meaning of {wanted[0]} depends on too long a chain of registers"
         raise RuntimeError(message)
     gone = yield from locate(session, map(session.registers.__getitem__, wanted))
+    gone |= yield from absences(session, wanted, depth=depth)
     for error in gone.values():
         raise error
     registers = list(map(session.registers.__getitem__, wanted))
@@ -111,6 +114,29 @@ def know(session: Session, paths: Iterable[str], *, fresh: bool = False, depth: 
     return session.memory | values
 
 
+def absences(session: Session, paths: Iterable[str], *, depth: int = 0) -> Operation[dict[str, RegscribeError]]:
+    """The errors by path of registers that do not exist now; what decides that is read where it is not remembered."""
+    asked = [one for path in paths if not (one := session.registers[path]).when.always]
+    if not asked:
+        return {}
+    unknown = yield from _unknown(session, chain.from_iterable(one.when.registers for one in asked), depth=depth + 1)
+    found = {one.path: absence(one.path, one.when, session.memory, session.givens, unknown) for one in asked}
+    return {path: error for path, error in found.items() if error}
+
+
+def present(session: Session, register: Register[Any], *, fresh: bool = False) -> Operation[None]:
+    """Raise NotPresent if a register does not exist now, by what the device holds; `fresh`: nothing is remembered."""
+    if register.when.always:
+        return
+    for again in (fresh, True):
+        if again:
+            session.forget(dependencies(session.registers, [register]))
+        gone = yield from absences(session, [register.path])
+        if not gone:
+            return
+    raise gone[register.path]
+
+
 def read(register: Register[T], view_name: str | None) -> Task[T]:
     """Read one register and decode it."""
 
@@ -118,6 +144,7 @@ def read(register: Register[T], view_name: str | None) -> Task[T]:
         key = (register.path, view_name)
         if key not in session.prepared:
             view = register.read_view(view_name)
+            yield from present(session, register)
             unknown = yield from _unknown(session, register.needs(view))
             state = codec.known_state(register, session.memory, unknown)
             made = codec.decoder(register, view, state, session.givens)
@@ -126,7 +153,12 @@ def read(register: Register[T], view_name: str | None) -> Task[T]:
                 return only_now  # an unknown register may have a value when it is read again
             session.prepared[key] = read_request(register, view), made
         request, decode = session.prepared[key]
-        value: T = decode((yield from session.exchange(request)))
+        try:
+            words = yield from session.exchange(request)
+        except ExceptionAnswer:
+            yield from present(session, register, fresh=True)
+            raise
+        value: T = decode(words)
         return value
 
     return task
@@ -141,6 +173,7 @@ def read_raw(register: Register[Any], view_name: str | None) -> Task[tuple[int, 
     """Read the words of one register."""
 
     def task(session: Session) -> Operation[tuple[int, ...]]:
+        yield from present(session, register)
         return (yield from session.exchange(read_request(register, register.read_view(view_name))))
 
     return task
@@ -186,17 +219,18 @@ def _read_located(registers: Sequence[Register[Any]], *, fresh: bool, rest: bool
         if session.absences and not rest and session.absences.expire():
             session.prepared.clear()
         changed: dict[str, Any] = {}
+        trusted = fresh
         for _ in range(TRIES):
             ready = yield from _ready(session, registers, fresh=fresh)
             answers, complete = yield from _answers(session, ready)
             if not complete and ready.blind(answers):
                 continue
             changed = ready.changed(answers, session)
+            _adopt(session, changed)
+            if not complete and (changed or not trusted) and _doubtful(session, registers):
+                trusted = True
+                continue
             if changed:
-                session.forget(path for path, value in changed.items() if value is MISSING)
-                for path, value in changed.items():
-                    if value is not MISSING:
-                        session.remember(path, value)
                 before, ready = ready, (yield from _ready(session, registers, fresh=fresh))
                 if not (before.atomic and complete and ready.alike(before)):
                     continue
@@ -204,13 +238,38 @@ def _read_located(registers: Sequence[Register[Any]], *, fresh: bool, rest: bool
             if complete:
                 return Snapshot(ready.decode(answers), read)
             partly = Snapshot(ready.decode_partly(answers, session), read)
-            values = partly.entries
-            left = [register for register in registers if values[register.path] is None]
-            others = (yield from _read_located(left, fresh=fresh, rest=True)(session)) if left else Snapshot({})
-            return Snapshot(values | others.entries, partly.answers + others.answers)
+            return (yield from _completed(session, registers, partly, fresh=fresh))
         raise Unsteady(unit=session.unit, changed=tuple(changed), tries=TRIES)
 
     return task
+
+
+def _completed(
+    session: Session, registers: Sequence[Register[Any]], partly: Snapshot, *, fresh: bool
+) -> Operation[Snapshot]:
+    """A snapshot with the registers that could not be read in its requests, but may be in others."""
+    values = partly.entries
+    left = [register for register in registers if values[register.path] is None]
+    others = (yield from _read_located(left, fresh=fresh, rest=True)(session)) if left else Snapshot({})
+    return Snapshot(values | others.entries, partly.answers + others.answers)
+
+
+def _adopt(session: Session, changed: Mapping[str, Any]) -> None:
+    """Remember what has changed."""
+    session.forget(path for path, value in changed.items() if value is MISSING)
+    for path, value in changed.items():
+        if value is not MISSING:
+            session.remember(path, value)
+
+
+def _doubtful(session: Session, registers: Sequence[Register[Any]]) -> bool:
+    """Whether what was refused may not exist any more: that says nothing of the unit, and all is read again."""
+    passing = [one for one in registers if not one.when.always]
+    doubted = session.absences.drop({place.span for one in passing for place in read_places(one)})
+    if doubted:
+        session.forget(dependencies(session.registers, passing))
+        session.prepared.clear()
+    return doubted
 
 
 def read_part(placed: Mapping[str, Register[Any]]) -> Task[Snapshot]:
@@ -240,21 +299,24 @@ def _learn(session: Session, registers: Sequence[Register[Any]]) -> Operation[di
     paths = [path for path in needs if path in needed]
     absent = yield from locate(session, map(session.registers.__getitem__, paths))
     there = [path for path in paths if path not in absent]
-    absent |= {path: error for path in there if (error := missing(session, session.registers[path]))}
+    known = [one for path in there if session.has(one := session.registers[path])]
+    absent |= {one.path: error for one in known if (error := missing(session, one))}
     unknown = yield from _unknown(session, [path for path in there if path not in absent])
     return absent | unknown
 
 
 def _unknown(session: Session, paths: Iterable[str], *, depth: int = 0) -> Operation[dict[str, RegscribeError]]:
     """Make the values of registers known; the error by path of those without a value."""
+    wanted = list(dict.fromkeys(paths))
+    unknown = yield from absences(session, wanted, depth=depth)
+    wanted = [path for path in wanted if path not in unknown]
     try:
-        yield from know(session, paths, depth=depth)
+        yield from know(session, wanted, depth=depth)
     except (*NO_VALUE, ExceptionAnswer) as error:
         _raise_unless_absent(session, error)
     else:
-        return {}
-    unknown: dict[str, RegscribeError] = {}
-    for path in paths:
+        return unknown
+    for path in wanted:
         try:
             yield from know(session, [path], depth=depth)
         except (*NO_VALUE, ExceptionAnswer) as error:

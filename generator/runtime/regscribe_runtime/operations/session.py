@@ -99,6 +99,8 @@ class Session:
         self._behind = slowest(protocol)
         self.unused, self.absences = unused, MissingRegisters()
         self._ground: AddressRanges | None = None
+        self._absent: frozenset[str] = frozenset()
+        self._conditional: tuple[Register[Any], ...] | None = None
         self._lose_chains()
 
     def own(self, register: Register[Any]) -> Register[Any]:
@@ -115,6 +117,9 @@ class Session:
     def remember(self, path: str, value: object) -> None:
         """Keep the value of a register that others depend on."""
         self.memory[path] = value
+        for one in self.conditional:
+            if one.path in self.memory and path in one.when.registers and not self.has(one):
+                del self.memory[one.path]
         if good_for := self.registers[path].reading.good_for:
             self._ends[path] = time.monotonic() + float(good_for)
         self.proven.add(path)
@@ -127,6 +132,25 @@ class Session:
             del self.memory[path]
         if gone:
             self.prepared.clear()
+
+    @property
+    def conditional(self) -> tuple[Register[Any], ...]:
+        """The registers that exist only under a condition."""
+        if self._conditional is None:
+            self._conditional = tuple([one for one in self.declared.values() if one.when.tests])
+        return self._conditional
+
+    def has(self, register: Register[Any]) -> bool:
+        """Whether a register is known to exist, by what is remembered."""
+        return register.when.always or self._meets(register)
+
+    def _meets(self, register: Register[Any]) -> bool:
+        tested = [self.declared[path] for path in register.when.registers if path in self.memory]
+        known = {one.path: self.memory[one.path] for one in tested if self.has(one)}
+        try:
+            return register.when.holds(known, self.givens)
+        except KeyError:
+            return False
 
     def found(self, chain: Chain, headers: tuple[Header, ...]) -> None:
         """Adopt the headers of a chain: registers of its blocks stand at their addresses from now on."""
@@ -170,11 +194,12 @@ class Session:
     def terms(self) -> Terms:
         """The constraints and prices of read plans on this line."""
         if TERMS not in self.prepared:
-            if self._ground is None:
+            absent = frozenset(one.path for one in self.conditional if not self.has(one))
+            if self._ground is None or absent != self._absent:
                 holes = self.protocol.read_holes
                 here = [one for one in self.registers.values() if one.origin is not None]
                 unused = (*self.unused, *self._inside_blocks())
-                self._ground = ground_of(here, unused=unused, holes=holes)
+                self._ground, self._absent = ground_of(here, unused=unused, holes=holes, absent=absent), absent
             ground = self._ground
             if self.absences:
                 ground = ground.refusing(self.absences.items(alone=True), apart=self.absences.items(alone=False))

@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 
 from regscribe_runtime.errors import RegscribeError, ValueRefused
 from regscribe_runtime.operations.line_change import check_unit, follow
-from regscribe_runtime.operations.read import know, read
+from regscribe_runtime.operations.read import know, present, read
 from regscribe_runtime.operations.read_back import (
     RegisterWrite,
     fate_of_lost,
@@ -56,6 +56,7 @@ def write(
     def task(session: Session) -> Operation[None]:
         check_confirmation(register, confirm=confirm)
         chosen = register.write_view(view)
+        yield from present(session, register, fresh=True)
         yield from know(session, (*register.needs(chosen), *read_back_needs(register, chosen)))
         state = yield from know(session, (*condition_needs(register), *register.limit_needs), fresh=True)
         check_condition(register, state, session.givens)
@@ -97,6 +98,7 @@ def write_raw(register: Register[Any], words: tuple[int, ...], view_name: str | 
         view = register.write_view(view_name)
         if len(words) != view.words:
             raise ValueRefused(register.path, f"{len(words)} words for a view of {view.words}")
+        yield from present(session, register, fresh=True)
         yield from know(session, read_back_needs(register, view))
         yield from _send(session, RegisterWrite(register, view, tuple(words), dict(session.memory)))
 

@@ -7,15 +7,16 @@ from collections.abc import Iterable, Mapping, Sequence
 from difflib import get_close_matches
 from typing import Any, NamedTuple
 
-from regscribe_runtime.errors import ExceptionAnswer, ValueRefused, ValuesRefused
+from regscribe_runtime.errors import ConditionNotMet, ExceptionAnswer, NotPresent, ValueRefused, ValuesRefused
 from regscribe_runtime.operations.line_change import check_unit
-from regscribe_runtime.operations.read import know
+from regscribe_runtime.operations.read import absences, know
 from regscribe_runtime.operations.read_back import RegisterWrite, Target, in_view, meaning, read_back_needs, words_of
 from regscribe_runtime.operations.session import Operation, Session
 from regscribe_runtime.operations.write_order import needs, order
 from regscribe_runtime.operations.write_request import check_condition, check_confirmation
 from regscribe_runtime.registers import codec
 from regscribe_runtime.registers.enums import unnamed_bits
+from regscribe_runtime.registers.presence import absence
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.report import Change, Fate, Words
 from regscribe_runtime.values.conditions import registers_of
@@ -99,8 +100,10 @@ def read_present(session: Session, chosen: Sequence[Assignment]) -> Operation[Pr
     paths = [
         path for one in chosen for path in (*needs(one.register, one.view), *read_back_needs(one.register, one.view))
     ]
-    state = dict((yield from know(session, paths, fresh=True)))
-    held = {one.register.path: (one.register, one.view) for one in chosen if one.register.can_be_checked}
+    gone = yield from absences(session, [*paths, *(one.register.path for one in chosen)])
+    state = dict((yield from know(session, [path for path in paths if path not in gone], fresh=True)))
+    here = [one for one in chosen if one.register.path not in gone]
+    held = {one.register.path: (one.register, one.view) for one in here if one.register.can_be_checked}
     found = yield from _words(session, tuple(held.values()))
     words = {path: in_view(target, found[path], state) for path, target in held.items()}
     return Present(state, {path: one for path, one in words.items() if one is not None})
@@ -139,6 +142,7 @@ def plan_changes(
         register, view, state = one.register, one.view, present.state
         before = present.words.get(register.path)
         try:
+            _check_present(session, register, state)
             check_condition(register, state, session.givens)
             limited = not converted.intersection(register.limit_needs)
             words = encoded(session, one, present, rounded=rounded, limited=limited)
@@ -159,6 +163,16 @@ def plan_changes(
         state[register.path] = one.value if value is None else value
     _raise_all(refusals)
     return changes
+
+
+def _check_present(session: Session, register: Register[Any], state: Mapping[str, Any]) -> None:
+    """Refuse a register that does not exist in the state in which it would be written."""
+    lacking = {path: NotPresent(path, "", {}) for path in register.when.registers if path not in state}
+    gone = absence(register.path, register.when, state, session.givens, lacking)
+    if isinstance(gone, NotPresent):
+        raise ConditionNotMet(register.path, f"it exists only while {gone.condition}", gone.present)
+    if gone:
+        raise ValueRefused(register.path, str(gone))
 
 
 def encoded(session: Session, one: Assignment, present: Present, *, rounded: bool, limited: bool = True) -> Words:

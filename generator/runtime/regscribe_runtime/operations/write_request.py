@@ -16,10 +16,10 @@ from regscribe_runtime.errors import lost as failed
 from regscribe_runtime.operations.locate import base_of
 from regscribe_runtime.operations.read_back import RegisterWrite, is_lost
 from regscribe_runtime.operations.session import Operation, Pause, Session, Task
-from regscribe_runtime.registers.enums import Choice, SpecialNumber
+from regscribe_runtime.registers.presence import seen
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.report import Words
-from regscribe_runtime.values.conditions import Givens, Is, State
+from regscribe_runtime.values.conditions import Givens, State
 from regscribe_runtime.values.facts import CommandStep
 from regscribe_runtime.values.views import View
 from regscribe_runtime.wire.requests import Request
@@ -67,23 +67,7 @@ def check_condition(register: Register[Any], state: State, givens: Givens) -> No
         return
     when, reason = register.writable
     if not when.holds(state, givens):
-        present = dict(_tested_value(test, state) for test in when.leaves if test.register)
-        raise ConditionNotMet(register.path, reason, present)
-
-
-def _tested_value(test: Is, state: State) -> tuple[str, str]:
-    """The register (or bit field) of a test, and its value in words."""
-    value = state[test.register]
-    for name in getattr(value, "parts", ()) if test.bits else ():
-        part = vars(type(value))[name]
-        if (part.low, part.high) == test.bits:
-            return f"{test.register}.{name}", value_text(getattr(value, name))
-    return test.register, value_text(value)
-
-
-def value_text(value: Any) -> str:
-    """A value in words: the name of an enum member, else its repr."""
-    return str(value.name) if isinstance(value, Choice | SpecialNumber) else repr(value)
+        raise ConditionNotMet(register.path, reason, seen(when, state, givens))
 
 
 def condition_needs(register: Register[Any]) -> tuple[str, ...]:

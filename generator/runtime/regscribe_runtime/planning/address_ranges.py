@@ -7,7 +7,7 @@ whose requests must be aligned has a stretch of its own.
 
 from bisect import bisect_right
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from itertools import chain, pairwise
 from typing import NamedTuple
 
@@ -151,8 +151,12 @@ def ground_of(
     *,
     unused: Iterable[tuple[Space, int, int]] = (),
     holes: bool = False,
+    absent: Collection[str] = (),
 ) -> AddressRanges:
-    """The address ranges of a device with these registers; `unused` (space, first, last address) read as 0."""
+    """The address ranges of a device with these registers; `unused` (space, first, last address) read as 0.
+
+    The registers of the paths `absent` may not exist: nothing is read there.
+    """
     readable: dict[Space, list[Range]] = defaultdict(list)
     alone: dict[Space, list[Range]] = defaultdict(list)
     unreadable: dict[Space, list[Range]] = defaultdict(list)
@@ -160,7 +164,8 @@ def ground_of(
     for register in registers:
         for view, address in places(register):
             end = address + view.words
-            ranges = readable if register.access.readable and view.readable else unreadable
+            there = register.access.readable and view.readable and register.path not in absent
+            ranges = readable if there else unreadable
             ranges[view.space].append((address, end))
             if register.reading.clears and view.readable:
                 alone[view.space].append((address, end))

@@ -38,8 +38,13 @@ class ReadOrder(NamedTuple):
     again: int = 0
 
 
-def lay_out(wanted: Mapping[str, ReadPlace], needs: Mapping[str, Collection[str]], terms: Terms) -> ReadOrder:
-    """The cheapest blocks for `wanted` (places by path), dependencies (`needs` by path) behind what depends on them."""
+def lay_out(
+    wanted: Mapping[str, ReadPlace], needs: Mapping[str, Collection[str]], terms: Terms, gone: Collection[str] = ()
+) -> ReadOrder:
+    """The cheapest blocks for `wanted` (places by path), dependencies (`needs` by path) behind what depends on them.
+
+    What the absence of the registers `gone` depends on is checked as well.
+    """
     unordered = blocks(map(_span, wanted.values()), terms)
     found = _positions(wanted, unordered)
     relations = [(path, need) for path in wanted for need in needs.get(path, ()) if need in wanted]
@@ -52,6 +57,7 @@ def lay_out(wanted: Mapping[str, ReadPlace], needs: Mapping[str, Collection[str]
     twice = {path: place for path, place in wanted.items() if path in early}
     tail = blocks(map(_span, twice.values()), terms)
     again = _positions(twice, tail, len(first))
+    relations += [(path, need) for path in gone for need in needs.get(path, ()) if need in wanted]
     checks = {need: again.get(need, places[need]) for _, need in relations}
     return ReadOrder((*first, *tail), places, checks, atomic=not (early or any(waits.values())), again=len(tail))
 

@@ -6,6 +6,7 @@ from typing import Generic, Never, Self, TypeVar, cast
 
 from regscribe_runtime.errors import ValueRefused
 from regscribe_runtime.registers import codec, element
+from regscribe_runtime.registers.presence import absence
 from regscribe_runtime.registers.value_types import ValueType
 from regscribe_runtime.values.conditions import ALWAYS, Cases, Condition, Givens, State, always
 from regscribe_runtime.values.facts import PLAIN_READING, Governs, ReadFacts, WriteCondition
@@ -199,11 +200,18 @@ class Register(Generic[T]):
         """Registers that decide or are limits of a write."""
         return limit_needs(self)
 
+    def check_present(self, state: State, givens: Givens) -> None:
+        """Raise NotPresent if the register does not exist in this state."""
+        gone = absence(self.path, self.when, state, givens)
+        if gone:
+            raise gone
+
     def decode(
         self, words: Sequence[int], *, view: str | None = None, state: State | None = None, givens: Givens | None = None
     ) -> T:
-        """The value of `words` in `view`; raises ValueNotDecodable (SensorFault, OutOfRange, ...)."""
+        """The value of `words` in `view`; raises ValueNotDecodable (its subclasses say more) or NotPresent."""
         chosen = self.view(view) if view else self.read_view()
+        self.check_present(state or {}, givens or {})
         return cast("T", codec.decode(self, chosen, words, state or {}, givens or {}))
 
     def encode(
@@ -219,4 +227,5 @@ class Register(Generic[T]):
         if not self.access.writable:
             raise ValueRefused(self.path, "the register is read-only")
         chosen = self.view(view) if view else self.write_view()
+        self.check_present(state or {}, givens or {})
         return codec.encode(self, chosen, value, state or {}, givens or {}, rounded=rounded)

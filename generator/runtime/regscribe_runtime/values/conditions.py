@@ -149,7 +149,7 @@ class Condition(NamedTuple):
     @property
     def registers(self) -> tuple[str, ...]:
         """The registers of the tests, each once, in order."""
-        return tuple(dict.fromkeys(test.register for test in self.leaves if test.register))
+        return tuple(dict.fromkeys([test.register for test in self.leaves if test.register])) if self.tests else ()
 
     def holds(self, state: State, givens: Givens) -> bool:
         """Tell whether all tests are true; the error (KeyError) of a value that counts and is not known."""
@@ -189,4 +189,4 @@ def choose(cases: Cases[T], state: State, givens: Givens) -> T | None:
 
 def registers_of(cases: Cases[Any]) -> tuple[str, ...]:
     """The registers in the conditions of the cases, each once."""
-    return tuple(dict.fromkeys(name for case in cases for name in case.when.registers))
+    return tuple(dict.fromkeys([name for case in cases for name in case.when.registers]))

@@ -135,7 +135,9 @@ def scale_needs(register: Scaled) -> tuple[str, ...]:
     """Registers that select or contain the scale, or that of special values."""
     cases = (*register.scale, *register.special_scale)
     found = [*registers_of(cases), *(case.then.decimals.register for case in cases if case.then.decimals)]
-    return tuple(dict.fromkeys((*found, *registers_in(*((case.then.multiply, case.then.add) for case in cases)))))
+    numbers = [number for case in cases for number in (case.then.multiply, case.then.add)]
+    terms = [number for number in numbers if isinstance(number, tuple)]  # nearly all are plain numbers
+    return tuple(dict.fromkeys((*found, *registers_in(*terms))))
 
 
 def needs(register: Scaled, view: View) -> tuple[str, ...]:
