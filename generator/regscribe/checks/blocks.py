@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator
 
-from regscribe.checks.rule import Finding, Problem, RuleScope, Scopes, map_rule, register_rule
-from regscribe.model import Register, RegisterMap
+from regscribe.checks.rule import Finding, Problem, RuleScope, Scopes, map_rule, model_rule, register_rule
+from regscribe.model import Array, Register, RegisterMap, Related
 
 
 @register_rule("RS0695", "Register that cannot move with its block")
@@ -17,6 +17,23 @@ def cannot_move(register: Register, scope: RuleScope) -> Iterator[Problem]:
         elif block and block.chain and view.space is not block.chain.space:
             message = f"is in space {view.space}, and chain {block.chain.id} of its block in {block.chain.space}"
             yield message, "correct `space` of one of them"
+
+
+@model_rule("RS0710", "Array to an end that the map does not tell, or with registers behind it")
+def behind_the_end(scope: RuleScope) -> Iterator[Finding]:
+    """Where a device has more elements, one stands there; only a block in a chain has a length."""
+    chained = [block.id for block in scope.register_map.blocks if block.chain]
+    for array in (one for one in scope.model.members if isinstance(one, Array) and one.to_end):
+        inside = [one for one in scope.model.registers if one.array.split(".")[0] == array.id]
+        begin, block = min(one.address for one in inside), inside[0].block
+        if block not in chained:
+            message = f"array `{array.id}` goes to the end of block {block}, whose length nothing tells"
+            yield Finding(array.id, array.span, message, "give the index of its last element")
+        related = Related(f"`{array.id}` goes to the end of the block", array.span)
+        for one in scope.model.registers:
+            if one.block == block and one not in inside and one.base.last(one.at) >= begin:
+                message = f"stands at {one.address} of block {block}, where array `{array.id}` goes on from {begin}"
+                yield Finding.at(one, message, "correct one of the addresses", related)
 
 
 @map_rule("RS0696", "Identification by a register of a block")

@@ -130,5 +130,6 @@ def _array(branch: TreeBranch, scope: Scope) -> Array:
         members=tuple(folded(one, scope) if isinstance(one, TreeNode) else _array(one, scope) for one in first),
         description=branch.node.text_of("description"),
         section=branch.section,
+        to_end=branch.to_end,
         span=span_of(branch.node),
     )

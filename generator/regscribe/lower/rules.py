@@ -46,6 +46,7 @@ UNKNOWN_CHAIN = "RS0361"
 SAME_BLOCK = "RS0362"
 NO_MARKER = "RS0363"
 IDLE_BLOCK = "RS0364"
+ENDLESS = "RS0365"
 NO_PART = "RS0340"
 
 _NAMES = "A name must mean something, or the driver would look up what does not exist."
@@ -110,6 +111,7 @@ RULES: tuple[Rule, ...] = (
     Rule(UNKNOWN_CHAIN, "Unknown chain", _NAMES),
     Rule(SAME_BLOCK, "Two blocks at one header", "Under two names its registers would have two meanings."),
     Rule(NO_MARKER, "Chain at several addresses without a marker", "Only a marker tells where a chain begins."),
+    Rule(ENDLESS, "Array to the end of no block", "Only the length of a block tells where it ends."),
     Rule(IDLE_BLOCK, "Chain or block without use", "What no register stands in is never looked for."),
     Rule(NO_PART, "Record of no file, or value of no queue", "Its address is the file's (or queue's) and its own."),
 )

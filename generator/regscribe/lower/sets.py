@@ -1,8 +1,9 @@
 """Sets of registers: which one a use names, and what of it is put there."""
 
 from regscribe.lower.node import Value
+from regscribe.lower.repeats import indices
 from regscribe.lower.rules import SET_IN_ITSELF, TOO_MANY_ELEMENTS, UNKNOWN_REGISTER, UNKNOWN_SET
-from regscribe.lower.texts import known_name, unknown, whole_ends
+from regscribe.lower.texts import known_name, unknown
 from regscribe.model.identifiers import snake, unindexed
 
 MOST = 65536
@@ -53,7 +54,7 @@ def _size_of_elements(nodes: list[Value], sets: Value, depth: int) -> int:
         if node.child("set"):
             total += _size(node.text_of("set"), sets, depth)
         elif node.child("registers"):
-            first, last = whole_ends(node.child("repeat"), (1, 1))
+            first, last = indices(node.child("repeat"))
             total += (last - first + 1) * _size_of_elements(node.elements_of("registers"), sets, depth)
         else:
             total += 1

@@ -3,9 +3,10 @@
 from dataclasses import dataclass, replace
 
 from regscribe.lower.node import Value
+from regscribe.lower.repeats import goes_to_end, indices
 from regscribe.lower.rules import ON_NO_MODEL, TOO_MANY_ELEMENTS
 from regscribe.lower.sets import included_elements, set_named
-from regscribe.lower.texts import identifier, whole_ends
+from regscribe.lower.texts import identifier
 from regscribe.lower.variants import Keys, Models, present, settings_of, with_variants
 from regscribe.model import Span
 
@@ -69,6 +70,7 @@ class TreeBranch:
     stride: int
     section: str
     elements: tuple[tuple["Item", ...], ...]
+    to_end: bool = False
 
 
 Item = TreeNode | TreeBranch
@@ -134,7 +136,7 @@ def _register(node: Value, name: str, has: Models, place: TreePosition) -> TreeN
 
 def _branch(node: Value, name: str, place: TreePosition) -> TreeBranch:
     repeat = node.child("repeat")
-    first, last = whole_ends(repeat, (1, 1))
+    first, last = indices(repeat)
     elements = node.elements_of("registers")
     count = (last - first + 1) * place.elements * len(elements)
     if repeat and count > ADDRESSES:
@@ -161,7 +163,8 @@ def _branch(node: Value, name: str, place: TreePosition) -> TreeBranch:
             shift=place.shift + stride * (index - first),
         )
         branches.append(items_in(elements, element))
-    return TreeBranch(node, name, first, stride, inside.section, tuple(branches))
+    to_end = goes_to_end(repeat, place.block, nested=bool(place.array))
+    return TreeBranch(node, name, first, stride, inside.section, tuple(branches), to_end)
 
 
 def entries_of(items: tuple[Item, ...]) -> list[TreeNode]:

@@ -1,5 +1,6 @@
 """Blocks through the whole house: a driver finds them on its simulated device, tools know where they are."""
 
+import asyncio
 from collections.abc import Callable
 from typing import Any
 
@@ -183,3 +184,56 @@ def test_a_given_tells_the_base_of_a_table(sun: Any, direct: Any) -> None:
     beyond = sun.driver("A")(link, unit=1, offset=65531)
     with pytest.raises(NotPresent, match="volume: it exists only while its addresses end by 65535"):
         beyond.volume.read()
+
+
+STRINGS = """
+format: 1
+map: {id: test/strings, title: Strings, maker: Test, class_prefix: Strings}
+manual: {title: Manual, number: "1"}
+models: {A: {}}
+protocol: {functions: [3]}
+chains: {sunspec: {at: 0}}
+blocks: {strings: {chain: sunspec, id: 160}}
+groups:
+  - id: strings
+    name: Strings
+    source: "1"
+    block: strings
+    each: {access: r}
+    registers:
+      - {at: 2, name: Scale}
+      - id: modules
+        name: Module
+        repeat: {from: 1, to: {block: end}, most: 9}
+        stride: 3
+        registers:
+          - {at: 3, name: Number}
+          - {at: 4, name: Volts, type: uint32}
+"""
+
+
+def test_an_array_has_as_many_elements_as_the_block_has_room_for(build: Any, words: Any, direct: Any) -> None:
+    built, held = build(STRINGS), [160, 1 + 2 * 3 + 2, 5, 1, 0, 100, 2, 0, 200, 3, 0, 0xFFFF, 0]
+    link = direct(words(dict(enumerate(held))))
+    device = built.driver("A")(link, unit=1)
+
+    assert len(device.modules) == 2
+    assert [module.volts.read() for module in device.modules] == [100, 200]
+    assert set(device.read().valid) == {
+        "scale",
+        *(f"modules[{n}].{one}" for n in (1, 2) for one in ("number", "volts")),
+    }
+    assert max(one.address + one.quantity for one in link.log) == 13
+    with pytest.raises(NotPresent, match=r"modules\[3\].number: .* has 10 words or more; .* at 0 is 9"):
+        device.modules[3].number.read()
+    with pytest.raises(IndexError):
+        _ = device.modules[10]
+    assert len(built.driver("A").modules.element.registers) == 2
+
+
+def test_asyncio_awaits_the_count_of_elements(talk: Any) -> None:
+    for held, expected in (([160, 7, *[0] * 7, 0xFFFF, 0], 2), ([7, 0, 0xFFFF, 0], 0)):
+        device = talk(STRINGS, dict(enumerate(held))).other
+        with pytest.raises(TypeError, match=r"await .count\(\)"):
+            len(device.modules)
+        assert asyncio.run(device.modules.count()) == expected

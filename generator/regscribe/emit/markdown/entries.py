@@ -121,7 +121,7 @@ def _array(context: PageContext, branch: Branch, marks: str) -> RegisterEntry:
     arrays = (*branch.arrays, array)
     parts = (
         code(".".join(f"{item.id}[{letter}]" for item, letter in zip(arrays, LETTERS, strict=False))),
-        escape(f"{array.count} elements"),
+        escape(f"{array.count} elements{', or as many as the block has room for' if array.to_end else ''}"),
         indices(arrays),
         escape(f"each {array.stride} addresses after the one before" if array.stride > 1 else ""),
         source(array.section),

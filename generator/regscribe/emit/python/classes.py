@@ -89,7 +89,10 @@ class Classes:
         name = self._element(array, models)
         numbers = {"first": str(array.first), "count": str(array.count), "stride": str(array.stride)}
         numbers |= {"to_end": "True"} if array.to_end else {}
-        what = f"{one_line(array.name)} {array.first} to {array.first + array.count - 1}: {one_line(array.section)}."
+        many = ", as far as the block goes" if array.to_end else ""
+        what = (
+            f"{one_line(array.name)} {array.first} to {array.first + array.count - 1}{many}: {one_line(array.section)}."
+        )
         return [
             *lay(call("Array", name, f"Async{name}", **numbers), head=f"{array.id} = ", depth=1),
             *docstring(what, 1),

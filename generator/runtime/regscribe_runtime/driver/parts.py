@@ -1,6 +1,6 @@
 """The parts of a driver: the device itself, its array elements, commands and groups, for both kinds of I/O."""
 
-from collections.abc import Awaitable, Iterator, Mapping
+from collections.abc import Awaitable, Callable, Iterator, Mapping
 from functools import cache
 from itertools import chain
 from types import MappingProxyType
@@ -129,23 +129,41 @@ class AsyncPart(_AnyPart["AsyncPart"]):
 
 
 class Elements(Generic[T]):
-    """The elements of an array, by the manual's numbers."""
+    """The elements of an array, by the manual's numbers; `most` is how many there may be.
 
-    def __init__(self, make: Any, first: int, count: int) -> None:
-        self._make, self.first, self.count = make, first, count
+    Where the device tells how many there are, `len` and iteration ask it; an element beyond them raises NotPresent when
+    it is used.
+    """
+
+    def __init__(self, make: Any, first: int, most: int, present: Callable[[], Any] | None = None) -> None:
+        self._make, self.first, self.most, self._present = make, first, most, present
 
     def __getitem__(self, index: int) -> T:
-        if not self.first <= index < self.first + self.count:
-            message = f"no element {index}: they run from {self.first} to {self.first + self.count - 1}"
+        if not self.first <= index < self.first + self.most:
+            message = f"no element {index}: they run from {self.first} to {self.first + self.most - 1}"
             raise IndexError(message)
         element: T = self._make(index)
         return element
 
     def __iter__(self) -> Iterator[T]:
-        return map(self.__getitem__, range(self.first, self.first + self.count))
+        return map(self.__getitem__, range(self.first, self.first + len(self)))
 
     def __len__(self) -> int:
-        return self.count
+        return self.most if self._present is None else int(self._present())
+
+
+class AsyncElements(Elements[T]):
+    """As `Elements`, for asyncio; where the device tells how many there are, `await .count()` in place of `len`."""
+
+    def __len__(self) -> int:
+        if self._present is None:
+            return self.most
+        message = "how many elements there are is read from the device: await .count()"
+        raise TypeError(message)
+
+    async def count(self) -> int:
+        """How many elements the device has."""
+        return self.most if self._present is None else int(await self._present())
 
 
 class Array(Generic[P, A]):
@@ -169,8 +187,8 @@ class Array(Generic[P, A]):
     @overload
     def __get__(self, instance: Part, owner: type) -> Elements[P]: ...
     @overload
-    def __get__(self, instance: AsyncPart, owner: type) -> Elements[A]: ...
-    def __get__(self, instance: Part | AsyncPart | None, owner: type) -> Self | Elements[P] | Elements[A]:
+    def __get__(self, instance: AsyncPart, owner: type) -> AsyncElements[A]: ...
+    def __get__(self, instance: Part | AsyncPart | None, owner: type) -> Self | Elements[P] | AsyncElements[A]:
         if instance is None:
             return self
         make: Any = self.element if isinstance(instance, Part) else self.awaitable
@@ -179,7 +197,15 @@ class Array(Generic[P, A]):
         def element(index: int) -> Any:
             return make(instance._device, f"{inside}{self.id}[{index}]")  # noqa: SLF001 (as above)
 
-        return Elements(element, self.first, self.count)
+        def present() -> Any:
+            heads = (f"{inside}{self.id}[{index}]." for index in range(self.first, self.first + self.count))
+            registers = instance._device.registers  # noqa: SLF001 (as above)
+            every = [next(one for path, one in registers.items() if path.startswith(head)) for head in heads]
+            return instance.run(tasks.count_present(every))
+
+        kind: Any = Elements if isinstance(instance, Part) else AsyncElements
+        found: Elements[P] | AsyncElements[A] = kind(element, self.first, self.count, present if self.to_end else None)
+        return found
 
 
 class _Bound(Generic[B]):

@@ -3,15 +3,20 @@
 # an annotation of an inner function is evaluated at every call otherwise, which costs a read a hundredth of its time
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
+from regscribe_runtime.errors import BrokenChain
 from regscribe_runtime.operations import read as reads
 from regscribe_runtime.operations import write as writes
 from regscribe_runtime.operations.compute import compute
 from regscribe_runtime.operations.configure import configure
 from regscribe_runtime.operations.locate import headers as headers_of
-from regscribe_runtime.operations.locate import locating
+from regscribe_runtime.operations.locate import locate, locating
 from regscribe_runtime.operations.read import read_many, read_part
 from regscribe_runtime.operations.session import Operation, Session, Task
 from regscribe_runtime.operations.write_request import run
+from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.blocks import Header
 from regscribe_runtime.wire.requests import LOOPBACK, READ_STATUS, Request
 
@@ -20,6 +25,7 @@ __all__ = [
     "change",
     "compute",
     "configure",
+    "count_present",
     "exception_status",
     "headers",
     "loopback",
@@ -35,6 +41,19 @@ __all__ = [
 
 read, read_raw, read_unit = locating(reads.read), locating(reads.read_raw), locating(reads.read_unit)
 write, write_raw, change = locating(writes.write), locating(writes.write_raw), locating(writes.change)
+
+
+def count_present(registers: Sequence[Register[Any]]) -> Task[int]:
+    """How many of these registers of one block the device has; BrokenChain if nobody can tell."""
+
+    def task(session: Session) -> Operation[int]:
+        gone = yield from locate(session, registers)
+        for error in gone.values():
+            if isinstance(error, BrokenChain):
+                raise error
+        return len(registers) - len(gone)
+
+    return task
 
 
 def headers() -> Task[dict[str, tuple[Header, ...]]]:
