@@ -21,6 +21,11 @@ def label_id(text: str) -> str:
     return f"n{name}" if name[:1].isdigit() else name
 
 
+def module_names(map_id: str) -> tuple[str, ...]:
+    """The names of package and module of a map: `eaton/93-pm` gives `eaton` and `n93_pm`."""
+    return tuple(label_id(part) for part in map_id.split("/"))
+
+
 def unindexed(text: str) -> str:
     """The name without the marks `{i}` and `{j}`, which stand for the indexes of the arrays around it."""
     return _MARK.sub("", text)

@@ -318,6 +318,11 @@ class RegisterMap:
         """Find a model by its manual name; KeyError if the map has none."""
         return {model.name: model for model in self.models}[name]
 
+    @property
+    def only_model(self) -> str:
+        """The name of the model of a map that has one alone; empty where it has several."""
+        return self.models[0].name if len(self.models) == 1 else ""
+
     def has(self, name: str) -> bool:
         """Whether the map covers a model of this name."""
         return any(model.name == name for model in self.models)

@@ -73,7 +73,7 @@ class Running:
 @contextmanager
 def simulate(  # noqa: PLR0913 (all but two are keywords for tests)
     register_map: RegisterMap | str | Path,
-    model: str,
+    model: str = "",
     *,
     unit: int | None = None,
     transport: str = Transport.TCP,
@@ -87,13 +87,21 @@ def simulate(  # noqa: PLR0913 (all but two are keywords for tests)
 ) -> Iterator[Running]:
     """Serve one device from a thread of its own while the block runs; for sync and async clients in tests.
 
-    `register_map` may be the id of a map (`athena/series-c`) or a map file. `transport` is tcp, rtu-tcp, ascii-tcp or
+    `register_map` may be the id of a map (`athena/series-c`) or a map file; `model` may be left out where it has one.
+    `transport` is tcp, rtu-tcp, ascii-tcp or
     pty. `process` lets the process value move as time passes: by `advance`, or with a `speed` by itself. `state` is a
     state file to load; `bases` as of `SimulatedDevice`. Raises SimulatorError as that and `start` do.
     """
     simulated = find_map(register_map)
     device = SimulatedDevice(
-        simulated, model, unit=unit, givens=givens, seed=seed, addressing=addressing, process=process, bases=bases
+        simulated,
+        model or simulated.only_model,
+        unit=unit,
+        givens=givens,
+        seed=seed,
+        addressing=addressing,
+        process=process,
+        bases=bases,
     )
     if state is not None:
         device.load(state)

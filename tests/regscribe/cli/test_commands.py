@@ -1,6 +1,7 @@
 import csv
 import io
 import json
+import os
 import re
 import signal
 import socket
@@ -15,6 +16,9 @@ from typing import Any
 import pytest
 
 from regscribe.checks import catalogue
+from regscribe.model import Order
+from regscribe.pipeline import compile_map
+from regscribe.simulate import simulate
 
 
 @pytest.mark.parametrize("rule", [rule.id for rule in catalogue.all_rules()])
@@ -39,7 +43,7 @@ def test_an_explanation_without_docstrings_leaves_the_reason_out(
     assert cli("explain", "RS0401").out.startswith("error[RS0401]: Addresses overlap\n\nBad:\n")
 
 
-@pytest.mark.parametrize("name", ["acme/oven", "acme/oven-3", "my-maker/the-3rd-family", "a/b", "true/no"])
+@pytest.mark.parametrize("name", ["acme/oven", "acme/oven-3", "my-maker/the-3rd-family", "a/b", "true/no", "3m/93-pm"])
 def test_a_new_map_passes_check(cli: Callable[..., Any], name: str) -> None:
     result = cli("new", name)
     assert (result.code, result.err) == (0, "")
@@ -70,6 +74,56 @@ def test_a_new_map_makes_a_driver_that_can_be_imported(cli: Callable[..., Any], 
     assert cli("generate").code == 0
     script = "from regscribe_devices.acme.oven_3 import AcmeBasic, AcmePlus; print(AcmePlus.model)"
     assert process(script, python=True, env={"PYTHONPATH": "generated"}).out == "Plus\n"
+
+
+KINDS = (
+    *("holding", "input", "coil", "discrete", "float32", "uint32", "int16", "string"),
+    *("enum", "flags", "fields", "boolean", "number", "integer"),
+)
+"""What a beginner must find an example of."""
+
+
+def test_a_new_map_shows_every_common_kind_of_register(cli: Callable[..., Any]) -> None:
+    cli("new", "acme/oven")
+    found = compile_map(Path("maps/acme/oven.yaml")).map
+    assert found is not None
+    registers = found.model("Plus").registers
+    shown = {str(each) for one in registers for each in (one.base.space, one.base.type, one.kind)}
+
+    assert set(KINDS) - shown == set()
+    assert any(one.base.order is Order.LITTLE for one in registers)
+    assert any(one.sentinels for one in registers)
+    assert any(one.specials for one in registers)
+    assert any(one.index for one in registers)
+
+
+def test_the_tests_of_a_new_map_pass(cli: Callable[..., Any], folder: Path) -> None:
+    cli("new", "acme/oven")
+    cli("generate")
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "generated/tests"]
+    environment = {**os.environ, "PYTHONPATH": "generated"}
+    done = subprocess.run(  # noqa: S603 - our own command
+        command, cwd=folder, env=environment, check=False, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stdout
+
+
+def test_an_id_that_starts_with_a_digit_is_a_module_with_an_n_in_front(
+    cli: Callable[..., Any], process: Callable[..., Any]
+) -> None:
+    cli("new", "3m/93-pm")
+    assert cli("generate").code == 0
+    script = "from regscribe_devices.n3m.n93_pm import N3MPlus; print(N3MPlus.map_id)"
+    assert process(script, python=True, env={"PYTHONPATH": "generated"}).out == "3m/93-pm\n"
+    assert "from regscribe_devices.n3m.n93_pm import N3MBasic" in Path("generated/docs/3m/93-pm.md").read_text()
+
+
+@pytest.mark.usefixtures("oven")
+def test_of_a_map_with_one_model_no_command_asks_for_the_model(cli: Callable[..., Any]) -> None:
+    assert "M1" in cli("plan", "acme/oven", "--all").out
+    assert "M1" in cli("export", "acme/oven", "--format", "collectd", "--at", "127.0.0.1:502").out
+    with simulate("maps/acme/oven.yaml") as running:
+        assert running.device.model.name == "M1"
 
 
 @pytest.mark.usefixtures("oven")
@@ -108,9 +162,9 @@ def test_a_simulated_device_answers_over_tcp_until_ctrl_c(folder: Path, oven: Pa
 
 
 def test_a_simulated_device_asks_for_its_givens(cli: Callable[..., Any]) -> None:
-    simulate = ["simulate", "fdc/series-100", "--model", "C21", "--rtu", "/dev/no-such-tty"]
-    result = cli(*simulate)
+    arguments = ["simulate", "fdc/series-100", "--model", "C21", "--rtu", "/dev/no-such-tty"]
+    result = cli(*arguments)
     assert (result.code, "--given linear_inputs=" in result.err) == (2, True)
-    assert cli(*simulate, "--given", "linear_inputs=1,14..16").code == 1
+    assert cli(*arguments, "--given", "linear_inputs=1,14..16").code == 1
     for wrong in ("linear_inputs", "linear_inputs=", "linear_inputs=9..1", "linear_inputs=0..999999", "x=1"):
-        assert cli(*simulate, "--given", wrong).code == 2
+        assert cli(*arguments, "--given", wrong).code == 2

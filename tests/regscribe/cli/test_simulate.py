@@ -138,8 +138,8 @@ def _until(fd: int, pattern: bytes) -> bytes:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ("--tcp :0", "name a MAP with its --model, or devices"),
-        ("acme/oven --tcp :0", "--model is missing: acme/oven has M1"),
+        ("--tcp :0", "name a MAP (and which --model of several), or devices"),
+        ("athena/series-c --tcp :0", "--model is missing: athena/series-c has 1ZC, 16C"),
         ("acme/oven --model M1 --tcp :0 --latency fast", "neither off, real, nor a factor"),
         ("acme/oven --model M1 --tcp :0 --speed -1", "--speed"),
         ("acme/oven --model M1 --tcp :0 --paced", "--paced goes with --rtu pty only"),
@@ -148,7 +148,7 @@ def _until(fd: int, pattern: bytes) -> bytes:
         ("acme/oven --model M1 --tcp :0 --process time_constant=0", "time_constant 0 must be more than 0"),
         ("acme/oven --model M1 --tcp :0 --process time_konstant=5", "did you mean `time_constant`?"),
         ("acme/oven --model M1 --tcp :0 --process gain=much", "`much` is no number"),
-        ("--device acme/oven --tcp :0", "write MAP:MODEL:UNIT"),
+        ("--device athena/series-c --tcp :0", "--model is missing"),
         ("--device acme/oven:M1:999 --tcp :0", "unit 999 is outside"),
         ("--device acme/oven:M1 --device acme/oven:M1:2 --save x.yaml --tcp :0", "are for one device, not for 2"),
         ("--devices none.yaml --tcp :0", "cannot be read as YAML"),

@@ -18,8 +18,8 @@ from regscribe.model import Diagnostic, Severity
 from regscribe.plugins import IMPORTERS, PluginError
 from regscribe.visible import safe
 
-WORD = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
-"""A maker or a family: it becomes a folder, a file and a Python module."""
+WORD = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*")
+"""A maker or a family: it becomes a folder, a file and (with an `n` before a digit) a Python module."""
 
 SCHEMA = "map.schema.json"
 
@@ -67,7 +67,7 @@ def _parts(map_id: str) -> tuple[str, str]:
         if not WORD.fullmatch(part) or keyword.iskeyword(part):
             refuse(
                 f"`{part}` in `{map_id}` becomes a Python module: write lower-case letters, digits and single "
-                "hyphens, a letter first, and no keyword of Python"
+                "hyphens, and no keyword of Python"
             )
     return parts[0], parts[1]
 
@@ -98,7 +98,7 @@ def _read(origin: Path, form: str) -> tuple[str, Sequence[Diagnostic]]:
 def _text(maker: str, family: str, schema: str, imported: str) -> str:
     template = Template(files("regscribe.cli").joinpath("skeleton.yaml").read_text(encoding="utf-8"))
     title, maker_name = (part.replace("-", " ").title() for part in (family, maker))
-    prefix = re.sub(r"[^A-Za-z0-9]", "", maker_name)
+    prefix = "N" * maker_name[0].isdigit() + re.sub(r"[^A-Za-z0-9]", "", maker_name)
     skeleton = template.substitute(id=f"{maker}/{family}", title=title, maker=maker_name, prefix=prefix, schema=schema)
     head = [line for line in skeleton.splitlines(keepends=True) if line.startswith(HEAD)]
     return "".join(head) + imported if imported else skeleton

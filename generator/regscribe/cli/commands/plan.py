@@ -34,7 +34,7 @@ MOST_NAMED = 3
 )
 @click.argument("map_name", metavar="MAP")
 @click.argument("ids", nargs=-1, metavar="[ID]...")
-@click.option("--model", required=True, help="The model that answers.")
+@click.option("--model", metavar="M", help="The model that answers, where the map has several.")
 @click.option("--group", "groups", multiple=True, metavar="ID", help="All registers of a group (repeatable).")
 @click.option("--all", "everything", is_flag=True, help="All registers.")
 @click.option("--baud", type=click.IntRange(min=50, max=10_000_000), help="Speed of the line; default: as delivered.")
@@ -50,7 +50,7 @@ def command(  # noqa: PLR0913 - one parameter an option
     *,
     map_name: str,
     ids: tuple[str, ...],
-    model: str,
+    model: str | None,
     groups: tuple[str, ...],
     everything: bool,
     baud: int | None,
@@ -85,8 +85,11 @@ def command(  # noqa: PLR0913 - one parameter an option
         report.print(f"{register_map.title} {subject.model.name}", also)
 
 
-def _subject(register_map: RegisterMap, model: str, bases: Sequence[str]) -> PlannedModel:
+def _subject(register_map: RegisterMap, wanted: str | None, bases: Sequence[str]) -> PlannedModel:
     names = {one.name.casefold(): one.name for one in register_map.models}
+    model = wanted or register_map.only_model
+    if not model:
+        refuse(f"--model is missing: {register_map.id} has {', '.join(names.values())}")
     if model.casefold() not in names:
         refuse(unknown("model", model, names.values(), where=f"in {register_map.id}"))
     with raised_as(click.UsageError, ValueError):

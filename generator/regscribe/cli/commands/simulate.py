@@ -54,7 +54,7 @@ class Options(TypedDict):
     "Exit code 130: stopped by Ctrl-C, 1: errors in the map, port in use or serial device absent, 2: wrong usage.",
 )
 @click.argument("map_name", metavar="[MAP]", required=False)
-@click.option("--model", metavar="M", help="The manual's name of the model.")
+@click.option("--model", metavar="M", help="The manual's name of the model, where the map has several.")
 @click.option("--unit", type=click.IntRange(0, 255), metavar="N", help="Unit id; without it the map's default.")
 @given_option
 @base_option
@@ -114,7 +114,7 @@ def command(  # noqa: PLR0913 - one for each option that makes devices
     wanted += [simulated_devices.wanted_device(text) for text in devices]
     wanted += simulated_devices.wanted_devices(Path(file)) if file is not None else []
     if not wanted:
-        refuse("name a MAP with its --model, or devices by --device MAP:MODEL:UNIT or --devices FILE")
+        refuse("name a MAP (and which --model of several), or devices by --device MAP:MODEL:UNIT or --devices FILE")
     if len(wanted) > 1 and any((state, options["save"])):
         refuse(f"--state and --save are for one device, not for {len(wanted)}: give states in a file of --devices")
     service = _service(options)

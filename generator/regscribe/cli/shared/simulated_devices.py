@@ -44,11 +44,11 @@ class WantedDevice:
 
 
 def wanted_device(text: str) -> WantedDevice:
-    """The device of `MAP:MODEL:UNIT`, or `MAP:MODEL`."""
-    found = re.fullmatch(r"(.+?):([^:]+)(?::([0-9]{1,3}))?", text, re.DOTALL)
+    """The device of `MAP:MODEL:UNIT`, `MAP:MODEL` or `MAP`; of `MAP::UNIT` where the map has one model."""
+    found = re.fullmatch(r"(.+?)(?::([^:]*)(?::([0-9]{1,3}))?)?", text, re.DOTALL)
     if not found:
         refuse(f"--device {text}: write MAP:MODEL:UNIT, for example athena/series-c:16C:3")
-    return WantedDevice(map=found[1], model=found[2], unit=int(found[3]) if found[3] else None)
+    return WantedDevice(map=found[1], model=found[2] or None, unit=int(found[3]) if found[3] else None)
 
 
 def wanted_devices(path: Path) -> list[WantedDevice]:
@@ -72,7 +72,7 @@ def _wanted(entry: object, where: str) -> WantedDevice:
         refuse(f"{where}: `given` and `base` are mappings, `unit` and `seed` are whole numbers")
     return WantedDevice(
         map=str(given["map"]),
-        model=str(given["model"]),
+        model=None if given.get("model") is None else str(given["model"]),
         unit=unit,
         givens=tuple(f"{name}={_option_text(value)}" for name, value in givens.items()),
         bases=tuple(f"{name}={value}" for name, value in bases.items()),
@@ -84,8 +84,8 @@ def _wanted(entry: object, where: str) -> WantedDevice:
 
 
 def _mapping(entry: object, where: str) -> dict[str, Any]:
-    if not isinstance(entry, dict) or not {"map", "model"} <= entry.keys():
-        refuse(f"{where} is no mapping with `map` and `model`")
+    if not isinstance(entry, dict) or "map" not in entry:
+        refuse(f"{where} is no mapping with `map` and, if that has several, `model`")
     for key in entry:
         if key not in KEYS:
             refuse(f"{where} has the key `{key}`: known are {', '.join(KEYS)}{did_you_mean(str(key), KEYS)}")
@@ -159,7 +159,8 @@ def device_of(wanted: WantedDevice, register_map: RegisterMap) -> SimulatedDevic
 
 def _model(model: str | None, register_map: RegisterMap) -> str:
     names = [one.name for one in register_map.models]
-    if model is None:
+    model = model or register_map.only_model
+    if not model:
         refuse(f"--model is missing: {register_map.id} has {', '.join(names)}")
     if model not in names:
         folded = {name.casefold(): name for name in names}

@@ -5,6 +5,7 @@ import re
 from regscribe.emit.markdown.context import PageContext
 from regscribe.emit.markdown.escape import Md
 from regscribe.model import Kind, Model, Register, show
+from regscribe.model.identifiers import module_names
 
 ADDRESS = "192.0.2.10"
 """An address that is reserved for documentation (RFC 5737)."""
@@ -13,8 +14,7 @@ ADDRESS = "192.0.2.10"
 def quick_start(context: PageContext) -> dict[str, tuple[Md, ...]]:
     """Return a synchronous and an asynchronous example of the map's first model."""
     model = context.map.models[0]
-    maker, _, family = context.map.id.partition("/")
-    module = ".".join(("regscribe_devices", *(part.replace("-", "_") for part in (maker, family))))
+    module = ".".join(("regscribe_devices", *module_names(context.map.id)))
     default = context.map.default_unit
     unit = context.map.protocol.unit_ids[0] if default is None else default
     arguments = "".join(f", {given.id}=..." for given in context.map.givens)

@@ -22,6 +22,7 @@ from regscribe.emit.python.literals import camel, docstring, literal
 from regscribe.emit.python.reserved_names import RUNTIME, hidden
 from regscribe.emit.words import one_line
 from regscribe.model import Library, RegisterMap
+from regscribe.model.identifiers import module_names
 
 STANDARD = {
     "collections.abc": ["Collection"],
@@ -59,7 +60,7 @@ def _driver(register_map: RegisterMap, named: NamedClasses) -> str:
     about = f"{one_line(register_map.title)}: drivers of {', '.join(model.name for model in register_map.models)}."
     source = _source(register_map.id, register_map.content_hash)
     pool = Pool(hidden(register_map))
-    classes = Classes(register_map, named, pool, camel(register_map.id.split("/")[1]))
+    classes = Classes(register_map, named, pool, camel(module_names(register_map.id)[1]))
     classes.build()
     body = _template().render(
         protocol=lay(expression(register_map.protocol), head=f"{PROTOCOL} = "),

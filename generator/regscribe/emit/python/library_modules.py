@@ -2,11 +2,12 @@
 
 from regscribe.emit.python.enum_classes import NamedClasses, Origin
 from regscribe.model import Library, Manual, RegisterMap
+from regscribe.model.identifiers import module_names
 
 
 def module_path(map_id: str) -> str:
     """Where the module of a map or library stands in the output tree."""
-    return f"regscribe_devices/{map_id.replace('-', '_')}.py"
+    return f"regscribe_devices/{'/'.join(module_names(map_id))}.py"
 
 
 def libraries(register_map: RegisterMap) -> list[tuple[Library, NamedClasses]]:

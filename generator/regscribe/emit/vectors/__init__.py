@@ -9,6 +9,7 @@ from regscribe.emit.vectors.test_module import module_text
 from regscribe.emit.vectors.vector_sets import once_for_models, vector_sets
 from regscribe.emit.vectors.worked import worked_examples
 from regscribe.model import Command, CommandStep, Given, Protocol, RegisterMap
+from regscribe.model.identifiers import module_names
 
 Json = dict[str, Any]
 SCHEMA = "vectors.schema.json"
@@ -20,10 +21,10 @@ __all__ = ["document", "dumps", "render"]
 def render(register_map: RegisterMap) -> dict[str, str]:
     """Return `vectors/<maker>/<family>.json` and `tests/<maker>/test_<family>.py` of a map, as path and text."""
     maker, family = register_map.id.split("/")
-    module = family.replace("-", "_")
+    package, module = module_names(register_map.id)
     return {
         f"vectors/{maker}/{family}.json": dumps(document(register_map)) + "\n",
-        f"tests/{maker.replace('-', '_')}/test_{module}.py": module_text(register_map),
+        f"tests/{package}/test_{module}.py": module_text(register_map),
     }
 
 

@@ -6,6 +6,7 @@ from regscribe.emit.header import header
 from regscribe.emit.python.formatting import call, lay
 from regscribe.emit.python.literals import literal
 from regscribe.model import Model, RegisterMap
+from regscribe.model.identifiers import module_names
 
 HEAD = '''"""The driver against its vectors, and properties that hold for every value."""
 
@@ -58,10 +59,11 @@ PROPERTIES = {
 def module_text(register_map: RegisterMap) -> str:
     """Return the text of the test module of a map; maker and file names are checked identifiers of the map."""
     maker, family = register_map.id.split("/")
+    package, module = module_names(register_map.id)
     head = HEAD.format(
         header=header(register_map, prefix="# ", separator="\n# "),
-        maker=maker.replace("-", "_"),
-        module=family.replace("-", "_"),
+        maker=package,
+        module=module,
         maker_text=literal(maker),
         file_text=literal(f"{family}.json"),
         classes=_classes(register_map.models),

@@ -17,7 +17,7 @@ from regscribe_runtime.values.blocks import bases_in
 name = "collectd"
 summary = "a configuration of collectd's modbus plugin that polls one model"
 options = (
-    Option("model", "the manual's name of the model.", metavar="M"),
+    Option("model", "the manual's name of the model; not needed where the map has one.", metavar="M"),
     Option("at", "where it answers, on TCP or a serial line.", metavar="HOST:PORT|DEVICE"),
     Option("name", "what to call it; else by its model and unit.", metavar="NAME"),
     Option("unit", "unit id; else the map's default.", metavar="N"),
@@ -43,11 +43,12 @@ FACTS = {"true": True, "false": False}
 
 def export(maps: Sequence[RegisterMap], options: Mapping[str, str]) -> dict[str, str]:
     """Return the configuration. Raises OptionError."""
-    if len(maps) != 1 or not options["model"] or not options["at"]:
+    wanted = options["model"] or (maps[0].only_model if maps else "")
+    if len(maps) != 1 or not wanted or not options["at"]:
         message = "--format collectd polls one device: name one MAP, its --model, and where it answers (--at)"
         raise OptionError(message)
     (register_map,) = maps
-    model = _located(register_map, _model(register_map, options["model"]), _each(options["base"]))
+    model = _located(register_map, _model(register_map, wanted), _each(options["base"]))
     known = _surroundings(register_map, model, _each(options["with"]), _each(options["given"]))
     return {"": collectd_text(register_map, model, _poll(register_map, model, options), known)}
 

@@ -32,11 +32,14 @@ def models(packages: tuple[str, ...] = ()) -> tuple[Known, ...]:
 def find(name: str, packages: Sequence[str] = ()) -> Known:
     """The model of that name: `16C`, `athena/series-c:16C`, or the class `Athena16C`; case does not matter.
 
+    The id of a map is the name of its model, if it has one.
+
     TargetError says which was probably meant, or which several have that name.
     """
     known = models(tuple(packages))
     wanted = name.casefold()
     found = [one for one in known if wanted in map(str.casefold, (one.model, full_name(one), one.driver.__name__))]
+    found = found or [one for one in known if wanted == one.map_id]
     if not found:
         names = [text for one in known for text in (one.model, full_name(one))]
         raise TargetError(unknown("model", name, names, where="among the drivers") + "; `regscribe devices` lists all")
