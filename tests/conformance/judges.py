@@ -298,7 +298,7 @@ def prime(device: SimulatedDevice, space: str, address: int, words: list[int]) -
     for register in device.model.registers:
         for view in register.views:
             if (view.space.value, view.address(register.at)) == (space, address) and view.words <= len(words):
-                stored = simulated_codec.decode(view, words[: view.words], device.state.order(view))
+                stored = simulated_codec.decode(device.state.seen(view), words[: view.words], device.state.order(view))
                 if stored is not None:
                     device.state.store(register.path, stored)
                 return

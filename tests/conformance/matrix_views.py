@@ -17,7 +17,7 @@ TRIALS: dict[str, tuple[Any, ...]] = {
     "offset": (1100,),
     "stride": (2,),
     "type": ("int16", "uint32", "float32", "float64", "int64", "bit", "string"),
-    "factor": (10, 0.5, 0.1),
+    "factor": (10, 0.5, 0.1, {"power": "dig"}),
     "rounding": ("half_up", "half_away", "half_even", "down"),
     "saturates": (True,),
     "word_order": ("little", {"register": "ord", "codes": {0: "big", 1: "little"}}),

@@ -229,7 +229,8 @@ def _views(draw: Draw, kind: str, access: str, *, scaled: bool) -> Json:
         view = {"type": kind if not number or not scaled or _maybe(draw) else _of(draw, *INTEGERS[:4], *FLOATS)}
         view |= {"offset": VIEW * number} if number else {}
         if number:
-            view |= {"factor": _of(draw, 10, 100, 0.5, 0.1)} if scaled and _maybe(draw, 2) else {}
+            factor = _of(draw, 10, 100, 0.5, 0.1, {"power": "dig"}, {"product": [2, "dig"]})
+            view |= {"factor": factor} if scaled and _maybe(draw, 2) else {}
             if view["type"] in INTEGERS and _maybe(draw, 2):
                 view["rounding"] = _of(draw, "half_up", "half_away", "half_even", "down")
             view |= {"saturates": True} if view["type"] in INTEGERS and _maybe(draw) else {}

@@ -18,6 +18,7 @@ from regscribe.reference import (
     decode,
     encode,
     holds,
+    present_view,
     special_value,
     transmit,
     wire_number,
@@ -102,13 +103,16 @@ class Trial:
     def _stored(self, register: Register, view: View, words: Words) -> Fraction | NotANumber | str | None:
         """What a device holds whose view shows the words; None for words that nothing stored is shown by."""
         if view.type is WireType.STRING:
-            return simulated_codec.decode(view, words, self.device.state.order(view))
-        order = word_order(view, self._known(self.asked))
-        number = None if order is None else wire_number(view, words, order)
+            return simulated_codec.decode(self.device.state.seen(view), words, self.device.state.order(view))
+        try:
+            seen, order = present_view(view, self._known(self.asked)), word_order(view, self._known(self.asked))
+        except UnknownValueError:
+            return None
+        number = None if order is None or seen is None else wire_number(view, words, order)
         if isinstance(number, NotANumber):
             shown = all(one.type.is_float for one in register.views)
             return number if shown and words == transmit(view, number, self._known(self.asked)) else None
-        return number and number / view.factor
+        return number and seen and number / seen.factor
 
     def words(self, register: Register, view: View) -> list[Words]:
         """Some of the words that are worth trying."""
@@ -154,8 +158,9 @@ class Trial:
     def _elsewhere(self, register: Register, memory: Any) -> Iterator[object]:
         """What views of the same type and factor say: the planner may take any of them."""
         usual = register.read_view
+        usual_form = usual.type, usual.factor, usual.times, usual.saturates
         for view in register.views:
-            if (view.type, view.factor, view.saturates) == (usual.type, usual.factor, usual.saturates):
+            if (view.type, view.factor, view.times, view.saturates) == usual_form:
                 yield self._reading(register, view, memory)
 
     def _of_view(self, register: Register, view: View) -> Iterator[str]:
@@ -199,7 +204,7 @@ class Trial:
         for other in register.views:
             try:
                 expected = list(transmit(other, stored, self._known(self.asked)))
-            except RefusedError:
+            except (RefusedError, UnknownValueError):
                 continue  # what a device does with a number that a view cannot carry, no map says
             found = (
                 judges.ask(self.device, register, other)
@@ -294,7 +299,7 @@ class Trial:
 
 
 def _given(declared: Any, view: View, value: Value) -> Any:
-    """A value as a program would hand it to a driver: a member, an int, or a float.
+    """A value as a program would hand it to a driver: a member, an int, or a float; a fraction where no float is it.
 
     A float counts as its shortest decimal, but also as what it is exactly, where the view carries just that.
     """
@@ -302,7 +307,10 @@ def _given(declared: Any, view: View, value: Value) -> Any:
         return value
     if isinstance(value, Special):
         return declared.value_type.special[value.id]
-    number = int(value) if value.denominator == 1 else float(value)
+    near = float(value)
+    if value not in (Fraction(near), Fraction(repr(near))):  # 1/3: no float spells it
+        return value
+    number = int(value) if value.denominator == 1 else near
     with suppress(Exception):  # a kind refuses as it likes what it cannot be
         made = declared.value_type.make(number)
         exactly = not isinstance(made, float) or Fraction(repr(made)) == value or view.type is WireType.FLOAT32

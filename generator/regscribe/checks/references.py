@@ -38,6 +38,7 @@ def needed(register: Register) -> Iterator[tuple[str, str]]:
     for view in register.views:
         if isinstance(view.order, OrderFrom):
             yield view.order.register, f"the word order of view {view.name} is"
+        yield from ((path, f"the factor of view {view.name} depends on") for path in registers_in(view.times))
 
 
 def limiting(register: Register) -> Iterator[tuple[str, str]]:
@@ -181,7 +182,8 @@ def limit_register(register: Register, scope: RuleScope) -> Iterator[Problem]:
 @register_rule("RS0651", "Scale from a register that is no number")
 def scale_register(register: Register, scope: RuleScope) -> Iterator[Problem]:
     """A text, a version or a word of bits cannot multiply, divide or be added."""
-    for other in scope.named(_values((case.then.multiply, case.then.add) for case in register.scale)):
+    terms = [(case.then.multiply, case.then.add) for case in register.scale]
+    for other in scope.named(_values([*terms, *((view.times,) for view in register.views)])):
         if other is register or other.kind not in NUMBERS | WHOLE:
             what = "itself" if other is register else f"`{other.path}`, which is of kind {other.kind}"
             yield f"has a scale that depends on {what}", "name a register that holds a number"

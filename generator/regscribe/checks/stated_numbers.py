@@ -50,7 +50,7 @@ def sentinel_outside_type(register: Register, _: RuleScope) -> Iterator[Problem]
 def _reports(view: View, sentinel: Sentinel) -> bool:
     if isinstance(sentinel.stored, NotANumber):
         return view.type.is_float
-    return all(_carries(view, sentinel._replace(stored=end)) for end in sentinel.ends or ())
+    return view.times is not None or all(_carries(view, sentinel._replace(stored=end)) for end in sentinel.ends or ())
 
 
 def _carries(view: View, sentinel: Sentinel) -> bool:
@@ -153,7 +153,8 @@ def scaled_codes(register: Register, _: RuleScope) -> Iterator[Problem]:
     """Codes, bits and texts are not multiplied; one of them is wrong."""
     if register.kind not in UNSCALED:
         return
-    if any(case.then != IDENTITY for case in register.scale) or any(view.factor != 1 for view in register.views):
+    scaled = any(view.factor != 1 or view.times is not None for view in register.views)
+    if scaled or any(case.then != IDENTITY for case in register.scale):
         yield f"is of kind {register.kind} but has a scale", "remove the scale, or correct `kind`"
 
 

@@ -139,7 +139,7 @@ def kind_of(
 
 def _has_fractions(views: Iterable[View], scaling: Iterable[Scaling], specials: Iterable[Special]) -> bool:
     return (
-        any(view.type.is_float or (1 / Fraction(view.factor or 1)).denominator != 1 for view in views)
+        any(view.type.is_float or view.times or (1 / Fraction(view.factor or 1)).denominator != 1 for view in views)
         or any(map(_makes_fractions, scaling))
         or any((special.means or special.code).denominator != 1 for special in specials)
     )

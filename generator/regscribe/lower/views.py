@@ -3,10 +3,11 @@
 from regscribe.lower.node import Keyed, Value
 from regscribe.lower.rules import IDLE_KEY, IDLE_LENGTH, NO_PART, TYPE_BESIDE_VIEWS, UNKNOWN_VIEWS, WRONG_SORT
 from regscribe.lower.scope import Scope
+from regscribe.lower.terms import ONE, term_of
 from regscribe.lower.texts import whole_ends
 from regscribe.lower.tree import TreeNode
 from regscribe.lower.variants import Keys
-from regscribe.model import Access, Order, OrderFrom, Protocol, Rounding, Space, View, WireType
+from regscribe.model import Access, Number, Order, OrderFrom, Protocol, Rounding, Space, View, WireType
 
 _OF_EACH_VIEW = ("type", "word_order", "byte_order", "functions", "write_at", "write")
 WRITTEN = "write"
@@ -122,14 +123,14 @@ def _report_idle(view: View, node: Value) -> None:
 
 def _view(name: str, keys: Keyed, space: Space, words: int, scope: Scope) -> View:
     wire = keys.choice_of("type", _DEFAULT_TYPES.get(space, WireType.UINT16))
-    factor, region = keys.child("factor"), keys.child("region")
+    factor, region = term_of(keys.child("factor"), scope, ONE), keys.child("region")
     return View(
         name=name,
         space=space,
         offset=keys.whole_of("offset"),
         type=wire,
         words=words if wire is WireType.STRING else wire.words,
-        factor=(factor.number() if factor else 1) * (1 << wire.fraction),
+        factor=(factor if isinstance(factor, Number) else 1) * (1 << wire.fraction),
         rounding=keys.choice_of("rounding", Rounding.NONE),
         saturates=keys.truth_of("saturates"),
         order=_order(keys.child("word_order"), scope),
@@ -139,6 +140,7 @@ def _view(name: str, keys: Keyed, space: Space, words: int, scope: Scope) -> Vie
         region=whole_ends(region) if region else None,
         preferred=keys.truth_of("preferred"),
         stride=keys.whole_of("stride", 1),
+        times=None if isinstance(factor, Number) else factor,
     )
 
 

@@ -26,7 +26,7 @@ from regscribe.reference.surroundings import (
     decimal_factor,
     holds,
 )
-from regscribe.reference.terms import Straight, amount, straight
+from regscribe.reference.terms import Straight, amount, present_view, straight
 from regscribe.reference.whole_numbers import whole_bits
 from regscribe.reference.words import (
     bytes_in_order,
@@ -63,6 +63,7 @@ __all__ = [
     "limits",
     "number_of",
     "present_sentinels",
+    "present_view",
     "round_by",
     "sent_words",
     "sentinel_number",

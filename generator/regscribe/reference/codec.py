@@ -17,7 +17,7 @@ from regscribe.reference.outcome import (
     RefusedError,
 )
 from regscribe.reference.surroundings import NOTHING_KNOWN, Known, choose, decimal_factor, holds
-from regscribe.reference.terms import straight
+from regscribe.reference.terms import present_view, straight
 from regscribe.reference.words import HALF, carried, spelled, text_of, wire_number, word_order, words_of_text
 from regscribe_runtime.values.kinds import Kind
 from regscribe_runtime.values.numbers import show
@@ -31,9 +31,10 @@ PATTERNS = frozenset({Kind.FLAGS, Kind.FIELDS})
 
 def decode(register: Register, view: View, words: tuple[int, ...], known: Known = NOTHING_KNOWN) -> Reading:
     """Return what `words`, read from `view`, mean; raises UnknownValueError if that depends on an unknown value."""
-    order = word_order(view, known)
-    if order is None:
+    order, seen = word_order(view, known), present_view(view, known)
+    if order is None or seen is None:
         return NOT_DECODABLE
+    view = seen
     if view.type is WireType.STRING:
         text = text_of(view, words, order)
         return NOT_DECODABLE if text is None else Reading(Meaning.VALUE, text)
@@ -157,9 +158,10 @@ def encode(
 
     With `rounded`, a value between two wire numbers is rounded as the device rounds, else refused.
     """
-    order = word_order(view, known)
-    if order is None:
-        raise RefusedError(RefusalReason.CONDITION, "the order of the words is not known")
+    order, seen = word_order(view, known), present_view(view, known)
+    if order is None or seen is None:
+        raise RefusedError(RefusalReason.CONDITION, "the order of the words, or the factor of the view, is not known")
+    view = seen
     if view.type is WireType.STRING:
         return words_of_text(view, str(value), order)
     number = version_number(register, value) if isinstance(value, str) else value

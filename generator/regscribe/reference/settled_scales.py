@@ -56,6 +56,8 @@ PLAIN = (Form.of(IDENTITY, Fraction(1)),)
 
 def forms(register: Register) -> tuple[Form, ...]:
     """All conversions of a register that can be inverted; none where the device or its user sets a number of one."""
+    if any(view.times is not None for view in register.views):
+        return ()
     if len(register.scale) == 1 and (register.scale[0].then is IDENTITY or register.scale[0].then == IDENTITY):
         return PLAIN
     if any(not isinstance(one, Number) for case in register.scale for one in (case.then.multiply, case.then.add)):

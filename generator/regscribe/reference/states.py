@@ -78,7 +78,7 @@ def _end(limit: Limit, otherwise: Fraction) -> Fraction:
 def _without_faults(register: Register, stretches: tuple[Stretch, ...]) -> tuple[Stretch, ...]:
     """Cut out the stored numbers that report faults, where each has one value: a device in use never holds them."""
     every = forms(register) if register.faults else ()
-    if len(every) != 1 or any(view.factor != 1 or view.type.is_float for view in register.views):
+    if len(every) != 1 or any(view.factor != 1 or view.times or view.type.is_float for view in register.views):
         return stretches
     step = 1 / abs(every[0].gain)
     for low, high in filter(None, (sentinel.ends for sentinel in register.sentinels)):

@@ -7,6 +7,7 @@ from regscribe.reference.outcome import UnknownValueError
 from regscribe.reference.surroundings import Known, choose, decimal_factor
 from regscribe_runtime.values.scales import Conversion
 from regscribe_runtime.values.terms import ByCase, GivenRef, Power, Product, Ref, Sum, Term
+from regscribe_runtime.values.views import View
 
 MOST_EXPONENT = 10
 """No device scales by more than ten to the power of it, nor by less than its inverse."""
@@ -33,7 +34,9 @@ def amount(term: Term, known: Known) -> Fraction | None:
     if isinstance(term, Ref):
         found = known.look_up(term.register)
     elif isinstance(term, GivenRef):
-        found = _given(term.given, known)
+        if term.given not in known.numbers:
+            raise UnknownValueError(term.given)
+        found = known.numbers[term.given]
     elif isinstance(term, ByCase):
         chosen = choose(term.cases, known)
         found = None if chosen is None else amount(chosen, known)
@@ -47,12 +50,6 @@ def amount(term: Term, known: Known) -> Fraction | None:
     else:
         found = Fraction(term)
     return found
-
-
-def _given(name: str, known: Known) -> Fraction:
-    if name not in known.numbers:
-        raise UnknownValueError(name)
-    return known.numbers[name]
 
 
 def _power_of_ten(exponent: Fraction | None) -> Fraction | None:
@@ -76,6 +73,14 @@ def _quotient(factors: list[Fraction] | None, divisors: list[Fraction] | None) -
     for divisor in divisors:
         result /= divisor
     return result
+
+
+def present_view(view: View, known: Known) -> View | None:
+    """Return a view with the factor that it has now; None if that is no number above 0."""
+    if view.times is None:
+        return view
+    times = amount(view.times, known)
+    return None if times is None or times <= 0 else view._replace(factor=view.factor * times, times=None)
 
 
 def straight(conversion: Conversion | None, known: Known) -> Straight | None:

@@ -14,6 +14,7 @@ from regscribe.reference.ieee import (
 )
 from regscribe.reference.outcome import RefusalReason, RefusedError
 from regscribe.reference.surroundings import NOTHING_KNOWN, Known
+from regscribe.reference.terms import present_view
 from regscribe.reference.whole_numbers import whole_bits, whole_number
 from regscribe_runtime.values.numbers import show
 from regscribe_runtime.values.scales import NAN, NotANumber
@@ -124,10 +125,10 @@ def transmit(view: View, stored: Fraction | NotANumber, known: Known = NOTHING_K
 
     Raises RefusedError for a number that the view cannot carry.
     """
-    order = word_order(view, known)
-    if order is None:
-        raise RefusedError(RefusalReason.CONDITION, "the order of the words is not known")
-    return sent_words(view, stored, order)
+    order, seen = word_order(view, known), present_view(view, known)
+    if order is None or seen is None:
+        raise RefusedError(RefusalReason.CONDITION, "the order of the words, or the factor of the view, is not known")
+    return sent_words(seen, stored, order)
 
 
 def sent_words(view: View, stored: Fraction | NotANumber, order: Order, *, clip: bool = False) -> tuple[int, ...]:

@@ -21,6 +21,7 @@ from regscribe.emit.words import (
     range_words,
     sentinel_words,
     special_words,
+    term_words,
     value_words,
 )
 from regscribe.model import IDENTITY, Array, Kind, Model, Order, Register, Setting, View, show
@@ -161,6 +162,7 @@ def transmission(context: PageContext, view: View) -> Md:
         words = md("word order: ", Md(order_words(order, context.wording(context.map.models[0]))))
     parts = (
         f"stored value times {show(factor)}" if factor != 1 else "",
+        f"stored value times {term_words(view.times)}" if view.times is not None else "",
         ROUNDING[view.rounding],
         f"stops at {view.type.minimum} and {view.type.maximum}" if view.saturates else "",
         words,

@@ -16,6 +16,7 @@ from regscribe.reference import (
     Surroundings,
     decode,
     encode,
+    present_view,
     special_value,
     word_order,
     words_of_bits,
@@ -29,6 +30,7 @@ LARGEST_TRIED = Fraction(10**MOST_DIGITS)
 def case_of(register: Register, view: View, situation: Situation) -> Json:
     """Return the vectors of one view in one situation, as `schema/vectors.schema.json` describes them."""
     known = situation.known
+    view = present_view(view, known) or view
     scale = scale_now(register, view, known)
     decodes = [
         {"words": list(words), **_outcome(register, decode(register, view, words, known), known), "note": note}

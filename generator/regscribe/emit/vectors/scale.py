@@ -119,7 +119,7 @@ def scale_now(register: Register, view: View, known: Known) -> Scale | None:
         bounds = _common([limits(one, known) for one in checked])
     except RefusedError:
         return None
-    if line is None or places is None:
+    if line is None or places is None or view.times is not None:  # the latter: it has no factor now
         return None
     if view.type.is_float:
         lowest, highest = -LARGEST[view.type], LARGEST[view.type]

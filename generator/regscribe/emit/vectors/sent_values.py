@@ -20,7 +20,7 @@ def transmissions(register_map: RegisterMap) -> list[Json]:
         for model in register_map.models
         for register in model.registers
         for view in register.views
-        if view.type.is_integer and (view.saturates or view.rounding is not Rounding.NONE)
+        if view.type.is_integer and view.times is None and (view.saturates or view.rounding is not Rounding.NONE)
         for order in _orders(view)
     )
     return [{"view": view_facts(view), "sends": list(_sends(view))} for view in dict.fromkeys(views)]

@@ -8,7 +8,7 @@ from itertools import chain, islice
 from regscribe.emit.vectors.present_scale import cases_of, limit_values
 from regscribe.emit.vectors.tried_values import Dependencies, TriedValues, Values, dependencies_of, tried_values
 from regscribe.model import Model, Register, RegisterMap, View
-from regscribe.reference import Surroundings, holds, word_order
+from regscribe.reference import Surroundings, holds, present_view, word_order
 from regscribe.reference.states import combinations
 from regscribe_runtime.values.versions import version_of_key
 
@@ -74,7 +74,7 @@ class Finder:
         asked = tuple(tried.values.items()), tuple(tried.givens.items()), tuple(tried.parts.items())
         ranges = register.range if register.access.writable else ()
         cases = (register.scale, register.special_scale, ranges, register.valid, register.sentinels)
-        key = (*cases, register.kind, view.order, view.words, asked)
+        key = (*cases, register.kind, view.order, view.times, view.words, asked)
         if key not in self._known:
             self._known[key] = _situations(tried, register, view)
         return self._known[key]
@@ -87,7 +87,7 @@ def _situations(tried: TriedValues, register: Register, view: View) -> tuple[Sit
         known = situation.known
         cases = cases_of(register, known)
         meanings[situation] = cases.numbers
-        first.setdefault(cases, situation)
+        first.setdefault((cases, present_view(view, known)), situation)
         if view.words > 1:
             first.setdefault(word_order(view, known), situation)
     full = list(dict.fromkeys(first.values()))

@@ -10,6 +10,7 @@ from regscribe.model import (
     Condition,
     Decimals,
     GivenKind,
+    GivenRef,
     Is,
     Model,
     Number,
@@ -79,6 +80,7 @@ def dependencies_of(register: Register, view: View) -> Dependencies:
     conditions += [case.when for case in ranges]
     decimals += [case.then.decimals for case in ranges]
     terms += [end for end in _ends(ranges) if not isinstance(end, Ref)]  # those have values of their own
+    terms += [view.times] if view.times is not None else []
     if register.access.writable:
         decimals += [case.then.places for case in register.scale]
     order = view.order if isinstance(view.order, OrderFrom) and view.words > 1 else None
@@ -125,13 +127,15 @@ def _values(
             yield test.subject, representatives(domain_now, codes.pop(test.subject))
     for decimals in dependencies.decimals:
         yield decimals.register, _places(decimals, domain(model.register(decimals.register)))
-    yield from _amounts(model, dependencies.terms)
+    yield from _amounts(register_map, model, dependencies.terms)
     if dependencies.order is not None:
         known = [Fraction(code) for code, _ in dependencies.order.codes]
         yield dependencies.order.register, (*known, max(known) + 1)
 
 
-def _amounts(model: Model, terms: tuple[Term, ...]) -> Iterator[tuple[str, Iterable[Fraction]]]:
+def _amounts(
+    register_map: RegisterMap, model: Model, terms: tuple[Term, ...]
+) -> Iterator[tuple[str, Iterable[Fraction]]]:
     """The registers of terms with numbers that make a difference to them, as far as these are of the register."""
     exponents = {part.exponent for part in parts_of(terms) if isinstance(part, Power)}
     powers = {path for exponent in exponents for path in registers_in(exponent)}
@@ -140,6 +144,11 @@ def _amounts(model: Model, terms: tuple[Term, ...]) -> Iterator[tuple[str, Itera
         tried = EXPONENTS if path in powers else AMOUNTS
         found = [number for number in tried if any(stretch.holds(number) for stretch in stretches)]
         yield path, found or [stretches[0].low]
+    asked = {part.given for part in parts_of(terms) if isinstance(part, GivenRef)}
+    for given in register_map.givens:
+        if given.id in asked:
+            low, high = domain_of_given(given)[0]
+            yield f"given.{given.id}", [number for number in AMOUNTS if low <= number <= high] or [low]
 
 
 def _given(model: Model, test: Is, sets: set[str]) -> tuple[GivenTry, ...]:

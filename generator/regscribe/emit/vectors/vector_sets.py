@@ -8,6 +8,7 @@ from typing import Any
 from regscribe.emit.common_values import models_by
 from regscribe.emit.vectors.content import case_of, surroundings
 from regscribe.emit.vectors.situations import Finder, Situation, writable_situations
+from regscribe.emit.words import term_words
 from regscribe.model import (
     PLAIN_READING,
     Enum,
@@ -123,6 +124,8 @@ def view_facts(view: View) -> Json:
     """Return what a view is, without its address."""
     found: Json = {"name": view.name, "space": view.space.value, "type": view.type.value, "words": view.words}
     found["factor"] = show(view.factor)
+    if view.times is not None:
+        found["times"] = term_words(view.times)
     if view.rounding is not Rounding.NONE:
         found["rounding"] = view.rounding.value
     if view.saturates:

@@ -5,7 +5,7 @@ from typing import Any
 
 from regscribe.emit.vectors.scale import scale_now
 from regscribe.model import FrameExample, GivenKind, Outcome, Register, RegisterMap, ValueExample, View, show
-from regscribe.reference import RefusedError, UnknownValueError, decode, encode, number_of
+from regscribe.reference import RefusedError, UnknownValueError, decode, encode, number_of, present_view
 
 Json = dict[str, Any]
 Pairs = tuple[tuple[str, Fraction], ...]
@@ -33,7 +33,8 @@ def _value(register_map: RegisterMap, example: ValueExample) -> Json:
     known = _ExampleState(register_map, example.model, example.state)
     encodes = False
     try:
-        scale_now(register, view, known)  # asks also where a fault or a clipped view decides first
+        seen = present_view(view, known) or view
+        scale_now(register, seen, known)  # asks also where a fault or a clipped view decides first
         decode(register, view, words, known)
         if isinstance(example.value, Fraction) and not example.lossy and register.access.writable:
             encodes = encode(register, view, example.value, known) == words

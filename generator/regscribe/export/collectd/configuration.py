@@ -13,7 +13,7 @@ from regscribe.emit.words import one_line, sentinel_words
 from regscribe.model import IDENTITY, Kind, Model, Order, Register, RegisterMap, Space, View, WireType
 from regscribe.reference import Surroundings, UnknownValueError
 from regscribe.reference.surroundings import choose
-from regscribe.reference.terms import straight
+from regscribe.reference.terms import present_view, straight
 from regscribe.reference.words import word_order
 
 NUMBERS = frozenset({Kind.NUMBER, Kind.INTEGER, Kind.RAW, Kind.ENUM, Kind.FLAGS, Kind.FIELDS})
@@ -145,7 +145,11 @@ def _scale(register: Register, view: View, known: Surroundings) -> tuple[Fractio
     if line is None:
         message = "no scale is stated for this state of the device"
         raise LeftOutError(message)
-    return line.slope / Fraction(view.factor), line.offset
+    seen = present_view(view, known)
+    if seen is None:
+        message = f"its {view.name} view has no factor in this state of the device"
+        raise LeftOutError(message)
+    return line.slope / Fraction(seen.factor), line.offset
 
 
 def _unknown(unknown: UnknownValueError, what: str) -> LeftOutError:

@@ -95,7 +95,7 @@ def _spelled(device: SimulatedDevice, place: AddressSpan, words: tuple[int, ...]
     name = register.path if view is register.base else f"{register.path} ({view.name})"
     if not words:
         return name
-    stored = codec.decode(view, words, state.order(view))
+    stored = codec.decode(state.seen(view), words, state.order(view))
     if stored is None:
         return f"{name} = NaN"
     if register.kind is Kind.STRING or isinstance(stored, str):

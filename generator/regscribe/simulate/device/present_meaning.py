@@ -18,7 +18,17 @@ from regscribe.model import (
     Special,
     View,
 )
-from regscribe.reference import MOST_DECIMALS, Straight, choose, divided_limits, is_valid, round_by, straight, within
+from regscribe.reference import (
+    MOST_DECIMALS,
+    Straight,
+    choose,
+    divided_limits,
+    is_valid,
+    present_view,
+    round_by,
+    straight,
+    within,
+)
 from regscribe.reference.limits import Limits
 from regscribe.simulate.device.device_plan import Blueprint, Stored
 from regscribe.simulate.device.value_arguments import field_value
@@ -128,6 +138,10 @@ class PresentMeaning(ABC):
         first = next((order for _, order in view.order.codes), Order.BIG)
         return view.order.order(self.look_up(view.order.register)) or first
 
+    def seen(self, view: View) -> View:
+        """Return a view with the factor that it has now; where that is no number above 0, without it."""
+        return present_view(view, self) or view._replace(times=None)
+
     def quantise(self, register: Register, stored: Fraction) -> Fraction:
         """Round `stored` to the resolution of the device: the scale's step, else that of its finest view."""
         conversion = self.conversion(register)
@@ -135,7 +149,7 @@ class PresentMeaning(ABC):
         if step is None:
             if any(view.type.is_float for view in register.views):
                 return stored
-            step = 1 / Fraction(max(view.factor for view in register.views))
+            step = 1 / Fraction(max(self.seen(view).factor for view in register.views))
         return _on_step(register, stored, Fraction(step))
 
     def kept(self, register: Register, stored: Fraction) -> Fraction:

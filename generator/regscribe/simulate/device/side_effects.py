@@ -120,7 +120,7 @@ class Conduct:
             factor, offset = factor / per, (offset - zero) / per
             if register.difference:
                 offset = Fraction(0)
-            state.store(register.path, _rounded(register, state.from_value(register, value * factor + offset)))
+            state.store(register.path, _rounded(state, register, state.from_value(register, value * factor + offset)))
             if self.controller is not None:
                 self.controller.convert(register.path, float(factor), float(offset))
 
@@ -136,9 +136,9 @@ def _values_in(state: DeviceState, unit: str) -> Iterator[tuple[Register, str, F
             yield register, choose(register.unit, state) or "", value
 
 
-def _rounded(register: Register, stored: Fraction) -> Fraction:
+def _rounded(state: DeviceState, register: Register, stored: Fraction) -> Fraction:
     """Round to the resolution of the whole numbers of its views: 37.777... is kept as 37.8."""
-    views = [view for view in register.views if not view.type.is_float]
+    views = [state.seen(view) for view in register.views if not view.type.is_float]
     if not views:
         return stored
     finest = max(views, key=lambda view: view.factor)

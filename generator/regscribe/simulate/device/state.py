@@ -248,7 +248,7 @@ class DeviceState(PresentMeaning):
             names = ", ".join(each.name for each in register.views)
             message = f"register {register.path!r} has no view {view!r}: it has {names}"
             raise SimulatorError(message)
-        return codec.encode(shown, self.stored(register.path), self.order(shown))
+        return codec.encode(self.seen(shown), self.stored(register.path), self.order(shown))
 
     def _first(self, register: Register) -> Stored:
         if register.path in self._initial:  # a circle of dependencies: one of them must begin
@@ -295,5 +295,5 @@ class DeviceState(PresentMeaning):
         for place in self.blueprint.places[register.path]:
             if not place.view.readable:
                 continue
-            words = codec.encode(place.view, stored, self.order(place.view))
+            words = codec.encode(self.seen(place.view), stored, self.order(place.view))
             image.setdefault(place.view.space, {}).update(zip(range(place.start, place.end), words, strict=True))

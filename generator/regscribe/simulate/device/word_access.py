@@ -162,7 +162,7 @@ class WordAccess:
     def _accepted(self, place: AddressSpan, words: tuple[int, ...], *, limited: bool) -> Stored:
         """The value to store for the words of one value; `limited` unless the whole request is a step of a command."""
         register, view, state = place.register, place.view, self.state
-        stored = codec.decode(view, words, state.order(view))
+        stored = codec.decode(state.seen(view), words, state.order(view))
         if isinstance(stored, str):
             return stored
         held = None if stored is None else state.kept(register, stored)

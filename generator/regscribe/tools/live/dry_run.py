@@ -61,7 +61,9 @@ class DryLink:
         elif register.access.readable:
             seen = register.seen_in(view)
             with suppress(ValueRefused):
-                carried = codec.carried_over(register, view, seen, words[:count], self._session.memory)
+                carried = codec.carried_over(
+                    register, view, seen, words[:count], self._session.memory, self._session.givens
+                )
                 start = seen.address(register.at)
                 self._held.update(((unit, seen.space, start + at), word) for at, word in enumerate(carried))
         self._hold(unit, space, address + count, words[count:])

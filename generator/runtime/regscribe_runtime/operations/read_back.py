@@ -24,7 +24,7 @@ from regscribe_runtime.planning.read_places import same_precision
 from regscribe_runtime.registers import codec
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.report import Words
-from regscribe_runtime.values.conditions import State
+from regscribe_runtime.values.conditions import Givens, State
 from regscribe_runtime.values.views import View
 
 Target = tuple["Register[Any]", "View"]
@@ -76,7 +76,7 @@ class RegisterWrite:
         seen = self.register.seen_in(self.view)
         expected = self.words
         if seen is not self.view:
-            expected = codec.carried_over(self.register, self.view, seen, self.words, self.state)
+            expected = codec.carried_over(self.register, self.view, seen, self.words, self.state, session.givens)
         if read == expected:
             return True
         held = self.held(read, session)
@@ -102,13 +102,13 @@ def read_back_needs(register: Register[Any], view: View) -> tuple[str, ...]:
     return (*view.needs(), *register.needs(register.read_view()))
 
 
-def in_view(target: Target, read: Words, state: State) -> Words | None:
+def in_view(target: Target, read: Words, state: State, givens: Givens) -> Words | None:
     """What was read back of a register as the words that write it; None where the view read is less precise."""
     register, view = target
     seen = register.seen_in(view)
     if seen is view:
         return read
-    return codec.carried_over(register, seen, view, read, state) if same_precision(seen, view) else None
+    return codec.carried_over(register, seen, view, read, state, givens) if same_precision(seen, view) else None
 
 
 def words_of(session: Session, targets: Iterable[Target]) -> Operation[dict[str, Words]]:

@@ -65,7 +65,7 @@ def write(
         check_unit(session, planned)
         if register.persistence in EEPROM and register.can_be_checked:
             found = yield from words_of(session, [planned.target])
-            if in_view(planned.target, found[register.path], state) == words:
+            if in_view(planned.target, found[register.path], state, session.givens) == words:
                 session.wear.add(register.path, spared=1)
                 return
         yield from unlock(session, register)

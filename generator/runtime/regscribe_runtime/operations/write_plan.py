@@ -105,7 +105,7 @@ def read_present(session: Session, chosen: Sequence[Assignment]) -> Operation[Pr
     here = [one for one in chosen if one.register.path not in gone]
     held = {one.register.path: (one.register, one.view) for one in here if one.register.can_be_checked}
     found = yield from _words(session, tuple(held.values()))
-    words = {path: in_view(target, found[path], state) for path, target in held.items()}
+    words = {path: in_view(target, found[path], state, session.givens) for path, target in held.items()}
     return Present(state, {path: one for path, one in words.items() if one is not None})
 
 

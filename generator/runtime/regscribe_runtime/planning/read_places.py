@@ -10,7 +10,7 @@ from typing import NamedTuple
 from regscribe_runtime.planning.address_ranges import AddressRanges, RegisterSpan, places
 from regscribe_runtime.values.views import Placed, View, read_view
 
-_precision = attrgetter("type", "words", "factor", "rounding", "saturates")
+_precision = attrgetter("type", "words", "factor", "times", "rounding", "saturates")
 
 
 class ReadPlace(NamedTuple):

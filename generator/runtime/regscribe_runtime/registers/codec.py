@@ -86,6 +86,16 @@ def settled(register: str, term: Term, state: State, givens: Givens) -> Fraction
         raise NotDecodable(register, str(error)) from None
 
 
+def present(view: View, register: str, state: State, givens: Givens) -> View:
+    """A view with the factor that it has as things stand; NotDecodable where that is no factor."""
+    if view.times is None:
+        return view
+    times = settled(register, view.times, state, givens)
+    if times <= 0:
+        raise NotDecodable(register, f"its {view.name} view has no factor of {rough(times)}")
+    return view._replace(factor=Fraction(view.factor) * times, times=None)
+
+
 def _line(register: Coded, state: State, givens: Givens) -> Line:
     found = choose(register.scale, state, givens)
     if found is None:
@@ -132,6 +142,10 @@ def reader(register: Coded, view: View, state: State, givens: Givens, *, named: 
     the scale is unknown. A special value is returned as its enum member; without `named` as its number, as conditions
     compare it.
     """
+    try:
+        view = present(view, register.path, state, givens)
+    except ValueNotDecodable as error:
+        return failing(error)
     try:
         convert = _with_specials(register, view, state, givens, named=named)
     except ValueNotDecodable as error:
@@ -378,8 +392,11 @@ def _text(register: str, words: Words) -> str:
         raise NotDecodable(register, f"{raw.hex(' ')} is no ASCII text") from None
 
 
-def carried_over(register: Coded, view: View, other: View, words: Words, state: State) -> tuple[int, ...]:
+def carried_over(
+    register: Coded, view: View, other: View, words: Words, state: State, givens: Givens
+) -> tuple[int, ...]:
     """The words of view `other` for the value that `words` set in `view`; ValueRefused if it cannot carry that."""
+    view, other = (present(each, register.path, state, givens) for each in (view, other))
     numbers = arranger(view, register.path, state)(words)
     if register.kind is Kind.STRING:
         return tuple(arranger(other, register.path, state)(numbers))
@@ -404,6 +421,7 @@ def encode(
     unnamed bits that are set in the device and stay so.
     """
     arrange = arranger(view, register.path, state)
+    view = present(view, register.path, state, givens)
     if register.kind is Kind.STRING:
         return tuple(arrange(_from_text(register, view, value)))
     if isinstance(value, float) and view.type in _NARROW and view.type.carries(value):

@@ -7,7 +7,7 @@ from regscribe_runtime.values.facts import ReadFacts
 from regscribe_runtime.values.kinds import Access
 from regscribe_runtime.values.numbers import Number
 from regscribe_runtime.values.scales import Conversion, Range, Sentinel
-from regscribe_runtime.values.terms import registers_in
+from regscribe_runtime.values.terms import Term, registers_in
 from regscribe_runtime.values.wire_types import Order, Rounding, Space, WireType
 
 
@@ -26,9 +26,10 @@ class View(NamedTuple):
     """One way to transmit a value.
 
     wire address = `offset` + `stride` x at, `at` of its register; `words` are from there on. wire number = stored value
-    x `factor`, rounded by `rounding`; with `saturates`, clipped to the limits of `type`. `functions` are the function
-    codes that may address the view (empty: whatever the device supports); `align` is what an address and a count where
-    the view stands must be multiples of; `region` the first and last address that the view set gives to this view.
+    x `factor` (and x `times`, a term that the device sets), rounded by `rounding`; with `saturates`, clipped to the
+    limits of `type`. `functions` are the function codes that may address the view (empty: whatever the device
+    supports); `align` is what an address and a count where the view stands must be multiples of; `region` the first and
+    last address that the view set gives to this view.
     """
 
     name: str
@@ -46,6 +47,7 @@ class View(NamedTuple):
     preferred: bool = False
     align: int = 1
     region: tuple[int, int] | None = None
+    times: Term | None = None
 
     def address(self, at: int) -> int:
         """The wire address of the first word for a register at `at`."""
@@ -71,8 +73,9 @@ class View(NamedTuple):
         return self.allows(several) or (self.words == 1 and self.allows(single))
 
     def needs(self) -> tuple[str, ...]:
-        """The register that sets the word order, if one does."""
-        return (self.order.register,) if isinstance(self.order, OrderFrom) else ()
+        """The registers that set the word order and the factor, if any do."""
+        order = (self.order.register,) if isinstance(self.order, OrderFrom) else ()
+        return (*order, *registers_in(self.times)) if self.times is not None else order
 
 
 def word(view_type: WireType, **more: Any) -> tuple[View, ...]:
