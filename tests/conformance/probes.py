@@ -41,7 +41,7 @@ def _transmitted(view: View, numbers: Iterable[Fraction | int | NotANumber]) -> 
     for number in numbers:
         with suppress(RefusedError):  # it does not fit
             stored = number if isinstance(number, NotANumber) else Fraction(number)
-            yield transmit(view._replace(order=Order.BIG), stored)
+            yield transmit(view._replace(order=Order.BIG, times=None), stored)
 
 
 def _stored(register: Register) -> Iterator[Fraction | NotANumber]:

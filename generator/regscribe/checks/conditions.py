@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from regscribe.checks.probe_states import verdict
 from regscribe.checks.rule import MAP, Finding, RuleScope, Scopes, map_rule
-from regscribe.model import ByCase, Condition, Identity, Kind, OrderFrom, Register, RegisterMap, Span
+from regscribe.model import ByCase, Condition, GivenRef, Identity, Kind, OrderFrom, Register, RegisterMap, Span
 from regscribe_runtime.values.terms import parts_of
 from regscribe_runtime.values.views import scale_needs
 
@@ -158,6 +158,9 @@ def given_unused(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]
     """Users must find out every given; one that decides nothing is in vain."""
     used = {test.given for one in _case_sets(scopes) for condition in one.conditions for test in condition.leaves}
     used |= {block.given for block in register_map.blocks}
+    registers = (register for scope in scopes for register in scope.model.registers)
+    parts = (part for register in registers for part in parts_of((register.scale, register.range, register.views)))
+    used |= {part.given for part in parts if isinstance(part, GivenRef)}
     for given in register_map.givens:
         if given.id not in used:
             message = f"given `{given.id}` decides nothing"

@@ -12,6 +12,7 @@ from regscribe.model import (
     Enum,
     Given,
     GivenKind,
+    GivenRef,
     Model,
     NotANumber,
     Register,
@@ -21,6 +22,7 @@ from regscribe.model import (
 )
 from regscribe.reference import Surroundings, surroundings_of
 from regscribe.simulate.errors import SimulatorError
+from regscribe_runtime.values.terms import parts_of
 
 Plain = str | float | Fraction | Decimal | NotANumber
 """A value that a user may give: a number or NaN, or a text that is a number or its name."""
@@ -129,6 +131,8 @@ def _used_givens(model: Model) -> Iterator[str]:
         permission = (register.writable,) if register.writable else ()
         for case in (*register.scale, *register.range, *register.valid, *register.sentinels, *permission):
             yield from (test.given for test in case.when.leaves)
+        for part in parts_of((register.scale, register.range, register.views)):
+            yield from [part.given] if isinstance(part, GivenRef) else []
 
 
 def _codes(name: str, value: GivenValue) -> frozenset[Fraction]:
