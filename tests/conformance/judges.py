@@ -32,7 +32,16 @@ from regscribe_runtime.wire.capture import CapturedFrame
 
 from .suite import Built, Json, words_of
 
-READ_FUNCTIONS = {"coil": 1, "discrete": 2, "holding": 3, "input": 4, "status": 7, "file": 20, "queue": 24}
+READ_FUNCTIONS = {
+    "coil": 1,
+    "discrete": 2,
+    "holding": 3,
+    "input": 4,
+    "status": 7,
+    "file": 20,
+    "queue": 24,
+    "identification": 43,
+}
 _ELEMENT = re.compile(r"(\w+)\[(\d+)\]")
 
 NO_NUMBERS = ("nan", "inf", "-inf")
@@ -314,7 +323,8 @@ def ask(device: SimulatedDevice, register: Register, view: View) -> list[int]:
     assert answer[0] == function, answer.hex(" ")
     if function in (1, 2):
         return [answer[2] & 1]
-    data = answer[{20: 4, 24: 3}.get(function, 2) :]
+    data = answer[{20: 4, 24: 3, 43: 9}.get(function, 2) :]
+    data += bytes(2 * view.words - len(data)) if function == 43 else b""
     words = [int.from_bytes(data[at : at + 2], "big") for at in range(0, len(data), 2)]
     return words[view.address(register.at) & 63 :][: view.words] if function == 24 else words
 
@@ -324,6 +334,8 @@ def _asked(register: Register, view: View) -> bytes:
     function, address = READ_FUNCTIONS[view.space.value], view.address(register.at)
     if function == 20:  # byte count, 6, file, record, number of words
         return struct.pack(">BBBHHH", 20, 7, 6, address >> 16, address & 0xFFFF, view.words)
+    if function == 43:
+        return bytes((43, 14, 4, address >> 8))
     if function == 24:
         return struct.pack(">BH", 24, address >> 6)
     return struct.pack(">BHH", function, address, view.words)
@@ -359,6 +371,9 @@ def _frames(register: Register, view: View, words: list[int]) -> tuple[bytes, by
     head = bytes([function, len(data)])
     if function == 20:
         head = bytes([20, len(data) + 2, len(data) + 1, 6])
+    if function == 43:
+        data = data.partition(b"\0")[0]
+        head = bytes((43, 14, 4, 0x83, 0, 0, 1, view.address(register.at) >> 8, len(data)))
     if function == 24:  # the count, and values up to the one that is asked for
         before = view.address(register.at) & 63
         count = before + len(words) - 1 if before else words[0]

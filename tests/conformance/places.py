@@ -31,14 +31,14 @@ def _has_arrays(case: Json) -> bool:
 
 
 def _in_array(case: Json) -> Json | None:
-    if _has_arrays(case) or _spaces(case) & {"status", "queue"}:
+    if _has_arrays(case) or _spaces(case) & {"status", "queue", "identification"}:
         return None
     registers = [{"id": "items", "name": "Item", "repeat": "1..2", "stride": INNER, "registers": _registers(case)}]
     return _moved(case, registers, "items[2]", (0,), INNER)
 
 
 def _in_nested_array(case: Json) -> Json | None:
-    if _has_arrays(case) or _spaces(case) & {"status", "queue"}:
+    if _has_arrays(case) or _spaces(case) & {"status", "queue", "identification"}:
         return None
     inner = {"id": "items", "name": "Item", "repeat": "1..2", "stride": INNER, "registers": _registers(case)}
     registers = [{"id": "parts", "name": "Part", "repeat": "1..2", "stride": OUTER, "registers": [inner]}]
@@ -85,7 +85,7 @@ def _inverted(words: str) -> str:
 
 def _in_second_view(case: Json) -> Json | None:
     asked = {row["register"] for row in case["rows"]}
-    if _has_arrays(case) or "views" in case["map"] or _spaces(case) & {"status", "queue"}:
+    if _has_arrays(case) or "views" in case["map"] or _spaces(case) & {"status", "queue", "identification"}:
         return None
     views, registers = {}, []
     for one in case["map"]["registers"]:

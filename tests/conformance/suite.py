@@ -19,7 +19,7 @@ from regscribe.model.located import layout_of, located
 from .places import places_of
 
 FOLDER = Path(__file__).parent / "cases"
-FUNCTIONS = [1, 2, 3, 4, 5, 6, 7, 15, 16, 20, 21, 24]
+FUNCTIONS = [1, 2, 3, 4, 5, 6, 7, 15, 16, 20, 21, 24, 43]
 Json = dict[str, Any]
 
 _numbers = itertools.count()

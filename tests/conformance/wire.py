@@ -36,8 +36,8 @@ class Memory:
         function = pdu[0]
         if function == 7:
             return bytes([7, self.get("status", 0, 1)[0]])
-        if function in (20, 21, 24):
-            return self._records(pdu) if function < 24 else self._queue(pdu)
+        if special := {20: self._records, 21: self._records, 24: self._queue, 43: self._object}.get(function):
+            return special(pdu)
         address, number = struct.unpack(">HH", pdu[1:5])
         if function in READS:
             found = self.get(READS[function], address, number)
@@ -60,6 +60,13 @@ class Memory:
         first = struct.unpack(">H", pdu[1:3])[0] << 6
         words = self.get("queue", first, 1 + self.get("queue", first, 1)[0])
         return struct.pack(f">BH{len(words)}H", 24, 2 * len(words), *words)
+
+    def _object(self, pdu: bytes) -> bytes:
+        """One object of the identification: its text, two characters a word, up to the first NUL."""
+        assert pdu[:3] == bytes((43, 14, 4)), pdu.hex(" ")
+        words = self.get("identification", pdu[3] << 8, 123)
+        text = struct.pack(">123H", *words).partition(b"\0")[0]
+        return bytes((43, 14, 4, 0x83, 0, 0, 1, pdu[3], len(text))) + text
 
     def _records(self, pdu: bytes) -> bytes:
         """The answer to a request with one group of records: byte count, 6, file, record, number of words, words."""

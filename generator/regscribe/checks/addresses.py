@@ -20,6 +20,8 @@ from regscribe.checks.rule import (
 from regscribe.model import Register, RegisterMap, Related, Space, View
 
 WRITE_IN = "name under `written_in` the notation that the rows are written in (`modicon` for 40001 and 400001)"
+LAST_PART, LAST_OBJECT = 0xFFFF, 0xFF
+"""The highest number of a file or a queue, and of an object of the identification."""
 FAR = 10_000
 """A notation that begins here tells spaces apart by a digit in front (30001, 40001, 400001)."""
 
@@ -94,7 +96,8 @@ def outside_space(register: Register, _: RuleScope) -> Iterator[Problem]:
     for stretch in stretches(register):
         space, bits = stretch.space, stretch.space.part_bits
         part = stretch.first >> bits if bits else 0
-        if stretch.first < 0 or stretch.last > (part << bits) + space.last or (space is Space.FILE and not part):
+        parts = range(int(space is Space.FILE), 1 + (LAST_OBJECT if space is Space.IDENTIFICATION else LAST_PART))
+        if stretch.first < 0 or part not in parts or stretch.last > (part << bits) + space.last:
             yield f"takes {stretch}, outside 0..{space.last}", f"correct `at` or the view's offset, or {WRITE_IN}"
 
 

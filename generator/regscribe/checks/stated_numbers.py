@@ -84,8 +84,9 @@ def _labels(register: Register) -> dict[Fraction, str]:
     return {Fraction(member.code): member.label for member in members} | truths
 
 
-BITS, STATUS, WORDS = {Space.COIL, Space.DISCRETE}, {Space.STATUS}, {space for space in Space if space.is_words}
-_OF_SPACE = {WireType.BIT: BITS, WireType.UINT8: STATUS | WORDS}
+BITS, STATUS, TEXTS = {Space.COIL, Space.DISCRETE}, {Space.STATUS}, {Space.IDENTIFICATION}
+WORDS = {space for space in Space if space.is_words} - TEXTS
+_OF_SPACE = {WireType.BIT: BITS, WireType.UINT8: STATUS | WORDS, WireType.STRING: WORDS | TEXTS}
 """The types that do not stand in words alone, and where they stand."""
 
 

@@ -13,13 +13,19 @@ _OF_EACH_VIEW = ("type", "word_order", "byte_order", "functions", "write_at", "w
 WRITTEN = "write"
 """The name of the view in which a register is written that says `write_at` or `write`."""
 _INHERITED = ("type", "length", "word_order", "byte_order")
-_DEFAULT_TYPES = {Space.COIL: WireType.BIT, Space.DISCRETE: WireType.BIT, Space.STATUS: WireType.UINT8}
+_DEFAULT_TYPES = {
+    Space.COIL: WireType.BIT,
+    Space.DISCRETE: WireType.BIT,
+    Space.STATUS: WireType.UINT8,
+    Space.IDENTIFICATION: WireType.STRING,
+}
 
 
 def views_of(entry: TreeNode, scope: Scope) -> tuple[View, ...]:
     """The views of a register, the base view first; RS0306 for an unknown view set, RS0336 for an idle length."""
     settings = entry.settings
-    space, words = settings.choice_of("space", Space.HOLDING), settings.whole_of("length", 1)
+    space = settings.choice_of("space", Space.HOLDING)
+    words = settings.whole_of("length", space.most if space is Space.IDENTIFICATION else 1)
     views: tuple[View, ...] = ()
     if "views" in settings:
         for key in (key for key in _OF_EACH_VIEW if key in settings):
@@ -73,6 +79,8 @@ def _written_space(space: Space) -> Space:
 def _in_part(entry: TreeNode, view: View) -> View:
     """The view in the file, or the queue, that the map names; RS0340 where it names none."""
     space, node = view.space, entry.settings.get(view.space)
+    if space is Space.IDENTIFICATION:  # `at` is the number of an object
+        return view._replace(stride=1 << space.part_bits)
     if node is None:
         remedy = f"give `{space}: N` here or in the group's `each`"
         entry.node.report(NO_PART, f"`{entry.id}` is in space `{space}`, but in which {space}?", remedy=remedy)

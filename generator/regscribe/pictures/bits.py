@@ -24,6 +24,7 @@ NAMES = {
     Space.STATUS: "Exception status (function 07)",
     Space.FILE: "File record",
     Space.QUEUE: "FIFO queue",
+    Space.IDENTIFICATION: "Object of the identification",
 }
 
 WORD = 16

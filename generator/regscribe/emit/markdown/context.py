@@ -18,6 +18,7 @@ SPACES = {
     Space.STATUS: "Exception status",
     Space.FILE: "Records of files",
     Space.QUEUE: "FIFO queues",
+    Space.IDENTIFICATION: "Device identification",
 }
 
 

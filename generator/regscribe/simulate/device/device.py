@@ -17,7 +17,7 @@ from regscribe.simulate.errors import SimulatorError
 from regscribe.simulate.line.line_settings import Tuning
 from regscribe.simulate.process.controller import controller_of
 from regscribe.simulate.process.thermal_process import ThermalProcess
-from regscribe_runtime.wire import parts
+from regscribe_runtime.wire import identification, parts
 from regscribe_runtime.wire import requests as functions
 from regscribe_runtime.wire.packing import MalformedError
 from regscribe_runtime.wire.pdu import EXCEPTION_BIT, CoilStateError, decode_request, encode_reply
@@ -69,6 +69,7 @@ class SimulatedDevice:
             functions.READ_FILE: self._read_records,
             functions.WRITE_FILE: self._write_records,
             functions.READ_QUEUE: self._read_queue,
+            functions.IDENTIFY: self._identify,
             functions.LOOPBACK: self._loopback,
             functions.MASK_REGISTER: self._mask_word,
             functions.WRITE_AND_READ: self._write_and_read,
@@ -250,6 +251,26 @@ class SimulatedDevice:
             raise Refusal(self.register_map.faults.value)
         words = (count, *(value or 0 for value in values[:count]))
         return encode_reply(Reply(request.function, words))
+
+    def _identify(self, pdu: bytes) -> bytes:
+        """One object, or a stream of those of a category."""
+        try:
+            category, first = identification.category_of(pdu)
+        except MalformedError:
+            raise Refusal(self.register_map.faults.value) from None
+        objects = self._objects()
+        if category == identification.INDIVIDUAL and first not in objects:
+            raise Refusal(self.register_map.faults.address)
+        return identification.encode_objects(category, first, objects)
+
+    def _objects(self) -> dict[int, bytes]:
+        """The objects of the identification by number."""
+        space, found = Space.IDENTIFICATION, {}
+        for register in self.model.registers:
+            if register.base.space is space:
+                words = self.state.words(space, register.address, register.base.words)
+                found[register.address >> space.part_bits] = identification.text_of([word or 0 for word in words])
+        return found
 
     def _loopback(self, pdu: bytes) -> bytes:
         """The request itself, however much data it has."""

@@ -20,9 +20,9 @@ TCP_ROUND_TRIP = 1.0
 MBAP_BYTES = 7
 """Transaction, protocol, length and unit before a PDU over TCP."""
 
-REQUEST_BYTES = {Space.STATUS: 1, Space.FILE: 9, Space.QUEUE: 3}
+REQUEST_BYTES = {Space.STATUS: 1, Space.FILE: 9, Space.QUEUE: 3, Space.IDENTIFICATION: 4}
 """Bytes of a request to read, where they are not 5: function code, address, quantity."""
-ANSWER_BYTES = {Space.FILE: 4, Space.QUEUE: 5}
+ANSWER_BYTES = {Space.FILE: 4, Space.QUEUE: 5, Space.IDENTIFICATION: 9}
 """Bytes of an answer before the values, where they are not 2: function code, byte count."""
 
 TCP_BYTE = 80

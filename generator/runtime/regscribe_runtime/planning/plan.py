@@ -51,7 +51,7 @@ class RequestLimits(NamedTuple):
 
     def most(self, space: Space) -> int:
         """The most addresses of one read; a queue comes as a whole."""
-        if space is Space.QUEUE:
+        if space.is_whole:
             return space.most
         own = next((one.read for one in self.spaces if one.space is space), 0)
         return min(space.most, own or (self.bits if space.is_bits else self.words))

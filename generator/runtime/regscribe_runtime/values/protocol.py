@@ -91,7 +91,7 @@ class Protocol(NamedTuple):
     def most_read(self, space: Space) -> int:
         """The most addresses of a space in one read."""
         own = next((one.read for one in self.spaces if one.space is space), 0)
-        return own or (self.read_bits if space.is_bits else self.read_words)
+        return space.most if space.is_whole else own or (self.read_bits if space.is_bits else self.read_words)
 
     def most_written(self, space: Space) -> int:
         """The most addresses of a space in one write."""

@@ -14,8 +14,8 @@ class Space(StrEnum):
     """A Modbus address space; `STATUS` is the single byte that function 07 returns (address 0).
 
     Each has the function that reads it, those that write one address and several, the most addresses of one read,
-    and the last address (V1.1b3, section 6). A space of many parts (files of records, FIFO queues) has the part's
-    number in the high bits of an address, above `part_bits` lower ones. Of a queue 0 is the count, 1 to 31 are values.
+    and the last address (V1.1b3, section 6). A space of many parts (files of records, FIFO queues, objects) has the
+    part's number in the high bits of an address, above `part_bits` lower ones. Of a queue 0 is the count.
     """
 
     read_function: int
@@ -31,6 +31,7 @@ class Space(StrEnum):
     STATUS = "status", 7, (), 1, 0, 0
     FILE = "file", 20, (21, 21), 121, 16, 9999
     QUEUE = "queue", 24, (), 32, 6, 31
+    IDENTIFICATION = "identification", 43, (), 123, 8, 122
 
     def __new__(
         cls,
@@ -49,8 +50,16 @@ class Space(StrEnum):
         return space
 
     def spelled(self, address: int) -> str:
-        """An address for people: `4:10` is record 10 of file 4."""
-        return f"{address >> self.part_bits}:{address & (1 << self.part_bits) - 1}" if self.part_bits else str(address)
+        """An address for people: `4:10` is record 10 of file 4; of an object its number."""
+        part, inside = address >> self.part_bits, address & (1 << self.part_bits) - 1
+        if not self.part_bits:
+            return str(address)
+        return f"{part}" if self is Space.IDENTIFICATION else f"{part}:{inside}"
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether a part of it comes as a whole, whatever the limits of the device."""
+        return self is Space.QUEUE or self is Space.IDENTIFICATION
 
     @property
     def is_bits(self) -> bool:

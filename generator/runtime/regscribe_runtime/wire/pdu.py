@@ -5,8 +5,9 @@ its answers.
 """
 
 import struct
+from typing import Protocol
 
-from regscribe_runtime.wire import parts
+from regscribe_runtime.wire import identification, parts
 from regscribe_runtime.wire import requests as functions
 from regscribe_runtime.wire.packing import (
     MalformedError,
@@ -33,6 +34,18 @@ _DATA_SIZES = {
 """By function code: the bytes of a request behind it; those of a block write follow from its head."""
 
 
+class _Form(Protocol):
+    """The module of a function whose requests have another form than an address with a quantity."""
+
+    def encode_request(self, request: Request) -> bytes: ...
+    def decode_request(self, pdu: bytes) -> Request: ...
+    def encode_reply(self, reply: Reply) -> bytes: ...
+    def decode_reply(self, request: Request, pdu: bytes) -> Reply: ...
+
+
+_FORMS: dict[int, _Form] = {**dict.fromkeys(parts.FUNCTIONS, parts), functions.IDENTIFY: identification}
+
+
 class CoilStateError(MalformedError):
     """A coil is to be neither on nor off."""
 
@@ -43,7 +56,8 @@ def encode_request(request: Request) -> bytes:
     try:
         if function in WORD_READS or function in BIT_READS:
             return ADDRESSED.pack(function, address, quantity)
-        return parts.encode_request(request) if function in parts.FUNCTIONS else _write(function, address, words)
+        special = _FORMS.get(function)
+        return special.encode_request(request) if special else _write(function, address, words)
     except struct.error:
         message = f"function {function:02d}, address {address}, words {list(words)}: each is a number from 0 to 65535"
         raise ValueError(message) from None
@@ -68,8 +82,8 @@ def decode_request(pdu: bytes) -> Request:
     A coil's state is 0 or 1 in `words`. Function 23 is two requests behind one code, which a device takes apart.
     """
     function, data = pdu[0], pdu[1:]
-    if function in parts.FUNCTIONS:
-        return parts.decode_request(pdu)
+    if special := _FORMS.get(function):
+        return special.decode_request(pdu)
     if function in functions.BLOCK_WRITES:
         return _block_write(function, data)
     if function not in _DATA_SIZES:
@@ -108,8 +122,8 @@ def encode_reply(reply: Reply) -> bytes:
     function, words, address, quantity, exception = reply
     if exception is not None:
         return bytes((function | EXCEPTION_BIT, exception))
-    if function in parts.FUNCTIONS:
-        return parts.encode_reply(reply)
+    if special := _FORMS.get(function):
+        return special.encode_reply(reply)
     if function in functions.BLOCK_WRITES:
         return ADDRESSED.pack(function, address, quantity)
     if function == functions.READ_STATUS:
@@ -132,8 +146,8 @@ def decode_reply(request: Request, pdu: bytes) -> Reply:
         return _bits_read(code, data, request.quantity)
     if code == functions.READ_STATUS:
         return Reply(code, tuple(data))
-    if code in parts.FUNCTIONS:
-        return parts.decode_reply(request, pdu)
+    if special := _FORMS.get(code):
+        return special.decode_reply(request, pdu)
     return _echoed(code, data)
 
 

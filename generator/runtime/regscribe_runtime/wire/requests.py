@@ -13,7 +13,7 @@ from regscribe_runtime.values.wire_types import Space
 READ_COILS, READ_DISCRETE_INPUTS, READ_HOLDING, READ_INPUT = 1, 2, 3, 4
 WRITE_COIL, WRITE_REGISTER, READ_STATUS, LOOPBACK, WRITE_COILS, WRITE_REGISTERS = 5, 6, 7, 8, 15, 16
 READ_FILE, WRITE_FILE, READ_QUEUE = Space.FILE.read_function, Space.FILE.write_functions[0], Space.QUEUE.read_function
-MASK_REGISTER, WRITE_AND_READ = 22, 23
+MASK_REGISTER, WRITE_AND_READ, IDENTIFY = 22, 23, Space.IDENTIFICATION.read_function
 READ_SPACES = {space.read_function: space for space in Space}
 READS = frozenset(READ_SPACES)
 WRITES = frozenset(function for space in Space for function in space.write_functions)
@@ -22,11 +22,13 @@ SPACES = READ_SPACES | {function: space for space in Space for function in space
 WORD_READS, BIT_READS = (READ_HOLDING, READ_INPUT), (READ_COILS, READ_DISCRETE_INPUTS)
 BLOCK_WRITES = (WRITE_COILS, WRITE_REGISTERS)
 """Writes of several values: a byte count announces them, and the answer has only their number."""
-UNADDRESSED = frozenset({READ_STATUS, LOOPBACK, READ_FILE, WRITE_FILE})
+UNADDRESSED = frozenset({READ_STATUS, LOOPBACK, READ_FILE, WRITE_FILE, IDENTIFY})
 
 BITS_IN_BYTE, BYTES_IN_WORD = 8, 2
 HEAD_SIZE, BLOCK_HEAD_SIZE = 4, 5
 """Bytes of an address with a quantity or a value, and of both with a byte count."""
+IDENTITY_HEAD_SIZE = 9
+"""Bytes of an answer about one object before its text."""
 FILE_HEAD_SIZE, QUEUE_HEAD_SIZE = 8, 4
 """Bytes of a byte count with one group of records (type, file, record, length), and of the two counts of a queue."""
 
@@ -84,6 +86,8 @@ def sizes(request: Request) -> tuple[int, int]:
     if function in {READ_FILE, WRITE_FILE}:
         whole = 1 + FILE_HEAD_SIZE
         return (whole, 4 + values) if function == READ_FILE else (whole + values, whole + values)
+    if function == IDENTIFY:
+        return HEAD_SIZE, IDENTITY_HEAD_SIZE + values
     if function == READ_QUEUE:
         return 3, 1 + QUEUE_HEAD_SIZE + BYTES_IN_WORD * (Space.QUEUE.most - 1)
     return 1 + HEAD_SIZE, 2 + values if request.reads else 1 + HEAD_SIZE
