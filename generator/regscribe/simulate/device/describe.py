@@ -14,7 +14,7 @@ from regscribe_runtime.wire.pdu import EXCEPTION_BIT, decode_reply, decode_reque
 from regscribe_runtime.wire.requests import SPACES, Request
 
 NAMES = dict.fromkeys(READS, "read") | dict.fromkeys((5, 6, 15, 16, 21), "write")
-NAMES |= {7: "read status", 20: "read", 24: "read", 8: "loopback", 22: "mask", 23: "write and read"}
+NAMES |= {7: "read status", 20: "read", 24: "read", 43: "read", 8: "loopback", 22: "mask", 23: "write and read"}
 MOST_SHOWN = 6
 """Registers that are named; of more, only their number is given."""
 
