@@ -187,6 +187,18 @@ def step_of_no_bits(sent: SentStep, _: RuleScope) -> Iterator[Problem]:
         yield message, "write 1 for on (FF00 in a frame of function 05) and 0 for off"
 
 
+@model_rule("RS0687", "Command with arguments where nobody gives them")
+def arguments_of_nobody(scope: RuleScope) -> Iterator[Finding]:
+    """What unlocks a write or applies it runs by itself, and knows no values."""
+    taking = {command.id: command for command in scope.model.commands if command.arguments}
+    for register in scope.model.registers:
+        for key, name in (("unlock", register.unlock), ("apply", register.apply)):
+            if name in taking:
+                related = Related(f"command `{name}` has arguments", taking[name].span)
+                message = f"has `{key}: {name}`, which takes {', '.join(dict(taking[name].arguments))}"
+                yield Finding.at(register, message, "give a command without arguments, or leave it out", related)
+
+
 @model_rule("RS0485", "Command without a request")
 def no_request(scope: RuleScope) -> Iterator[Finding]:
     """A command that sends nothing does nothing."""

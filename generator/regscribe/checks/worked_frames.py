@@ -183,7 +183,12 @@ def _command(example: FrameExample, frame: FrameFields, scope: RuleScope) -> Ite
     if any(step.block for step in command.steps):
         yield f"command `{command.id}` writes in a block, whose base a frame does not tell: leave it out"
         return
-    steps = [(step.function, step.address, step.words) for step in command.steps if step.words]
+    words = frame.carried
+    steps = [
+        (step.function, step.address, words if step.argument and len(words or ()) == len(step.words) else step.words)
+        for step in command.steps
+        if step.words
+    ]
     if (frame.function, frame.address, frame.carried) not in steps:
         listed = "; ".join(f"function {code:02d} at {address}: {hexadecimal(words)}" for code, address, words in steps)
         yield f"no step of command `{command.id}` sends it ({listed})"

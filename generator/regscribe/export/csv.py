@@ -136,7 +136,9 @@ def _command_row(register_map: RegisterMap, model: Model, command: Command) -> R
     first = requests[0] if requests else None
     written: dict[str, list[str]] = {}
     for step in requests:
-        written.setdefault(str(step.address), []).append(" ".join(map(str, step.words)))
+        written.setdefault(str(step.address), []).append(
+            (step.argument and f"<{step.argument}>") or " ".join(map(str, step.words))
+        )
     return Row(
         map=register_map.id,
         model=one_line(model.name),

@@ -2,18 +2,24 @@
 
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import NamedTuple
 
 from regscribe.lower.blocks import block_named
 from regscribe.lower.conditions import condition_of
 from regscribe.lower.node import Value
 from regscribe.lower.register_values import named_value
-from regscribe.lower.rules import NOT_CONSTANT, UNKNOWN_MEMBER, UNKNOWN_VIEW
+from regscribe.lower.registers import register_of
+from regscribe.lower.rules import IDLE_KEY, NOT_CONSTANT, UNKNOWN_ARGUMENT, UNKNOWN_MEMBER, UNKNOWN_VIEW
 from regscribe.lower.scope import Scope
 from regscribe.lower.subject import Subject, code_of_text, subject_of
 from regscribe.lower.texts import identifier, known_name
-from regscribe.model import Command, CommandStep, Effect, Kind, Protocol, Register, Rounding, Space, View
+from regscribe.lower.tree import TreeNode, TreePosition
+from regscribe.lower.variants import settings_of
+from regscribe.model import Access, Command, CommandStep, Effect, Kind, Protocol, Register, Rounding, Space, View
 from regscribe.reference import RefusedError, UnknownValueError, encode
 
+TAKEN = "taken"
+"""The name of the only view of an argument that is written to a register."""
 _INSTEAD = "choose another value or view, or give the `words` that the manual prints"
 
 
@@ -26,18 +32,29 @@ class CommandScope:
     protocol: Protocol
 
 
+class Arguments(NamedTuple):
+    """The arguments of a command: where the map declares each, and the register that it is written as."""
+
+    nodes: dict[str, Value]
+    taken: dict[str, Register]
+
+
 def commands_of(root: Value, device: CommandScope) -> tuple[Command, ...]:
     """The commands that a model has."""
     return tuple(_command(node, device) for _, node in root.items_of("commands") if device.scope.has(node))
 
 
 def _command(node: Value, device: CommandScope) -> Command:
-    steps = [_step(step, device) for step in node.elements_of("steps")]
+    nodes = dict(node.items_of("arguments"))
+    arguments = Arguments(nodes, {name: _argument(each, node.key, device) for name, each in nodes.items()})
+    steps = [_step(step, device, arguments) for step in node.elements_of("steps")]
+    _report_idle(node, {step.argument for step, _ in steps})
     return Command(
         id=node.key if node.key.isidentifier() else identifier(node, label=node.key, given=None),
         name=node.text_of("name", node.key),
         steps=tuple(step for step, _ in steps),
         step_registers=tuple(path for _, path in steps),
+        arguments=tuple(arguments.taken.items()),
         description=node.text_of("description"),
         section=node.text_of("source"),
         danger=node.text_of("danger"),
@@ -46,15 +63,68 @@ def _command(node: Value, device: CommandScope) -> Command:
     )
 
 
-def _step(node: Value, device: CommandScope) -> tuple[CommandStep, str]:
+def _argument(node: Value, command: str, device: CommandScope) -> Register:
+    """An argument as a register that is only written; where a step writes a register with it, that tells its type."""
+    scope, settings = device.scope, settings_of([node])
+    stated: dict[str, int | str] = {"at": 0, "access": Access.WRITE.value, "name": node.key}
+    settings.update({key: Value(node.context, node.path, value) for key, value in stated.items()})
+    place = TreePosition(scope.model, scope.models, scope.models, "", "", scope.map.mapping_of("sets"))
+    return register_of(TreeNode(node, node.key, f"{command}.{node.key}", settings, place), scope)
+
+
+def _report_idle(node: Value, used: set[str]) -> None:
+    for name, each in node.items_of("arguments"):
+        if name not in used:
+            each.report(IDLE_KEY, f"no step sends the argument `{name}`", remedy="remove it, or send it", at_key=True)
+
+
+def _named_argument(node: Value | None, arguments: Arguments) -> str:
+    """The argument that the `value` of a step names; empty where it names none."""
+    name = node.child("argument") if node else None
+    return known_name(name, UNKNOWN_ARGUMENT, "argument", arguments.nodes) if name else ""
+
+
+def _from_register(name: str, target: Register, view: View, arguments: Arguments) -> None:
+    """Let an argument be of the type of the register that a step writes with it."""
+    node, own = arguments.nodes[name], arguments.taken[name]
+    keys = {key for key, _ in node.items()} - {"description"}
+    if keys or own.views[0].name == TAKEN:
+        message = f"the argument `{name}` is written to `{target.path}`, which has a type of its own"
+        node.report(IDLE_KEY, message, remedy="remove its keys, or write `at` in place of `register`", at_key=True)
+        return
+    views = (view._replace(name=TAKEN, preferred=False),)
+    arguments.taken[name] = replace(
+        target,
+        id=name,
+        path=own.path,
+        name=name,
+        description=own.description,
+        access=Access.WRITE,
+        views=views,
+        aliases=(),
+        unlock="",
+        apply="",
+        danger="",
+        stays="",
+        group="",
+        writable=None,
+        governs=None,
+        persistence="",
+    )
+
+
+def _step(node: Value, device: CommandScope, arguments: Arguments) -> tuple[CommandStep, str]:
     """A step, and the path of the register that it names."""
+    argument = _named_argument(node.child("value"), arguments)
     register = node.child("register")
     if node.child("wait"):
         return CommandStep(0, 0, (), node.whole_of("wait")), ""
     if register is None:
-        words = unsigned(node.wholes_of("words"))
+        own = arguments.taken.get(argument)
+        words = (0,) * own.views[0].words if own else unsigned(node.wholes_of("words"))
         function = _function(node, len(words), None, device)
-        return CommandStep(function, node.whole_of("at"), words, block=block_named(node, device.scope.map)), ""
+        block = block_named(node, device.scope.map)
+        return CommandStep(function, node.whole_of("at"), words, block=block, argument=argument), ""
     entry = device.scope.register(register)
     if entry is None:
         return CommandStep(0, 0, ()), register.text()
@@ -64,15 +134,22 @@ def _step(node: Value, device: CommandScope) -> tuple[CommandStep, str]:
     else:  # where the base view is for reading alone, the first one that a write may address
         view = next((each for each in target.views if each.writable), target.base)
     value = node.child("value")
-    words = _words_of_value(value, target, view) if value else unsigned(node.wholes_of("words"))
+    if argument in arguments.nodes:
+        _from_register(argument, target, view, arguments)
+        words = (0,) * view.words
+    else:
+        words = _words_of_value(value, target, view) if value else unsigned(node.wholes_of("words"))
     function = _function(node, len(words), view, device)
-    return CommandStep(function, view.address(target.at), words, block=target.block), entry.path
+    return CommandStep(function, view.address(target.at), words, block=target.block, argument=argument), entry.path
 
 
 def _function(node: Value, count: int, view: View | None, device: CommandScope) -> int:
     if node.child("function"):
         return node.whole_of("function")
-    single, several = (view.space if view else Space.HOLDING).write_functions or Space.HOLDING.write_functions
+    has = device.protocol.functions
+    usual = Space.HOLDING if set(has) & set(Space.HOLDING.write_functions) else Space.COIL
+    space = view.space if view else node.choice_of("space", usual)
+    single, several = space.write_functions or Space.HOLDING.write_functions
     allowed = [code for code in device.protocol.functions if not view or view.allows(code)]
     return single if count == 1 and single in allowed else several
 

@@ -47,6 +47,7 @@ SAME_BLOCK = "RS0362"
 NO_MARKER = "RS0363"
 IDLE_BLOCK = "RS0364"
 ENDLESS = "RS0365"
+UNKNOWN_ARGUMENT = "RS0345"
 NO_PART = "RS0340"
 
 _NAMES = "A name must mean something, or the driver would look up what does not exist."
@@ -69,6 +70,7 @@ RULES: tuple[Rule, ...] = (
     Rule(UNKNOWN_UNIT, "Unknown unit", "A mistyped unit would be believed, so a map declares units that are uncommon."),
     Rule(UNKNOWN_GIVEN, "Unknown given, or one of another type", _NAMES),
     Rule(UNKNOWN_COMMAND, "Unknown command", _NAMES),
+    Rule(UNKNOWN_ARGUMENT, "Unknown argument of a command", _NAMES),
     Rule(UNKNOWN_MODEL, "Unknown model", "A mistyped model would silently lose or keep a register."),
     Rule(REVERSED, "Reversed range", "A range whose lower end is above its upper end allows nothing."),
     Rule(BAD_BITS, "No such bit", "Bits count from 0, the least significant, to 63 in the widest type."),

@@ -74,6 +74,7 @@ class Command:
     """A value or a sequence that makes the device act; `danger` says what may be lost (empty: harmless).
 
     `step_registers` are the paths of the registers that the steps name, empty for a step that names none.
+    `arguments` are what a program gives when it sends the command: pairs of a name and a register that none reads.
     `effects` are what it changes besides the words that it writes, one after the other.
     """
 
@@ -81,6 +82,7 @@ class Command:
     name: str
     steps: tuple[CommandStep, ...]
     step_registers: tuple[str, ...] = ()
+    arguments: tuple[tuple[str, Register], ...] = ()
     description: str = ""
     section: str = ""
     danger: str = ""

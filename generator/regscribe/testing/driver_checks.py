@@ -210,4 +210,5 @@ def _step(step: Json) -> CommandStep:
     """Return a step of a command as the runtime has it."""
     if "wait" in step:
         return CommandStep(0, 0, (), step["wait"])
-    return CommandStep(step["function"], step["address"], tuple(step["words"]), block=step.get("block", ""))
+    more = {key: step.get(key, "") for key in ("block", "argument")}
+    return CommandStep(step["function"], step["address"], tuple(step["words"]), **more)

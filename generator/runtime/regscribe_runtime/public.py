@@ -23,9 +23,11 @@ from regscribe_runtime.driver.identify import Identification as Identification
 from regscribe_runtime.driver.identify import identify as identify
 from regscribe_runtime.driver.identify import identify_async as identify_async
 from regscribe_runtime.driver.identify import known_models as known_models
+from regscribe_runtime.driver.parts import AnyCommand as AnyCommand
 from regscribe_runtime.driver.parts import Array as Array
 from regscribe_runtime.driver.parts import AsyncPart as AsyncPart
 from regscribe_runtime.driver.parts import Command as Command
+from regscribe_runtime.driver.parts import CommandWith as CommandWith
 from regscribe_runtime.driver.parts import Group as Group
 from regscribe_runtime.driver.parts import Part as Part
 from regscribe_runtime.driver.parts import SubPart as SubPart

@@ -9,10 +9,10 @@ from regscribe.emit.markdown.details import Rows, bits, by_condition, elements, 
 from regscribe.emit.markdown.escape import Md, code, escape, join, link, md, prose
 from regscribe.emit.markdown.page_values import PageSection, PageTable, RegisterEntry, Titled
 from regscribe.emit.markdown.process import effects
-from regscribe.emit.markdown.register_facts import facts, indices
+from regscribe.emit.markdown.register_facts import KINDS, facts, indices, view_type
 from regscribe.emit.outline import Branch, Leaf, Node, lettered
-from regscribe.emit.words import LETTERS, one_line
-from regscribe.model import Command, CommandStep, Group, Register
+from regscribe.emit.words import LETTERS, one_line, range_words
+from regscribe.model import Command, CommandStep, Enum, Group, Model, Register
 
 HEADING = "####"
 DOT = " · "
@@ -148,7 +148,8 @@ def commands(context: PageContext) -> tuple[RegisterEntry, ...]:
 
 
 def _command(context: PageContext, shared: Merged[Command]) -> RegisterEntry:
-    parts = (code(f"commands.{shared.key}()"), source(shared.first.section), only(context, shared.models))
+    taken = ", ".join(f"{name}=..." for name, _ in shared.first.arguments)
+    parts = (code(f"commands.{shared.key}({taken})"), source(shared.first.section), only(context, shared.models))
     return RegisterEntry(
         marks=Md("###"),
         anchor=context.anchor("command", shared.key),
@@ -159,8 +160,32 @@ def _command(context: PageContext, shared: Merged[Command]) -> RegisterEntry:
             by_model(shared, lambda model, item: effects(context, model, item.effects)),
         ),
         danger=_paragraphs(by_model(shared, lambda _, item: prose(item.danger))),
-        tables=titled("Steps", STEPS, shared.states(lambda _, command: _steps(context, command))),
+        tables=(
+            *titled("Arguments", ARGUMENTS, shared.states(lambda model, command: _arguments(context, model, command))),
+            *titled("Steps", STEPS, shared.states(lambda _, command: _steps(context, command))),
+        ),
     )
+
+
+ARGUMENTS = ("Name", "Value", "Range", "Unit", "Transmitted as", "What it is")
+
+
+def _arguments(context: PageContext, model: Model, command: Command) -> Rows:
+    return tuple(
+        (
+            code(name),
+            md(KINDS.get(register.kind, register.kind)) if register.enum is None else md(_codes(register.enum)),
+            Md("; ".join(range_words(case.then, context.wording(model)) for case in register.range)),
+            escape(", ".join(case.then for case in register.unit if case.then)),
+            escape(view_type(register.base)),
+            prose(register.description),
+        )
+        for name, register in command.arguments
+    )
+
+
+def _codes(enum: Enum) -> str:
+    return ", ".join(f"{member.code} {one_line(member.label)}" for member in enum.members)
 
 
 def _steps(context: PageContext, command: Command) -> Rows:
@@ -171,8 +196,8 @@ def _step(context: PageContext, number: int, step: CommandStep, path: str) -> tu
     if not step.words:
         return md(str(number)), md(f"wait {step.wait} ms"), *[Md()] * (len(STEPS) - 2)
     register = context.register(path) if path else Md()
-    words = " ".join(map(str, step.words))
-    hexadecimal = "" if step.space.is_bits else " ".join(f"{word & 0xFFFF:04X}" for word in step.words)
+    words = step.argument or " ".join(map(str, step.words))
+    hexadecimal = "" if step.space.is_bits or step.argument else " ".join(f"{word & 0xFFFF:04X}" for word in step.words)
     address = f"{step.block} + {step.address}" if step.block else step.space.spelled(step.address)
     cells = (str(number), "write", f"{step.function:02d}", address, register, words, hexadecimal)
     return tuple(map(md, cells))

@@ -12,7 +12,13 @@ from regscribe.emit.python.expressions import Specs, expression
 from regscribe.emit.python.formatting import INDENT, call, flat, group, lay
 from regscribe.emit.python.groups import groups_body, with_group_facts
 from regscribe.emit.python.literals import camel, docstring, literal, member
-from regscribe.emit.python.register_lines import Declarations, command_call, command_text, declaration_lines
+from regscribe.emit.python.register_lines import (
+    Declarations,
+    command_call,
+    command_text,
+    declaration_lines,
+    takes_lines,
+)
 from regscribe.emit.python.reserved_names import free
 from regscribe.emit.words import one_line, term_words
 from regscribe.model import Array, Chain, Model, Register, RegisterMap
@@ -125,8 +131,11 @@ class Classes:
         shared = partition(owned, self._namer(f"{self.stem}Commands", owned))
         for one in shared:
             body: list[str] = []
+            declarations = Declarations(Specs(self.register_map.model(one.models[0]), self.pool), self.named)
             for command in one.items:
-                body += lay(command_call(command, self.pool), head=f"{command.id} = ", depth=1)
+                takes = self._free(f"_{command.id}") if command.arguments else ""
+                self.lines += ["", "", *takes_lines(command, takes, declarations)] if takes else []
+                body += lay(command_call(command, declarations, takes), head=f"{command.id} = ", depth=1)
                 body += docstring(command_text(command), 1)
             self._class(one.name, [], f"Commands of {', '.join(one.models)}.", body)
         return self._command_classes({name: tuple(one.name for one in shared if name in one.models) for name in owned})

@@ -43,7 +43,9 @@ class NamedClasses:
 
     def collect_all(self) -> None:
         """Note all classes that the map needs."""
-        found = [(one, model.name) for model in self.register_map.models for one in _registers(model.members)]
+        models = self.register_map.models
+        found = [(one, model.name) for model in models for one in _registers(model.members)]
+        found += [(one, model.name) for model in models for command in model.commands for _, one in command.arguments]
         for register, model in found:
             self._collect(register, model)
         for register, model in found:  # their enums were collected for all models before

@@ -3,7 +3,6 @@
 import re
 from dataclasses import dataclass
 
-from regscribe.emit.python.constants import Pool
 from regscribe.emit.python.enum_classes import NamedClasses, enum_content, special_content, specials, word_content
 from regscribe.emit.python.expressions import Specs, expression
 from regscribe.emit.python.formatting import Call, Expression, call, group, lay, mapping
@@ -76,6 +75,12 @@ class Declarations:
             return self.named.name(register.id, word_content(register))
         return ""
 
+    def class_of(self, register: Register) -> str:
+        """The class of a register's values, if they have one of their own; with special values, that or a number."""
+        if specials(register) and register.kind in {Kind.NUMBER, Kind.INTEGER}:
+            return f"{TYPES[register.kind]} | {self.named.name(f'{register.id}_special', special_content(register))}"
+        return self._named(register)
+
     def _numeric(self, register: Register) -> Expression:
         helper = self.specs.pool.helper
         means = [(exact(one.code), exact(one.means)) for one in register.specials if one.means is not None]
@@ -126,11 +131,41 @@ def _range_text(cases: Cases[Range]) -> str:
     return listed([range_words(case.then) for case in cases])
 
 
-def command_call(command: Command, pool: Pool) -> Call:
-    """The declaration of a command."""
+def command_call(command: Command, declarations: Declarations, takes: str) -> Call:
+    """The declaration of a command; `takes` is the function that has its arguments, if it has any."""
+    pool = declarations.specs.pool
     steps = (expression(step) for step in command.steps)
     danger = pool.maybe(literal(one_line(command.danger)), f"{command.id}_danger") if command.danger else None
-    return call("Command", *steps, danger=danger)
+    if not takes:
+        return call("Command", *steps, danger=danger)
+    arguments = mapping([(literal(name), declarations.call(register)) for name, register in command.arguments])
+    return call("CommandWith", takes, *steps, arguments=arguments, danger=danger)
+
+
+TYPES = {
+    Kind.NUMBER: "float",
+    Kind.INTEGER: "int",
+    Kind.RAW: "int",
+    Kind.STRING: "str",
+    Kind.VERSION: "str",
+    Kind.BOOLEAN: "bool",
+}
+
+
+def takes_lines(command: Command, name: str, declarations: Declarations) -> list[str]:
+    """The function `name` that has the arguments of a command and their types."""
+    types = [(each, _type_of(register, declarations)) for each, register in command.arguments]
+    parameters = ", ".join(f"{each}: {kind}" for each, kind in types)
+    return [
+        f"def {name}(*, {parameters}, confirm: bool = False) -> None:",
+        *docstring(f"Arguments of {command.id}.", 1),
+    ]
+
+
+def _type_of(register: Register, declarations: Declarations) -> str:
+    if register.kind is Kind.RAW and register.fractional:
+        return "float"
+    return declarations.class_of(register) or TYPES.get(register.kind, "Any")
 
 
 def command_text(command: Command) -> str:

@@ -8,10 +8,10 @@ from regscribe.model import Array, Model, Register, RegisterMap
 RUNTIME = tuple(
     """
     AnyOf Array AsyncBareDevice AsyncClient AsyncDevice AsyncLink AsyncPart BOTTOM BareDevice Bit ByCase Case Chain
-    Choice ClientSettings Command CommandStep Computed Condition Conversion Decimals Device ExceptionCode Fact Field
-    Flags GivenRef Governs Group Identity Interval Is Latency Link NotANumber Open Order OrderFrom Part Power Product
-    ProgramAction ProgramCounts ProgramFinal ProgramPart ProgramSegments ProgramStates ProgramTimeUnit Protocol Range
-    ReadFacts ReadOnly ReadWrite Ref RegisterBlock Rounding Sentinel SerialDefaults SerialSettings SetpointProgram
+    Choice ClientSettings Command CommandStep CommandWith Computed Condition Conversion Decimals Device ExceptionCode
+    Fact Field Flags GivenRef Governs Group Identity Interval Is Latency Link NotANumber Open Order OrderFrom Part Power
+    Product ProgramAction ProgramCounts ProgramFinal ProgramPart ProgramSegments ProgramStates ProgramTimeUnit Protocol
+    Range ReadFacts ReadOnly ReadWrite Ref RegisterBlock Rounding Sentinel SerialDefaults SerialSettings SetpointProgram
     Setting Space SpaceLimits SpecialNumber SubPart Sum SyncClient TOP TcpSettings View WhileRunning WireType Word
     WriteCondition WriteOnly always async_client_link async_serial_link async_tcp boolean choice client_link flags
     integer integer_or integer_with number number_or number_with raw raw_float serial_link tcp text version within word

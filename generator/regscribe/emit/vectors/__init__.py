@@ -81,7 +81,8 @@ def _step(step: CommandStep) -> Json:
     if not step.words:
         return {"wait": step.wait}
     found: Json = {"function": step.function, "address": step.address, "words": [word & 0xFFFF for word in step.words]}
-    return found | ({"block": step.block} if step.block else {})
+    more = {key: text for key in ("block", "argument") if (text := getattr(step, key))}
+    return found | more
 
 
 def _given(given: Given) -> dict[str, str]:

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from regscribe.model import Command, CommandStep, Space
+from regscribe.model import Command, CommandStep, Register, Space
 
 
 class Commands:
@@ -11,18 +11,30 @@ class Commands:
     `run` are the ids of all that were ever run, `since_power` of those since the last power cycle.
     """
 
-    __slots__ = ("_progress", "_steps", "run", "since_power")
+    __slots__ = ("_arguments", "_progress", "_steps", "run", "since_power")
 
     def __init__(self, commands: Sequence[Command]) -> None:
         self._steps = {command.id: [step for step in command.steps if step.words] for command in commands}
+        self._arguments = {command.id: dict(command.arguments) for command in commands}
         self._progress = dict.fromkeys(self._steps, 0)
         self.run: list[str] = []
         self.since_power: set[str] = set()
 
     def is_step(self, space: Space, address: int, words: Sequence[int], *, function: int | None = None) -> bool:
-        """Whether words are a step of a command, so that the device must take them; with `function`, sent by that."""
+        """Whether words are a step of a command, so that the device must take them; with `function`, sent by that.
+
+        Those of an argument are not: the device looks at them first.
+        """
         steps = (step for steps in self._steps.values() for step in steps if function in (None, step.function))
-        return any(_matches(step, space, address, words) for step in steps)
+        return any(_matches(step, space, address, words) for step in steps if not step.argument)
+
+    def argument(self, space: Space, address: int, words: Sequence[int], *, function: int) -> Register | None:
+        """The argument of a command that words are sent as by a function; None if they are none."""
+        for name, steps in self._steps.items():
+            for step in steps:
+                if step.argument and step.function == function and _matches(step, space, address, words):
+                    return self._arguments[name][step.argument]
+        return None
 
     def saw(self, space: Space, address: int, words: Sequence[int]) -> list[str]:
         """Note accepted words; returns the ids of the commands that they complete, now also in `run`."""
@@ -47,4 +59,6 @@ class Commands:
 
 def _matches(step: CommandStep, space: Space, address: int, words: Sequence[int]) -> bool:
     same_place = step.space is space and step.address == address
+    if step.argument:
+        return same_place and len(step.words) == len(words)
     return same_place and tuple(word & 0xFFFF for word in step.words) == tuple(words)

@@ -107,6 +107,11 @@ class WordAccess:
         if not writable and self.commands.is_step(space, address, words, function=function):
             self.conduct.commanded(self.commands.saw(space, address, words))
             return len(words)
+        argument = None if writable else self.commands.argument(space, address, words, function=function)
+        if argument is not None:
+            self._accepted(AddressSpan(argument, argument.write_view, address), tuple(words), limited=True)
+            self.conduct.commanded(self.commands.saw(space, address, words))
+            return len(words)
         return self._write_values(space, function, address, words)
 
     def _write_values(self, space: Space, function: int, address: int, words: Sequence[int]) -> int:

@@ -136,10 +136,9 @@ class Decoder:
             return "read the exception status"
         space, end = SPACES[request.function], request.address + request.quantity - 1
         where = f"{space} {request.address}" + (f" to {end}" if end > request.address else "")
-        step = CommandStep(request.function, request.address, request.words)
         placed = self._places[unit].placed
-        steps = {name: map(placed, command.steps) for name, command in commands_of(self.driver).items()}
-        commands = [name for name, own in steps.items() if step in own]
+        every = ((name, placed(step)) for name, one in commands_of(self.driver).items() for step in one.steps)
+        commands = dict.fromkeys(name for name, step in every if _is_step(request, step))
         named = f" (command {' or '.join(commands)})" if commands else ""
         return f"{'write' if request.function in WRITES else 'read'} {where}{named}"
 
@@ -187,6 +186,11 @@ class Decoder:
             meant = [one for one in here if _serves(*one, reading=request.reads)]
             for register, view in meant or here:
                 yield register, view, (words or ())[offset : offset + view.words]
+
+
+def _is_step(request: Request, step: CommandStep) -> bool:
+    sent = request.words if not step.argument else (0,) * len(request.words)
+    return (request.function, request.address, sent) == (step.function, step.address, step.words)
 
 
 def _serves(register: Register[Any], view: View, *, reading: bool) -> bool:

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from regscribe.tools.live.errors import MOST_NAMED, TargetError, unknown
-from regscribe_runtime import Command, Group, Register, SubPart
+from regscribe_runtime import AnyCommand, Group, Register, SubPart
 from regscribe_runtime.driver.device import AsyncBareDevice, BareDevice
 
 Driver = type[BareDevice] | type[AsyncBareDevice]
@@ -17,7 +17,7 @@ def groups_of(driver: Driver) -> dict[str, Group]:
     return {name: group for name, group in found.items() if group.registers(driver)}
 
 
-def commands_of(driver: Driver) -> dict[str, Command]:
+def commands_of(driver: Driver) -> dict[str, AnyCommand]:
     """The commands of a driver by id."""
     section = getattr(driver, "commands", None)
     return section.commands() if isinstance(section, SubPart) else {}
@@ -34,7 +34,7 @@ def register_named(driver: Driver, name: str) -> Register[Any]:
     raise TargetError(unknown("register", name, _nearest(name, driver.registers), where=f"in {driver.model}"))
 
 
-def command_named(driver: Driver, name: str) -> Command:
+def command_named(driver: Driver, name: str) -> AnyCommand:
     """The command of that id; TargetError says which was probably meant."""
     known = commands_of(driver)
     if name in known:

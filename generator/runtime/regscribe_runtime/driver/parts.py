@@ -4,7 +4,7 @@ from collections.abc import Awaitable, Callable, Iterator, Mapping
 from functools import cache
 from itertools import chain
 from types import MappingProxyType
-from typing import Any, Generic, Self, TypeVar, overload
+from typing import Any, Generic, ParamSpec, Self, TypeVar, overload
 
 from regscribe_runtime.operations import tasks
 from regscribe_runtime.operations.snapshot import Snapshot
@@ -14,6 +14,7 @@ from regscribe_runtime.values.facts import CommandStep
 T = TypeVar("T")
 P = TypeVar("P", bound="Part")
 A = TypeVar("A", bound="AsyncPart")
+S = ParamSpec("S")
 B = TypeVar("B", bound="Part | AsyncPart")
 
 
@@ -231,14 +232,45 @@ class _AsyncBoundCommand(_Bound[AsyncPart]):
         return self._part.run(tasks.run(self.command, confirm=confirm))
 
 
-class Command:
-    """Requests that make the device act, one after the other."""
+class AnyCommand:
+    """Requests that make the device act, one after the other; `arguments` are declarations of what a program gives."""
 
-    def __init__(self, *steps: CommandStep, danger: str = "") -> None:
-        self.steps, self.danger, self.id = steps, danger, ""
+    def __init__(
+        self, *steps: CommandStep, danger: str = "", arguments: Mapping[str, Register[Any]] = MappingProxyType({})
+    ) -> None:
+        self.steps, self.danger, self.arguments, self.id = steps, danger, arguments, ""
 
     def __set_name__(self, owner: type, name: str) -> None:
         self.id = name
+        for argument, register in self.arguments.items():
+            register.id = register.path = f"{name}.{argument}"
+
+
+class CommandWith(AnyCommand, Generic[S]):
+    """A command with arguments, which a program gives by name; `takes` has their types."""
+
+    def __init__(self, takes: Callable[S, None], *steps: CommandStep, **more: Any) -> None:
+        super().__init__(*steps, **more)
+        self.takes = takes
+
+    @overload
+    def __get__(self, instance: None, owner: type) -> Self: ...
+    @overload
+    def __get__(self, instance: Part, owner: type) -> Callable[S, None]: ...
+    @overload
+    def __get__(self, instance: AsyncPart, owner: type) -> Callable[S, Awaitable[None]]: ...
+    def __get__(self, instance: Part | AsyncPart | None, owner: type) -> Any:
+        if instance is None:
+            return self
+
+        def call(*, confirm: bool = False, **values: object) -> Any:
+            return instance.run(tasks.run(self, confirm=confirm, values=values))
+
+        return call
+
+
+class Command(AnyCommand):
+    """A command without arguments."""
 
     @overload
     def __get__(self, instance: None, owner: type) -> Self: ...
@@ -271,9 +303,9 @@ class SubPart(Generic[P, A]):
         part: P | A = make(instance._device)  # noqa: SLF001 (parts are one family)
         return part
 
-    def commands(self) -> dict[str, Command]:
+    def commands(self) -> dict[str, AnyCommand]:
         """The commands declared here, by id."""
-        return _declared(self.part, Command)
+        return _declared(self.part, AnyCommand)
 
 
 class Group:

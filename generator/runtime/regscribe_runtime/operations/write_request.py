@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any, Protocol
 
 from regscribe_runtime.errors import (
@@ -14,8 +16,10 @@ from regscribe_runtime.errors import (
 )
 from regscribe_runtime.errors import lost as failed
 from regscribe_runtime.operations.locate import base_of
+from regscribe_runtime.operations.read import know
 from regscribe_runtime.operations.read_back import RegisterWrite, is_lost
 from regscribe_runtime.operations.session import Operation, Pause, Session, Task
+from regscribe_runtime.registers import codec
 from regscribe_runtime.registers.presence import seen
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.report import Words
@@ -31,6 +35,7 @@ class Sendable(Protocol):
     id: str
     danger: str
     steps: tuple[CommandStep, ...]
+    arguments: Mapping[str, Register[Any]]
 
 
 EEPROM = frozenset({"eeprom", "both"})
@@ -75,19 +80,38 @@ def condition_needs(register: Register[Any]) -> tuple[str, ...]:
     return register.writable.when.registers if register.writable else ()
 
 
-def run(command: Sendable, *, confirm: bool) -> Task[None]:
-    """Send the steps of a command; afterwards everything remembered is forgotten."""
+def run(command: Sendable, *, confirm: bool, values: Mapping[str, object] = MappingProxyType({})) -> Task[None]:
+    """Send the steps of a command with `values` for its arguments; afterwards everything remembered is forgotten."""
 
     def task(session: Session) -> Operation[None]:
         if command.danger and not confirm:
             raise ValueRefused(command.id, f"this command is dangerous ({command.danger}): pass confirm=True")
+        given = yield from _words_of_arguments(session, command, values)
+        steps = [one._replace(words=given.get(one.argument, one.words)) for one in command.steps]
         try:
-            for number, step in enumerate(command.steps, start=1):
+            for number, step in enumerate(steps, start=1):
                 yield from _send_step(session, command, number, step)
         finally:
             session.forget()
 
     return task
+
+
+def _words_of_arguments(
+    session: Session, command: Sendable, values: Mapping[str, object]
+) -> Operation[dict[str, Words]]:
+    """The words of each argument; ValueRefused for one that is missing, strange, or of a value that it cannot have."""
+    for name in (*command.arguments, *values):
+        if (name in values) is not (name in command.arguments):
+            known = ", ".join(command.arguments) or "none"
+            what = "is no argument" if name in values else "is needed"
+            raise ValueRefused(command.id, f"`{name}` {what}; its arguments are: {known}")
+    found = {}
+    for name, register in command.arguments.items():
+        view = register.write_view()
+        state = yield from know(session, (*register.needs(view), *register.limit_needs), fresh=True)
+        found[name] = codec.encode(register, view, values[name], state, session.givens)
+    return found
 
 
 def _send_step(session: Session, command: Sendable, number: int, step: CommandStep) -> Operation[None]:

@@ -89,7 +89,8 @@ class Identity(NamedTuple):
 class CommandStep(NamedTuple):
     """One request of a command: words (bits of coils) to an address; without words, a wait in milliseconds.
 
-    The address counts from the base of `block`, if there is one.
+    The address counts from the base of `block`, if there is one. With `argument`, as many words as stand here are those
+    of the argument of that name.
     """
 
     function: int
@@ -97,6 +98,7 @@ class CommandStep(NamedTuple):
     words: tuple[int, ...]
     wait: int = 0
     block: str = ""
+    argument: str = ""
 
     @property
     def space(self) -> Space:

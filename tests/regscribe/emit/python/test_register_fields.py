@@ -17,6 +17,7 @@ from regscribe.model import (
     Kind,
     Model,
     Range,
+    ReadFacts,
     Register,
     Sentinel,
     Setting,
@@ -57,6 +58,7 @@ EVERYTHING = Register(
     stays="line",
     governs=Governs(Setting.BAUD),
     settle=5,
+    reading=ReadFacts(clears=True),
     block="head",
 )
 
