@@ -115,8 +115,8 @@ def _affine(when: Condition, ends: tuple[Term, Term], raw: tuple[Fraction, Fract
 
 def _power(node: Value) -> Fraction:
     digits = node.whole()
-    if 0 <= digits <= _MOST_DIGITS:
-        return Fraction(1, 10**digits)
+    if abs(digits) <= _MOST_DIGITS:
+        return 1 / Fraction(10) ** digits
     node.report(WRONG_SORT, f"a number cannot have {digits} decimals", remedy="give the digits after the point, as 1")
     return Fraction(1)
 
@@ -160,6 +160,8 @@ def unit_of(node: Value | None, scope: Scope) -> tuple[Cases[str], str]:
     """The unit symbol by case, and the id where the map names a unit with cases; RS0311 for an unknown one."""
     if node is None:
         return always(""), ""
+    if node.is_list:
+        return unit_at(node, scope), ""
     name, units = node.text(), dict(scope.map.items_of("units"))
     if name in units and units[name].is_list:
         return unit_at(units[name], scope), name
@@ -167,8 +169,12 @@ def unit_of(node: Value | None, scope: Scope) -> tuple[Cases[str], str]:
 
 
 def unit_at(node: Value, scope: Scope) -> Cases[str]:
-    """The symbols of the unit with cases that stands at `node`."""
-    return scope.once(node.path, lambda: cases_of(node, scope, lambda case: _symbol(case.child("symbol"), scope)))
+    """The symbols of the unit with cases that stands at `node`, in `units` or at a register."""
+
+    def make(case: Value) -> str:
+        return _symbol(case.child("symbol") or case.child("is"), scope)
+
+    return scope.once(node.path, lambda: cases_of(node, scope, make))
 
 
 def _symbol(node: Value | None, scope: Scope, by_case: Iterable[str] = ()) -> str:
