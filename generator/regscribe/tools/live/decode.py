@@ -23,6 +23,7 @@ from regscribe_runtime.wire.requests import (
     BLOCK_WRITES,
     HEAD_SIZE,
     LOOPBACK,
+    MASK_REGISTER,
     READ_STATUS,
     SPACES,
     WORD_READS,
@@ -116,8 +117,8 @@ class Decoder:
             return _decoded("response", frame, what, request, items, code)
         if request is None:
             return self._strange("response", frame, "to a request that is not in the capture")
-        if request.function in WRITES:
-            self._learn(frame.unit, request, request.words)
+        if request.function in WRITES or request.function == MASK_REGISTER:
+            self._learn(frame.unit, request, request.words if request.function in WRITES else ())
             return _decoded("response", frame, "written", request)
         words = decode_reply(request, frame.pdu).words
         if len(words) != request.quantity:
@@ -134,6 +135,9 @@ class Decoder:
             return "loopback"
         if request.function == READ_STATUS:
             return "read the exception status"
+        if request.function == MASK_REGISTER:
+            keep, put = request.words
+            return f"write bits {~keep & 0xFFFF:04X} of holding {request.address} as {put & ~keep & 0xFFFF:04X}"
         space, end = SPACES[request.function], request.address + request.quantity - 1
         where = f"{space} {request.address}" + (f" to {end}" if end > request.address else "")
         placed = self._places[unit].placed
@@ -236,4 +240,8 @@ def _request(frame: CapturedFrame, first: int) -> Request | None:
         request = decode_request(frame.pdu).shifted(-first)
     except MalformedError:
         return None
-    return request._replace(address=max(request.address, 0)) if request.function in {*SPACES, LOOPBACK} else None
+    return (
+        request._replace(address=max(request.address, 0))
+        if request.function in {*SPACES, LOOPBACK, MASK_REGISTER}
+        else None
+    )

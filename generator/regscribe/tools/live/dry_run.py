@@ -6,7 +6,16 @@ from typing import Any, cast
 from regscribe_runtime import BareDevice, Link, Register, ValueRefused
 from regscribe_runtime.operations.session import Session
 from regscribe_runtime.registers import codec
-from regscribe_runtime.wire.requests import BLOCK_WRITES, READ_SPACES, SPACES, WRITES, Reply, Request
+from regscribe_runtime.wire.requests import (
+    BLOCK_WRITES,
+    MASK_REGISTER,
+    READ_HOLDING,
+    READ_SPACES,
+    SPACES,
+    WRITES,
+    Reply,
+    Request,
+)
 
 
 def dry(device: BareDevice) -> "DryLink":
@@ -38,6 +47,8 @@ class DryLink:
 
     def call(self, unit: int, request: Request) -> Reply:
         """Answer a write with its echo; send a read, and lay what was written over its answer."""
+        if request.function == MASK_REGISTER:
+            return self._mask(unit, request)
         if request.function not in WRITES:
             reply = self._link.call(unit, request)
             space = READ_SPACES.get(request.function)
@@ -49,6 +60,14 @@ class DryLink:
         self._hold(unit, SPACES[request.function], request.address, request.words)
         words = () if request.function in BLOCK_WRITES else request.words
         return Reply(request.function, words, request.address, len(request.words))
+
+    def _mask(self, unit: int, request: Request) -> Reply:
+        """Keep some bits of a word, as if they had been written."""
+        keep, put = request.words
+        (word,) = self.call(unit, Request(READ_HOLDING, request.address)).words
+        self.written.append(request)
+        self._hold(unit, SPACES[READ_HOLDING], request.address, ((word & keep) | put,))
+        return Reply(request.function, request.words, request.address)
 
     def _hold(self, unit: int, space: str, address: int, words: tuple[int, ...]) -> None:
         """Keep words where they are read back: where they are written, unless a register is read elsewhere."""

@@ -7,6 +7,7 @@ A write is sent once. If its answer is lost, the register is read back.
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any, TypeVar
 
 from regscribe_runtime.errors import RegscribeError, ValueRefused
@@ -34,8 +35,15 @@ from regscribe_runtime.operations.write_request import (
 from regscribe_runtime.registers import codec
 from regscribe_runtime.registers.enums import Flags, unnamed_bits
 from regscribe_runtime.registers.register import Register
+from regscribe_runtime.report import Words
+from regscribe_runtime.values.kinds import Kind
+from regscribe_runtime.values.views import View
+from regscribe_runtime.values.wire_types import Space
+from regscribe_runtime.wire.requests import MASK_REGISTER
 
 T = TypeVar("T")
+MASKED = frozenset({Kind.FLAGS, Kind.FIELDS})
+"""Kinds whose bits have meanings of their own."""
 
 
 def write(
@@ -47,10 +55,12 @@ def write(
     confirm: bool = False,
     verify: bool | None = None,
     kept: int = 0,
+    before: object = None,
 ) -> Task[None]:
     """Check, encode and write one register; unlock before and apply after, where the map says so; read it back.
 
-    `verify` None: reads back settings only. `kept`: unnamed bits, as in `codec.encode`.
+    `verify` None: reads back settings only. `kept`: unnamed bits, as in `codec.encode`. `before`: what it holds; of a
+    word of bits only those that differ are written then, if the device has function 22.
     """
 
     def task(session: Session) -> Operation[None]:
@@ -61,7 +71,8 @@ def write(
         state = yield from know(session, (*condition_needs(register), *register.limit_needs), fresh=True)
         check_condition(register, state, session.givens)
         words = codec.encode(register, chosen, value, state, session.givens, rounded=rounded, kept=kept)
-        planned = RegisterWrite(register, chosen, words, dict(state))  # whatever is forgotten meanwhile
+        bits = _changed_bits(session, register, chosen, before, words)
+        planned = RegisterWrite(register, chosen, words, dict(state), bits=bits)  # whatever is forgotten meanwhile
         check_unit(session, planned)
         if register.persistence in EEPROM and register.can_be_checked:
             found = yield from words_of(session, [planned.target])
@@ -78,6 +89,26 @@ def write(
             yield from verify_write(session, planned)
 
     return task
+
+
+def _changed_bits(session: Session, register: Register[Any], view: View, before: object, words: Words) -> int:
+    """The bits that differ, if function 22 can write them alone; 0 if not.
+
+    Of other values than words of bits the whole word is meant: one with bits of two masters would be no value.
+    """
+    able = MASK_REGISTER in session.protocol.functions and view.allows(MASK_REGISTER)
+    if (
+        not able
+        or register.kind not in MASKED
+        or not view.readable
+        or view.space is not Space.HOLDING
+        or view.words > 1
+    ):
+        return 0
+    with suppress(ValueRefused):
+        kept = unnamed_bits(before) if isinstance(before, Flags) else 0
+        return codec.encode(register, view, before, session.memory, session.givens, kept=kept)[0] ^ words[0]
+    return 0
 
 
 def _send(session: Session, planned: RegisterWrite) -> Operation[None]:
@@ -114,7 +145,7 @@ def change(register: Register[T], how: Callable[[T], T], *, confirm: bool, verif
         kept = 0
         if isinstance(before, Flags) and (kept := unnamed_bits(before)):
             value = register.value_type.make(int(value) | kept)  # type: ignore[call-overload] # flags are whole numbers
-        yield from write(register, value, confirm=confirm, verify=verify, kept=kept)(session)
+        yield from write(register, value, confirm=confirm, verify=verify, kept=kept, before=before)(session)
         return value
 
     return task

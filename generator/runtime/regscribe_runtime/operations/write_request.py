@@ -26,7 +26,7 @@ from regscribe_runtime.report import Words
 from regscribe_runtime.values.conditions import Givens, State
 from regscribe_runtime.values.facts import CommandStep
 from regscribe_runtime.values.views import View
-from regscribe_runtime.wire.requests import Request
+from regscribe_runtime.wire.requests import MASK_REGISTER, Request
 
 
 class Sendable(Protocol):
@@ -38,6 +38,7 @@ class Sendable(Protocol):
     arguments: Mapping[str, Register[Any]]
 
 
+WORD = 0xFFFF
 EEPROM = frozenset({"eeprom", "both"})
 """Persistence of registers whose writes wear a memory out."""
 
@@ -53,7 +54,11 @@ def write_request(session: Session, view: View, address: int, words: Words) -> R
 def send(session: Session, one: RegisterWrite) -> Operation[None]:
     """Send one write; afterwards, also after an error, the remembered value of the register is forgotten."""
     try:
-        yield from session.exchange(write_request(session, one.view, one.address, one.words))
+        if one.bits:
+            request = Request(MASK_REGISTER, one.address, 1, (~one.bits & WORD, one.words[0] & one.bits))
+        else:
+            request = write_request(session, one.view, one.address, one.words)
+        yield from session.exchange(request)
     finally:
         session.forget([one.path])
         if one.register.persistence in EEPROM:

@@ -90,7 +90,8 @@ def sizes(request: Request) -> tuple[int, int]:
         return HEAD_SIZE, IDENTITY_HEAD_SIZE + values
     if function == READ_QUEUE:
         return 3, 1 + QUEUE_HEAD_SIZE + BYTES_IN_WORD * (Space.QUEUE.most - 1)
-    return 1 + HEAD_SIZE, 2 + values if request.reads else 1 + HEAD_SIZE
+    whole = 1 + HEAD_SIZE + (BYTES_IN_WORD if function == MASK_REGISTER else 0)
+    return whole, 2 + values if request.reads else whole
 
 
 def fits(request: Request, reply: Reply) -> bool:
