@@ -23,6 +23,8 @@ _TYPES = {
     "null": "null",
 }
 _YES_OR_NO = {"yes", "no", "on", "off", "y", "n", "true", "false"}
+_LISTED = 12
+"""Words of a longer list are not all named where it is clear which one is meant."""
 _COMPARISONS = {
     "minimum": "at least",
     "maximum": "at most",
@@ -182,7 +184,9 @@ def _not_allowed(error: Violation) -> Complaint:
         return Complaint(rules.VALUE_NOT_ALLOWED, error.path, said, example(error.schema))
     choices = [str(choice) for choice in (value if kind == "enum" else [value])]
     near = get_close_matches(str(error.instance)[:100].lower(), choices, n=1) if isinstance(error.instance, str) else []
-    allowed = ", ".join(f"`{choice}`" for choice in choices)
-    said = f"{describe(error.instance)} is not allowed for {title(error.schema)}; allowed: {allowed}"
-    advice = _instead(error) or (f"did you mean `{near[0]}`?" if near else "write one of the allowed words")
+    allowed, instead = ", ".join(f"`{choice}`" for choice in choices), _instead(error)
+    said = f"{describe(error.instance)} is not allowed for {title(error.schema)}"
+    if not instead or len(choices) <= _LISTED:
+        said += f"; allowed: {allowed}"
+    advice = instead or (f"did you mean `{near[0]}`?" if near else "write one of the allowed words")
     return Complaint(rules.VALUE_NOT_ALLOWED, error.path, said, advice if kind == "enum" else f"write {allowed}")

@@ -7,7 +7,7 @@ from typing import Any
 
 from regscribe.source import NumberFormError, resolve, shorten
 
-_PLAIN = re.compile(r"(?:-(?=[0-9]))?[\w°µ%][\w°µ%./()'+=-]*(?: [\w°µ%./()'+=-]+)*\Z")
+_PLAIN = re.compile(r"(?:-(?=[0-9]))?[\w°µ][\w°µ%./()'+=-]*(?: [\w°µ%./()'+=-]+)*\Z")
 
 
 def title(schema: Mapping[str, Any]) -> str:

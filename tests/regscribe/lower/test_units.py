@@ -107,6 +107,7 @@ def test_what_others_write_leads_to_a_symbol(text: str, symbol: str) -> None:
         ("C", "did you mean `°C`? Else declare it under `units:`, as C: {}"),
         ("kVAr", "did you mean `kvar`? Else declare it under `units:`, as kVAr: {}"),
         ("'#/h'", "declare it under `units:`, as '#/h': {}"),
+        ("'%x'", "declare it under `units:`, as '%x': {}"),
         ("'@'", "declare it under `units:`, as '@': {}"),
     ],
 )

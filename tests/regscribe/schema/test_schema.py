@@ -140,6 +140,8 @@ def test_an_unknown_key_asks_whether_another_was_meant(keys: str, advice: str) -
         ("scale: 0.1", "RS0203 6:9", "write `multiply: 0.1`"),
         ("scale: 10", "RS0203 6:9", "write `multiply: 10`"),
         ("access: read-only", "RS0204 6:10", "write `r`"),
+        ("range: 5", "RS0203 6:9", "write `0..5`, or `5..5` for one value"),
+        ("range: [0, 2..5]", "RS0203 6:10", "write `0..0` for one value"),
         ("space: holding registers", "RS0204 6:9", "write `holding`"),
         ("space: coils", "RS0204 6:9", "write `coil`"),
     ],
