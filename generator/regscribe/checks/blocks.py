@@ -36,9 +36,12 @@ def behind_the_end(scope: RuleScope) -> Iterator[Finding]:
                 yield Finding.at(one, message, "correct one of the addresses", related)
 
 
-@map_rule("RS0696", "Identification by a register of a block")
+@map_rule("RS0696", "Identification by a register of a block that a given places")
 def identity_in_block(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
-    """A device is identified before its blocks are found."""
+    """A device is identified before anybody states its givens."""
+    stated = [block.id for block in register_map.blocks if block.given]
     for rule in register_map.identity:
-        for register in (one for scope in scopes for one in scope.named(rule.identity.registers()) if one.block):
-            yield Finding.at(register, f"identifies a model, and stands in block {register.block}", "use another one")
+        for register in (one for scope in scopes for one in scope.named(rule.identity.registers())):
+            if register.block not in stated:
+                continue
+            yield Finding.at(register, f"identifies a model, and stands in block {register.block}", "use another")

@@ -2,6 +2,7 @@
 
 import asyncio
 from collections.abc import Callable
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -13,7 +14,10 @@ from regscribe.plugins import OptionError
 from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.tools.live.decode import Decoder
 from regscribe.tools.settings.take import backup
-from regscribe_runtime import NotPresent
+from regscribe_runtime import NotPresent, ValueRefused
+from regscribe_runtime.driver.broadcast import request_for
+from regscribe_runtime.driver.executor import carry_out
+from regscribe_runtime.driver.identify import Known, identity_of
 from regscribe_runtime.wire import pdu
 from regscribe_runtime.wire.capture import CapturedFrame
 
@@ -237,3 +241,24 @@ def test_asyncio_awaits_the_count_of_elements(talk: Any) -> None:
         with pytest.raises(TypeError, match=r"await .count\(\)"):
             len(device.modules)
         assert asyncio.run(device.modules.count()) == expected
+
+
+def test_a_model_is_identified_by_a_register_in_a_chain(build: Any, words: Any, direct: Any) -> None:
+    built = build(STRINGS.replace("chains:", "identify: [{models: [A], when: {scale: 5}}]\nchains:"))
+    known = Known("test/strings", "A", built.driver("A"), built.module.AsyncStringsA)
+
+    def identified(held: list[int]) -> Any:
+        return carry_out(identity_of(known)(SimpleNamespace(unit=1)), direct(words(dict(enumerate(held)))), 1)  # type: ignore[arg-type] # all that it asks of a session
+
+    assert identified([7, 1, 0, 160, 1, 5, 0xFFFF, 0]).models == (known,)
+    assert identified([160, 1, 6, 0xFFFF, 0]).models == ()
+    lacking = identified([7, 1, 0, 0xFFFF, 0])
+    assert lacking.models == ()
+    assert "block strings (id 160) is in the chain" in str(lacking.evidence[0].error)
+
+
+def test_a_block_is_not_written_to_all_units_at_once(sun: Any) -> None:
+    driver = sun.driver("A")
+
+    with pytest.raises(ValueRefused, match="where block inverter stands differs by unit"):
+        request_for(driver.limit, 5, {"one": driver}, givens={})

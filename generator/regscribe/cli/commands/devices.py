@@ -95,6 +95,7 @@ def _register(register: Register[Any]) -> dict[str, Any]:
         "unit": _units(register),
         "choices": list(value_text.choices(register)),
         "address": view.address(register.at),
+        "block": register.block,
         "space": view.space,
         "words": view.words,
         "section": register.section,

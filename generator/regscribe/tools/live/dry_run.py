@@ -32,12 +32,7 @@ class DryLink:
         self._link, self._session = link, session
         self.written: list[Request] = []
         self._held: dict[tuple[int, str, int], int] = {}
-        self._unread: dict[tuple[str, int], tuple[Register[Any], Any]] = {
-            (view.space, view.address(register.at)): (register, view)
-            for register in session.registers.values()
-            for view in register.views
-            if register.access.writable and not (view.readable and register.access.readable)
-        }
+        self._unread: dict[tuple[str, int], tuple[Register[Any], Any]] = {}
 
     def __getattr__(self, name: str) -> Any:  # noqa: ANN401 - whatever else the link has
         return getattr(self._link, name)
@@ -57,6 +52,12 @@ class DryLink:
             held = (self._held.get((unit, space, request.address + at), word) for at, word in enumerate(reply.words))
             return reply._replace(words=tuple(held))
         self.written.append(request)
+        self._unread = {
+            (view.space, view.address(register.at)): (register, view)
+            for register in self._session.registers.values()  # those in blocks stand somewhere since these were found
+            for view in register.views
+            if register.access.writable and not (view.readable and register.access.readable)
+        }
         self._hold(unit, SPACES[request.function], request.address, request.words)
         words = () if request.function in BLOCK_WRITES else request.words
         return Reply(request.function, words, request.address, len(request.words))

@@ -40,6 +40,8 @@ def request_for(
         raise ValueRefused(register.path, f"each unit has to answer the command {command} with it: write unit by unit")
     if register.governs is not None:
         raise ValueRefused(register.path, "it changes how units talk, or their ids: write unit by unit")
+    if register.block:
+        raise ValueRefused(register.path, f"where block {register.block} stands differs by unit: write unit by unit")
     check_confirmation(register, confirm=confirm)
     needs = (*register.needs(chosen), *register.limit_needs, *condition_needs(register))
     missing = [path for path in dict.fromkeys(needs) if path not in state]

@@ -13,10 +13,12 @@ from regscribe_runtime.driver.device import AsyncBareDevice, BareDevice
 from regscribe_runtime.driver.executor import carry_out, carry_out_async
 from regscribe_runtime.errors import LinkLost, RegscribeError
 from regscribe_runtime.link.links import AsyncLink, Link
+from regscribe_runtime.operations.locate import located
 from regscribe_runtime.operations.read import read_request
-from regscribe_runtime.operations.session import Operation, Task
+from regscribe_runtime.operations.session import Operation, Session, Task
 from regscribe_runtime.registers import codec
 from regscribe_runtime.registers.register import Register
+from regscribe_runtime.values.blocks import RegisterBlock
 from regscribe_runtime.values.views import View
 from regscribe_runtime.wire.requests import Request, verify
 
@@ -105,14 +107,17 @@ def identity_of(*models: Known) -> Task[Identification]:
 
 def _identify(models: tuple[Known, ...], unit: int) -> Operation[Identification]:
     answers: dict[Request, Answer] = {}
+    sessions: dict[tuple[RegisterBlock, ...], Session] = {}
     evidence: dict[tuple[Request, str], Evidence] = {}
     fitting = []
     for known in models:
         state: dict[str, Any] = {}
         for path in dict.fromkeys(chain.from_iterable(one.registers() for one in known.driver.identity)):
-            register = known.driver.registers[path]
+            register, absent = yield from _located(known.driver.registers[path], sessions, unit, known)
             request = read_request(register, _view(register))
-            if request not in answers:
+            if absent:
+                answers[request] = absent
+            elif request not in answers:
                 answers[request] = yield from _ask(request, unit, known)
             earlier = evidence.get((request, path))
             maps = (*(earlier.map_ids if earlier else ()), known.map_id)
@@ -123,6 +128,27 @@ def _identify(models: tuple[Known, ...], unit: int) -> Operation[Identification]
         if any(one.fits(state) for one in known.driver.identity if set(one.registers()) <= set(state)):
             fitting.append(known)
     return Identification(tuple(fitting), tuple(evidence.values()))
+
+
+def _located(
+    register: Register[Any], sessions: dict[tuple[RegisterBlock, ...], Session], unit: int, known: Known
+) -> Operation[tuple[Register[Any], RegscribeError | None]]:
+    """The register where the unit has its block, or with the reason why it has none; a chain is walked once."""
+    if not register.block:
+        return register, None
+    driver = known.driver
+    blocks, protocol = driver._blocks, driver.protocol  # noqa: SLF001 (drivers are one family)
+    if blocks not in sessions:
+        registers = driver.registers
+        sessions[blocks] = Session(
+            unit=unit, protocol=protocol, registers=registers, commands={}, givens={}, blocks=blocks
+        )
+    try:
+        return (yield from located(sessions[blocks], register)), None
+    except LinkLost:
+        raise  # there is nobody left to ask
+    except RegscribeError as error:
+        return register, error
 
 
 def _view(register: Register[Any]) -> View:
