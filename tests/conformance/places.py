@@ -104,25 +104,30 @@ def _in_second_view(case: Json) -> Json | None:
 
 def _in_block(case: Json) -> Json | None:
     """Behind the header of the second block of an id, which follows the first, empty one, in a chain."""
-    tables = case["map"].keys() & {"views", "commands", "process", "reserved", "unused", "identify"}
-    if tables or _spaces(case) != {"holding"}:
+    parts = block_of(case["map"])
+    if parts is None:
         return None
-    chain = {"at": CHAIN, "marker": [0x5375, 0x6E53]}
-    block = {"chain": "chain", "id": BLOCK, "index": 2}
-    registers = [_behind_header(one) for one in case["map"]["registers"]]
     headers = {CHAIN: f"53 75 6E 53 00 {BLOCK:02X} 00 00 00 {BLOCK:02X} 10 00", CHAIN + 6 + 0x1000: "FF FF 00 00"}
     held = _shifted(case.get("holds", {}), (), CHAIN + 6)
     return {
         **case,
-        "map": {
-            **case["map"],
-            "registers": registers,
-            "chains": {"chain": chain},
-            "blocks": {"block": block},
-            "block": "block",
-        },
+        "map": parts,
         "holds": {**held, "holding": headers | held.get("holding", {})},
         "rows": [row | {"holds": _shifted(row.get("holds", {}), (), CHAIN + 6)} for row in case["rows"]],
+    }
+
+
+def block_of(parts: Json) -> Json | None:
+    """Parts of a map with the registers in the second block of an id in a chain; None where they cannot stand there."""
+    tables = parts.keys() & {"views", "commands", "process", "reserved", "unused", "identify"}
+    if tables or {one.get("space", "holding") for one in parts["registers"]} != {"holding"}:
+        return None
+    return {
+        **parts,
+        "registers": [_behind_header(one) for one in parts["registers"]],
+        "chains": {"chain": {"at": CHAIN, "marker": [0x5375, 0x6E53]}},
+        "blocks": {"block": {"chain": "chain", "id": BLOCK, "index": 2}},
+        "block": "block",
     }
 
 

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from regscribe.emit import python
 
+from .places import block_of
 from .strategies import FUZZ, STEADY, maps
 from .suite import Built, Json, diagnose, errors_of, module_of, whole_map
 from .trial import Trial
@@ -29,6 +30,15 @@ def disagreements(parts: Json, seed: int) -> list[str]:
 @given(parts=maps(), seed=st.integers(0, 2**32))
 def test_all_agree_on_random_maps(parts: Json, seed: int) -> None:
     assert disagreements(parts, seed) == []
+
+
+@settings(STEADY, max_examples=FEW // 4, derandomize=True)
+@given(parts=maps(), seed=st.integers(0, 2**32))
+def test_all_agree_on_random_maps_in_a_block_of_a_chain(parts: Json, seed: int) -> None:
+    inside = block_of(parts)
+    assume(inside is not None)
+    assert inside is not None
+    assert disagreements(inside, seed) == []
 
 
 @pytest.mark.slow

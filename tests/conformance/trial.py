@@ -3,11 +3,13 @@
 import random
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
+from dataclasses import replace
 from fractions import Fraction
 from math import isfinite
 from typing import Any
 
 from regscribe.model import NotANumber, Register, Special, View, WireType
+from regscribe.model.located import layout_of, located
 from regscribe.reference import (
     Meaning,
     Reading,
@@ -62,9 +64,14 @@ class Trial:
     """A map, its driver on a device of nothing but words, and its driver on a simulated device."""
 
     def __init__(self, built: Built, chance: random.Random) -> None:
-        self.built, self.chance = built, chance
-        self.registers = built.map.models[0].registers
+        layout = layout_of(built.map, built.map.models[0], {})
+        model = located(built.map.models[0], layout)
+        self.declared, self.chance = built, chance
+        self.built = built._replace(map=replace(built.map, models=(model,)))  # with addresses of registers in blocks
+        self.registers = model.registers
         self.memory = Memory()
+        for (space, address), word in layout.words.items():
+            self.memory.put(space.value, address, [word])
         self.plain = built.module.CaseA(Wire(self.memory.answer), unit=1)
         self.device = SimulatedDevice(built.map, "A", unit=1)
         self.driver = built.module.CaseA(Wire(self.device.handle), unit=1)
@@ -121,7 +128,7 @@ class Trial:
 
     def _of_vectors(self) -> Iterator[str]:
         """The driver is what the vectors say, as the generated tests ask it."""
-        bench = judges.bench_of(self.built)
+        bench = judges.bench_of(self.declared)
         for check in CHECKS:
             try:
                 check(bench)
