@@ -79,9 +79,12 @@ def words_of(text: str) -> list[int]:
 
 
 def whole_map(parts: Json) -> str:
-    """A map of the parts that a case gives, as YAML: one model, all registers in one group, read-write unless told."""
+    """A map of the parts that a case gives, as YAML: one model, all registers in one group, read-write unless told.
+
+    A recipe may have groups of its own.
+    """
     tables = {key: value for key, value in parts.items() if key not in {"registers", "block"}}
-    group = {"id": "all", "name": "All", "source": "1", "each": {"access": "rw"}, "registers": parts["registers"]}
+    group = {"id": "all", "name": "All", "source": "1", "each": {"access": "rw"}, "registers": parts.get("registers")}
     group |= {"block": parts["block"]} if "block" in parts else {}
     document: Json = {
         "format": 1,
@@ -90,7 +93,7 @@ def whole_map(parts: Json) -> str:
         "models": {"A": {}},
         "protocol": {"functions": FUNCTIONS},
         **tables,
-        "groups": [group],
+        "groups": parts.get("groups", [group]),
     }
     return dump(_plain(document))
 

@@ -59,7 +59,8 @@ def _parts(text: str) -> Json:
 def _memory(memory: Memory, holds: str) -> None:
     memory.clear()
     for space, address, text in HELD.findall(holds):
-        memory.put(space, int(address), words_of(text))
+        part, _, inside = address.rpartition(":")  # of a file
+        memory.put(space, int(part or 0) << 16 | int(inside), words_of(text))
 
 
 @pytest.fixture(scope="module")
@@ -76,23 +77,25 @@ def test_a_recipe_is_a_sound_map(title: str, text: str) -> None:
     assert found == [], title
 
 
-def _driver(row: Row, server: Server) -> Any:
+def _driver(row: Row, server: Server, givens: str) -> Any:
     built = build(whole_map(_parts(row.text)))
     model = built.map.models[0]
-    return getattr(built.module, model.class_name).tcp("127.0.0.1", port=server.port, unit=1)
+    stated = eval(f"dict({givens})")  # noqa: S307  an expression of our own page
+    return getattr(built.module, model.class_name).tcp("127.0.0.1", port=server.port, unit=1, **stated)
 
 
 @pytest.mark.parametrize("row", list(rows()), ids=repr)
 def test_what_a_recipe_says_comes_over_the_wire(row: Row, server: Server) -> None:
     _memory(server.memory, row.holds)
-    with _driver(row, server) as device:
+    asks, _, givens = row.asks.partition("` with `")
+    with _driver(row, server, givens) as device:
         names = {name: getattr(device, name) for name in dir(device) if not name.startswith("_")}
         if row.gets.startswith("raises"):
             with pytest.raises(RegscribeError) as raised:
-                eval(row.asks, {}, names)  # noqa: S307  an expression of our own page
+                eval(asks, {}, names)  # noqa: S307  an expression of our own page
             assert row.gets == f"raises `{raised.type.__name__}`"
             return
-        value = eval(row.asks, {}, names)  # noqa: S307  as above
+        value = eval(asks, {}, names)  # noqa: S307  as above
     written = HELD.fullmatch(row.gets)
     if written:
         words = words_of(written[3])

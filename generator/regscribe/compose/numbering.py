@@ -131,17 +131,10 @@ class _Rows:
                 node = put(node, key, self._wire(each, stated, spaces if key == "at" else set()))
         found = next(iter(spaces), space)
         if spaces and not stated and found != (space or "holding"):
-            node = self._with_space(node, found)
+            node = put(node, "space", SourceNode(found, node.place))
         for key, each in members(node).items():
             node = put(node, key, self.rows(each, found, stated)) if key in _INNER else node
         return node
-
-    def _with_space(self, node: SourceNode, space: str) -> SourceNode:
-        """The row with the space that its number told; that of a command's step follows from its function."""
-        if "words" not in members(node):
-            return put(node, "space", SourceNode(space, node.place))
-        function = _COILS[len(elements(node.child("words"))) > 1]
-        return put(node, "function", SourceNode(function, node.place)) if space == "coil" else node
 
     def _wire(self, node: SourceNode, stated: str, spaces: set[str]) -> SourceNode:
         """A number, a range of them or a list as wire addresses; their spaces are added to `spaces`."""
