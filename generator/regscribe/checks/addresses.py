@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from itertools import combinations
 from operator import attrgetter
 
+from regscribe.checks.probe_states import verdict
 from regscribe.checks.rule import (
     MAP,
     Finding,
@@ -17,7 +18,8 @@ from regscribe.checks.rule import (
     model_rule,
     register_rule,
 )
-from regscribe.model import Register, RegisterMap, Related, Space, View
+from regscribe.lower.conditions import both, excludes
+from regscribe.model import Condition, Register, RegisterMap, Related, Space, View
 
 WRITE_IN = "name under `written_in` the notation that the rows are written in (`modicon` for 40001 and 400001)"
 LAST_PART, LAST_OBJECT = 0xFFFF, 0xFF
@@ -69,25 +71,40 @@ def stretches(register: Register) -> Iterator[TakenAddresses]:
 
 @model_rule("RS0401", "Addresses overlap")
 def overlap(scope: RuleScope) -> Iterator[Finding]:
-    """Two things to read (or two to write) at one address cannot both be right: one of the rows was misread."""
+    """Two things to read (or two to write) at one address cannot both be right, unless they never exist together."""
     stretched = (stretch for register in scope.model.registers for stretch in stretches(register))
     every = sorted(stretched, key=attrgetter("ground", "first", "last"))
-    twice = (one for reading in (True, False) for one in _overlaps(one for one in every if one.serves(reading=reading)))
+    ways = ([one for one in every if one.serves(reading=reading)] for reading in (True, False))
+    twice = (one for way in ways for one in _overlaps(way, scope))
     return iter(dict.fromkeys(twice))
 
 
-def _overlaps(every: Iterable[TakenAddresses]) -> Iterator[Finding]:
-    furthest: TakenAddresses | None = None
+def _overlaps(every: Iterable[TakenAddresses], scope: RuleScope) -> Iterator[Finding]:
+    before: list[TakenAddresses] = []
     for stretch in every:
-        if furthest and furthest.ground == stretch.ground and stretch.first <= furthest.last:
-            earlier, later = sorted((furthest, stretch), key=lambda one: one.register.span)
+        before = [one for one in before if one.ground == stretch.ground and one.last >= stretch.first]
+        rivals = [one for one in before if not _apart(one.register.when, stretch.register.when, scope)]
+        if rivals:
+            earlier, later = sorted((max(rivals, key=attrgetter("last")), stretch), key=lambda one: one.register.span)
             other = earlier.register
             message = f"takes {later}, which overlaps {earlier} of `{other.path}`"
             related = Related(f"`{other.path}` takes {earlier}", other.span)
-            help_text = "correct `at`, the type, the array's stride or (if one is read and one written) `access`"
-            yield Finding.at(later.register, message, help_text, related)
-        if not furthest or furthest.ground != stretch.ground or stretch.last > furthest.last:
-            furthest = stretch
+            yield Finding.at(later.register, message, _advice(earlier.register, later.register), related)
+        before.append(stretch)
+
+
+def _apart(one: Condition, other: Condition, scope: RuleScope) -> bool:
+    """Whether two conditions never hold together."""
+    if one.always or other.always:
+        return False
+    together = both(one, other)
+    return excludes(one, other) or scope.once(("apart", together), lambda: not verdict((together,), scope).possible)
+
+
+def _advice(one: Register, other: Register) -> str:
+    if one.when.always and other.when.always:
+        return "correct `at`, the type, the array's stride or (if one is read and one written) `access`"
+    return "give both a `when` such that they never hold together, or correct `at`"
 
 
 @register_rule("RS0402", "Address outside the address space")

@@ -60,6 +60,8 @@ def _conditions(register: Register) -> Iterator[tuple[str, tuple[Condition, ...]
         yield "table of sentinels", tuple(dict.fromkeys(sentinel.when for sentinel in register.sentinels))
     if register.writable:
         yield "condition for a write", (register.writable.when,)
+    if not register.when.always:
+        yield "condition of its existence", (register.when,)
 
 
 def _shown(condition: Condition, place: int) -> str:

@@ -29,6 +29,7 @@ CODES_LISTED = 64
 
 def needed(register: Register) -> Iterator[tuple[str, str]]:
     """Registers whose values are needed to read a register: path and reason of each."""
+    yield from ((path, "its existence depends on") for path in register.when.registers)
     yield from ((path, "its scale depends on") for path in registers_of(register.scale))
     yield from ((case.then.decimals.register, "its decimals are") for case in register.scale if case.then.decimals)
     yield from ((path, "its scale depends on") for path in _in_scale(register))

@@ -50,6 +50,7 @@ def _bundle(node: Value, root: Value, model: str, models: Models) -> Bundle:
         section=node.text_of("source"),
         sets=root.mapping_of("sets"),
         layers=(each,) if each else (),
+        whens=((when, ()),) if (when := node.child("when")) else (),
         block=block_named(node, root),
     )
     items = items_in(node.elements_of("registers"), place)

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from fractions import Fraction
 
-from regscribe.lower.conditions import cases_of, condition, write_condition
+from regscribe.lower.conditions import both, cases_of, condition, write_condition
 from regscribe.lower.enums import enum_of, fields_of
 from regscribe.lower.idle_keys import report_idle_keys
 from regscribe.lower.node import ZERO, Keyed, Value
@@ -20,6 +20,7 @@ from regscribe.model import (
     Access,
     Case,
     Cases,
+    Condition,
     Governs,
     Inferred,
     Kind,
@@ -79,6 +80,7 @@ def register_of(entry: TreeNode, everywhere: Scope) -> Register:
         enum=enum,
         fields=fields_of(entry, scope, condition),
         writable=write_condition(settings.get("writable"), scope),
+        when=_existence(entry, scope),
         persistence=settings.text_of("persistence"),
         endurance=settings["endurance"].whole() if "endurance" in settings else None,
         rescales=rescaled(settings.get("rescales"), scope),
@@ -150,6 +152,15 @@ def _makes_fractions(scaling: Scaling) -> bool:
     conversion = scaling.conversion
     whole = all(isinstance(one, Number) and one.denominator == 1 for one in (conversion.multiply, conversion.add))
     return not whole or conversion.decimals is not None or conversion.places is not None
+
+
+def _existence(entry: TreeNode, scope: Scope) -> Condition:
+    """The condition under which a register exists: its own and those of its surroundings, as each stands there."""
+    found = []
+    for when, prefixes in entry.whens:
+        when.context.used.add(when.path)
+        found.append(condition(when, scope.at(replace(entry, place=replace(entry.place, prefixes=prefixes)))))
+    return both(*found)
 
 
 def _name(entry: TreeNode) -> str:

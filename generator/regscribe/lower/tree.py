@@ -13,6 +13,10 @@ from regscribe.model import Span
 ADDRESSES = 65536
 
 
+PlacedCondition = tuple[Value, tuple[str, ...]]
+"""A `when`, and the paths of the elements around it from the inside out."""
+
+
 @dataclass(frozen=True, slots=True)
 class TreePosition:
     """Where a list of registers stands on one model: inside which group, arrays and elements.
@@ -20,7 +24,8 @@ class TreePosition:
     `among` are the models that the surroundings exist on, `sets` is the map's table of sets, `layers` the `each`
     defaults from the outside in, `prefixes` the paths of the surrounding elements from the inside out, `shift` the
     steps that the elements add to `at`. `over` are the keys that a use of a set lays over those of its registers,
-    `open` the names of the sets around, `block` the block that addresses count from.
+    `open` the names of the sets around, `block` the block that addresses count from. `whens` are the conditions of the
+    surroundings, each with the paths of the elements around it.
     """
 
     model: str
@@ -38,6 +43,12 @@ class TreePosition:
     over: tuple[Value, ...] = ()
     open: tuple[str, ...] = ()
     block: str = ""
+    whens: tuple["PlacedCondition", ...] = ()
+
+    def under(self, node: Value) -> tuple["PlacedCondition", ...]:
+        """The conditions here, with that of `node`."""
+        when = node.child("when")
+        return (*self.whens, (when, self.prefixes)) if when else self.whens
 
     def path(self, name: str) -> str:
         """The path of a register or array of this name."""
@@ -46,13 +57,17 @@ class TreePosition:
 
 @dataclass(frozen=True, slots=True)
 class TreeNode:
-    """One register of one model (one element of an array): its names, and the keys that count for it."""
+    """One register of one model (one element of an array): its names, and the keys that count for it.
+
+    It exists while all of `whens` hold.
+    """
 
     node: Value
     id: str
     path: str
     settings: Keys
     place: TreePosition
+    whens: tuple[PlacedCondition, ...] = ()
 
     @property
     def qualified_id(self) -> str:
@@ -114,6 +129,7 @@ def _set(node: Value, place: TreePosition) -> tuple[Item, ...]:
         shift=place.shift + node.whole_of("shift"),
         over=(each, *place.over) if each else place.over,
         open=(*place.open, node.text_of("set")),
+        whens=place.under(node),
     )
     return items_in(registers, inside)
 
@@ -129,9 +145,14 @@ def _models(node: Value, place: TreePosition) -> Models:
 
 
 def _register(node: Value, name: str, has: Models, place: TreePosition) -> TreeNode:
-    layers = [part for each in place.layers for part in with_variants(each, place.model, place.every, place.every)]
-    settings = settings_of([*layers, *with_variants(node, place.model, has, place.every), *place.over])
-    return TreeNode(node, name, place.path(name), settings, place)
+    parts = [with_variants(each, place.model, place.every, place.every) for each in place.layers]
+    parts += [with_variants(node, place.model, has, place.every), *([over] for over in place.over)]
+    settings = settings_of([layer for part in parts for layer in part])
+    own: tuple[PlacedCondition, ...] = ()
+    if settings.pop("when", None):  # each counts, none takes the place of another
+        found = (settings_of(part).get("when") for part in parts)
+        own = tuple((when, place.prefixes) for when in found if when)
+    return TreeNode(node, name, place.path(name), settings, place, (*place.whens, *own))
 
 
 def _branch(node: Value, name: str, place: TreePosition) -> TreeBranch:
@@ -150,6 +171,7 @@ def _branch(node: Value, name: str, place: TreePosition) -> TreeBranch:
     inside = replace(
         place,
         layers=(*place.layers, each) if each else place.layers,
+        whens=place.under(node),
         section=sources[-1] if sources else node.text_of("source", place.section),
         array=f"{place.array}.{name}" if place.array else name,
         elements=(last - first + 1) * place.elements,

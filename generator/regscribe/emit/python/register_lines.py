@@ -42,6 +42,7 @@ class Declarations:
             sentinels=specs.shared(register, "sentinels", register.sentinels),
             aliases=group([str(alias) for alias in register.aliases]) if register.aliases else None,
             writable=specs.shared(register, "writable", register.writable),
+            when=None if register.when.always else specs.shared(register, "when", register.when),
             persistence=_text(register.persistence),
             unlock=_text(register.unlock),
             apply=_text(register.apply),

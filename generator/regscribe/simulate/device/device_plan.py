@@ -23,6 +23,11 @@ class AddressSpan:
     view: View
     start: int
 
+    def serves(self, *, writing: bool) -> bool:
+        """Whether it is for reading, or for writing."""
+        access, view = self.register.access, self.view
+        return (access.writable and view.writable) if writing else (access.readable and view.readable)
+
     @property
     def end(self) -> int:
         """The first address behind the value."""
@@ -36,7 +41,7 @@ class AddressIndex:
     """
 
     __slots__ = (
-        *("_bounds", "_places", "_regions", "_written"),
+        *("_all", "_bounds", "_places", "_regions", "_written", "conditional"),
         *("command_addresses", "fixed", "reserved", "silent", "unused"),
     )
 
@@ -47,6 +52,7 @@ class AddressIndex:
         fixed: Mapping[tuple[Space, int], int] = MappingProxyType({}),
     ) -> None:
         self.fixed = fixed
+        self._all: dict[tuple[Space, int], list[AddressSpan]] = {}
         self._places: dict[Space, dict[int, AddressSpan]] = {space: {} for space in Space}
         self._written: dict[Space, dict[int, AddressSpan]] = {space: {} for space in Space}
         self._regions: dict[tuple[Space, range, int, tuple[int, ...]], View] = {}
@@ -66,8 +72,12 @@ class AddressIndex:
             for step in command.steps
         )
         self._bounds = {space: self._bounds_of(space) for space in Space}
+        some = (there for there, spans in self._all.items() if any(not one.register.when.always for one in spans))
+        self.conditional = {there: tuple(self._all[there]) for there in some}
 
     def _take(self, place: AddressSpan) -> None:
+        for address in range(place.start, place.end):
+            self._all.setdefault((place.view.space, address), []).append(place)
         access, view = place.register.access, place.view
         addresses = range(place.start, place.end)
         for index, fits in (
@@ -83,6 +93,16 @@ class AddressIndex:
         Where one value is read and another one written, it is the one to read, or the one to write if `writing`.
         """
         return (self._written if writing else self._places)[space].get(address)
+
+    def place_now(
+        self, space: Space, address: int, exists: Callable[[Register], bool], *, writing: bool = False
+    ) -> AddressSpan | None:
+        """As `place`, among the registers that exist."""
+        spans = self.conditional.get((space, address))
+        if spans is None:
+            return self.place(space, address, writing=writing)
+        here = [one for one in spans if exists(one.register)]
+        return next((one for one in here if one.serves(writing=writing)), here[0] if here else None)
 
     def region(self, space: Space, address: int, function: int) -> View | None:
         """Return the view whose alignment and functions bind a request that starts at `address`; None if none does."""

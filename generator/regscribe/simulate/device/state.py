@@ -9,7 +9,8 @@ from regscribe.model import NAN, BitField, Kind, Model, NotANumber, Register, Re
 from regscribe.model.located import layout_of, located
 from regscribe.reference import Surroundings, holds, present_sentinels, version_text
 from regscribe.simulate.device import codec
-from regscribe.simulate.device.device_plan import Blueprint, Image, Stored, draw
+from regscribe.simulate.device.device_plan import AddressSpan, Blueprint, Image, Stored, draw
+from regscribe.simulate.device.existence import exists
 from regscribe.simulate.device.initial_values import initial_value
 from regscribe.simulate.device.present_meaning import PresentMeaning
 from regscribe.simulate.device.value_arguments import (
@@ -95,11 +96,31 @@ class DeviceState(PresentMeaning):
 
     def words(self, space: Space, address: int, count: int) -> list[int | None]:
         """Return the word at each address as a read shows it; None where no readable register stands."""
+        if self.blueprint.layout.conditional:
+            return [self._word(space, each) for each in range(address, address + count)]
         base = self.blueprint.image[space].get
         own = self._image.get(space)
         if own is None:
             return [base(each) for each in range(address, address + count)]
         return [own.get(each, base(each)) for each in range(address, address + count)]
+
+    def _word(self, space: Space, address: int) -> int | None:
+        """As `words`, where registers may not exist, or several share an address."""
+        if (space, address) not in self.blueprint.layout.conditional:
+            return self._image.get(space, {}).get(address, self.blueprint.image[space].get(address))
+        place = self.place(space, address)
+        if place is None or not place.serves(writing=False):
+            return None
+        words = codec.encode(place.view, self.stored(place.register.path), self.order(place.view))
+        return words[address - place.start]
+
+    def place(self, space: Space, address: int, *, writing: bool = False) -> AddressSpan | None:
+        """The value of a register that exists now and has a word at `address`; None if there is none."""
+        return self.blueprint.layout.place_now(space, address, self.exists, writing=writing)
+
+    def exists(self, register: Register) -> bool:
+        """Whether a register exists now: its condition holds, and so do those of the registers that it asks."""
+        return register.when.always or exists(register.when, self)
 
     def stored(self, path: str) -> Stored:
         """Return the stored value of the register `path`."""

@@ -62,7 +62,7 @@ class WordAccess:
         blueprint = self.state.blueprint
         check_request(blueprint, space, function, address, count, most="read")
         for each in range(address, address + count):
-            place = blueprint.layout.place(space, each)
+            place = self.state.place(space, each)
             if place is not None and not place.view.allows(function):
                 raise Refusal(blueprint.register_map.faults.view_function)
         found = tuple(
@@ -74,7 +74,7 @@ class WordAccess:
 
     def _clear(self, space: Space, address: int, count: int) -> None:
         """Set what this reading clears to 0."""
-        places = (self.state.blueprint.layout.place(space, each) for each in range(address, address + count))
+        places = (self.state.place(space, each) for each in range(address, address + count))
         for path in {place.register.path for place in places if place and place.register.reading.clears}:
             self.state.store(path, Fraction(0))
 
@@ -86,7 +86,7 @@ class WordAccess:
             return layout.fixed[space, address]
         if (space, address) in layout.silent:
             return 0
-        hole = layout.documents(space, address) and layout.place(space, address) is None
+        hole = layout.documents(space, address) and self.state.place(space, address) is None
         if hole and later is not Later.GARBAGE and register_map.protocol.read_holes:
             return 0
         if first or later not in {Later.GARBAGE, Later.ZEROS}:
@@ -102,7 +102,7 @@ class WordAccess:
         written.
         """
         check_request(self.state.blueprint, space, function, address, len(words), most="write")
-        place = self.state.blueprint.layout.place(space, address, writing=True)
+        place = self.state.place(space, address, writing=True)
         writable = place is not None and place.register.access.writable
         if not writable and self.commands.is_step(space, address, words, function=function):
             self.conduct.commanded(self.commands.saw(space, address, words))
@@ -140,7 +140,7 @@ class WordAccess:
 
     def _place(self, space: Space, function: int, address: int, left: int) -> AddressSpan:
         faults, layout = self.state.blueprint.register_map.faults, self.state.blueprint.layout
-        place = layout.place(space, address, writing=True)
+        place = self.state.place(space, address, writing=True)
         if place is None:
             if (space, address) in layout.reserved or (space, address) in layout.fixed:
                 raise Refusal(faults.read_only)

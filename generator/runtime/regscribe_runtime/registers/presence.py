@@ -57,8 +57,11 @@ def _tested(test: Is, state: State) -> tuple[str, str]:
     for name in getattr(value, "parts", ()) if test.bits else ():
         part = vars(type(value))[name]
         if (part.low, part.high) == test.bits:
-            return f"{test.register}.{name}", value_text(getattr(value, name))
-    return test.register, value_text(value)
+            return test.subject, value_text(getattr(value, name))
+    if test.bits:
+        low, high = test.bits
+        value = int(value) >> low & ((1 << (high - low + 1)) - 1)
+    return test.subject, value_text(value)
 
 
 def value_text(value: Any) -> str:

@@ -1,0 +1,303 @@
+"""Registers that exist under a condition: driver and simulated device agree on what is there."""
+
+import asyncio
+from typing import Any
+
+import pytest
+
+from regscribe.simulate.device.device import SimulatedDevice
+from regscribe_runtime import Absent, ConditionNotMet, ExceptionAnswer, NotPresent
+
+from .matrix_watch import Wire
+from .suite import build, diagnose, whole_map
+
+MODES = {0: "off", 1: "range", 2: "list"}
+PARTS: dict[str, Any] = {
+    "conditions": {"ranging": {"mode": "range"}},
+    "registers": [
+        {"at": 0, "name": "Mode", "type": "uint16", "enum": MODES},
+        {"at": 1, "id": "level", "name": "Level", "type": "uint16", "when": "ranging"},
+        {
+            "at": 1,
+            "id": "level_list",
+            "name": "Level",
+            "type": "uint16",
+            "when": {"mode": "list"},
+            "enum": {0: "low", 1: "high"},
+        },
+        {"at": 2, "name": "Fan", "type": "uint16", "when": {"level": {"from": 2}}},
+        {"at": 3, "name": "Steady", "type": "uint16"},
+        {"at": 4, "name": "Bits", "type": "uint16", "flags": {3: "fine"}},
+        {"at": 5, "name": "Detail", "type": "uint16", "when": {"bits.fine": 1}},
+        {
+            "id": "units",
+            "name": "Unit",
+            "repeat": "1..2",
+            "stride": 10,
+            "when": {"mode": {"not": "off"}},
+            "registers": [
+                {"at": 10, "name": "Kind", "type": "uint16"},
+                {"at": 11, "name": "Speed", "type": "uint16", "when": {"kind": 1}},
+            ],
+        },
+    ],
+}
+OTHERS: dict[str, list[str]] = {
+    "off": ["bits", "mode", "steady"],
+    "range": ["bits", "level", "mode", "steady", "units[1].kind", "units[2].kind"],
+    "list": ["bits", "level_list", "mode", "steady", "units[1].kind", "units[2].kind"],
+}
+
+
+class Table:
+    """A driver on a simulated device."""
+
+    def __init__(self, parts: dict[str, Any] = PARTS, **state: int) -> None:
+        built = build(whole_map(parts))
+        self.device = SimulatedDevice(built.map, "A", unit=1)
+        self.wire = Wire(self.device.handle)
+        self.driver = built.module.CaseA(self.wire, unit=1)
+        self.awaitable = built.module.AsyncCaseA(Awaited(self.wire), unit=1)
+        for path, value in state.items():
+            self.device.poke(path, value)
+
+    def asked(self) -> set[int]:
+        """The addresses that were read or written."""
+        return {at for entry in self.wire.log for at in range(entry[2], entry[2] + entry[3])}  # type: ignore[index]
+
+
+class Awaited:
+    """The wire for an asyncio driver."""
+
+    def __init__(self, wire: Wire) -> None:
+        self._wire = wire
+        self.epoch, self.timeout, self.retry = 1, 1.0, wire.retry
+        self.line, self.addressing = wire.line, wire.addressing
+        self.lock = Turn()
+
+    async def call(self, unit: int, request: Any) -> Any:
+        """As that of the wire."""
+        return self._wire.call(unit, request)
+
+
+class Turn:
+    """A lock that nobody else holds."""
+
+    def of(self, _: int) -> "Turn":
+        """The lock of a unit."""
+        return self
+
+    async def __aenter__(self) -> None: ...
+
+    async def __aexit__(self, *_: object) -> None: ...
+
+
+@pytest.mark.parametrize("mode", MODES.values())
+def test_a_snapshot_has_what_exists_and_says_why_the_rest_does_not(mode: str) -> None:
+    table = Table(mode=list(MODES.values()).index(mode))
+    snapshot = table.driver.read()
+    assert sorted(snapshot.valid) == OTHERS[mode]
+    assert {type(error) for error in snapshot.errors.values()} == {NotPresent}
+    assert not {1, 2, 5, 11, 21}.intersection(table.asked()) - ({1} if mode != "off" else set())
+
+
+def test_an_absent_register_is_not_asked_for_and_names_the_condition() -> None:
+    table = Table(mode=0)
+    with pytest.raises(NotPresent) as caught:
+        table.driver.level.read()
+    assert caught.value.present == {"mode": "OFF"}
+    assert "ranging (mode is 1)" in str(caught.value)
+    assert table.asked() == {0}
+
+
+def test_the_asyncio_driver_says_the_same() -> None:
+    async def ask() -> None:
+        table = Table(mode=0)
+        with pytest.raises(NotPresent):
+            await table.awaitable.level.read()
+        with pytest.raises(NotPresent):
+            await table.awaitable.level.write(1)
+        table.device.poke("mode", 1)
+        await table.awaitable.level.write(1)
+        assert (await table.awaitable.read()).valid["level"] == 1
+
+    asyncio.run(ask())
+
+
+def test_what_asks_an_absent_register_is_absent_itself() -> None:
+    table = Table(mode=2)
+    table.device.poke("level_list", 1)
+    with pytest.raises(NotPresent, match="level is not present"):
+        table.driver.fan.read()
+    table.device.poke("mode", 1)
+    table.device.poke("level", 2)
+    assert table.driver.fan.read() == 0
+
+
+def test_a_register_comes_and_goes_with_a_single_bit() -> None:
+    table = Table(bits=8, detail=7)
+    assert table.driver.detail.read() == 7
+    table.device.poke("bits", 0)
+    with pytest.raises(NotPresent, match=r"bits.fine is 0"):
+        table.driver.read()["detail"]
+    table.device.poke("bits", 8)
+    assert table.driver.read()["detail"] == 7
+    assert table.driver.detail.read() == 7
+
+
+def test_two_registers_at_one_address_are_told_apart_when_the_mode_changes() -> None:
+    table = Table(mode=1, level=1)
+    assert table.driver.read().valid["level"] == 1
+    table.device.poke("mode", 2)
+    table.device.poke("level_list", 1)
+    found = table.driver.read()
+    assert found["level_list"].name == "HIGH"
+    with pytest.raises(NotPresent):
+        found["level"]
+
+
+def test_what_was_refused_under_a_changed_condition_is_no_absence() -> None:
+    table = Table(mode=1, level=3)
+    assert table.driver.fan.read() == 0
+    table.device.poke("mode", 0)
+    with pytest.raises(NotPresent):
+        table.driver.fan.read()
+    table.device.poke("mode", 1)
+    assert table.driver.read()["fan"] == 0
+    table.device.poke("mode", 0)
+    assert isinstance(table.driver.read(fresh=False).errors["fan"], NotPresent)
+    table.device.poke("mode", 1)
+    assert not any(isinstance(error, Absent) for error in table.driver.read().errors.values())
+
+
+def test_elements_of_an_array_come_with_their_condition() -> None:
+    table = Table(mode=1)
+    table.device.poke("units[2].kind", 1)
+    assert table.driver.units[2].speed.read() == 0
+    with pytest.raises(NotPresent, match=r"units\[1\].kind is 0"):
+        table.driver.units[1].speed.read()
+    table.device.poke("mode", 0)
+    with pytest.raises(NotPresent):
+        table.driver.units[2].kind.read()
+
+
+def test_an_absent_register_is_not_written() -> None:
+    table = Table(mode=0)
+    with pytest.raises(NotPresent):
+        table.driver.level.write(1)
+    with pytest.raises(NotPresent):
+        table.driver.level.write_raw((1,))
+    with pytest.raises(ConditionNotMet, match="exists only while"):
+        table.driver.configure({"level": 1})
+    assert not any(entry[1] in (6, 16) for entry in table.wire.log)  # type: ignore[index]
+
+
+def test_configure_writes_first_what_makes_a_register_exist() -> None:
+    table = Table(mode=0)
+    table.driver.configure({"level": 2, "fan": 5, "mode": 1})
+    assert [table.device.peek(path) for path in ("mode", "level", "fan")] == [1, 2, 5]
+    with pytest.raises(ConditionNotMet):
+        table.driver.configure({"mode": 0, "level": 1})
+
+
+def test_a_simulated_device_refuses_the_address_of_what_does_not_exist() -> None:
+    table = Table(mode=0)
+    for function in (3, 6):
+        answer = table.device.handle(bytes([function, 0, 1, 0, 1]))
+        assert answer == bytes([function | 0x80, 2])
+    table.device.poke("mode", 1)
+    assert table.device.handle(bytes([3, 0, 1, 0, 1])) == bytes([3, 2, 0, 0])
+
+
+def test_decode_and_encode_want_the_state() -> None:
+    table = Table()
+    level = type(table.driver).level
+    assert level.decode((3,), state={"mode": 1}) == 3
+    with pytest.raises(NotPresent):
+        level.decode((3,), state={"mode": 2})
+    with pytest.raises(NotPresent):
+        level.encode(3, state={"mode": 2})
+
+
+def test_an_address_that_the_unit_lacks_though_the_condition_holds_is_an_absence() -> None:
+    table = Table(mode=1)
+    answer = table.wire.answer
+
+    def without_level(pdu: bytes) -> bytes | None:
+        first, last = pdu[2], pdu[2] + pdu[4] - 1
+        return bytes([pdu[0] | 0x80, 2]) if first <= 1 <= last else answer(pdu)
+
+    table.wire.answer = without_level
+    assert isinstance(table.driver.read().errors["level"], Absent)
+    with pytest.raises(ExceptionAnswer):
+        table.driver.level.read()
+
+
+REFUSED = {
+    "both may exist": ("RS0401", [{"when": {"mode": 1}}, {"when": {"mode": [1, 2]}}]),
+    "one always exists": ("RS0401", [{"when": {"mode": 1}}, {}]),
+    "never": ("RS0470", [{"when": {"mode": 7}}, {"at": 2}]),
+    "in a circle": ("RS0462", [{"when": {"other": 1}}, {"at": 2, "id": "other", "when": {"one": 1}}]),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_conditions_that_cannot_be_right_are_refused(name: str) -> None:
+    rule, (one, other) = REFUSED[name]
+    plain = {"at": 1, "name": "Level", "type": "uint16"}
+    registers = [PARTS["registers"][0], {"id": "one", **plain, **one}, {"id": "two", **plain, **other}]
+    _, found = diagnose(whole_map({"registers": registers}))
+    assert rule in {one.rule for one in found}
+
+
+def test_what_can_only_be_written_tells_nothing() -> None:
+    registers = [
+        {"at": 0, "name": "Mode", "type": "uint16", "access": "w"},
+        {"at": 1, "name": "Level", "type": "uint16", "when": {"mode": 1}},
+    ]
+    _, found = diagnose(whole_map({"registers": registers}))
+    assert "RS0463" in {one.rule for one in found}
+
+
+EVERYWHERE = """
+format: 1
+map: {id: test/case, title: Case, maker: Test, class_prefix: Case}
+manual: {title: Manual, number: "1"}
+models: {A: {}, B: {}}
+protocol: {functions: [3, 6, 16]}
+sets:
+  sensor:
+    - {at: 0, name: Value, when: {valid: 1}}
+    - {at: 1, name: Valid, when: {mode: 3}}
+groups:
+  - {id: first, name: First, source: "1", each: {access: rw, type: uint16}, registers: [{at: 0, name: Mode}]}
+  - id: second
+    name: Second
+    source: "1"
+    when: {mode: {from: 1}}
+    each: {access: rw, type: uint16, when: {mode: {to: 8}}, variants: [{models: [B], when: {mode: {to: 6}}}]}
+    registers:
+      - {at: 1, name: Plain}
+      - {at: 2, name: Own, when: {plain: 2}, variants: [{models: [B], when: {plain: 4}}]}
+      - {set: sensor, shift: 10, when: {mode: 5}, set_each: {when: {own: 6}}}
+      - {id: many, name: Many, repeat: 1..2, stride: 10, when: {own: 7}, registers: [{at: 20, name: Count}]}
+"""
+
+
+@pytest.mark.parametrize("model", ["A", "B"])
+def test_conditions_of_the_surroundings_are_added_and_a_variant_takes_the_place_of_its_own(model: str) -> None:
+    register_map, found = diagnose(EVERYWHERE)
+    assert register_map is not None, found
+    words = {one.path: one.when.words for one in register_map.model(model).registers}
+    most, plain = (8, 2) if model == "A" else (6, 4)
+    around = f"mode is at least 1 and mode is at most {most}"
+    inside = f"mode is at least 1 and mode is 5 and mode is at most {most}"
+    assert words == {
+        "mode": "",
+        "plain": around,
+        "own": f"{around} and plain is {plain}",
+        "value": f"{inside} and valid is 1 and own is 6",
+        "valid": f"{inside} and mode is 3 and own is 6",
+        "many[1].count": f"mode is at least 1 and own is 7 and mode is at most {most}",
+        "many[2].count": f"mode is at least 1 and own is 7 and mode is at most {most}",
+    }
