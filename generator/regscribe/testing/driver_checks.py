@@ -129,7 +129,7 @@ class DriverUnderTest:
         )
 
     def check_conditions_of_writing(self) -> None:
-        """Assert that a register that can be written at times can be written then and at no other time."""
+        """Assert that what can be written, or exists, at times can be written or exists then and at no other time."""
         differences: list[str] = []
         for place, entry in self.places:
             register = self._register(place["path"])
@@ -138,6 +138,10 @@ class DriverUnderTest:
                 when = register.writable.when if register and register.writable else ALWAYS
                 allowed = when.holds(state, givens)
                 differences += differs(f"{place['path']} with {state}", "allowed", allowed, vector["allowed"])
+            for vector in entry.get("existence", ()) if register else ():
+                state, givens = known(vector)
+                exists = bool(register) and register.when.holds(state, givens)
+                differences += differs(f"{place['path']} with {state}", "exists", exists, vector["exists"])
         expect_none(differences)
 
     def check_examples(self) -> None:

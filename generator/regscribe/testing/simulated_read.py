@@ -4,8 +4,9 @@ from collections import Counter, defaultdict
 from collections.abc import Callable, Container, Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
-from regscribe_runtime import ValueNotDecodable
+from regscribe_runtime import NotPresent, ValueNotDecodable
 from regscribe_runtime.operations import tasks
+from regscribe_runtime.operations.prepared_read import dependencies
 from regscribe_runtime.operations.session import Session
 from regscribe_runtime.operations.snapshot import Snapshot
 from regscribe_runtime.planning.read_places import ReadPlace, read_places
@@ -34,7 +35,7 @@ def read_through(driver: Any, chosen: Sequence[Register[Any]], *, seed: int = 0,
     Registers that the meaning of the chosen ones depends on are known to hold `code`, so that they are not read.
     """
     session = _session(driver)
-    needs = (path for register in chosen for path in register.needs(register.read_view()))
+    needs = frozenset().union(*dependencies(session.registers, chosen).values())
     session.memory.update(dict.fromkeys(needs, code))
     operation = tasks.read_many(chosen, fresh=False)(session)
     requests: list[Request] = []
@@ -87,7 +88,7 @@ def wrong_requests(driver: Any, chosen: Sequence[Register[Any]]) -> list[str]:  
         for request in requests
         for offset in range(request.quantity)
     )
-    here = [session.registers[register.path] for register in chosen]
+    here = [one for register in chosen if session.has(one := session.registers[register.path])]
     found = [f"{register.path} is not asked for" for register in here if not _is_read(register, asked)]
     found += [f"{space} {address} is asked for again" for (space, address), times in asked.items() if times > 1]
     found += [f"{space} {address} is no register" for space, address in sorted(_holes(driver, session, asked))]
@@ -159,6 +160,8 @@ def wrong_values(driver: Any, chosen: Sequence[Register[Any]], *, seed: int, cod
 
 
 def _alone(register: Register[Any], place: ReadPlace, session: Session, seed: int) -> Any:  # noqa: ANN401 (any value)
+    if not session.has(register):
+        raise NotPresent(register.path, "", {})
     words = [word_at(place.span.space, address, seed) for address in range(place.span.address, place.span.end)]
     return register.decode(words, view=place.view.name, state=session.memory, givens=session.givens)
 
@@ -166,6 +169,8 @@ def _alone(register: Register[Any], place: ReadPlace, session: Session, seed: in
 def _outcome(read: Callable[[], Any]) -> tuple[str, Any]:
     try:
         value = read()
+    except NotPresent:
+        return NotPresent.__name__, ""
     except ValueNotDecodable as error:
         return type(error).__name__, str(error)
     return type(value).__name__, value

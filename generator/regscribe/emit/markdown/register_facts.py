@@ -82,6 +82,7 @@ def facts(context: PageContext, leaf: Leaf) -> PageTable:
 
 def _facts(context: PageContext, leaf: Leaf, model: Model, register: Register) -> Iterator[tuple[str, Md]]:
     yield "Wire address", _address(context, leaf, register)
+    yield "Exists", md() if register.when.always else md("while ", context.condition(register.when, model))
     yield from _value_facts(context, model, register)
     yield "Kept in", _persistence(register)
     shadowed = md("takes the value of ", context.register(register.shadows)) if register.shadows else Md()

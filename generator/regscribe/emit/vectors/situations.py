@@ -7,7 +7,7 @@ from itertools import chain, islice
 
 from regscribe.emit.vectors.present_scale import cases_of, limit_values
 from regscribe.emit.vectors.tried_values import Dependencies, TriedValues, Values, dependencies_of, tried_values
-from regscribe.model import Model, Register, RegisterMap, View
+from regscribe.model import Condition, Model, Register, RegisterMap, View
 from regscribe.reference import Surroundings, holds, present_view, word_order
 from regscribe.reference.states import combinations
 from regscribe_runtime.values.versions import version_of_key
@@ -74,7 +74,7 @@ class Finder:
         asked = tuple(tried.values.items()), tuple(tried.givens.items()), tuple(tried.parts.items())
         ranges = register.range if register.access.writable else ()
         cases = (register.scale, register.special_scale, ranges, register.valid, register.sentinels)
-        key = (*cases, register.kind, view.order, view.times, view.words, asked)
+        key = (register.when, *cases, register.kind, view.order, view.times, view.words, asked)
         if key not in self._known:
             self._known[key] = _situations(tried, register, view)
         return self._known[key]
@@ -85,6 +85,8 @@ def _situations(tried: TriedValues, register: Register, view: View) -> tuple[Sit
     meanings: dict[Situation, object] = {}
     for situation in _combinations(tried):
         known = situation.known
+        if not holds(register.when, known):
+            continue
         cases = cases_of(register, known)
         meanings[situation] = cases.numbers
         first.setdefault((cases, present_view(view, known)), situation)
@@ -99,9 +101,17 @@ def writable_situations(
     register_map: RegisterMap, model: Model, register: Register
 ) -> tuple[tuple[Situation, bool], ...]:
     """Return one situation for each code that decides whether a write is accepted, and whether it is."""
-    if register.writable is None:
-        return ()
-    condition = register.writable.when
+    return _both_sides(register_map, model, register.writable.when) if register.writable else ()
+
+
+def existence_situations(
+    register_map: RegisterMap, model: Model, register: Register
+) -> tuple[tuple[Situation, bool], ...]:
+    """Return one situation for each code that decides whether a register exists, and whether it does."""
+    return () if register.when.always else _both_sides(register_map, model, register.when)
+
+
+def _both_sides(register_map: RegisterMap, model: Model, condition: Condition) -> tuple[tuple[Situation, bool], ...]:
     tried = tried_values(register_map, model, Dependencies((condition,)))
     meanings = {situation: holds(condition, situation.known) for situation in _combinations(tried)}
     full = list({allowed: situation for situation, allowed in reversed(meanings.items())}.values())

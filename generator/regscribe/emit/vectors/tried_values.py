@@ -72,7 +72,8 @@ class Dependencies:
 
 def dependencies_of(register: Register, view: View) -> Dependencies:
     """Return the dependencies of reading `view`, and of writing it if it can be written."""
-    conditions = [case.when for case in (*register.scale, *register.special_scale)]
+    conditions = [register.when] if not register.when.always else []
+    conditions += [case.when for case in (*register.scale, *register.special_scale)]
     conditions += [sentinel.when for sentinel in register.sentinels]
     decimals = [case.then.decimals for case in (*register.scale, *register.special_scale)]
     terms = [term for case in register.scale for term in (case.then.multiply, case.then.add)]

@@ -7,7 +7,7 @@ from typing import Any
 
 from regscribe.emit.common_values import models_by
 from regscribe.emit.vectors.content import case_of, surroundings
-from regscribe.emit.vectors.situations import Finder, Situation, writable_situations
+from regscribe.emit.vectors.situations import Finder, Situation, existence_situations, writable_situations
 from regscribe.emit.words import term_words
 from regscribe.model import (
     PLAIN_READING,
@@ -23,7 +23,8 @@ from regscribe.model import (
 )
 
 Json = dict[str, Any]
-Plan = tuple[tuple[tuple[Situation, ...], ...], tuple[tuple[Situation, bool], ...]]
+Sides = tuple[tuple[Situation, bool], ...]
+Plan = tuple[tuple[tuple[Situation, ...], ...], Sides, Sides]
 NOWHERE = Span("")
 
 
@@ -36,7 +37,8 @@ def vector_sets(register_map: RegisterMap) -> list[Json]:
     for model in register_map.models:
         for register in model.registers:
             tried = tuple(finder.situations(model, register, view) for view in register.views)
-            bare = (_bare(register), (tried, writable_situations(register_map, model, register)))
+            sides = (find(register_map, model, register) for find in (writable_situations, existence_situations))
+            bare = (_bare(register), (tried, *sides))
             if bare not in keys:
                 content = _content(*bare)
                 keys[bare] = json.dumps(content)
@@ -107,11 +109,13 @@ def _place(register: Register) -> Json:
 
 
 def _content(register: Register, plan: Plan) -> Json:
-    tried, writable = plan
+    tried, writable, existence = plan
     views = [view_facts(view) for view in register.views]
     found: Json = {"kind": register.kind.value, "access": register.access.value, "views": views, **_names(register)}
     if writable:
         found["writable"] = [{**surroundings(situation), "allowed": allowed} for situation, allowed in writable]
+    if existence:
+        found["existence"] = [{**surroundings(situation), "exists": exists} for situation, exists in existence]
     found["cases"] = [
         case_of(register, view, situation)
         for view, several in zip(register.views, tried, strict=True)
