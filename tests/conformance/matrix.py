@@ -72,6 +72,7 @@ TRIALS: dict[str, tuple[Trial, ...]] = {
     "divide": ((4, {}), ("dig", {})),
     "exponent": ((-1, {}), ("dig", {})),
     "add": ((3, {}), ("low", {}), ([{"when": SEL, "is": 1}, {"is": {"sum": ["low", 1]}}], {})),
+    "step": ((5, {}), (0.5, {"multiply": 0.1})),
     "range": (
         ("1..5", {}),
         ({"from": "low", "to": "high"}, {}),

@@ -24,7 +24,7 @@ class Idle(NamedTuple):
 
 TABLE: tuple[Idle, ...] = (
     Idle(
-        frozenset({"special", "difference", "range", "range_decimals", "valid"}),
+        frozenset({"special", "difference", "step", "range", "range_decimals", "valid"}),
         lambda register, _: register.kind in _CODES,
         "its values are no numbers",
         "remove it, or correct what makes codes, bits or a text of the register",
@@ -58,6 +58,12 @@ TABLE: tuple[Idle, ...] = (
         lambda register, _: not register.access.readable,
         "it is never read, and a fault is something that is read",
         "remove them, or correct `access`",
+    ),
+    Idle(
+        frozenset({"step"}),
+        lambda register, _: not register.access.writable,
+        "it is never written",
+        "remove it, or correct `access`",
     ),
     Idle(
         frozenset({"danger"}),

@@ -1,7 +1,7 @@
 """From a stored number to the value of use: the conversion of a register by case, named scales, decimals and units."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from fractions import Fraction
 
@@ -47,6 +47,23 @@ class Scaling:
 
 def scale_of(entry: TreeNode, wire: WireType, scope: Scope) -> tuple[Scaling, ...]:
     """The conversion of a register by case; RS0318 where the map gives two."""
+    step = entry.settings.get("step")
+    found = _scaling(entry, wire, scope)
+    return tuple(_with_step(part, step) for part in found) if step else found
+
+
+def _with_step(part: Scaling, step: Value) -> Scaling:
+    """A conversion whose values are so far apart; RS0330 where its numbers are not those of the map."""
+    conversion = part.conversion
+    if isinstance(conversion.multiply, Number) and conversion == Conversion(conversion.multiply, conversion.add):
+        return replace(part, conversion=conversion._replace(step=abs(step.number() / (conversion.multiply or 1))))
+    message = "a step in the unit of the value needs a scale whose factor is a number of the map"
+    step.report(WRONG_SORT, message, remedy="remove it, or give the `step` of the rule under `decimals`")
+    return part
+
+
+def _scaling(entry: TreeNode, wire: WireType, scope: Scope) -> tuple[Scaling, ...]:
+    """The conversion by case, without a step; RS0318 where the map gives two."""
     settings = entry.settings
     given = list(filter(_WAYS.__contains__, settings))
     if len(given) > 1 and not set(given) <= _LINEAR:

@@ -10,7 +10,9 @@ Models = tuple[str, ...]
 
 NOT_SETTINGS = frozenset({"variants", "models", "except"})
 _LINEAR = frozenset({"multiply", "divide", "exponent", "add"})
-_NUMERIC = frozenset({"scale", "decimals", *_LINEAR, "range", "range_decimals", "unit", "special", "difference"})
+_NUMERIC = frozenset(
+    {"scale", "decimals", *_LINEAR, "step", "range", "range_decimals", "unit", "special", "difference"}
+)
 _NO_NUMBERS = {
     "kind": frozenset({"enum", "flags", "fields", "string", "version", "boolean"}),
     "type": frozenset({"string", "bit"}),
