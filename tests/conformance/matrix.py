@@ -55,8 +55,14 @@ TRIALS: dict[str, tuple[Trial, ...]] = {
     "views": (("one", {}),),
     "type": (("int16", {}), ("uint32", {}), ("float32", {}), ("bit", {}), ("uint8", {})),
     "length": ((3, {}),),
-    "word_order": (("little", {}), ({"register": "ord", "codes": {0: "big", 1: "little"}}, {})),
-    "byte_order": (("little", {}),),
+    "word_order": (
+        ("little", {}),
+        ({"register": "ord", "codes": {0: "big", 1: "little"}}, {}),
+        ([{"when": SEL, "is": "little"}, {"is": "big"}], {}),
+        ([2, 1], {}),
+        ([3, 4, 1, 2], {}),
+    ),
+    "byte_order": (("little", {}), ([{"when": SEL, "is": "little"}, {"is": "big"}], {})),
     "functions": (([3], {}), ([3, 16], {}), ([6], {}), ([1], {}), ([4], {}), ([7], {}), ([2], {})),
     "write_at": ((40, {}), (40, {"functions": [3, 16]})),
     "write": (

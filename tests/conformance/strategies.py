@@ -216,9 +216,12 @@ def _orders(draw: Draw, keys: Json) -> Json:
     """The keys with an order of words, where there are several, and of bytes."""
     if keys.get("length", 1) > 1 or (not keys["type"].endswith(ONE_WORD) and _maybe(draw, 2)):
         by_register = {"register": "order", "codes": {0: "big", 1: "little"}}
-        keys["word_order"] = _of(draw, "little", by_register, by_register)
+        by_case = [{"when": {"order": 1}, "is": "little"}, {"is": "big"}]
+        keys["word_order"] = _of(draw, "little", by_register, by_register, by_case)
+        if keys["type"].endswith("64"):
+            keys["word_order"] = _of(draw, keys["word_order"], list(draw(st.permutations(range(1, 5)))))
     if _maybe(draw, 4):
-        keys["byte_order"] = "little"
+        keys["byte_order"] = _of(draw, "little", "little", [{"when": {"order": 1}, "is": "little"}, {"is": "big"}])
     return keys
 
 

@@ -28,7 +28,6 @@ from regscribe_runtime import (
     Latency,
     Open,
     Order,
-    OrderFrom,
     Part,
     ProgramAction,
     ProgramSegments,
@@ -56,6 +55,7 @@ from regscribe_runtime import (
     number_with,
     version,
     within,
+    order_from,
     word,
 )
 
@@ -148,7 +148,7 @@ _FRACTION = (
         offset=8000,
         stride=2,
         words=2,
-        order=OrderFrom("ieee_register_ordering", ((0, Order.BIG), (1, Order.LITTLE))),
+        order=order_from("ieee_register_ordering", ((0, Order.BIG), (1, Order.LITTLE))),
         functions=(3, 16),
         preferred=True,
         align=2,

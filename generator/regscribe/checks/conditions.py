@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from regscribe.checks.probe_states import verdict
 from regscribe.checks.rule import MAP, Finding, RuleScope, Scopes, map_rule
-from regscribe.model import ByCase, Condition, GivenRef, Identity, Kind, OrderFrom, Register, RegisterMap, Span
+from regscribe.model import ByCase, Condition, GivenRef, Identity, Kind, OrderCases, Register, RegisterMap, Span
 from regscribe_runtime.values.terms import parts_of
 from regscribe_runtime.values.views import scale_needs
 
@@ -58,6 +58,9 @@ def _conditions(register: Register) -> Iterator[tuple[str, tuple[Condition, ...]
             yield "term", tuple(case.when for case in part.cases)
     if any(not sentinel.when.always for sentinel in register.sentinels):
         yield "table of sentinels", tuple(dict.fromkeys(sentinel.when for sentinel in register.sentinels))
+    for order in dict.fromkeys(order for view in register.views for order in (view.order, view.byte_order)):
+        if isinstance(order, OrderCases) and not order.by_code():
+            yield "word order", tuple(case.when for case in order.cases)
     if register.writable:
         yield "condition for a write", (register.writable.when,)
     if not register.when.always:
@@ -114,7 +117,7 @@ def _why_unknown(register: Register) -> str:
     others = [one.when for one in register.sentinels] + [one.when for one in register.valid]
     if not all(when.always for when in others):
         return f"asks for `{register.path}`, whose faults are not known before the model is"
-    fixed = any(not isinstance(view.order, OrderFrom) for view in register.views if view.readable)
+    fixed = any(not view.needs() for view in register.views if view.readable)
     if not fixed or any(case.then.decimals or not case.when.always for case in scales) or scale_needs(register):
         return f"asks for `{register.path}`, whose value is not known before the model is"
     return ""
@@ -148,7 +151,12 @@ def not_covered(_: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
     seen: set[tuple[Condition, ...]] = set()
     for cases in _case_sets(scopes):
         excused = cases.what == "scale" and cases.faulty  # in such a state there may be nothing but the fault
-        if cases.what in {"scale", "range"} and cases.uncovered and cases.conditions not in seen and not excused:
+        if (
+            cases.what in {"scale", "range", "word order"}
+            and cases.uncovered
+            and cases.conditions not in seen
+            and not excused
+        ):
             seen.add(cases.conditions)
             message = f"`{cases.subject}`: no case of the {cases.what} holds when {cases.uncovered}"
             help_text = "end with a case without `when`, or give the tested registers the range or enum they have"

@@ -10,12 +10,13 @@ from regscribe.model import (
     Cases,
     Kind,
     Order,
-    OrderFrom,
+    OrderCases,
     Range,
     Ref,
     Register,
     Related,
     View,
+    orders_of,
     registers_of,
     show,
 )
@@ -37,9 +38,7 @@ def needed(register: Register) -> Iterator[tuple[str, str]]:
     yield from ((path, "what is valid depends on") for path in registers_of(register.valid))
     yield from ((path, "a limit of what is valid is") for path in _limits(register.valid))
     for view in register.views:
-        if isinstance(view.order, OrderFrom):
-            yield view.order.register, f"the word order of view {view.name} is"
-        yield from ((path, f"the factor of view {view.name} depends on") for path in registers_in(view.times))
+        yield from ((path, f"an order or the factor of view {view.name} depends on") for path in view.needs())
 
 
 def limiting(register: Register) -> Iterator[tuple[str, str]]:
@@ -87,18 +86,20 @@ def computed_of_no_number(scope: RuleScope) -> Iterator[Finding]:
 def order_register(register: Register, scope: RuleScope) -> Iterator[Problem]:
     """It is read before the first long value, so it must be one whole word of an order that does not depend on it."""
     for view, _, other in _ordering(register, scope):
-        fixed = len(other.views) == 1 and other.base.type.is_integer and isinstance(other.base.order, Order)
+        fixed = len(other.views) == 1 and other.base.type.is_integer and not other.base.needs()
         if other.kind not in WHOLE or not fixed:
             message = f"has the word order of view {view.name} from `{other.path}`, which is no plain whole number"
             related = Related(f"`{other.path}` is of kind {other.kind}, type {other.base.type}", other.span)
             yield message, "name a register with an enum or a whole number and one view", related
 
 
-def _ordering(register: Register, scope: RuleScope) -> Iterator[tuple[View, OrderFrom, Register]]:
-    """The views whose word order another register tells, with the order and that register."""
+def _ordering(register: Register, scope: RuleScope) -> Iterator[tuple[View, OrderCases, Register]]:
+    """The views of which the codes of another register alone tell an order, with the order and that register."""
     for view in register.views:
-        if isinstance(view.order, OrderFrom) and view.order.register in scope.registers:
-            yield view, view.order, scope.registers[view.order.register]
+        for order in (view.order, view.byte_order):
+            by_code = order.by_code() if isinstance(order, OrderCases) else None
+            if isinstance(order, OrderCases) and by_code and by_code[0] in scope.registers:
+                yield view, order, scope.registers[by_code[0]]
 
 
 @register_rule("RS0685", "Deciding register that reading clears")
@@ -194,10 +195,21 @@ def scale_register(register: Register, scope: RuleScope) -> Iterator[Problem]:
 def order_codes(register: Register, scope: RuleScope) -> Iterator[Problem]:
     """With that code set, no long value could be read or written."""
     for view, order, other in _ordering(register, scope):
-        stated = {code for code, _ in order.codes}
+        stated = {code for case in order.cases for code, _ in case.when.leaves[0].codes}
         few = [stretch for stretch in domain(other) if stretch.high - stretch.low < CODES_LISTED]
         codes = [code for stretch in few for code in range(int(stretch.low), int(stretch.high) + 1)]
         lacking = ", ".join(str(code) for code in codes if code not in stated)
         if lacking:
             message = f"has view {view.name} without a word order for {lacking} of `{other.path}`"
             yield message, "list the order of every code under `codes`"
+
+
+@register_rule("RS0610", "Word order with other places than the words have")
+def order_places(register: Register, _: RuleScope) -> Iterator[Problem]:
+    """A place that is named twice, or left out, would decode one word as another."""
+    for view in register.views:
+        for order in orders_of(view.order):
+            if not isinstance(order, Order) and sorted(order) != list(range(1, view.words + 1)):
+                places = ", ".join(map(str, order))
+                message = f"has the word order [{places}] in view {view.name}, which has {view.words} words"
+                yield message, f"give each place from 1 to {view.words} once, that of the most significant word first"

@@ -32,7 +32,7 @@ from regscribe.model import (
     Number,
     Open,
     Order,
-    OrderFrom,
+    OrderCases,
     Power,
     Product,
     Range,
@@ -43,6 +43,7 @@ from regscribe.model import (
     Special,
     Sum,
     Term,
+    WordOrder,
     show,
 )
 from regscribe.model.identifiers import OPEN
@@ -350,12 +351,20 @@ def value_words(register: Register, value: Fraction | str | None, wording: Wordi
     return f"{show(value)} = {wording.text(one_line(label))}" if label else show(value)
 
 
-def order_words(order: Order | OrderFrom, wording: Wording = PLAIN) -> str:
-    """Return the word order, or the register that sets it with the meaning of its codes."""
-    if isinstance(order, Order):
-        return ORDER[order]
-    codes = ", ".join(f"{code} = {ORDER[meaning]}" for code, meaning in order.codes)
-    return f"set by {wording.register(order.register)}: {codes}"
+def order_words(order: WordOrder | OrderCases, wording: Wording = PLAIN) -> str:
+    """Return the word order: itself, by the codes of the register that sets it, or by cases."""
+    if not isinstance(order, OrderCases):
+        return _order_word(order)
+    by_code = order.by_code()
+    if by_code is None:
+        return cases_words(map_cases(order.cases, _order_word), wording)
+    codes = ", ".join(f"{show(code)} = {_order_word(meaning)}" for code, meaning in by_code[1])
+    return f"set by {wording.register(by_code[0])}: {codes}"
+
+
+def _order_word(order: WordOrder) -> str:
+    """Return `most significant first`, or the places of all words: `most significant to least at 3, 4, 1, 2`."""
+    return ORDER[order] if isinstance(order, Order) else f"from the most significant at {', '.join(map(str, order))}"
 
 
 def bits_words(field: BitField) -> str:

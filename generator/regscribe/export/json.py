@@ -21,6 +21,7 @@ from regscribe.model import (
     Model,
     Number,
     Open,
+    OrderCases,
     Ref,
     Register,
     RegisterMap,
@@ -102,6 +103,11 @@ def _view(view: View, at: int) -> Json:
     return _fields(view, "offset", "order") | {"address": view.address(at), "word_order": _plain(view.order)}
 
 
+def _order(order: OrderCases) -> Json:
+    by_code = order.by_code()
+    return {"register": by_code[0], "codes": _plain(by_code[1])} if by_code else _fields(order)
+
+
 def _test(test: Is) -> Json:
     codes = [{"low": _end(test, low), "high": _end(test, high)} for low, high in test.codes]
     return _fields(test, "bits") | {"codes": codes}
@@ -127,6 +133,7 @@ WRITERS: dict[type, Callable[[Any], Json]] = {
     bytes: lambda frame: frame.hex(" ").upper(),
     Register: _register,
     Is: _test,
+    OrderCases: _order,
     Interval: lambda interval: {"low": _limit(interval.low), "high": _limit(interval.high)},
     tuple: lambda items: [_plain(item) for item in items],
     Model: _model,

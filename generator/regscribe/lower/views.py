@@ -1,5 +1,6 @@
 """The views of a register: from a view set and its address formula, or the single one that its type gives."""
 
+from regscribe.lower.conditions import condition_of
 from regscribe.lower.node import Keyed, Value
 from regscribe.lower.rules import IDLE_KEY, IDLE_LENGTH, NO_PART, TYPE_BESIDE_VIEWS, UNKNOWN_VIEWS, WRONG_SORT
 from regscribe.lower.scope import Scope
@@ -7,7 +8,20 @@ from regscribe.lower.terms import ONE, term_of
 from regscribe.lower.texts import whole_ends
 from regscribe.lower.tree import TreeNode
 from regscribe.lower.variants import Keys
-from regscribe.model import Access, Number, Order, OrderFrom, Protocol, Rounding, Space, View, WireType
+from regscribe.model import (
+    Access,
+    Case,
+    Number,
+    Order,
+    OrderCases,
+    Protocol,
+    Rounding,
+    Space,
+    View,
+    WireType,
+    WordOrder,
+    order_from,
+)
 
 _OF_EACH_VIEW = ("type", "word_order", "byte_order", "functions", "write_at", "write")
 WRITTEN = "write"
@@ -142,7 +156,7 @@ def _view(name: str, keys: Keyed, space: Space, words: int, scope: Scope) -> Vie
         rounding=keys.choice_of("rounding", Rounding.NONE),
         saturates=keys.truth_of("saturates"),
         order=_order(keys.child("word_order"), scope),
-        byte_order=keys.choice_of("byte_order", Order.BIG),
+        byte_order=_order(keys.child("byte_order"), scope),
         functions=keys.wholes_of("functions"),
         align=keys.whole_of("align", 1),
         region=whole_ends(region) if region else None,
@@ -152,10 +166,22 @@ def _view(name: str, keys: Keyed, space: Space, words: int, scope: Scope) -> Vie
     )
 
 
-def _order(node: Value | None, scope: Scope) -> Order | OrderFrom:
+def _order(node: Value | None, scope: Scope) -> WordOrder | OrderCases:
+    """An order as it stands, by the codes of a register, or by cases."""
     if node is None:
         return Order.BIG
-    if not node.is_mapping:
-        return node.choice(Order.BIG)
-    codes = tuple((code.key_whole(), code.choice(Order.BIG)) for _, code in node.items_of("codes"))
-    return OrderFrom(register=scope.path(node.child("register")), codes=codes)
+    if node.is_mapping:
+        codes = [(code.key_whole(), _fixed_order(code)) for _, code in node.items_of("codes")]
+        return order_from(scope.path(node.child("register")), codes)
+    if node.is_list and any(element.is_mapping for element in node.elements()):
+        return OrderCases(tuple(Case(condition_of(each, scope), _case_order(each)) for each in node.elements()))
+    return _fixed_order(node)
+
+
+def _case_order(case: Value) -> WordOrder:
+    stated = case.child("is")
+    return _fixed_order(stated) if stated else Order.BIG
+
+
+def _fixed_order(node: Value) -> WordOrder:
+    return tuple(each.whole() for each in node.elements()) if node.is_list else node.choice(Order.BIG)

@@ -52,6 +52,7 @@ from regscribe_runtime.values.facts import (
 )
 from regscribe_runtime.values.kinds import Access, Kind
 from regscribe_runtime.values.numbers import Number, exact, parse, show
+from regscribe_runtime.values.orders import OrderCases, WordOrder, order_from, orders_of
 from regscribe_runtime.values.programs import (
     ProgramAction,
     ProgramCounts,
@@ -79,7 +80,7 @@ from regscribe_runtime.values.scales import (
     Sentinel,
 )
 from regscribe_runtime.values.terms import ByCase, GivenRef, Power, Product, Ref, Sum, Term
-from regscribe_runtime.values.views import OrderFrom, View
+from regscribe_runtime.values.views import View
 from regscribe_runtime.values.wire_types import Order, Rounding, Space, WireType
 
 __all__ = [
@@ -140,7 +141,7 @@ __all__ = [
     "OnOff",
     "Open",
     "Order",
-    "OrderFrom",
+    "OrderCases",
     "Outcome",
     "Output",
     "Override",
@@ -188,10 +189,13 @@ __all__ = [
     "Waiver",
     "WhileRunning",
     "WireType",
+    "WordOrder",
     "WriteCondition",
     "always",
     "exact",
     "numbered",
+    "order_from",
+    "orders_of",
     "parse",
     "registers_of",
     "show",

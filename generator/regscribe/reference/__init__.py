@@ -29,6 +29,8 @@ from regscribe.reference.surroundings import (
 from regscribe.reference.terms import Straight, amount, present_view, straight
 from regscribe.reference.whole_numbers import whole_bits
 from regscribe.reference.words import (
+    AS_IS,
+    Arrangement,
     bytes_in_order,
     round_by,
     sent_words,
@@ -40,7 +42,9 @@ from regscribe.reference.words import (
 )
 
 __all__ = [
+    "AS_IS",
     "MOST_DECIMALS",
+    "Arrangement",
     "Known",
     "Meaning",
     "Reading",

@@ -36,7 +36,7 @@ def decode(register: Register, view: View, words: tuple[int, ...], known: Known 
         return NOT_DECODABLE
     view = seen
     if view.type is WireType.STRING:
-        text = text_of(view, words, order)
+        text = text_of(words, order)
         return NOT_DECODABLE if text is None else Reading(Meaning.VALUE, text)
     return _of_number(register, view, wire_number(view, words, order), known)
 

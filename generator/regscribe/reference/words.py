@@ -2,6 +2,7 @@
 
 from fractions import Fraction
 from math import floor, trunc
+from typing import NamedTuple
 
 from regscribe.reference.ieee import (
     NotFiniteError,
@@ -13,10 +14,11 @@ from regscribe.reference.ieee import (
     shortest,
 )
 from regscribe.reference.outcome import RefusalReason, RefusedError
-from regscribe.reference.surroundings import NOTHING_KNOWN, Known
+from regscribe.reference.surroundings import NOTHING_KNOWN, Known, choose
 from regscribe.reference.terms import present_view
 from regscribe.reference.whole_numbers import whole_bits, whole_number
 from regscribe_runtime.values.numbers import show
+from regscribe_runtime.values.orders import OrderCases, WordOrder
 from regscribe_runtime.values.scales import NAN, NotANumber
 from regscribe_runtime.values.views import View
 from regscribe_runtime.values.wire_types import Order, Rounding
@@ -38,38 +40,57 @@ def round_by(rounding: Rounding, number: Fraction) -> int:
     return floor(number + HALF)
 
 
-def word_order(view: View, known: Known) -> Order | None:
-    """Return the present order of the words; None if the code of the register that sets it has no order."""
-    if isinstance(view.order, Order):
-        return view.order
-    code = known.look_up(view.order.register)
-    return next((order for listed, order in view.order.codes if listed == code), None)
+class Arrangement(NamedTuple):
+    """How the words of a value stand on the wire, and the bytes in each of them."""
+
+    words: WordOrder
+    bytes: WordOrder
 
 
-def bytes_in_order(view: View, words: tuple[int, ...], order: Order) -> list[int]:
+AS_IS = Arrangement(Order.BIG, Order.BIG)
+
+
+def word_order(view: View, known: Known) -> Arrangement | None:
+    """Return the present order of words and bytes; None if what sets one of them sets it to none."""
+    words = _now(view.order, known) if view.words > 1 else Order.BIG
+    turned = _now(view.byte_order, known)
+    return None if words is None or turned is None else Arrangement(words, turned)
+
+
+def _now(order: WordOrder | OrderCases, known: Known) -> WordOrder | None:
+    return choose(order.cases, known) if isinstance(order, OrderCases) else order
+
+
+def _places(order: Arrangement, count: int) -> list[int]:
+    """Return where on the wire each word stands, the most significant (or the first letters) first."""
+    if isinstance(order.words, Order):
+        return list(range(count)) if order.words is Order.BIG else list(range(count - 1, -1, -1))
+    return [place - 1 for place in order.words]
+
+
+def bytes_in_order(words: tuple[int, ...], order: Arrangement) -> list[int]:
     """Return the bytes of words on the wire, the most significant (or the first letter) first."""
-    in_order = words if order is Order.BIG else tuple(reversed(words))
-    pairs = [divmod(word, 256) for word in in_order]
-    return [byte for high, low in pairs for byte in ((high, low) if view.byte_order is Order.BIG else (low, high))]
+    pairs = [divmod(words[place], 256) for place in _places(order, len(words))]
+    return [byte for high, low in pairs for byte in ((high, low) if order.bytes is Order.BIG else (low, high))]
 
 
-def words_in_order(view: View, raw: list[int], order: Order) -> tuple[int, ...]:
+def words_in_order(raw: list[int], order: Arrangement) -> tuple[int, ...]:
     """Return the words on the wire of bytes that stand the most significant (or the first letter) first."""
-    pairs = [(raw[place], raw[place + 1]) for place in range(0, len(raw), 2)]
-    words = tuple(
-        256 * first + second if view.byte_order is Order.BIG else 256 * second + first for first, second in pairs
-    )
-    return words if order is Order.BIG else tuple(reversed(words))
+    places = _places(order, len(raw) // 2)
+    words = [0] * len(places)
+    for place, first, second in zip(places, raw[::2], raw[1::2], strict=True):
+        words[place] = 256 * first + second if order.bytes is Order.BIG else 256 * second + first
+    return tuple(words)
 
 
-def words_of_bits(view: View, bits: int, order: Order) -> tuple[int, ...]:
+def words_of_bits(view: View, bits: int, order: Arrangement) -> tuple[int, ...]:
     """Return the words on the wire of all their bits, as a number."""
-    return words_in_order(view, list(bits.to_bytes(2 * view.type.words, "big")), order)
+    return words_in_order(list(bits.to_bytes(2 * view.type.words, "big")), order)
 
 
-def wire_number(view: View, words: tuple[int, ...], order: Order) -> Fraction | NotANumber | None:
+def wire_number(view: View, words: tuple[int, ...], order: Arrangement) -> Fraction | NotANumber | None:
     """Return the number in the words: NAN for IEEE patterns of no number, None for infinity and impossible digits."""
-    bits = int.from_bytes(bytes_in_order(view, words, order), "big")
+    bits = int.from_bytes(bytes_in_order(words, order), "big")
     if view.type.is_float:
         try:
             return shortest(ieee_number(bits, view.type), view.type)
@@ -87,21 +108,21 @@ def carried(view: View, number: Fraction) -> Fraction | None:
     return number if fits else None
 
 
-def text_of(view: View, words: tuple[int, ...], order: Order) -> str | None:
+def text_of(words: tuple[int, ...], order: Arrangement) -> str | None:
     """Return the ASCII text in `words` up to the first NUL, without blanks at its end; None if it is no ASCII."""
-    letters = bytes(bytes_in_order(view, words, order))
+    letters = bytes(bytes_in_order(words, order))
     raw = letters[: letters.index(0)] if 0 in letters else letters
     return raw.decode("ascii").rstrip(" ") if raw.isascii() else None
 
 
-def words_of_text(view: View, text: str, order: Order) -> tuple[int, ...]:
+def words_of_text(view: View, text: str, order: Arrangement) -> tuple[int, ...]:
     """Return the words of an ASCII text, filled up with blanks; RefusedError if it does not fit."""
     if not text.isascii() or "\0" in text or len(text) > 2 * view.words:
         raise RefusedError(RefusalReason.TYPE, f"{text!r} does not fit {2 * view.words} ASCII characters")
-    return words_in_order(view, list(text.encode("ascii").ljust(2 * view.words)), order)
+    return words_in_order(list(text.encode("ascii").ljust(2 * view.words)), order)
 
 
-def spelled(view: View, number: Fraction, order: Order, *, rounded: bool) -> tuple[int, ...]:
+def spelled(view: View, number: Fraction, order: Arrangement, *, rounded: bool) -> tuple[int, ...]:
     """Return the words of a wire number; RefusedError if the view cannot carry it."""
     if view.type.is_float:
         bits = ieee_bits(number, view.type)
@@ -131,7 +152,7 @@ def transmit(view: View, stored: Fraction | NotANumber, known: Known = NOTHING_K
     return sent_words(seen, stored, order)
 
 
-def sent_words(view: View, stored: Fraction | NotANumber, order: Order, *, clip: bool = False) -> tuple[int, ...]:
+def sent_words(view: View, stored: Fraction | NotANumber, order: Arrangement, *, clip: bool = False) -> tuple[int, ...]:
     """Return what `transmit` does, in this word order; with `clip`, a view clips even if it does not saturate."""
     if isinstance(stored, NotANumber):
         return words_of_bits(view, not_a_number(view.type), order)

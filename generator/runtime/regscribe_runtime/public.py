@@ -113,6 +113,8 @@ from regscribe_runtime.values.facts import ReadFacts as ReadFacts
 from regscribe_runtime.values.facts import Setting as Setting
 from regscribe_runtime.values.facts import WriteCondition as WriteCondition
 from regscribe_runtime.values.givens import Fact as Fact
+from regscribe_runtime.values.orders import OrderCases as OrderCases
+from regscribe_runtime.values.orders import order_from as order_from
 from regscribe_runtime.values.programs import ProgramAction as ProgramAction
 from regscribe_runtime.values.programs import ProgramCounts as ProgramCounts
 from regscribe_runtime.values.programs import ProgramFinal as ProgramFinal
@@ -142,7 +144,6 @@ from regscribe_runtime.values.terms import Power as Power
 from regscribe_runtime.values.terms import Product as Product
 from regscribe_runtime.values.terms import Ref as Ref
 from regscribe_runtime.values.terms import Sum as Sum
-from regscribe_runtime.values.views import OrderFrom as OrderFrom
 from regscribe_runtime.values.views import View as View
 from regscribe_runtime.values.views import word as word
 from regscribe_runtime.values.wire_types import Order as Order

@@ -27,7 +27,6 @@ from regscribe.model import (
     Model,
     Open,
     Order,
-    OrderFrom,
     Range,
     Ref,
     Register,
@@ -40,6 +39,7 @@ from regscribe.model import (
     View,
     WireType,
     always,
+    order_from,
 )
 
 TEMPERATURE = Condition((Is("input_type", codes=((Fraction(0), Fraction(12)),)),), "temperature_input")
@@ -93,7 +93,7 @@ def _input_type() -> Register:
 
 
 def _setpoint() -> Register:
-    order = OrderFrom("input_type", ((0, Order.BIG), (13, Order.LITTLE)))
+    order = order_from("input_type", ((0, Order.BIG), (13, Order.LITTLE)))
     ieee = View("ieee", WireType.FLOAT32, offset=8002, words=2, functions=(3, 16), align=2, order=order)
     open_end = Range((Interval(Open("sensor low limit"), Open("sensor high limit")),))
     registers = Range((Interval(Ref("low_limit"), Ref("high_limit")),))

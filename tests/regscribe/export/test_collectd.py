@@ -14,7 +14,6 @@ from regscribe.model import (
     Decimals,
     Kind,
     Order,
-    OrderFrom,
     Register,
     RegisterMap,
     Sentinel,
@@ -22,6 +21,7 @@ from regscribe.model import (
     View,
     WireType,
     always,
+    order_from,
 )
 from regscribe.model import Is as Ask
 from regscribe.reference import Surroundings
@@ -105,7 +105,7 @@ def test_a_state_without_a_scale_is_left_out(only: Only) -> None:
 
 
 def test_the_word_order_is_that_of_the_state(only: Only) -> None:
-    ordering = OrderFrom("order", ((0, Order.BIG), (1, Order.LITTLE)))
+    ordering = order_from("order", ((0, Order.BIG), (1, Order.LITTLE)))
     view = View("ieee", WireType.FLOAT32, offset=4, words=2, order=ordering, space=Space.INPUT)
     shared = only(register(views=(view,)))
     assert "RegisterType Float" in block(shared, Surroundings({"order": Fraction(0)}))

@@ -1,7 +1,7 @@
 from collections.abc import Callable
 from fractions import Fraction
 
-from regscribe.model import Order, OrderFrom, Register, Rounding, Space, View, WireType
+from regscribe.model import Order, Register, Rounding, Space, View, WireType, order_from
 
 Registers = Callable[..., dict[str, Register]]
 
@@ -33,7 +33,7 @@ def test_the_address_of_a_view_is_its_offset_plus_stride_times_at(registers: Reg
         region=(1000, 1999),
     )
     assert found.preferred.name == "ieee"
-    assert found.views[2].order == OrderFrom("order", ((0, Order.BIG), (1, Order.LITTLE)))
+    assert found.views[2].order == order_from("order", ((0, Order.BIG), (1, Order.LITTLE)))
     assert (found.views[2].functions, found.views[2].align, found.views[2].stride) == ((3, 16), 2, 2)
 
 

@@ -14,7 +14,6 @@ from regscribe.model import (
     Decimals,
     Kind,
     Order,
-    OrderFrom,
     Register,
     Rounding,
     Sentinel,
@@ -22,6 +21,7 @@ from regscribe.model import (
     View,
     WireType,
     always,
+    order_from,
 )
 from regscribe.model import Is as Asked
 from regscribe.reference import Meaning, RefusedError, Surroundings, decode, encode, transmit
@@ -70,7 +70,7 @@ def test_a_number_midway_between_two_floats_is_sent_as_the_even_one() -> None:
 
 
 def test_the_word_order_can_come_from_a_register() -> None:
-    view = FLOAT._replace(order=OrderFrom("order", ((0, Order.BIG), (1, Order.LITTLE))))
+    view = FLOAT._replace(order=order_from("order", ((0, Order.BIG), (1, Order.LITTLE))))
     assert decode(register(view), view, (0x0000, 0x437A), state(order=1)).value == 250
     assert decode(register(view), view, (0x437A, 0x0000), state(order=0)).value == 250
     assert decode(register(view), view, (0x437A, 0x0000), state(order=2)).meaning is Meaning.NOT_DECODABLE

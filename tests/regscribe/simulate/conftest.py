@@ -33,7 +33,6 @@ from regscribe.model import (
     Model,
     Open,
     Order,
-    OrderFrom,
     Protocol,
     Range,
     Ref,
@@ -47,6 +46,7 @@ from regscribe.model import (
     WireType,
     WriteCondition,
     always,
+    order_from,
 )
 from regscribe.pipeline import compile_map
 
@@ -80,7 +80,7 @@ def word(path: str, address: int, kind: Kind = Kind.INTEGER, access: Access = RW
     return Register(at=0, id=path, path=path, name=path, kind=kind, access=access, views=(view,), **more)  # type: ignore[arg-type]  # as above
 
 
-ORDERING = OrderFrom("ieee_ordering", ((0, Order.BIG), (1, Order.LITTLE)))
+ORDERING = order_from("ieee_ordering", ((0, Order.BIG), (1, Order.LITTLE)))
 
 
 def fraction(path: str, at: int, access: Access = RW, **more: object) -> Register:

@@ -27,7 +27,7 @@ from regscribe.model import (
     Model,
     Number,
     Order,
-    OrderFrom,
+    OrderCases,
     Range,
     Register,
     RegisterMap,
@@ -196,11 +196,10 @@ def order(register: Register) -> Register | None:
     """The codes of the word order are exchanged."""
 
     def turned(view: View) -> View:
-        if not isinstance(view.order, OrderFrom):
+        if not isinstance(view.order, OrderCases):
             return view
         other = {Order.BIG: Order.LITTLE, Order.LITTLE: Order.BIG}
-        codes = tuple((code, other[found]) for code, found in view.order.codes)
-        return view._replace(order=view.order._replace(codes=codes))
+        return view._replace(order=OrderCases(tuple(Case(when, other[then]) for when, then in view.order.cases)))
 
     views = tuple(map(turned, register.views))
     return dataclasses.replace(register, views=views) if views != register.views else None

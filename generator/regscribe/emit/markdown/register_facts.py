@@ -24,7 +24,7 @@ from regscribe.emit.words import (
     term_words,
     value_words,
 )
-from regscribe.model import IDENTITY, Array, Kind, Model, Order, Register, Setting, View, show
+from regscribe.model import IDENTITY, Array, Kind, Model, Order, OrderCases, Register, Setting, View, show
 
 KINDS = {
     Kind.NUMBER: "number",
@@ -159,8 +159,9 @@ def transmission(context: PageContext, view: View) -> Md:
     """Return the transmission of a view: factor, rounding, saturation, orders, functions, alignment."""
     order, factor = view.order, Fraction(view.factor, 1 << view.type.fraction)
     words = Md()  # for the usual order, and for a single word in a fixed order
+    wording = context.wording(context.map.models[0])
     if order is not Order.BIG and (view.words > 1 or not isinstance(order, Order)):
-        words = md("word order: ", Md(order_words(order, context.wording(context.map.models[0]))))
+        words = md("word order: ", Md(order_words(order, wording)))
     parts = (
         f"stored value times {show(factor)}" if factor != 1 else "",
         f"stored value times {term_words(view.times)}" if view.times is not None else "",
@@ -168,6 +169,9 @@ def transmission(context: PageContext, view: View) -> Md:
         f"stops at {view.type.minimum} and {view.type.maximum}" if view.saturates else "",
         words,
         "least significant byte first" if view.byte_order is Order.LITTLE else "",
+        md("byte order: ", Md(order_words(view.byte_order, wording)))
+        if isinstance(view.byte_order, OrderCases)
+        else "",
         view.type.note if view.space.is_words else "",
         f"functions {', '.join(map(str, view.functions))} only" if view.functions else "",
         f"address and count multiples of {view.align}" if view.align > 1 else "",

@@ -9,7 +9,21 @@ from regscribe.emit.python.constants import Pool, names_of
 from regscribe.emit.python.formatting import Call, Expression, call, group
 from regscribe.emit.python.literals import exact, literal, member
 from regscribe.emit.words import cases_words, conversion_words, range_words
-from regscribe.model import BOTTOM, SAME, TOP, Case, Cases, Condition, Conversion, Model, Open, Range, Register, Space
+from regscribe.model import (
+    BOTTOM,
+    SAME,
+    TOP,
+    Case,
+    Cases,
+    Condition,
+    Conversion,
+    Model,
+    Open,
+    OrderCases,
+    Range,
+    Register,
+    Space,
+)
 from regscribe_runtime.values.views import word
 
 Known = Callable[[object], Expression | None]
@@ -64,6 +78,8 @@ class Specs:
         match value:
             case Condition(tests, name) if tests and name:
                 return self.pool.share(expression(value), name, f"{name}_{self.model.name}")
+            case OrderCases() if by_code := value.by_code():
+                return call(self.pool.helper("order_from"), literal(by_code[0]), self.of(by_code[1]))
             case (Case(when, Range((interval,), None)),) if when.always:
                 return call(self.pool.helper("within"), self.of(interval.low), self.of(interval.high))
             case (Case(when, then),) if when.always:

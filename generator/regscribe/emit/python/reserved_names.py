@@ -11,8 +11,8 @@ RUNTIME = sorted(
     AsyncLink AsyncPart BareDevice Bit boolean BOTTOM ByCase Case Chain choice Choice client_link ClientSettings
     Command CommandStep CommandWith Computed Condition Conversion Decimals Device ExceptionCode Fact Field flags
     Flags GivenRef Governs Group Identity integer integer_or integer_with Interval Is Latency Link NotANumber number
-    number_or number_with Open Order OrderFrom Part Power Product ProgramAction ProgramCounts ProgramFinal
-    ProgramPart ProgramSegments ProgramStates ProgramTimeUnit Protocol Range raw raw_float ReadFacts ReadOnly
+    number_or number_with Open Order order_from OrderCases Part Power Product ProgramAction
+    ProgramCounts ProgramFinal ProgramPart ProgramSegments ProgramStates ProgramTimeUnit Protocol Range raw raw_float ReadFacts ReadOnly
     ReadWrite Ref RegisterBlock Rounding Sentinel serial_link SerialDefaults SerialSettings SetpointProgram Setting
     Space SpaceLimits SpecialNumber SubPart Sum SyncClient tcp TcpSettings text TOP version View WhileRunning
     WireType within word Word word_of WriteCondition WriteOnly

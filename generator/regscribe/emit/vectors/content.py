@@ -10,6 +10,7 @@ from regscribe.emit.vectors.scale import Scale, scale_now
 from regscribe.emit.vectors.situations import Situation
 from regscribe.model import Kind, Order, Register, View, WireType, show
 from regscribe.reference import (
+    AS_IS,
     Meaning,
     Reading,
     RefusedError,
@@ -69,7 +70,7 @@ def _words(register: Register, view: View, scale: Scale | None, situation: Situa
             ): "filled up with zero",
             (0xC3A9,) * view.words: "no ASCII",
         }
-    order = word_order(view, situation.known) or Order.BIG
+    order = word_order(view, situation.known) or AS_IS
     bits = wire_bits(register, view, scale, situation.known, full=situation.full)
     return {words_of_bits(view, pattern, order): note for pattern, note in bits.items()}
 

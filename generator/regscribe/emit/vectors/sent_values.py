@@ -6,7 +6,7 @@ from typing import Any
 
 from regscribe.emit.vectors.candidates import Proposal
 from regscribe.emit.vectors.vector_sets import view_facts
-from regscribe.model import Order, RegisterMap, Rounding, View, show
+from regscribe.model import RegisterMap, Rounding, View, orders_of, show
 from regscribe.reference import RefusedError, transmit
 
 Json = dict[str, Any]
@@ -16,19 +16,15 @@ PARTS = {Fraction(1, 2): "half a step", Fraction(49, 100): "below a half", Fract
 def transmissions(register_map: RegisterMap) -> list[Json]:
     """Return one entry for each kind of view that rounds or clips: stored numbers and the words that are sent."""
     views = (
-        view._replace(offset=0, region=None, order=order)
+        view._replace(offset=0, region=None, order=order, byte_order=turned)
         for model in register_map.models
         for register in model.registers
         for view in register.views
         if view.type.is_integer and view.times is None and (view.saturates or view.rounding is not Rounding.NONE)
-        for order in _orders(view)
+        for order in orders_of(view.order)
+        for turned in orders_of(view.byte_order)
     )
     return [{"view": view_facts(view), "sends": list(_sends(view))} for view in dict.fromkeys(views)]
-
-
-def _orders(view: View) -> tuple[Order, ...]:
-    """Every order of words that the view may have; where a register sets it, each that it can set."""
-    return (view.order,) if isinstance(view.order, Order) else tuple(order for _, order in view.order.codes)
 
 
 def _stored_numbers(view: View) -> Iterator[Proposal]:

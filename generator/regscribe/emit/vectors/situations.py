@@ -74,7 +74,7 @@ class Finder:
         asked = tuple(tried.values.items()), tuple(tried.givens.items()), tuple(tried.parts.items())
         ranges = register.range if register.access.writable else ()
         cases = (register.scale, register.special_scale, ranges, register.valid, register.sentinels)
-        key = (register.when, *cases, register.kind, view.order, view.times, view.words, asked)
+        key = (register.when, *cases, register.kind, view.order, view.byte_order, view.times, view.words, asked)
         if key not in self._known:
             self._known[key] = _situations(tried, register, view)
         return self._known[key]
@@ -90,8 +90,7 @@ def _situations(tried: TriedValues, register: Register, view: View) -> tuple[Sit
         cases = cases_of(register, known)
         meanings[situation] = cases.numbers
         first.setdefault((cases, present_view(view, known)), situation)
-        if view.words > 1:
-            first.setdefault(word_order(view, known), situation)
+        first.setdefault(word_order(view, known), situation)
     full = list(dict.fromkeys(first.values()))
     found = [*full, *_missing(tried.values, full, meanings)]
     return tuple(_with_limits(register, situation) for situation in found)

@@ -15,7 +15,8 @@ from regscribe.model import (
     Model,
     Number,
     Open,
-    OrderFrom,
+    Order,
+    OrderCases,
     Power,
     Range,
     Ref,
@@ -56,12 +57,12 @@ class TriedValues:
 
 @dataclass(frozen=True, slots=True)
 class Dependencies:
-    """Dependencies of the meaning of a register: conditions, numbers of decimals, terms and perhaps the word order."""
+    """Dependencies of the meaning of a register: conditions, numbers of decimals, terms."""
 
     conditions: tuple[Condition, ...]
     decimals: tuple[Decimals, ...] = ()
     terms: tuple[Term, ...] = ()
-    order: OrderFrom | None = None
+    orders: tuple[OrderCases, ...] = ()
 
     @property
     def tests(self) -> tuple[Is, ...]:
@@ -84,9 +85,11 @@ def dependencies_of(register: Register, view: View) -> Dependencies:
     terms += [view.times] if view.times is not None else []
     if register.access.writable:
         decimals += [case.then.places for case in register.scale]
-    order = view.order if isinstance(view.order, OrderFrom) and view.words > 1 else None
+    several = (view.order if view.words > 1 else Order.BIG, view.byte_order)
+    orders = tuple(order for order in several if isinstance(order, OrderCases))
+    conditions += [case.when for order in orders for case in order.cases]
     unsettled = tuple(term for term in terms if not isinstance(term, Number))
-    return Dependencies(tuple(conditions), tuple(filter(None, decimals)), unsettled, order)
+    return Dependencies(tuple(conditions), tuple(filter(None, decimals)), unsettled, orders)
 
 
 def _ends(cases: Cases[Range]) -> Iterator[Term]:
@@ -129,9 +132,8 @@ def _values(
     for decimals in dependencies.decimals:
         yield decimals.register, _places(decimals, domain(model.register(decimals.register)))
     yield from _amounts(register_map, model, dependencies.terms)
-    if dependencies.order is not None:
-        known = [Fraction(code) for code, _ in dependencies.order.codes]
-        yield dependencies.order.register, (*known, max(known) + 1)
+    for by_code in filter(None, (order.by_code() for order in dependencies.orders)):
+        yield by_code[0], (Fraction(max(code for code, _ in by_code[1]) + 1),)  # one without an order
 
 
 def _amounts(

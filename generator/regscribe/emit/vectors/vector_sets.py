@@ -8,16 +8,18 @@ from typing import Any
 from regscribe.emit.common_values import models_by
 from regscribe.emit.vectors.content import case_of, surroundings
 from regscribe.emit.vectors.situations import Finder, Situation, existence_situations, writable_situations
-from regscribe.emit.words import term_words
+from regscribe.emit.words import condition_words, term_words
 from regscribe.model import (
     PLAIN_READING,
     Enum,
-    OrderFrom,
+    Order,
+    OrderCases,
     Register,
     RegisterMap,
     Rounding,
     Span,
     View,
+    WordOrder,
     always,
     show,
 )
@@ -134,14 +136,20 @@ def view_facts(view: View) -> Json:
         found["rounding"] = view.rounding.value
     if view.saturates:
         found["saturates"] = True
-    if isinstance(view.order, OrderFrom):
-        orders = {str(code): order.value for code, order in view.order.codes}
-        found["word_order"] = {"register": view.order.register, "codes": orders}
-    elif view.words > 1:
-        found["word_order"] = view.order.value
+    if view.words > 1 or isinstance(view.order, OrderCases):
+        found["word_order"] = _order(view.order)
     if view.functions:
         found["functions"] = list(view.functions)
     return found
+
+
+def _order(order: WordOrder | OrderCases) -> Json | str | list[int]:
+    if not isinstance(order, OrderCases):
+        return order.value if isinstance(order, Order) else list(order)
+    by_code = order.by_code()
+    if by_code is None:
+        return {"cases": [{"when": condition_words(when), "is": _order(then)} for when, then in order.cases]}
+    return {"register": by_code[0], "codes": {show(code): _order(then) for code, then in by_code[1]}}
 
 
 def _names(register: Register) -> Json:

@@ -110,7 +110,9 @@ def _data(name: str, register: Register, known: Surroundings) -> Iterator[str]:
 def _view(register: Register) -> View:
     """Return the view to poll: the one that drivers prefer where the plugin has its type, else the first that fits."""
     views = (register.read_view, *(view for view in register.views if view.readable))
-    fitting = [view for view in views if view.space in READS and view.type in TYPES and view.byte_order is Order.BIG]
+    fitting = [
+        view for view in views if view.space in READS and view.type in TYPES and view.byte_order is not Order.LITTLE
+    ]
     if not fitting:
         base = register.base
         message = f"the plugin does not read {base.type.value} in the {base.space.value} space"
@@ -119,8 +121,6 @@ def _view(register: Register) -> View:
 
 
 def _order(view: View, known: Surroundings) -> Order:
-    if view.words == 1:
-        return Order.BIG
     try:
         order = word_order(view, known)
     except UnknownValueError as unknown:
@@ -128,10 +128,13 @@ def _order(view: View, known: Surroundings) -> Order:
     if order is None:
         message = "its word order is not that of any code"
         raise LeftOutError(message)
-    if order is Order.LITTLE and view.type not in SWAPPED:
+    if order.bytes is not Order.BIG or not isinstance(order.words, Order):
+        message = "the plugin has no such order of words and bytes"
+        raise LeftOutError(message)
+    if order.words is Order.LITTLE and view.type not in SWAPPED:
         message = f"the plugin has no {view.type.value} with the least significant word first"
         raise LeftOutError(message)
-    return order
+    return order.words
 
 
 def _scale(register: Register, view: View, known: Surroundings) -> tuple[Fraction, Fraction]:

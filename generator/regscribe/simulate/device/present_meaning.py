@@ -12,14 +12,15 @@ from regscribe.model import (
     Enum,
     Kind,
     Model,
-    Order,
     Register,
     Rounding,
     Special,
     View,
+    orders_of,
 )
 from regscribe.reference import (
     MOST_DECIMALS,
+    Arrangement,
     Straight,
     choose,
     divided_limits,
@@ -28,6 +29,7 @@ from regscribe.reference import (
     round_by,
     straight,
     within,
+    word_order,
 )
 from regscribe.reference.limits import Limits
 from regscribe.simulate.device.device_plan import Blueprint, Stored
@@ -131,12 +133,9 @@ class PresentMeaning(ABC):
         digits = min(max(0, int(self.look_up(decimals.register))), MOST_DECIMALS)
         return Fraction(10 ** (digits if decimals.at_most is None else min(digits, decimals.at_most)))
 
-    def order(self, view: View) -> Order:
-        """Return the word order of `view` now; where a register sets it to a code without meaning, the map's first."""
-        if isinstance(view.order, Order):
-            return view.order
-        first = next((order for _, order in view.order.codes), Order.BIG)
-        return view.order.order(self.look_up(view.order.register)) or first
+    def order(self, view: View) -> Arrangement:
+        """Return the orders of `view` now; where a register sets one to a code without meaning, the map's first."""
+        return word_order(view, self) or Arrangement(orders_of(view.order)[0], orders_of(view.byte_order)[0])
 
     def seen(self, view: View) -> View:
         """Return a view with the factor that it has now; where that is no number above 0, without it."""

@@ -79,11 +79,9 @@ class DryLink:
         if register is None or view is None:
             self._held[unit, space, address] = words[0]
         elif register.access.readable:
-            seen = register.seen_in(view)
+            seen, session = register.seen_in(view), self._session
             with suppress(ValueRefused):
-                carried = codec.carried_over(
-                    register, view, seen, words[:count], self._session.memory, self._session.givens
-                )
+                carried = codec.carried_over(register, view, seen, words[:count], session.memory, session.givens)
                 start = seen.address(register.at)
                 self._held.update(((unit, seen.space, start + at), word) for at, word in enumerate(carried))
         self._hold(unit, space, address + count, words[count:])

@@ -14,6 +14,7 @@ from regscribe_runtime.registers import codec
 from regscribe_runtime.registers.codec import Converter
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.kinds import Kind
+from regscribe_runtime.values.orders import gathered
 from regscribe_runtime.values.views import View
 from regscribe_runtime.values.wire_types import Order
 from regscribe_runtime.wire.requests import Request
@@ -96,8 +97,8 @@ def _layout(together: Sequence[Placed], quantity: int, session: Session) -> tupl
         codes += "xx" * (start - end) + view.type.code
         end = start + view.words
         with suppress(ValueNotDecodable, KeyError):  # its converter raises it, for this register alone
-            if view.words > 1 and codec.word_order(view, register.path, session.memory) is Order.LITTLE:
-                places[start:end] = places[start:end][::-1]
+            order = codec.present_order(view.order, register.path, session.memory, session.givens)
+            places[start:end] = gathered(order, places[start:end]) if view.words > 1 else places[start:end]
     return codes + "xx" * (quantity - end), None if places == sorted(places) else places
 
 
@@ -111,8 +112,7 @@ def _converter(
     """The converter of `codec.reader` or `codec.decoder`; one that raises the error where the word order is unknown."""
     state = codec.known_state(register, session.memory, unknown)
     try:
-        if view.words > 1:
-            codec.word_order(view, register.path, state)
+        codec.arranger(view, register.path, state, session.givens)
         return make(register, view, state, session.givens)
     except ValueNotDecodable as error:
         return codec.failing(error)

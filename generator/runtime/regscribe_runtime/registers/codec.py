@@ -17,9 +17,10 @@ from regscribe_runtime.errors import (
     ValueRefused,
 )
 from regscribe_runtime.registers.value_types import ValueType
-from regscribe_runtime.values.conditions import Cases, Givens, State, choose
+from regscribe_runtime.values.conditions import Cases, Givens, State, choose, registers_of
 from regscribe_runtime.values.kinds import Kind
 from regscribe_runtime.values.numbers import ROUNDINGS, Number, brief, exact, half_up, rough, shortest
+from regscribe_runtime.values.orders import OrderCases, WordOrder, gathered, spread
 from regscribe_runtime.values.scales import Conversion, Decimals, Limit, Open, Range, in_case
 from regscribe_runtime.values.terms import Term, UnsettledError, registers_in, resolve
 from regscribe_runtime.values.views import Scaled, View, scale_needs
@@ -112,23 +113,26 @@ def _line(register: Coded, state: State, givens: Givens) -> Line:
 Words = Sequence[int]
 
 
-def word_order(view: View, register: str, state: State) -> Order:
-    """The present word order of a view; NotDecodable for a code that the manual does not list."""
-    if isinstance(view.order, Order):
-        return view.order
-    code = int(state[view.order.register])
-    found = view.order.order(code)
+def present_order(order: WordOrder | OrderCases, register: str, state: State, givens: Givens) -> WordOrder:
+    """The present order of words or bytes; NotDecodable where the manual lists none for what decides."""
+    if not isinstance(order, OrderCases):
+        return order
+    found = choose(order.cases, state, givens)
     if found is None:
-        raise NotDecodable(register, f"{view.order.register} is {code}, which sets no word order")
+        names = registers_of(order.cases)
+        known = " and ".join(f"{name} is {state[name]}" for name in names) or "nothing that is given"
+        raise NotDecodable(register, f"{known}, which sets no word order" if names else f"{known} sets its order")
     return found
 
 
-def arranger(view: View, name: str, state: State) -> Callable[[Words], Words]:
-    """A function between wire order and most-significant-first under the present `state`; the same both ways."""
-    backward = view.words > 1 and word_order(view, name, state) is Order.LITTLE
-    if view.byte_order is Order.LITTLE:
-        return (lambda words: _swapped(words[::-1])) if backward else _swapped
-    return (lambda words: words[::-1]) if backward else (lambda words: words)
+def arranger(view: View, name: str, state: State, givens: Givens, *, sending: bool = False) -> Callable[[Words], Words]:
+    """A function from wire order to most-significant-first under the present `state`; back, when `sending`."""
+    turned = present_order(view.byte_order, name, state, givens) is Order.LITTLE
+    order = present_order(view.order, name, state, givens) if view.words > 1 else Order.BIG
+    if order is Order.BIG:
+        return _swapped if turned else (lambda words: words)
+    arranged = partial(spread if sending else gathered, order)
+    return (lambda words: _swapped(arranged(words))) if turned else arranged
 
 
 def _swapped(words: Words) -> Words:
@@ -343,7 +347,7 @@ def decoder(
 
     It raises ValueNotDecodable with the words in it.
     """
-    arrange = arranger(view, register.path, state)
+    arrange = arranger(view, register.path, state, givens)
     unpack: Callable[[Words], Any] = (
         partial(_number, register.path, view.type) if view.type.spelling else view.type.unpack
     )
@@ -397,12 +401,13 @@ def carried_over(
 ) -> tuple[int, ...]:
     """The words of view `other` for the value that `words` set in `view`; ValueRefused if it cannot carry that."""
     view, other = (present(each, register.path, state, givens) for each in (view, other))
-    numbers = arranger(view, register.path, state)(words)
+    numbers = arranger(view, register.path, state, givens)(words)
+    arrange = arranger(other, register.path, state, givens, sending=True)
     if register.kind is Kind.STRING:
-        return tuple(arranger(other, register.path, state)(numbers))
+        return tuple(arrange(numbers))
     wire = view.type.unpack(numbers)
     shown = _wire_words(register, other, _exactly(view, wire) / Fraction(view.factor), rounded=True)
-    return tuple(arranger(other, register.path, state)(shown))
+    return tuple(arrange(shown))
 
 
 def encode(
@@ -420,7 +425,7 @@ def encode(
     With `rounded`, a value finer than the view can carry is rounded by the view's rule instead of refused. `kept` are
     unnamed bits that are set in the device and stay so.
     """
-    arrange = arranger(view, register.path, state)
+    arrange = arranger(view, register.path, state, givens, sending=True)
     view = present(view, register.path, state, givens)
     if register.kind is Kind.STRING:
         return tuple(arrange(_from_text(register, view, value)))

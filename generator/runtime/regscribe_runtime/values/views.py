@@ -6,20 +6,10 @@ from regscribe_runtime.values.conditions import Cases, Condition, registers_of
 from regscribe_runtime.values.facts import ReadFacts
 from regscribe_runtime.values.kinds import Access
 from regscribe_runtime.values.numbers import Number
+from regscribe_runtime.values.orders import OrderCases, WordOrder
 from regscribe_runtime.values.scales import Conversion, Range, Sentinel
 from regscribe_runtime.values.terms import Term, registers_in
 from regscribe_runtime.values.wire_types import Order, Rounding, Space, WireType
-
-
-class OrderFrom(NamedTuple):
-    """The word order is set by a register: `codes` are pairs of its value and an order."""
-
-    register: str
-    codes: tuple[tuple[int, Order], ...]
-
-    def order(self, code: Number) -> Order | None:
-        """The order that a value of the register sets; None for one that the manual does not list."""
-        return next((order for known, order in self.codes if known == code), None)
 
 
 class View(NamedTuple):
@@ -40,8 +30,8 @@ class View(NamedTuple):
     factor: Number = 1
     rounding: Rounding = Rounding.NONE
     saturates: bool = False
-    order: Order | OrderFrom = Order.BIG
-    byte_order: Order = Order.BIG
+    order: WordOrder | OrderCases = Order.BIG
+    byte_order: WordOrder | OrderCases = Order.BIG
     functions: tuple[int, ...] = ()
     space: Space = Space.HOLDING
     preferred: bool = False
@@ -73,9 +63,10 @@ class View(NamedTuple):
         return self.allows(several) or (self.words == 1 and self.allows(single))
 
     def needs(self) -> tuple[str, ...]:
-        """The registers that set the word order and the factor, if any do."""
-        order = (self.order.register,) if isinstance(self.order, OrderFrom) else ()
-        return (*order, *registers_in(self.times)) if self.times is not None else order
+        """The registers that set the orders of words and bytes and the factor, if any do."""
+        orders = (one for one in (self.order, self.byte_order) if isinstance(one, OrderCases))
+        found = [name for one in orders for name in registers_of(one.cases)]
+        return tuple(dict.fromkeys((*found, *(registers_in(self.times) if self.times is not None else ()))))
 
 
 def word(view_type: WireType, **more: Any) -> tuple[View, ...]:

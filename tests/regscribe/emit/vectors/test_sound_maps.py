@@ -186,7 +186,7 @@ def test_a_broken_driver_fails_them(
     registers: str, broken: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     harmless: dict[str, Any] = {
-        "arranger": lambda *_: lambda words: words,
+        "arranger": lambda *_, **__: lambda words: words,
         "_faults": lambda *_: {},
         "_specials": lambda *_: {},
     }

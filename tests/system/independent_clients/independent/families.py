@@ -8,7 +8,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from regscribe.model import Kind, Model, OrderFrom, Register, RegisterMap, Space, WireType, registers_of
+from regscribe.model import Kind, Model, Register, RegisterMap, Space, WireType, registers_of
 from regscribe.pipeline import compile_map
 from regscribe.simulate import SimulatedDevice
 
@@ -82,7 +82,7 @@ def steering(model: Model) -> set[str]:
         found |= {*registers_of(register.scale), *registers_of(register.unit)}
         told = (one for case in register.scale for one in (case.then.decimals, case.then.places))
         found |= {one.register for one in told if one}
-        found |= {view.order.register for view in register.views if isinstance(view.order, OrderFrom)}
+        found |= {path for view in register.views for path in view.needs()}
         found |= set(register.writable.when.registers) if register.writable else set()
     return found
 
