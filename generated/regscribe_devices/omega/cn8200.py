@@ -53,9 +53,9 @@ from regscribe_runtime import (
     number,
     number_or,
     number_with,
+    order_from,
     version,
     within,
-    order_from,
     word,
 )
 
