@@ -12,7 +12,8 @@ RUNTIME = sorted(
     Command CommandStep CommandWith Computed Condition Conversion Decimals Device ExceptionCode Fact Field flags
     Flags GivenRef Governs Group Identity integer integer_or integer_with Interval Is Latency Link NotANumber number
     number_or number_with Open Order order_from OrderCases Part Power Product ProgramAction
-    ProgramCounts ProgramFinal ProgramPart ProgramSegments ProgramStates ProgramTimeUnit Protocol Range raw raw_float ReadFacts ReadOnly
+    ProgramCounts ProgramFinal
+    ProgramPart ProgramSegments ProgramStates ProgramTimeUnit Protocol Range raw raw_float ReadFacts ReadOnly
     ReadWrite Ref RegisterBlock Rounding Sentinel serial_link SerialDefaults SerialSettings SetpointProgram Setting
     Space SpaceLimits SpecialNumber SubPart Sum SyncClient tcp TcpSettings text TOP version View WhileRunning
     WireType within word Word word_of WriteCondition WriteOnly
