@@ -109,13 +109,14 @@ def _unknown_keys(error: Violation) -> Iterator[Complaint]:
             yield Complaint(rules.WRONG_FORM, path, said, example(form), at_key=True)
         else:
             said = f"unknown key {shown} in {title(schema)}"
-            yield Complaint(rules.UNKNOWN_KEY, path, said, _meant(key, schema["properties"]), at_key=True)
+            meant = _meant(key, schema["properties"], error.instance)
+            yield Complaint(rules.UNKNOWN_KEY, path, said, meant, at_key=True)
 
 
-def _meant(key: str, known: Mapping[str, Mapping[str, Any]]) -> str:
-    """Guess the key that was meant: one that other tools call so, or one spelled nearly so."""
+def _meant(key: str, known: Mapping[str, Mapping[str, Any]], given: Mapping[str, Any]) -> str:
+    """Guess the key that was meant: one that other tools call so (best one that is not given), or spelled nearly so."""
     also = [name for name, details in known.items() if key.lower() in details.get("x-also", ())]
-    near = also or get_close_matches(key[:100].lower(), known, n=1)
+    near = sorted(also, key=given.__contains__) or get_close_matches(key[:100].lower(), known, n=1)
     return f"did you mean `{near[0]}`?" if near else f"the keys here are: {', '.join(known)}"
 
 

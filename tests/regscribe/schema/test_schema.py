@@ -111,7 +111,13 @@ def test_a_mistake_elsewhere_is_found_at_its_place(text: str, expected: str) -> 
 
 @pytest.mark.parametrize(
     ("keys", "advice"),
-    [("nmae: x", "`name`"), ("address: 4", "`at`"), ("values: {0: a}", "`enum`"), ("acces: r", "`access`")],
+    [
+        ("nmae: x", "`name`"),
+        ("address: 4", "`at`"),
+        ("values: {0: a}", "`enum`"),
+        ("acces: r", "`access`"),
+        ("fc: 4", "`space`"),
+    ],
 )
 def test_an_unknown_key_asks_whether_another_was_meant(keys: str, advice: str) -> None:
     assert f"did you mean {advice}?" in in_register(keys)[0].help
@@ -169,6 +175,10 @@ def test_what_stands_for_a_spelling_of_others_is_a_word_of_the_language() -> Non
         said = {word for word in part["x-instead"].values() if "`" not in word}
         assert said <= set(part["enum"])
         assert not set(part["x-instead"]) & set(part["enum"])
+
+
+def test_a_key_that_is_given_already_is_not_the_one_that_was_meant() -> None:
+    assert in_register("offset: -40")[0].help == "did you mean `add`?"
 
 
 def test_an_unknown_word_asks_whether_another_was_meant() -> None:
