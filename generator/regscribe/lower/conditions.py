@@ -33,6 +33,9 @@ def condition(node: Value | None, scope: Scope) -> Condition:
 
 
 def _named(node: Value, scope: Scope) -> Condition:
+    if scope.map.mapping_of("givens").child(node.text()) and not scope.map.mapping_of("conditions").child(node.text()):
+        message = f"there is no condition `{node.text()}`, but a given"
+        node.report(UNKNOWN_CONDITION, message, remedy=f"write {{given: {node.text()}}}")
     found = scope.named(node, "conditions", rule=UNKNOWN_CONDITION, what="condition")
     if found is None or not found.is_mapping:
         return Condition((), name=node.text())

@@ -224,3 +224,11 @@ def test_what_looks_like_a_mistake_of_a_beginner_and_is_none_is_not_told(
     diagnose: Diagnose, small: Small, keys: str
 ) -> None:
     assert diagnose(small(f"at: 0, name: Setpoint, {keys}")) == []
+
+
+def test_a_given_in_place_of_a_condition_is_told_how_it_is_asked(diagnose: Diagnose, small: Small) -> None:
+    given = "givens: {battery: {type: boolean, description: it has one, reason: an option}}"
+    (found,) = diagnose(small("at: 0, name: Current, when: battery", top=given))
+
+    assert (found.rule, found.span.line, found.span.column) == ("RS0307", 12, 38)
+    assert found.help == "write {given: battery}"
