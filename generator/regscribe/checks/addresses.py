@@ -19,7 +19,8 @@ from regscribe.checks.rule import (
     register_rule,
 )
 from regscribe.lower.conditions import both, excludes
-from regscribe.model import Condition, Register, RegisterMap, Related, Space, View
+from regscribe.model import Condition, Page, Register, RegisterMap, Related, Space, View
+from regscribe_runtime.values.wire_types import PAGE_BITS
 
 WRITE_IN = "name under `written_in` the notation that the rows are written in (`modicon` for 40001 and 400001)"
 LAST_PART, LAST_OBJECT = 0xFFFF, 0xFF
@@ -111,11 +112,29 @@ def _advice(one: Register, other: Register) -> str:
 def outside_space(register: Register, _: RuleScope) -> Iterator[Problem]:
     """A Modbus address is 16 bits; function 07 has one address, 0, a file records 0 to 9999, a queue 31 values."""
     for stretch in stretches(register):
-        space, bits = stretch.space, stretch.space.part_bits
-        part = stretch.first >> bits if bits else 0
+        space, bits = stretch.space, stretch.space.part_bits or PAGE_BITS
+        part = stretch.first >> bits
         parts = range(int(space is Space.FILE), 1 + (LAST_OBJECT if space is Space.IDENTIFICATION else LAST_PART))
+        parts = parts if space.part_bits else range(register.page, register.page + 1)
         if stretch.first < 0 or part not in parts or stretch.last > (part << bits) + space.last:
             yield f"takes {stretch}, outside 0..{space.last}", f"correct `at` or the view's offset, or {WRITE_IN}"
+
+
+@register_rule("RS0688", "Page that cannot be selected")
+def on_unreachable_page(register: Register, scope: RuleScope) -> Iterator[Problem]:
+    """What selects a page is written before anything on it is read, and so it stands on none itself."""
+    page = scope.model.pages[register.page - 1] if register.page else Page()
+    for path in page.selectors:
+        other = scope.registers.get(path)
+        if other and (other.page or other.block or not other.access.writable):
+            related = Related(f"`{path}` selects it", other.span)
+            yield f"stands on a page that `{path}` selects, which cannot be written first", "name another one", related
+    if register.page and any(view.space.part_bits or view.space is Space.STATUS for view in register.views):
+        yield "stands on a page, and pages are of holding and input registers and bits", "move it to another group"
+    if register.page and register.path in {
+        path for rule in scope.register_map.identity for path in rule.identity.registers()
+    }:
+        yield "identifies a model, and stands on a page", "use another one"
 
 
 @register_rule("RS0403", "Alias equals an address that the register has")

@@ -80,6 +80,7 @@ def _carried(register_map: RegisterMap, frame: FrameExample) -> set[str]:
         for view in register.views
         if view.space in spaces
         and not register.block
+        and not register.page
         and start <= view.address(register.at) <= view.last(register.at) < end
     }
     return found if frame.words or len(found) == 1 else set()

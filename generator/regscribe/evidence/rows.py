@@ -61,8 +61,8 @@ def of_map(register_map: RegisterMap) -> Iterator[ComparedRow]:
     """Yield a row for each register and command of each model, with its address in every notation, too."""
     for row in rows([register_map]):
         space = row.space
-        spots = ((space, int(row.address)),) if row.address and not row.block else ()
-        aliases = tuple((space, int(alias)) for alias in row.aliases.split() if not row.block)
+        spots = ((space, int(row.address)),) if row.address and not row.block and not row.page else ()
+        aliases = tuple((space, int(alias)) for alias in row.aliases.split() if not row.block and not row.page)
         printed = {
             fold(notation.name): str(spots[0][1] + notation.offset)
             for notation in register_map.notations

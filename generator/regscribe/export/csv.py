@@ -33,6 +33,7 @@ from regscribe.model import (
 )
 from regscribe.plugins import Option
 from regscribe.visible import cell
+from regscribe_runtime.values.wire_types import PAGE_BITS
 
 name = "csv"
 summary = "every value of every model, arrays expanded, as a table"
@@ -66,6 +67,7 @@ class Row(NamedTuple):
     group: str = ""
     section: str = ""
     block: str = ""
+    page: str = ""
 
 
 COLUMNS = Row._fields
@@ -97,9 +99,9 @@ def rows(maps: Iterable[RegisterMap]) -> Iterator[Row]:
 
 def _register_row(register_map: RegisterMap, model: Model, register: Register) -> Row:
     minimum, maximum = _limits(register)
-    default, at = register.default, register.at
+    default, at, first = register.default, register.at, register.page << PAGE_BITS
     views = {
-        one.name: {"address": one.address(at), "words": one.words, "type": one.type}
+        one.name: {"address": one.address(at) - first, "words": one.words, "type": one.type}
         | ({"space": one.space} if one.space is not register.base.space else {})
         for one in register.views
     }
@@ -110,9 +112,9 @@ def _register_row(register_map: RegisterMap, model: Model, register: Register) -
         name=one_line(register.name),
         symbol=one_line(register.symbol),
         space=register.base.space.value,
-        address=str(register.address),
+        address=str(register.address - first),
         words=str(register.base.words),
-        aliases=" ".join(map(str, register.aliases)),
+        aliases=" ".join(str(alias - first) for alias in register.aliases),
         access=register.access.value,
         kind=register.kind.value,
         type=register.base.type.value,
@@ -128,6 +130,7 @@ def _register_row(register_map: RegisterMap, model: Model, register: Register) -
         group=register.group,
         section=one_line(register.section),
         block=register.block,
+        page=str(register.page or ""),
     )
 
 

@@ -143,6 +143,17 @@ def _step(node: Value, device: CommandScope, arguments: Arguments) -> tuple[Comm
     return CommandStep(function, view.address(target.at), words, block=target.block, argument=argument), entry.path
 
 
+def step_of_value(node: Value, register: str, device: CommandScope) -> tuple[CommandStep, str]:
+    """The step that writes a value to a register, whose name is the key of `node`, and the register's path."""
+    entry = device.scope.register(node, register, at_key=True)
+    if entry is None:
+        return CommandStep(0, 0, ()), register
+    target = device.registers[entry.path]
+    words = _words_of_value(node, target, target.write_view)
+    function = _function(node, len(words), target.write_view, device)
+    return CommandStep(function, target.write_view.address(target.at), words), entry.path
+
+
 def _function(node: Value, count: int, view: View | None, device: CommandScope) -> int:
     if node.child("function"):
         return node.whole_of("function")

@@ -7,6 +7,7 @@ from regscribe.lower.blocks import block_named
 from regscribe.lower.commands import CommandScope, commands_of
 from regscribe.lower.computed import computed_of
 from regscribe.lower.node import Value
+from regscribe.lower.pages import page_number, pages_of
 from regscribe.lower.process import process_of
 from regscribe.lower.programs import programs_of
 from regscribe.lower.registers import folded, register_of
@@ -52,6 +53,7 @@ def _bundle(node: Value, root: Value, model: str, models: Models) -> Bundle:
         layers=(each,) if each else (),
         whens=((when, ()),) if (when := node.child("when")) else (),
         block=block_named(node, root),
+        page=page_number(node, root),
     )
     items = items_in(node.elements_of("registers"), place)
     return Bundle(node, name, items, entries_of(items))
@@ -60,7 +62,8 @@ def _bundle(node: Value, root: Value, model: str, models: Models) -> Bundle:
 def model_of(node: Value, root: Value, scope: Scope, bundles: list[Bundle], protocol: Protocol) -> Model:
     """The model whose entry in the map's table of models is `node`."""
     members, registers = members_of(tuple(item for bundle in bundles for item in bundle.items), scope)
-    commands = commands_of(root, CommandScope(scope, {register.path: register for register in registers}, protocol))
+    device = CommandScope(scope, {register.path: register for register in registers}, protocol)
+    commands = commands_of(root, device)
     programs = programs_of(root, scope)
     prefix = root.mapping_of("map").text_of("class_prefix")
     return Model(
@@ -76,6 +79,7 @@ def model_of(node: Value, root: Value, scope: Scope, bundles: list[Bundle], prot
         program_notes=tuple(notes for _, notes in programs),
         process=process_of(root.child("process"), scope),
         unused=tuple(stretch_of(each) for each in root.elements_of("unused") if scope.has(each)),
+        pages=pages_of(root, device),
         span=node.key_span,
     )
 

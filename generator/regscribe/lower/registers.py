@@ -34,6 +34,7 @@ from regscribe.model import (
     always,
 )
 from regscribe.model.identifiers import has_mark, indexed
+from regscribe_runtime.values.wire_types import PAGE_BITS
 
 _RULES = {"views": "views", "scale": "scale", "decimals": "scale", "range_decimals": "special_scale"}
 """Keys that may name a rule of the map, and what the rule makes."""
@@ -54,6 +55,7 @@ def register_of(entry: TreeNode, everywhere: Scope) -> Register:
     range_decimals = settings.get("range_decimals")
     divided = any(special.code for special in specials)  # 0 stays 0
     digits, group = version_of(settings.get("version"))
+    moved = place.shift * views[0].stride + (place.page << PAGE_BITS)
     register = Register(
         id=entry.id,
         path=entry.path,
@@ -66,7 +68,7 @@ def register_of(entry: TreeNode, everywhere: Scope) -> Register:
         description=settings.text_of("description"),
         section=settings.text_of("source") or place.section,
         group=place.group,
-        aliases=tuple(alias + place.shift * views[0].stride for alias in settings.wholes_of("aliases")),
+        aliases=tuple(alias + moved for alias in settings.wholes_of("aliases")),
         scale=tuple(Case(part.when, part.conversion) for part in scaling),
         unit=unit,
         unit_id=unit_id,
@@ -103,6 +105,7 @@ def register_of(entry: TreeNode, everywhere: Scope) -> Register:
         index=place.index,
         printed=indexed(settings.text_of("printed"), place.index),
         block=place.block,
+        page=place.page,
         rules=tuple(
             (use, str(node.value))
             for key, use in _RULES.items()

@@ -43,6 +43,7 @@ class TreePosition:
     over: tuple[Value, ...] = ()
     open: tuple[str, ...] = ()
     block: str = ""
+    page: int = 0
     whens: tuple["PlacedCondition", ...] = ()
 
     def under(self, node: Value) -> tuple["PlacedCondition", ...]:

@@ -22,6 +22,7 @@ from regscribe.model import (
     WordOrder,
     order_from,
 )
+from regscribe_runtime.values.wire_types import PAGE_BITS
 
 _OF_EACH_VIEW = ("type", "word_order", "byte_order", "functions", "write_at", "write")
 WRITTEN = "write"
@@ -49,7 +50,7 @@ def views_of(entry: TreeNode, scope: Scope) -> tuple[View, ...]:
         view_set = scope.named(settings["views"], "views", rule=UNKNOWN_VIEWS, what="view set")
         views = set_at(view_set, space, words, scope) if view_set else ()
     views = views or _single(settings, space, words, scope)
-    views = tuple(_in_part(entry, view) if view.space.part_bits else view for view in views)
+    views = tuple(_in_part(entry, view) if view.space.part_bits else _on_page(entry, view) for view in views)
     types = dict.fromkeys(view.type for view in views)
     if "length" in settings and WireType.STRING not in types:
         message = f"`{entry.id}` has a `length`, but its type is {', '.join(types)}"
@@ -88,6 +89,15 @@ def _written(read: View, keys: Keys, words: int, scope: Scope) -> View:
 
 def _written_space(space: Space) -> Space:
     return space if space.part_bits else Space.COIL if space.is_bits else Space.HOLDING
+
+
+def _on_page(entry: TreeNode, view: View) -> View:
+    """The view on the page of its group."""
+    if not entry.place.page:
+        return view
+    first = entry.place.page << PAGE_BITS
+    region = (view.region[0] + first, view.region[1] + first) if view.region else None
+    return view._replace(offset=view.offset + first, region=region)
 
 
 def _in_part(entry: TreeNode, view: View) -> View:

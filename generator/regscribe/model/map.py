@@ -113,12 +113,21 @@ class IdentityRule:
     models: tuple[str, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class Page:
+    """What selects a page: `steps` write the registers `selectors`; nothing for a page of other models."""
+
+    steps: tuple[CommandStep, ...] = ()
+    selectors: tuple[str, ...] = ()
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Model:
     """One product: only the registers it has, with its own enums, ranges and defaults.
 
     `members` keeps arrays folded, in the manual's order; `registers` is the same with arrays expanded.
     `program_notes` has an entry for each of `programs`.
+    `pages` are those of the map, by their numbers from 1 on, which addresses have above the bits of a wire address.
     `unused` are stretches of addresses (space, first, last) that read as 0 and refuse writes.
     """
 
@@ -134,6 +143,7 @@ class Model:
     program_notes: tuple[ProgramNotes, ...] = ()
     process: Process | None = None
     unused: tuple[tuple[Space, int, int], ...] = ()
+    pages: tuple[Page, ...] = ()
     by_path: dict[str, Register] = field(default_factory=dict, compare=False, hash=False, repr=False)
     span: Span = NOWHERE
 

@@ -42,6 +42,7 @@ class Register:
     says nothing.
     `reading` is how it wants to be read. `static`: it never changes by itself. `mandatory`: whether each device of the
     model has it (None: the map does not say).
+    `page` is the number of the page that it stands on (0: on none).
     `shadows` is the register from which it takes its value when power comes, `follows` by case the register whose
     value it always has (none holding: its own). `difference`: it counts a distance in its unit, whose zero point does
     not matter, as a proportional band does.
@@ -86,6 +87,7 @@ class Register:
     stays: str = ""
     governs: Governs | None = None
     settle: int = 0
+    page: int = 0
     reading: ReadFacts = PLAIN_READING
     static: bool = False
     mandatory: bool | None = None

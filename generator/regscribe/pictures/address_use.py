@@ -38,7 +38,7 @@ def address_uses(register_map: RegisterMap) -> tuple[AddressUse, ...]:
 
 
 def _uses(model: Model) -> Iterator[AddressUse]:
-    for register in (one for one in model.registers if not one.block):
+    for register in (one for one in model.registers if not one.block and not one.page):
         yield from (_use(register, view) for view in register.views if not view.space.part_bits)
         for address in register.aliases:
             base = _use(register, register.base)

@@ -9,6 +9,7 @@ from regscribe.testing.vectors import Json, Trial, Vectors, known, number
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.conditions import ALWAYS
 from regscribe_runtime.values.facts import CommandStep
+from regscribe_runtime.values.wire_types import PAGE_BITS
 
 WRITE_COIL, WRITE_COILS = 5, 15
 WRITE_ONE = (5, 6)
@@ -77,10 +78,13 @@ class DriverUnderTest:
             register = self._register(place["path"])
             if register is None:
                 continue
-            addresses = {view.name: view.address(register.at) for view in register.views}
+            first = place.get("page", 0) << PAGE_BITS
+            addresses = {view.name: view.address(register.at) - first for view in register.views}
             yield from differs(place["path"], "addresses", addresses, place["addresses"])
             yield from differs(place["path"], "block", register.block, place.get("block", ""))
-            yield from differs(place["path"], "aliases", list(register.aliases), place.get("aliases", []))
+            yield from differs(
+                place["path"], "aliases", [alias - first for alias in register.aliases], place.get("aliases", [])
+            )
             default = "" if register.default is None else register.default
             if default != place.get("default", "") and not same(default, place.get("default", "0")):
                 yield from differs(place["path"], "default", default, place.get("default"))

@@ -17,7 +17,7 @@ def addresses(register_map: RegisterMap) -> str:
     """Return which spaces the address map shows, from the lowest address to the highest."""
     found: dict[Space, list[int]] = {}
     for model in register_map.models:
-        for register in (one for one in model.registers if not one.block):
+        for register in (one for one in model.registers if not one.block and not one.page):
             for view in register.views:
                 found.setdefault(view.space, []).extend((view.address(register.at), view.last(register.at)))
             found[register.base.space].extend(register.aliases)
@@ -57,7 +57,7 @@ def address_map(context: PageContext) -> Md:
 def fixed(register_map: RegisterMap) -> bool:
     """Whether any register stands outside blocks, at the same address on every device."""
     registers = (register for model in register_map.models for register in model.registers)
-    return any(not register.block and not register.base.space.part_bits for register in registers)
+    return any(not register.block and not register.page and not register.base.space.part_bits for register in registers)
 
 
 def bit_fields(context: PageContext, leaf: Leaf) -> tuple[Md, ...]:

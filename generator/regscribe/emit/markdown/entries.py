@@ -38,7 +38,8 @@ def sections(context: PageContext) -> tuple[PageSection, ...]:
 
 def _section(context: PageContext, group: Merged[Group], entries: tuple[RegisterEntry, ...]) -> PageSection:
     order = f"number {group.first.order} in the order of writing" if group.first.order is not None else ""
-    parts = (code(group.key), source(group.first.section), md(order), context.covers(group.models))
+    page = by_model(group, lambda model, item: _page(context, model, item))
+    parts = (code(group.key), source(group.first.section), md(order), page, context.covers(group.models))
     return PageSection(
         anchor=context.anchor("group", group.key),
         name=one_line(group.first.name),
@@ -46,6 +47,19 @@ def _section(context: PageContext, group: Merged[Group], entries: tuple[Register
         paragraphs=_paragraphs(by_model(group, lambda _, item: prose(item.description))),
         entries=entries,
     )
+
+
+def _page(context: PageContext, model: Model, group: Group) -> Md:
+    """Return the page that the registers of a group stand on, and what is written to select it."""
+    number = next((model.register(path).page for path in group.members), 0)
+    if not number:
+        return Md()
+    page = model.pages[number - 1]
+    written = (
+        md(context.register(path), " = ", " ".join(map(str, step.words)))
+        for step, path in zip(page.steps, page.selectors, strict=True)
+    )
+    return md(f"page {number}, selected by ", join(", ", written))
 
 
 def _entries(

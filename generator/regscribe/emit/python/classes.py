@@ -162,6 +162,7 @@ class Classes:
                 f"{INDENT}map_sha256 = {literal(self.register_map.content_hash[:HASH_DIGITS])}",
                 f"{INDENT}protocol = _PROTOCOL",
                 *self._blocks(model),
+                *self._pages(model),
                 *([f"{INDENT}_unused = {self._unused(model)}"] if model.unused else []),
                 *self._identity(model),
                 *self._computed(model),
@@ -186,6 +187,13 @@ class Classes:
     def _programs(self, model: Model) -> str:
         built = Specs(model, self.pool).of(model.programs)
         return self.pool.share(built, "programs", f"programs_{model.name}", comment="setpoint programs")
+
+    def _pages(self, model: Model) -> list[str]:
+        if not any(page.steps for page in model.pages):
+            return []
+        pages = [group([expression(step) for step in page.steps]) for page in model.pages]
+        name = self.pool.share(group(pages), "pages", f"pages_{model.name}", comment="what selects each page")
+        return [f"{INDENT}_pages = {name}"]
 
     def _unused(self, model: Model) -> str:
         rows = [group([member(space), str(first), str(last)]) for space, first, last in model.unused]

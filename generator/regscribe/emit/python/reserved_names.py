@@ -7,16 +7,15 @@ from regscribe.model import Array, Model, Register, RegisterMap
 
 RUNTIME = sorted(
     """
-    always AnyOf Array async_client_link async_serial_link async_tcp AsyncBareDevice AsyncClient AsyncDevice
-    AsyncLink AsyncPart BareDevice Bit boolean BOTTOM ByCase Case Chain choice Choice client_link ClientSettings
-    Command CommandStep CommandWith Computed Condition Conversion Decimals Device ExceptionCode Fact Field flags
-    Flags GivenRef Governs Group Identity integer integer_or integer_with Interval Is Latency Link NotANumber number
-    number_or number_with Open Order order_from OrderCases Part Power Product ProgramAction
-    ProgramCounts ProgramFinal
-    ProgramPart ProgramSegments ProgramStates ProgramTimeUnit Protocol Range raw raw_float ReadFacts ReadOnly
-    ReadWrite Ref RegisterBlock Rounding Sentinel serial_link SerialDefaults SerialSettings SetpointProgram Setting
-    Space SpaceLimits SpecialNumber SubPart Sum SyncClient tcp TcpSettings text TOP version View WhileRunning
-    WireType within word Word word_of WriteCondition WriteOnly
+    AnyOf Array AsyncBareDevice AsyncClient AsyncDevice AsyncLink AsyncPart BOTTOM BareDevice Bit ByCase Case Chain
+    Choice ClientSettings Command CommandStep CommandWith Computed Condition Conversion Decimals Device ExceptionCode
+    Fact Field Flags GivenRef Governs Group Identity Interval Is Latency Link NotANumber Open Order OrderCases Part
+    Power Product ProgramAction ProgramCounts ProgramFinal ProgramPart ProgramSegments ProgramStates ProgramTimeUnit
+    Protocol Range ReadFacts ReadOnly ReadWrite Ref RegisterBlock Rounding Sentinel SerialDefaults SerialSettings
+    SetpointProgram Setting Space SpaceLimits SpecialNumber SubPart Sum SyncClient TOP TcpSettings View WhileRunning
+    WireType Word WriteCondition WriteOnly always async_client_link async_serial_link async_tcp boolean choice
+    client_link flags integer integer_or integer_with number number_or number_with order_from raw raw_float serial_link
+    tcp text version within word word_of
     """.split(),  # noqa: SIM905 (a column of quoted words is harder to keep in order)
     key=lambda name: (not name.isupper(), name.islower(), name),
 )

@@ -23,6 +23,7 @@ from regscribe.model import (
     always,
     show,
 )
+from regscribe_runtime.values.wire_types import PAGE_BITS
 
 Json = dict[str, Any]
 Sides = tuple[tuple[Situation, bool], ...]
@@ -79,6 +80,7 @@ def _bare(register: Register) -> Register:
         inferred=(),
         governs=None,
         settle=0,
+        page=0,
         reading=PLAIN_READING,
         static=False,
         mandatory=None,
@@ -97,14 +99,17 @@ def _bare_enum(enum: Enum) -> Enum:
 
 
 def _place(register: Register) -> Json:
+    first = register.page << PAGE_BITS
     found: Json = {
         "path": register.path,
-        "addresses": {view.name: view.address(register.at) for view in register.views},
+        "addresses": {view.name: view.address(register.at) - first for view in register.views},
     }
+    if register.page:
+        found["page"] = register.page
     if register.block:
         found["block"] = register.block
     if register.aliases:
-        found["aliases"] = list(register.aliases)
+        found["aliases"] = [alias - first for alias in register.aliases]
     if register.default is not None:
         found["default"] = register.default if isinstance(register.default, str) else show(register.default)
     return found

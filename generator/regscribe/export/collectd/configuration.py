@@ -88,6 +88,9 @@ def _data(name: str, register: Register, known: Surroundings) -> Iterator[str]:
     if len(name) > LONGEST_NAME:
         message = f"its name has more than {LONGEST_NAME} characters"
         raise LeftOutError(message)
+    if register.page:
+        message = "it stands on a page, which the plugin cannot select"
+        raise LeftOutError(message)
     view = _view(register)
     scale, shift = _scale(register, view, known)
     kind = TYPES[view.type] + ("LE" if _order(view, known) is Order.LITTLE else "")

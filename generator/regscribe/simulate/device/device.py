@@ -17,6 +17,7 @@ from regscribe.simulate.errors import SimulatorError
 from regscribe.simulate.line.line_settings import Tuning
 from regscribe.simulate.process.controller import controller_of
 from regscribe.simulate.process.thermal_process import ThermalProcess
+from regscribe_runtime.values.wire_types import PAGE_BITS
 from regscribe_runtime.wire import identification, parts
 from regscribe_runtime.wire import requests as functions
 from regscribe_runtime.wire.packing import MalformedError
@@ -191,21 +192,33 @@ class SimulatedDevice:
         candidates = (request.function, *(code for codes in alike for code in codes if code in READS))
         documents = self.state.blueprint.layout.documents
         function = next((code for code in candidates if documents(READS[code], request.address)), request.function)
-        words = self._words.read(READS[function], function, request.address, request.quantity)
+        space = READS[function]
+        words = self._words.read(space, function, self._on_page(space, request.address), request.quantity)
         return encode_reply(Reply(request.function, words))
 
     def _write(self, pdu: bytes) -> bytes:
         request = self._request(pdu)
         space = functions.SPACES[request.function]
-        done = self._words.write(space, request.function, request.address, request.words)
+        done = self._words.write(space, request.function, self._on_page(space, request.address), request.words)
         return encode_reply(Reply(request.function, request.words, request.address + self._tuning.first, done))
+
+    def _on_page(self, space: Space, address: int) -> int:
+        """The address on the page that is selected now, if that has something there."""
+        layout = self.state.blueprint.layout
+        for number, page in enumerate(self.model.pages, start=1):
+            paged = number << PAGE_BITS | address
+            here = layout.place(space, paged) or layout.place(space, paged, writing=True)
+            if here and all(self.state.shows(*one) for one in zip(page.steps, page.selectors, strict=True)):
+                return paged
+        return address
 
     def _mask_word(self, pdu: bytes) -> bytes:
         request = self._request(pdu)
         keep, put = request.words
-        (word,) = self._words.read(Space.HOLDING, request.function, request.address, 1)
+        address = self._on_page(Space.HOLDING, request.address)
+        (word,) = self._words.read(Space.HOLDING, request.function, address, 1)
         masked = ((word & keep) | (put & ~keep & 0xFFFF),)
-        self._words.write(Space.HOLDING, request.function, request.address, masked)
+        self._words.write(Space.HOLDING, request.function, address, masked)
         return pdu
 
     def _write_and_read(self, pdu: bytes) -> bytes:

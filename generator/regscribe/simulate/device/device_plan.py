@@ -71,7 +71,9 @@ class AddressIndex:
             for command in model.commands
             for step in command.steps
         )
-        self._bounds = {space: self._bounds_of(space) for space in Space}
+        self._bounds = {
+            (space, page): self._bounds_of(space, page) for space in Space for page in range(len(model.pages) + 1)
+        }
         some = (there for there, spans in self._all.items() if any(not one.register.when.always for one in spans))
         self.conditional = {there: tuple(self._all[there]) for there in some}
 
@@ -112,12 +114,12 @@ class AddressIndex:
 
     def documents(self, space: Space, address: int) -> bool:
         """Whether `address` lies between the lowest and the highest that the map documents in that space."""
-        return address in self._bounds[space]
+        return address in self._bounds[space, space.page(address)]
 
-    def _bounds_of(self, space: Space) -> range:
+    def _bounds_of(self, space: Space, page: int) -> range:
         silent = (address for kind, address in self.silent if kind is space)
         fixed = (address for kind, address in self.fixed if kind is space)
-        documented = (*self._places[space], *silent, *fixed)
+        documented = [each for each in (*self._places[space], *silent, *fixed) if space.page(each) == page]
         return range(min(documented), max(documented) + 1) if documented else range(0)
 
 

@@ -5,7 +5,7 @@ from fractions import Fraction
 from threading import Lock
 from types import MappingProxyType
 
-from regscribe.model import NAN, BitField, Kind, Model, NotANumber, Register, RegisterMap, Space, parse
+from regscribe.model import NAN, BitField, CommandStep, Kind, Model, NotANumber, Register, RegisterMap, Space, parse
 from regscribe.model.located import layout_of, located
 from regscribe.reference import Surroundings, holds, present_sentinels, version_text
 from regscribe.simulate.device import codec
@@ -270,6 +270,12 @@ class DeviceState(PresentMeaning):
             message = f"register {register.path!r} has no view {view!r}: it has {names}"
             raise SimulatorError(message)
         return codec.encode(self.seen(shown), self.stored(register.path), self.order(shown))
+
+    def shows(self, step: CommandStep, path: str) -> bool:
+        """Whether a register holds what a step writes to it."""
+        register = self._model.register(path)
+        view = next(each for each in register.views if each.address(register.at) == step.address)
+        return self.peek_words(path, view.name) == step.words
 
     def _first(self, register: Register) -> Stored:
         if register.path in self._initial:  # a circle of dependencies: one of them must begin

@@ -119,6 +119,8 @@ class Decoder:
             return self._strange("response", frame, "to a request that is not in the capture")
         if request.function in WRITES or request.function == MASK_REGISTER:
             self._learn(frame.unit, request, request.words if request.function in WRITES else ())
+            if request.function in WRITES:
+                self._places[frame.unit].wrote(SPACES[request.function], request.address, request.words)
             return _decoded("response", frame, "written", request)
         words = decode_reply(request, frame.pdu).words
         if len(words) != request.quantity:

@@ -6,6 +6,7 @@ from typing import Any, cast
 from regscribe_runtime import BareDevice, Link, Register, ValueRefused
 from regscribe_runtime.operations.session import Session
 from regscribe_runtime.registers import codec
+from regscribe_runtime.values.wire_types import PAGE_BITS
 from regscribe_runtime.wire.requests import (
     BLOCK_WRITES,
     MASK_REGISTER,
@@ -31,7 +32,7 @@ class DryLink:
     def __init__(self, link: Link, session: Session) -> None:
         self._link, self._session = link, session
         self.written: list[Request] = []
-        self._held: dict[tuple[int, str, int], int] = {}
+        self._held: dict[tuple[object, ...], int] = {}
         self._unread: dict[tuple[str, int], tuple[Register[Any], Any]] = {}
 
     def __getattr__(self, name: str) -> Any:  # noqa: ANN401 - whatever else the link has
@@ -42,14 +43,17 @@ class DryLink:
 
     def call(self, unit: int, request: Request) -> Reply:
         """Answer a write with its echo; send a read, and lay what was written over its answer."""
+        if request.selects:  # reads would show another page
+            return self._link.call(unit, request)
+        address = request.page << PAGE_BITS | request.address
         if request.function == MASK_REGISTER:
-            return self._mask(unit, request)
+            return self._mask(unit, request, address)
         if request.function not in WRITES:
             reply = self._link.call(unit, request)
             space = READ_SPACES.get(request.function)
             if space is None or reply.exception is not None:
                 return reply
-            held = (self._held.get((unit, space, request.address + at), word) for at, word in enumerate(reply.words))
+            held = (self._held.get((unit, space, address + at), word) for at, word in enumerate(reply.words))
             return reply._replace(words=tuple(held))
         self.written.append(request)
         self._unread = {
@@ -58,16 +62,16 @@ class DryLink:
             for view in register.views
             if register.access.writable and not (view.readable and register.access.readable)
         }
-        self._hold(unit, SPACES[request.function], request.address, request.words)
+        self._hold(unit, SPACES[request.function], address, request.words)
         words = () if request.function in BLOCK_WRITES else request.words
         return Reply(request.function, words, request.address, len(request.words))
 
-    def _mask(self, unit: int, request: Request) -> Reply:
+    def _mask(self, unit: int, request: Request, address: int) -> Reply:
         """Keep some bits of a word, as if they had been written."""
         keep, put = request.words
-        (word,) = self.call(unit, Request(READ_HOLDING, request.address)).words
+        (word,) = self.call(unit, Request(READ_HOLDING, request.address, page=request.page)).words
         self.written.append(request)
-        self._hold(unit, SPACES[READ_HOLDING], request.address, ((word & keep) | put,))
+        self._hold(unit, SPACES[READ_HOLDING], address, ((word & keep) | put,))
         return Reply(request.function, request.words, request.address)
 
     def _hold(self, unit: int, space: str, address: int, words: tuple[int, ...]) -> None:

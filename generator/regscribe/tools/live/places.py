@@ -5,9 +5,11 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from regscribe_runtime import AsyncBareDevice, BareDevice, Register
+from regscribe_runtime.planning.address_ranges import places
 from regscribe_runtime.values.blocks import Chain, Header, RegisterBlock, find, headers_in
 from regscribe_runtime.values.facts import CommandStep
 from regscribe_runtime.values.views import View
+from regscribe_runtime.values.wire_types import PAGE_BITS
 
 Here = list[tuple[Register[Any], View]]
 
@@ -19,12 +21,21 @@ class RegisterPlaces:
         self._registers = driver.registers.values()
         self._blocks: dict[str, RegisterBlock] = {one.id: one for one in driver._blocks}  # noqa: SLF001 (its facts)
         self._headers = {name: Header(0, base) for name, base in bases.items()}
+        self._pages, self._page = driver._pages, 0  # noqa: SLF001 (as above)
         self._seen: dict[tuple[str, int], int] = {}
         self._index = self._indexed()
 
     def at(self, space: str, address: int) -> Here:
         """The registers that begin at an address."""
-        return self._index.get((space, address), [])
+        behind = self._index.get((space, self._page << PAGE_BITS | address), []) if self._page else []
+        return behind or self._index.get((space, address), [])
+
+    def wrote(self, space: str, address: int, words: Sequence[int]) -> None:
+        """Learn which page was selected."""
+        for number, steps in enumerate(self._pages, start=1):
+            for step in steps:
+                if (step.space, step.address) == (space, address):
+                    self._page = number if step.words == tuple(words) else self._page * (self._page != number)
 
     def placed(self, step: CommandStep) -> CommandStep:
         """A step of a command with the address that it has on this unit."""
@@ -54,7 +65,6 @@ class RegisterPlaces:
         for declared in self._registers:
             header = self._headers.get(declared.block)
             register = declared.located(header.base) if header else declared
-            for view in register.views if header or not declared.block else ():
-                for at in (register.at, *register.aliases):
-                    found[view.space, view.address(at)].append((register, view))
+            for view, address in places(register) if header or not declared.block else ():
+                found[view.space, address].append((register, view))
         return dict(found)

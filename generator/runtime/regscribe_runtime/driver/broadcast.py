@@ -51,6 +51,8 @@ def request_for(
     check_condition(register, state, givens)
     words = register.encode(value, view=view, state=state, givens=givens)
     address = chosen.address(register.at)
+    if chosen.space.page(address):
+        raise ValueRefused(register.path, "each unit has to be on its page first: write unit by unit")
     function = _function(register, chosen, len(words), [driver.protocol for driver in drivers.values()])
     return Request(function, address, len(words), words)
 

@@ -15,10 +15,11 @@ from regscribe_runtime.planning.plan import RequestLimits, Terms
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.report import Wear, WriteReport
 from regscribe_runtime.values.blocks import Chain, Header, RegisterBlock, find, stated_bases
+from regscribe_runtime.values.facts import CommandStep
 from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.serial_line import MODBUS, LineChange, SerialLine
-from regscribe_runtime.values.wire_types import Space
-from regscribe_runtime.wire.requests import READ_SPACES, Reply, Request, verify
+from regscribe_runtime.values.wire_types import WIRE, Space
+from regscribe_runtime.wire.requests import READ_SPACES, SPACES, Reply, Request, verify
 
 T = TypeVar("T")
 
@@ -50,6 +51,8 @@ class Session:
     so it is cleared whenever the memory changes. `proven` are remembered registers that were read since the link was
     opened, `absences` addresses that this unit refused; those in `unused` (space, first, last) are read as 0.
 
+    `pages` are the steps that select each page, `page` is the one that the present operation has selected (0: none).
+
     `line` is the link's serial line (None over TCP), `retry` the retries (None: those of the link), `wrote` whether the
     present operation has sent anything but reads. `broken_off` is the report of the last `configure` that was cancelled
     or interrupted and could not be undone. `home` is the line setting before a write that governs the line, which is
@@ -59,7 +62,7 @@ class Session:
     `chains` are the chains of `blocks` that were walked since the link was opened, `places` the blocks that were found.
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 (keywords, for what a driver's class has)
         self,
         *,
         unit: int,
@@ -69,6 +72,7 @@ class Session:
         givens: Mapping[str, Any],
         groups: Mapping[str, Any] = MappingProxyType({}),
         unused: tuple[tuple[Space, int, int], ...] = (),
+        pages: tuple[tuple[CommandStep, ...], ...] = (),
         blocks: tuple[RegisterBlock, ...] = (),
     ) -> None:
         low, high = protocol.unit_ids
@@ -82,6 +86,7 @@ class Session:
         self.places: dict[str, Header] = {}
         self.chains: dict[str, tuple[Header, ...]] = {}
         self.memory: dict[str, Any] = {}
+        self.pages, self.page = pages, 0
         self._rested, self._pause = 0.0, float(protocol.pause) / 1000
         self._ends: dict[str, float] = {}
         self.proven: set[str] = set()
@@ -218,7 +223,7 @@ class Session:
         self.at_epoch(link.epoch)
         self.addressing = link.addressing
         self._tries = self.retry or link.retry
-        self.wrote, self.home = False, None
+        self.wrote, self.home, self.page = False, None, 0
         if self._ends:
             self._let_expire(time.monotonic())
         line = link.line
@@ -261,6 +266,12 @@ class Session:
 
     def exchange(self, request: Request) -> Operation[tuple[int, ...]]:
         """Send one request and verify its answer; a read is sent again as `retry` says, a write never."""
+        asked = request
+        if self.pages and (page := SPACES[request.function].page(request.address) if request.function in SPACES else 0):
+            yield from self._turn_to(page)
+            request = request._replace(address=request.address & WIRE, page=page)
+        elif not request.reads and not request.selects:
+            self.page = 0
         left = self._tries.reads if request.reads else 0
         while True:
             if self.protocol.pause and (left_to_rest := self._rested - time.monotonic()) > 0:
@@ -273,14 +284,24 @@ class Session:
                 assert reply is not None, "an executor answers a request with a reply"  # noqa: S101 (their contract)
                 words = verify(request, reply, unit=self.unit, protocol=self.protocol)
             except (NoAnswer, WrongAnswer, LinkLost, ExceptionAnswer) as error:
-                if not left or not _is_passing(error) or self._clears(request):
+                if not left or not _is_passing(error) or self._clears(asked):
                     raise
                 left = 0 if isinstance(error, LinkLost) else left - 1  # a link that is lost once more is gone
             else:
-                if self.absences.heard(request):
+                if self.absences.heard(asked):
                     self.prepared.clear()
                 return words
             yield Pause(self._tries.pause)
+
+    def _turn_to(self, page: int) -> Operation[None]:
+        """Write what selects a page, unless this operation has done so, and nothing else since."""
+        if self.page == page:
+            return
+        self.page = 0
+        for step in self.pages[page - 1]:
+            request = Request(step.function, step.address, len(step.words), step.words, selects=True)
+            yield from self.exchange(request)
+        self.page = page
 
     def _clears(self, request: Request) -> bool:
         """Whether a read changed the device even if its answer was lost, so that a second one would tell nothing."""

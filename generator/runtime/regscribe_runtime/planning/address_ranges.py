@@ -12,9 +12,8 @@ from itertools import chain, pairwise
 from typing import NamedTuple
 
 from regscribe_runtime.values.views import Placed, View
-from regscribe_runtime.values.wire_types import Space
+from regscribe_runtime.values.wire_types import PAGE_BITS, WIRE, Space
 
-ADDRESSES = 1 << 16
 Range = tuple[int, int]
 """First address, and the first behind."""
 
@@ -81,7 +80,11 @@ class AddressRanges:
     def _cut(self, space: Space) -> Iterator[AddressStretch]:
         """The stretches of a space: what may be read, cut where alignment changes and where reading along ends."""
         aligned = list(_disjoint(self._aligned.get(space, [])))
-        allowed = [(0, ADDRESSES)] if self.holes else self._known.get(space, [])
+        allowed = self._known.get(space, [])
+        if self.holes:
+            pages = sorted({0, *(space.page(first) for first, _ in allowed)})
+            allowed = [(page << PAGE_BITS, page << PAGE_BITS | WIRE) for page in pages]
+            allowed = [(first, last + 1) for first, last in allowed]
         barred = merged([*self._unreadable.get(space, ()), *self._refused.get(space, ())])
         cuts = [*((one.first, one.end) for one in aligned), *self._apart.get(space, ()), *self._alone.get(space, ())]
         edges = sorted(set(chain.from_iterable(cuts)))

@@ -140,7 +140,8 @@ def blocks(items: Iterable[RegisterSpan], terms: Terms) -> tuple[Block, ...]:
             first, end = spans[0].address, max(span.end for span in spans)
             carried = sorted(item for span in spans for item in held[span])
             found.append(Block(space.read_function, first, end - first, tuple(carried)))
-    return tuple(sorted(found, key=lambda block: (block.space, block.address, block.quantity)))
+    page = {block: block.space.page(block.address) for block in found}
+    return tuple(sorted(found, key=lambda block: (page[block], block.space, block.address, block.quantity)))
 
 
 def _longer_first(item: RegisterSpan) -> tuple[int, int]:

@@ -9,6 +9,9 @@ from typing import Self
 
 from regscribe_runtime.values.spellings import Spelling, bcd, modulo_10000, narrow, sign_and_magnitude
 
+PAGE_BITS, WIRE = 16, 0xFFFF
+"""Above the bits of a wire address an address has the number of its page, and of its page the wire address alone."""
+
 
 class Space(StrEnum):
     """A Modbus address space; `STATUS` is the single byte that function 07 returns (address 0).
@@ -53,8 +56,12 @@ class Space(StrEnum):
         """An address for people: `4:10` is record 10 of file 4; of an object its number."""
         part, inside = address >> self.part_bits, address & (1 << self.part_bits) - 1
         if not self.part_bits:
-            return str(address)
+            return f"{address & WIRE} on page {page}" if (page := self.page(address)) else str(address)
         return f"{part}" if self is Space.IDENTIFICATION else f"{part}:{inside}"
+
+    def page(self, address: int) -> int:
+        """The number of the page that an address stands on; 0: on none."""
+        return 0 if self.part_bits else address >> PAGE_BITS
 
     @property
     def is_whole(self) -> bool:

@@ -37,7 +37,8 @@ class Request(NamedTuple):
     """One request: `quantity` addresses from `address`; `words` are what a write sends (bits as 0 and 1).
 
     `seconds` is its response timeout, set on the way to the link; 0 leaves it to the link. `answered`: unit 0 is no
-    broadcast but a device that answers.
+    broadcast but a device that answers. `page` is the number of the page that it means
+    (0: none), `selects` whether it writes what selects one.
     """
 
     function: int
@@ -46,6 +47,8 @@ class Request(NamedTuple):
     words: tuple[int, ...] = ()
     seconds: float = 0.0
     answered: bool = False
+    page: int = 0
+    selects: bool = False
 
     @property
     def reads(self) -> bool:

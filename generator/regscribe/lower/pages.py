@@ -1,0 +1,40 @@
+"""Pages: registers that a device shows at the same addresses, one page at a time, as other registers select it."""
+
+from regscribe.lower.commands import CommandScope, step_of_value
+from regscribe.lower.node import Value
+from regscribe.model import Page
+
+Selection = tuple[tuple[str, str], ...]
+"""The registers that select a page, and the value of each, as the map spells them."""
+
+
+def page_number(group: Value, root: Value) -> int:
+    """The number of the page that a group stands on, from 1 on in the order of the map; 0 where it is on none."""
+    return list(_pages(root)).index(_selection(group)) + 1 if group.child("page") else 0
+
+
+def _pages(root: Value) -> dict[Selection, Value]:
+    """The pages of a map, each with the first group that is on it."""
+    found: dict[Selection, Value] = {}
+    for group in root.elements_of("groups"):
+        if group.child("page"):
+            found.setdefault(_selection(group), group)
+    return found
+
+
+def _selection(group: Value) -> Selection:
+    return tuple((key, each.text()) for key, each in group.items_of("page"))
+
+
+def pages_of(root: Value, device: CommandScope) -> tuple[Page, ...]:
+    """What selects each page on a model; nothing for a page that the model has no register of."""
+    used = {
+        view.space.page(view.address(register.at)) for register in device.registers.values() for view in register.views
+    }
+    pages = _pages(root).values()
+    return tuple(_page(group, device) if number in used else Page() for number, group in enumerate(pages, start=1))
+
+
+def _page(group: Value, device: CommandScope) -> Page:
+    steps = [step_of_value(each, key, device) for key, each in group.items_of("page")]
+    return Page(tuple(step for step, _ in steps), tuple(path for _, path in steps))
