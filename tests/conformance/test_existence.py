@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from regscribe.simulate.device.device import SimulatedDevice
-from regscribe_runtime import Absent, ConditionNotMet, ExceptionAnswer, NotPresent
+from regscribe_runtime import Absent, ConditionNotMet, ExceptionAnswer, NotDecodable, NotPresent, SensorFault
 
 from .matrix_watch import Wire
 from .suite import build, diagnose, whole_map
@@ -301,3 +301,89 @@ def test_conditions_of_the_surroundings_are_added_and_a_variant_takes_the_place_
         "many[1].count": f"mode is at least 1 and own is 7 and mode is at most {most}",
         "many[2].count": f"mode is at least 1 and own is 7 and mode is at most {most}",
     }
+
+
+REPEATED: dict[str, Any] = {
+    "givens": {
+        "inputs": {"type": "number", "range": "0..3", "default": 2, "description": "inputs", "reason": "by the plant"}
+    },
+    "registers": [
+        {"at": 0, "id": "n", "name": "Number of Modules", "type": "uint16", "sentinels": {65535: "not known"}},
+        {
+            "id": "modules",
+            "name": "Module",
+            "repeat": {"from": 1, "to": "n", "most": 4},
+            "stride": 20,
+            "registers": [
+                {"at": 10, "name": "Points", "type": "uint16"},
+                {
+                    "id": "curve",
+                    "name": "Point",
+                    "repeat": {"from": 0, "to": "points", "most": 2},
+                    "stride": 2,
+                    "registers": [{"at": 12, "name": "X", "type": "uint16"}],
+                },
+            ],
+        },
+        {
+            "id": "inputs",
+            "name": "Input",
+            "repeat": {"from": 1, "to": {"given": "inputs"}, "most": 3},
+            "stride": 1,
+            "registers": [{"at": 200, "name": "Level", "type": "uint16"}],
+        },
+    ],
+}
+
+
+def test_an_array_is_as_long_as_a_register_says() -> None:
+    table = Table(REPEATED, n=2)
+    table.device.poke("modules[2].points", 1)
+    assert len(table.driver.modules) == 2
+    assert [len(module.curve) for module in table.driver.modules] == [0, 1]
+    assert [input_.level.read() for input_ in table.driver.inputs] == [0, 0]
+    found = table.driver.read()
+    there = [
+        "inputs[1].level",
+        "inputs[2].level",
+        "modules[1].points",
+        "modules[2].curve[0].x",
+        "modules[2].points",
+        "n",
+    ]
+    assert sorted(found.valid) == there
+    assert table.asked() == {0, 10, 30, 32, 200, 201}
+
+
+def test_an_element_that_the_device_does_not_have_raises_when_it_is_used() -> None:
+    table = Table(REPEATED, n=2)
+    with pytest.raises(NotPresent, match=r"n is at least 3; n is 2"):
+        table.driver.modules[3].points.read()
+    with pytest.raises(NotPresent, match=r"modules\[1\].points is at least 2; n is 2, modules\[1\].points is 0"):
+        table.driver.modules[1].curve[1].x.read()
+    with pytest.raises(NotPresent, match=r"given.inputs is 2"):
+        table.driver.inputs[3].level.read()
+    with pytest.raises(IndexError):
+        table.driver.modules[5]
+
+
+def test_a_count_beyond_the_most_elements_counts_as_the_most() -> None:
+    table = Table(REPEATED, n=9)
+    assert len(table.driver.modules) == 4
+    assert table.driver.modules[4].points.read() == 0
+
+
+def test_a_count_that_is_a_fault_says_so() -> None:
+    table = Table(REPEATED, n=65535)
+    with pytest.raises(SensorFault, match="not known"):
+        len(table.driver.modules)
+    with pytest.raises(NotDecodable, match=r"whether it exists depends on n: .*not known"):
+        table.driver.modules[1].points.read()
+
+
+def test_an_asyncio_driver_counts_the_elements() -> None:
+    async def ask() -> None:
+        table = Table(REPEATED, n=3)
+        assert await table.awaitable.modules.count() == 3
+
+    asyncio.run(ask())

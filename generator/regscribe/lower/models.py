@@ -10,11 +10,21 @@ from regscribe.lower.node import Value
 from regscribe.lower.pages import page_number, pages_of
 from regscribe.lower.process import process_of
 from regscribe.lower.programs import programs_of
-from regscribe.lower.registers import folded, register_of
+from regscribe.lower.registers import folded, register_of, seen_from, subject_counting
 from regscribe.lower.rules import UNKNOWN_GROUP
 from regscribe.lower.scope import Scope
 from regscribe.lower.texts import known_name, whole_ends
-from regscribe.lower.tree import Item, TreeBranch, TreeNode, TreePosition, entries_of, items_in, name_of, span_of
+from regscribe.lower.tree import (
+    Item,
+    PlacedCondition,
+    TreeBranch,
+    TreeNode,
+    TreePosition,
+    entries_of,
+    items_in,
+    name_of,
+    span_of,
+)
 from regscribe.lower.variants import Models
 from regscribe.model import Array, Group, Model, Protocol, Register, Space
 
@@ -51,7 +61,7 @@ def _bundle(node: Value, root: Value, model: str, models: Models) -> Bundle:
         section=node.text_of("source"),
         sets=root.mapping_of("sets"),
         layers=(each,) if each else (),
-        whens=((when, ()),) if (when := node.child("when")) else (),
+        whens=(PlacedCondition(when, ()),) if (when := node.child("when")) else (),
         block=block_named(node, root),
         page=page_number(node, root),
     )
@@ -124,6 +134,14 @@ def members_of(items: tuple[Item, ...], scope: Scope) -> tuple[tuple[Register | 
     return tuple(members), tuple(registers)
 
 
+def _counted(branch: TreeBranch, scope: Scope) -> str:
+    """What says how many elements there are, as `Is.subject` has it; empty where the map does."""
+    inside = entries_of((branch,))
+    if not (branch.counted and inside):
+        return ""
+    return subject_counting(branch.counted.node, seen_from(inside[0], branch.counted.prefixes, scope, folded=True))
+
+
 def _array(branch: TreeBranch, scope: Scope) -> Array:
     first = branch.elements[0]
     return Array(
@@ -136,5 +154,6 @@ def _array(branch: TreeBranch, scope: Scope) -> Array:
         description=branch.node.text_of("description"),
         section=branch.section,
         to_end=branch.to_end,
+        counted=_counted(branch, scope),
         span=span_of(branch.node),
     )

@@ -7,6 +7,7 @@ from fractions import Fraction
 from regscribe.lower.conditions import both, cases_of, condition, write_condition
 from regscribe.lower.enums import enum_of, fields_of
 from regscribe.lower.idle_keys import report_idle_keys
+from regscribe.lower.matchers import given_named
 from regscribe.lower.node import ZERO, Keyed, Value
 from regscribe.lower.register_values import beginning_of, range_of, ranges_at, sentinels_of, specials_of
 from regscribe.lower.rules import NO_ACCESS
@@ -34,6 +35,7 @@ from regscribe.model import (
     always,
 )
 from regscribe.model.identifiers import has_mark, indexed
+from regscribe_runtime.values.conditions import GIVEN, at_least
 from regscribe_runtime.values.wire_types import PAGE_BITS
 
 _RULES = {"views": "views", "scale": "scale", "decimals": "scale", "range_decimals": "special_scale"}
@@ -160,10 +162,26 @@ def _makes_fractions(scaling: Scaling) -> bool:
 def _existence(entry: TreeNode, scope: Scope) -> Condition:
     """The condition under which a register exists: its own and those of its surroundings, as each stands there."""
     found = []
-    for when, prefixes in entry.whens:
+    for when, prefixes, least in entry.whens:
         when.context.used.add(when.path)
-        found.append(condition(when, scope.at(replace(entry, place=replace(entry.place, prefixes=prefixes)))))
+        there = seen_from(entry, prefixes, scope)
+        if not least:
+            found.append(condition(when, there))
+        elif not scope.folded:  # there it differs from element to element
+            found.append(Condition((at_least(subject_counting(when, there), least),)))
     return both(*found)
+
+
+def seen_from(entry: TreeNode, prefixes: tuple[str, ...], scope: Scope, *, folded: bool = False) -> Scope:
+    """The scope of what stands around a register, in the elements `prefixes`."""
+    there = scope.at(replace(entry, place=replace(entry.place, prefixes=prefixes)))
+    return replace(there, folded=scope.folded or folded)
+
+
+def subject_counting(node: Value, scope: Scope) -> str:
+    """The register, or `given.id`, that says how many elements an array has; RS0301 or RS0312 where there is none."""
+    given = node.child("given")
+    return f"{GIVEN}.{given_named(given, scope, 'number')}" if given else scope.path(node)
 
 
 def _name(entry: TreeNode) -> str:

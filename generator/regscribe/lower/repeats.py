@@ -18,6 +18,12 @@ def indices(repeat: Value | None) -> tuple[int, int]:
     return first, most
 
 
+def counter_of(repeat: Value | None) -> Value | None:
+    """What names the register or the given that says how many elements there are; None where nothing does."""
+    to = repeat.child("to") if repeat and repeat.is_mapping else None
+    return to if to and not to.child("block") else None
+
+
 def goes_to_end(repeat: Value | None, block: str, *, nested: bool) -> bool:
     """Whether there are as many elements as the block has room for; RS0365 in no block, or in another array."""
     to = repeat.mapping_of("to").child("block") if repeat and repeat.is_mapping else None

@@ -1,9 +1,10 @@
 """The registers and arrays that one model has, with their paths and the keys that count, before any meaning."""
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from regscribe.lower.node import Value
-from regscribe.lower.repeats import goes_to_end, indices
+from regscribe.lower.repeats import counter_of, goes_to_end, indices
 from regscribe.lower.rules import ON_NO_MODEL, TOO_MANY_ELEMENTS
 from regscribe.lower.sets import included_elements, set_named
 from regscribe.lower.texts import identifier
@@ -13,8 +14,15 @@ from regscribe.model import Span
 ADDRESSES = 65536
 
 
-PlacedCondition = tuple[Value, tuple[str, ...]]
-"""A `when`, and the paths of the elements around it from the inside out."""
+class PlacedCondition(NamedTuple):
+    """A `when`, and the paths of the elements around it from the inside out.
+
+    With `least`, the node names instead what must be at least that, for an element of an array to exist.
+    """
+
+    node: Value
+    prefixes: tuple[str, ...]
+    least: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +57,7 @@ class TreePosition:
     def under(self, node: Value) -> tuple["PlacedCondition", ...]:
         """The conditions here, with that of `node`."""
         when = node.child("when")
-        return (*self.whens, (when, self.prefixes)) if when else self.whens
+        return (*self.whens, PlacedCondition(when, self.prefixes)) if when else self.whens
 
     def path(self, name: str) -> str:
         """The path of a register or array of this name."""
@@ -87,6 +95,7 @@ class TreeBranch:
     section: str
     elements: tuple[tuple["Item", ...], ...]
     to_end: bool = False
+    counted: PlacedCondition | None = None
 
 
 Item = TreeNode | TreeBranch
@@ -152,7 +161,7 @@ def _register(node: Value, name: str, has: Models, place: TreePosition) -> TreeN
     own: tuple[PlacedCondition, ...] = ()
     if settings.pop("when", None):  # each counts, none takes the place of another
         found = (settings_of(part).get("when") for part in parts)
-        own = tuple((when, place.prefixes) for when in found if when)
+        own = tuple(PlacedCondition(when, place.prefixes) for when in found if when)
     return TreeNode(node, name, place.path(name), settings, place, (*place.whens, *own))
 
 
@@ -178,16 +187,20 @@ def _branch(node: Value, name: str, place: TreePosition) -> TreeBranch:
         elements=(last - first + 1) * place.elements,
     )
     branches = []
+    counted = counter_of(repeat)
     for index in range(first, last + 1):
+        least = (PlacedCondition(counted, place.prefixes, index - first + 1),) if counted else ()
         element = replace(
             inside,
+            whens=(*inside.whens, *least),
             prefixes=(f"{place.path(name)}[{index}].", *place.prefixes),
             index=(*place.index, index),
             shift=place.shift + stride * (index - first),
         )
         branches.append(items_in(elements, element))
     to_end = goes_to_end(repeat, place.block, nested=bool(place.array))
-    return TreeBranch(node, name, first, stride, inside.section, tuple(branches), to_end)
+    around = PlacedCondition(counted, place.prefixes) if counted else None
+    return TreeBranch(node, name, first, stride, inside.section, tuple(branches), to_end, around)
 
 
 def entries_of(items: tuple[Item, ...]) -> list[TreeNode]:

@@ -179,7 +179,8 @@ class Array:
     `members` are the registers (and arrays) of the *first* element; what one of them refers to in its own element has
     empty brackets in place of the index (`channels[].decimals`), as it differs from element to element. A step is one
     unit of a register's `at`, which a view may stretch (an IEEE view moves by 2 a step: `View.stride`). `to_end`: a
-    device has as many as fit into the rest of the block, `count` at most.
+    device has as many as fit into the rest of the block, `count` at most; `counted`: as many as this register or
+    `given.id` says, `count` at most, so that element i - `first` + 1 exists while it is that at least.
     """
 
     id: str
@@ -191,6 +192,7 @@ class Array:
     description: str = ""
     section: str = ""
     to_end: bool = False
+    counted: str = ""
     span: Span = NOWHERE
 
 

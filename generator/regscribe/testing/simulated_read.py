@@ -1,8 +1,10 @@
 """Run the read operation of a driver without a link, and check the requests that it makes."""
 
+import inspect
 from collections import Counter, defaultdict
 from collections.abc import Callable, Container, Iterable, Iterator, Sequence
-from typing import Any, NamedTuple
+from fractions import Fraction
+from typing import Any, Literal, NamedTuple, get_args, get_origin
 
 from regscribe_runtime import NotPresent, ValueNotDecodable
 from regscribe_runtime.operations import tasks
@@ -64,7 +66,7 @@ def _session(driver: Any) -> Session:  # noqa: ANN401 (as above)
         protocol=driver.protocol,
         registers=driver.registers,
         commands={},
-        givens=defaultdict(frozenset, {block.given: headers[block.id].base for block in blocks if block.given}),
+        givens=_givens(driver) | {block.given: headers[block.id].base for block in blocks if block.given},
         unused=unused_of(driver),
         blocks=blocks,
     )
@@ -72,6 +74,19 @@ def _session(driver: Any) -> Session:  # noqa: ANN401 (as above)
         here = (headers[block.id] for block in blocks if block.chain == chain)
         session.found(chain, tuple(sorted(here, key=lambda header: header.base)))
     return session
+
+
+def _givens(driver: Any) -> defaultdict[str, Any]:  # noqa: ANN401 (as above)
+    """What a driver is given: its defaults, else the first choice, 1, or no codes."""
+    found: defaultdict[str, Any] = defaultdict(frozenset)
+    for one in inspect.signature(driver.__init__).parameters.values():
+        if one.default is not inspect.Parameter.empty:
+            found[one.name] = one.default
+        elif get_origin(one.annotation) is Literal:
+            found[one.name] = get_args(one.annotation)[0]
+        elif Fraction in get_args(one.annotation):
+            found[one.name] = 1
+    return found
 
 
 def word_at(space: str, address: int, seed: int) -> int:

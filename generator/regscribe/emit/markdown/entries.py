@@ -11,8 +11,8 @@ from regscribe.emit.markdown.page_values import PageSection, PageTable, Register
 from regscribe.emit.markdown.process import effects
 from regscribe.emit.markdown.register_facts import KINDS, facts, indices, view_type
 from regscribe.emit.outline import Branch, Leaf, Node, lettered
-from regscribe.emit.words import LETTERS, one_line, range_words
-from regscribe.model import Command, CommandStep, Enum, Group, Model, Register
+from regscribe.emit.words import LETTERS, one_line, range_words, spelled
+from regscribe.model import Array, Command, CommandStep, Enum, Group, Model, Register
 
 HEADING = "####"
 DOT = " · "
@@ -135,7 +135,7 @@ def _array(context: PageContext, branch: Branch, marks: str) -> RegisterEntry:
     arrays = (*branch.arrays, array)
     parts = (
         code(".".join(f"{item.id}[{letter}]" for item, letter in zip(arrays, LETTERS, strict=False))),
-        escape(f"{array.count} elements{', or as many as the block has room for' if array.to_end else ''}"),
+        escape(f"{array.count} elements{_fewer(array)}"),
         indices(arrays),
         escape(f"each {array.stride} addresses after the one before" if array.stride > 1 else ""),
         source(array.section),
@@ -215,3 +215,10 @@ def _step(context: PageContext, number: int, step: CommandStep, path: str) -> tu
     address = f"{step.block} + {step.address}" if step.block else step.space.spelled(step.address)
     cells = (str(number), "write", f"{step.function:02d}", address, register, words, hexadecimal)
     return tuple(map(md, cells))
+
+
+def _fewer(array: Array) -> str:
+    """What says that a device may have fewer elements."""
+    if array.counted:
+        return f", or as many as {spelled(array.counted)} says"
+    return ", or as many as the block has room for" if array.to_end else ""

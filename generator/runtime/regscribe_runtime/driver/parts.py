@@ -8,6 +8,7 @@ from typing import Any, Generic, ParamSpec, Self, TypeVar, overload
 
 from regscribe_runtime.operations import tasks
 from regscribe_runtime.operations.snapshot import Snapshot
+from regscribe_runtime.registers.element import filled
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.facts import CommandStep
 
@@ -53,6 +54,8 @@ def _registers(owner: type) -> Iterator[tuple[str, Register[Any]]]:
                     moved = register.moved(place * declared.stride, there)
                     if declared.to_end:
                         moved.reach = begin + (place + 1) * declared.stride
+                    if declared.counted:
+                        moved.counted(declared.counted, place + 1)
                     yield there, moved
 
 
@@ -170,14 +173,24 @@ class AsyncElements(Elements[T]):
 class Array(Generic[P, A]):
     """A repeated structure: `count` elements, numbered from `first` as in the manual, `stride` steps apart.
 
-    `to_end`: there are as many as fit into what the block has left, `count` at most.
+    `to_end`: there are as many as fit into what the block has left, `count` at most; `counted`: as many as this
+    register (or `given.id`) says, `count` at most.
     """
 
     def __init__(
-        self, element: type[P], awaitable: type[A], *, first: int, count: int, stride: int, to_end: bool = False
+        self,
+        element: type[P],
+        awaitable: type[A],
+        *,
+        first: int,
+        count: int,
+        stride: int,
+        to_end: bool = False,
+        counted: str = "",
     ) -> None:
         self.element, self.awaitable = element, awaitable
         self.first, self.count, self.stride, self.to_end = first, count, stride, to_end
+        self.counted = counted
         self.id = ""
 
     def __set_name__(self, owner: type, name: str) -> None:
@@ -199,13 +212,17 @@ class Array(Generic[P, A]):
             return make(instance._device, f"{inside}{self.id}[{index}]")  # noqa: SLF001 (as above)
 
         def present() -> Any:
+            if self.counted:
+                here = filled(self.counted, instance._prefix)  # noqa: SLF001 (as above)
+                return instance.run(tasks.count_stated(here, self.count))
             heads = (f"{inside}{self.id}[{index}]." for index in range(self.first, self.first + self.count))
             registers = instance._device.registers  # noqa: SLF001 (as above)
             every = [next(one for path, one in registers.items() if path.startswith(head)) for head in heads]
             return instance.run(tasks.count_present(every))
 
         kind: Any = Elements if isinstance(instance, Part) else AsyncElements
-        found: Elements[P] | AsyncElements[A] = kind(element, self.first, self.count, present if self.to_end else None)
+        asks = present if self.to_end or self.counted else None
+        found: Elements[P] | AsyncElements[A] = kind(element, self.first, self.count, asks)
         return found
 
 

@@ -6,18 +6,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from regscribe_runtime.errors import BrokenChain
+from regscribe_runtime.errors import BrokenChain, NotPresent
 from regscribe_runtime.operations import read as reads
 from regscribe_runtime.operations import write as writes
 from regscribe_runtime.operations.compute import compute
 from regscribe_runtime.operations.configure import configure
 from regscribe_runtime.operations.locate import headers as headers_of
 from regscribe_runtime.operations.locate import locate, locating
-from regscribe_runtime.operations.read import read_many, read_part
+from regscribe_runtime.operations.read import know, read_many, read_part
 from regscribe_runtime.operations.session import Operation, Session, Task
 from regscribe_runtime.operations.write_request import run
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.blocks import Header
+from regscribe_runtime.values.conditions import GIVEN
 from regscribe_runtime.wire.requests import LOOPBACK, READ_STATUS, Request
 
 __all__ = [
@@ -26,6 +27,7 @@ __all__ = [
     "compute",
     "configure",
     "count_present",
+    "count_stated",
     "exception_status",
     "headers",
     "loopback",
@@ -52,6 +54,22 @@ def count_present(registers: Sequence[Register[Any]]) -> Task[int]:
             if isinstance(error, BrokenChain):
                 raise error
         return len(registers) - len(gone)
+
+    return task
+
+
+def count_stated(subject: str, most: int) -> Task[int]:
+    """How many elements a register, or `given.id`, says there are, `most` at most; none where it does not exist."""
+
+    def task(session: Session) -> Operation[int]:
+        kind, _, name = subject.partition(".")
+        if kind == GIVEN and name:
+            return min(most, max(0, int(session.givens[name])))
+        try:
+            state = yield from know(session, [subject], fresh=True)
+        except NotPresent:
+            return 0
+        return min(most, max(0, int(state[subject])))
 
     return task
 

@@ -28,10 +28,10 @@ def closed(part: Any, path: str) -> Any:
     if not hasattr(part, "_fields"):
         return tuple(closed(one, path) for one in part)
     parts = part._asdict().items()
-    return part._replace(**{name: _filled(one, path) if name in PATHS else closed(one, path) for name, one in parts})
+    return part._replace(**{name: filled(one, path) if name in PATHS else closed(one, path) for name, one in parts})
 
 
-def _filled(reference: str, path: str) -> str:
+def filled(reference: str, path: str) -> str:
     """A reference with the first indices of `path` in its empty brackets, which come before all others."""
     for index in _INDEX.findall(path)[: reference.count(OPEN)]:
         reference = reference.replace(OPEN, index, 1)

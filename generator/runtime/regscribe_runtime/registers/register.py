@@ -8,7 +8,7 @@ from regscribe_runtime.errors import ValueRefused
 from regscribe_runtime.registers import codec, element
 from regscribe_runtime.registers.presence import absence
 from regscribe_runtime.registers.value_types import ValueType
-from regscribe_runtime.values.conditions import ALWAYS, Cases, Condition, Givens, State, always
+from regscribe_runtime.values.conditions import ALWAYS, Cases, Condition, Givens, State, always, at_least
 from regscribe_runtime.values.facts import PLAIN_READING, Governs, ReadFacts, WriteCondition
 from regscribe_runtime.values.kinds import Access
 from regscribe_runtime.values.scales import SAME, Conversion, Range, Sentinel
@@ -109,6 +109,11 @@ class Register(Generic[T]):
         stride = self.views[0].stride
         other.aliases = tuple(alias + steps * stride for alias in self.aliases)
         return other
+
+    def counted(self, subject: str, least: int) -> None:
+        """Let it exist only while a register, or `given.id`, is `least` or more: an element of so many."""
+        self.when = Condition((at_least(subject, least), *self.when.tests))
+        self.is_open = element.is_open(self.when) or self.is_open
 
     def located(self, base: int | None) -> Self:
         """The same register of a block at its address on a device where the block begins at `base`; None: nowhere."""

@@ -95,6 +95,12 @@ class Is(NamedTuple):
         return version_of_key(end) if self.version else end if isinstance(end, str) else show(end)
 
 
+def at_least(subject: str, least: int) -> Is:
+    """The test that a register, or `given.id`, is `least` or more."""
+    kind, _, name = subject.partition(".")
+    return Is("", ((least, TOP),), given=name) if kind == GIVEN and name else Is(subject, ((least, TOP),))
+
+
 class AnyOf(NamedTuple):
     """A test: one of the conditions holds; `negated` inverts it."""
 
