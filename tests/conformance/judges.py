@@ -4,8 +4,10 @@ import math
 import re
 import struct
 from collections.abc import Iterator, Mapping
+from datetime import date, datetime, time
 from decimal import Decimal
 from fractions import Fraction
+from ipaddress import IPv4Address, IPv6Address
 from typing import Any
 
 from regscribe.emit.vectors import document
@@ -28,6 +30,7 @@ from regscribe.testing.driver_checks import DriverUnderTest
 from regscribe.testing.vectors import Vectors
 from regscribe.tools.live.decode import Decoder
 from regscribe_runtime import SensorFault, ValueNotDecodable, ValueRefused
+from regscribe_runtime.registers.octets import OctetType
 from regscribe_runtime.wire.capture import CapturedFrame
 
 from .suite import Built, Json, words_of
@@ -72,10 +75,21 @@ def attribute(device: Any, path: str) -> Any:
     return device
 
 
-def said_by_driver(found: Any) -> object:
+OCTETS = (datetime, date, time, bytes, IPv4Address, IPv6Address)
+"""Python's types of values that are bytes."""
+
+
+def spelled(found: Any) -> str:
+    """A value that is bytes in the words of rows."""
+    return found.hex() if isinstance(found, bytes) else str(getattr(found, "isoformat", found.__str__)())
+
+
+def said_by_driver(found: Any) -> object:  # noqa: PLR0911 (as many kinds of values)
     """A value of a driver in the words of rows."""
     if isinstance(found, bool | str):
         return found
+    if isinstance(found, OCTETS):
+        return spelled(found)
     if getattr(found, "known", None) is False:
         return {"unknown": int(found)}
     if hasattr(type(found), "named"):  # flags
@@ -116,7 +130,7 @@ def said_by_error(error: ValueNotDecodable, path: str) -> object:
     return {"fault": error.fault} if own else {"no value": True}
 
 
-def value_for(built: Built, row: Json) -> Any:
+def value_for(built: Built, row: Json) -> Any:  # noqa: PLR0911 (as many kinds of values)
     """The value of a row as a program hands it to the driver."""
     register, _ = register_of(built, row)
     declared = built.module.CaseA.registers[row["register"]]
@@ -129,7 +143,9 @@ def value_for(built: Built, row: Json) -> Any:
     if "fields" in row:
         return declared.value_type.make(0).replace(**row["fields"])
     value = row["value"] if "value" in row else row["refuses"]
-    if register.kind not in {Kind.STRING, Kind.VERSION} and value in {*NO_NUMBERS, *FAR}:
+    if isinstance(declared.value_type, OctetType) and isinstance(value, str):
+        return declared.value_type.parse(value)
+    if register.kind is not Kind.VERSION and value in {*NO_NUMBERS, *FAR}:
         return FAR[value] if value in FAR else float(value)
     return _as_float(value) if isinstance(value, Decimal) else value
 
@@ -267,6 +283,7 @@ def written_by_reference(built: Built, memory: Any, row: Json) -> object:
         return REFUSED
     if isinstance(value, Decimal) or row.get("refuses") in {*NO_NUMBERS, *FAR}:
         return REFUSED  # the reference takes exact numbers only, of a size that a device may have
+    value = spelled(value) if isinstance(value, OCTETS) else value
     number = value if isinstance(value, str) else _exact(register, value, row, Present(built, memory))
     try:
         return list(encode(register, view, number, known, rounded=row.get("rounded", False)))

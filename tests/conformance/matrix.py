@@ -55,6 +55,8 @@ TRIALS: dict[str, tuple[Trial, ...]] = {
     "views": (("one", {}),),
     "type": (("int16", {}), ("uint32", {}), ("float32", {}), ("bit", {}), ("uint8", {})),
     "length": ((3, {}),),
+    "text": (("latin-1", {}), ({"one_per_register": "low"}, {})),
+    "layout": (("hm", {}),),
     "word_order": (
         ("little", {}),
         ({"register": "ord", "codes": {0: "big", 1: "little"}}, {}),

@@ -5,8 +5,10 @@ from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from fractions import Fraction
 
+from regscribe.emit.vectors.octet_vectors import TRIED
 from regscribe.model import Kind, NotANumber, Number, Order, Register, Space, View, WireType
 from regscribe.reference import RefusedError, transmit
+from regscribe_runtime.values.kinds import OCTETS
 
 Words = tuple[int, ...]
 TEXTS = ("", "A", "AB\0", "ABCDEF", "1.2", "0.1", "00.01", "3", "123")
@@ -21,7 +23,7 @@ PATTERNS = {
 
 def plausible(view: View) -> list[Words]:
     """The words of small numbers, as most registers hold them."""
-    return [] if view.type is WireType.STRING else list(_transmitted(view, range(4)))
+    return [] if view.type.is_octets else list(_transmitted(view, range(4)))
 
 
 def words(register: Register, view: View, chance: random.Random) -> list[Words]:
@@ -32,7 +34,7 @@ def words(register: Register, view: View, chance: random.Random) -> list[Words]:
     bits = {0, 1, 2, 1 << size - 1, (1 << size - 1) - 1, (1 << size) - 1, chance.getrandbits(size)}
     bits |= {one % (1 << size) for one in PATTERNS.get(view.type, ())}
     found = {tuple(one >> 16 * place & 0xFFFF for place in reversed(range(view.words))) for one in bits}
-    if view.type is not WireType.STRING:
+    if not view.type.is_octets:
         found |= set(_transmitted(view, [*_stored(register), *NUMBERS]))
     return sorted(found | {one[::-1] for one in found})
 
@@ -67,8 +69,8 @@ def _limits(register: Register) -> Iterator[Fraction]:
 
 def values(register: Register) -> list[Fraction] | list[str]:
     """Values of use to be written."""
-    if register.kind in {Kind.STRING, Kind.VERSION}:
-        return list(TEXTS)
+    if register.kind in OCTETS | {Kind.VERSION}:
+        return [*TEXTS, *TRIED.get(register.base.type, ())]
     steps = (Fraction(0), Fraction(1, 10), Fraction(-1, 10), Fraction(1), Fraction(-1))
     found = {Fraction(one) for one in NUMBERS} | {limit + step for limit in _limits(register) for step in steps}
     found |= {one for one in _stored(register) if isinstance(one, Fraction)}

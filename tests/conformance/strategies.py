@@ -214,7 +214,7 @@ def _meaning(draw: Draw, sel: Decider, name: str, kind: str) -> tuple[Json, Json
 
 def _orders(draw: Draw, keys: Json) -> Json:
     """The keys with an order of words, where there are several, and of bytes."""
-    if keys.get("length", 1) > 1 or (not keys["type"].endswith(ONE_WORD) and _maybe(draw, 2)):
+    if keys.get("length", 1) > 1 or "layout" in keys or (not keys["type"].endswith(ONE_WORD) and _maybe(draw, 2)):
         by_register = {"register": "order", "codes": {0: "big", 1: "little"}}
         by_case = [{"when": {"order": 1}, "is": "little"}, {"is": "big"}]
         keys["word_order"] = _of(draw, "little", by_register, by_register, by_case)
@@ -246,13 +246,29 @@ def _views(draw: Draw, kind: str, access: str, *, scaled: bool) -> Json:
     return views
 
 
+def _octets(draw: Draw) -> Json:
+    """A type of bytes, of at most as many words as there is room for."""
+    length = {"length": draw(st.integers(1, STEP))}
+    texts = _of(draw, {}, {}, {"text": "latin-1"}, {"text": {"one_per_register": "low", "ends": ["nul", "ff"]}})
+    layouts = _of(draw, "yM Dh ms", "Y M D h", "unix", "bcd yM Dh", "unix64 2000-01-01", "iec870", "YYYYMMDD hhmm")
+    return _of(
+        draw,
+        {"type": "string"} | length | texts,
+        {"type": "string"} | length | texts,
+        {"type": "bytes"} | length,
+        {"type": _of(draw, "ipv4", "eui48", "eui64")},
+        {"type": "datetime", "layout": layouts},
+        {"type": "time", "layout": _of(draw, "hhmm", "hm", "bcd hm s", "minutes", "seconds")},
+    )
+
+
 def _words(draw: Draw, sel: Decider, name: str) -> tuple[Json, Json]:
     """A register of one word or several, or a text."""
     space = _of(draw, "holding", "holding", "holding", "input")
     access = "r" if space == "input" else _of(draw, "rw", "rw", "rw", "r", "w")
     keys: Json = {"access": access} | ({"space": space} if space == "input" else {})
     if _maybe(draw, 10):
-        return _orders(draw, keys | {"type": "string", "length": draw(st.integers(1, STEP))}), {}
+        return _orders(draw, keys | _octets(draw)), {}
     kind = _of(draw, "int16", "uint16", *INTEGERS, *FLOATS, draw(st.sampled_from(sorted(LIMITS))))
     meaning, tables = _meaning(draw, sel, name, kind)
     keys |= meaning

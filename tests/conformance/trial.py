@@ -31,6 +31,7 @@ from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.testing.driver_checks import CHECKS
 from regscribe_runtime import ExceptionAnswer, ValueNotDecodable, ValueRefused
 from regscribe_runtime.operations.write_request import condition_needs
+from regscribe_runtime.registers.octets import OctetType
 
 from . import judges, probes
 from .matrix_watch import Wire
@@ -109,7 +110,7 @@ class Trial:
 
     def _stored(self, register: Register, view: View, words: Words) -> Fraction | NotANumber | str | None:
         """What a device holds whose view shows the words; None for words that nothing stored is shown by."""
-        if view.type is WireType.STRING:
+        if view.type.is_octets:
             return simulated_codec.decode(self.device.state.seen(view), words, self.device.state.order(view))
         try:
             seen, order = present_view(view, self._known(self.asked)), word_order(view, self._known(self.asked))
@@ -310,6 +311,9 @@ def _given(declared: Any, view: View, value: Value) -> Any:
 
     A float counts as its shortest decimal, but also as what it is exactly, where the view carries just that.
     """
+    if isinstance(declared.value_type, OctetType):
+        with suppress(ValueError):  # the type has no such value
+            return declared.value_type.parse(value)
     if isinstance(value, str):
         return value
     if isinstance(value, Special):
@@ -343,8 +347,8 @@ def _request(register: Register, view: View, words: Words) -> bytes:
 
 def number_of(value: Any) -> object:
     """A value of a driver as a text, or as a number: a float is one of its own."""
-    if isinstance(value, str):
-        return value
+    if isinstance(value, str | judges.OCTETS):
+        return value if isinstance(value, str) else judges.spelled(value)
     return value if isinstance(value, float) else Fraction(int(value))
 
 

@@ -10,7 +10,7 @@ from regscribe.checks.held_values import no_member
 from regscribe.checks.identifiers import ENUM_NAMES, enums_of, normalised
 from regscribe.checks.representable import same_bits
 from regscribe.checks.rule import Finding, Problem, RuleScope, register_rule, rule_of_models
-from regscribe.model import BitField, Enum, Kind, Member, Register, WireType, show
+from regscribe.model import BitField, Enum, Kind, Member, Register, show
 
 EnumCheck = Callable[[Enum], Iterator[Problem]]
 
@@ -31,7 +31,7 @@ def enum_rule(rule_id: str, title: str) -> Callable[[EnumCheck], EnumCheck]:
 @register_rule("RS0440", "Enum code outside the type")
 def code_outside_type(register: Register, _: RuleScope) -> Iterator[Problem]:
     """A code that the word cannot spell can never be read or written."""
-    if register.enum is None or not register.base.type.is_integer or register.base.type is WireType.STRING:
+    if register.enum is None or not register.base.type.is_integer:
         return
     low, high = register.base.type.minimum, register.base.type.maximum
     outside = [member.code for member in register.enum.members if not low <= member.code <= high]

@@ -5,9 +5,12 @@ from fractions import Fraction
 from regscribe.checks.representable import Fit, best_fit, ends_of, is_meant, tells_apart
 from regscribe.model import BitField, Kind, Model, Register, show
 from regscribe.reference import RefusedError, number_of, version_number
+from regscribe.reference.octets import octets_of
 from regscribe.reference.settled_scales import forms
+from regscribe_runtime.values.kinds import OCTETS
+from regscribe_runtime.values.octets import PLAIN_TEXT
 
-TEXTS = frozenset({Kind.STRING, Kind.VERSION})
+TEXTS = OCTETS | {Kind.VERSION}
 NUMBERS = frozenset({Kind.NUMBER, Kind.INTEGER, Kind.RAW})
 PATTERNS = frozenset({Kind.FLAGS, Kind.FIELDS})
 
@@ -44,11 +47,21 @@ def wrong_sort(register: Register, value: Fraction | str) -> str:
         return ""
     if register.kind is Kind.VERSION:
         return _no_version(register, value)
+    if register.text != PLAIN_TEXT or register.kind is not Kind.STRING:
+        return _no_octets(register, value)
     room = 2 * register.base.words
     problem = f"which is {len(value)} characters with room for {room}" if len(value) > room else ""
     if value.endswith(" "):
         problem = "whose blanks at the end are never read"
     return problem if value.isascii() else "which is no ASCII text"
+
+
+def _no_octets(register: Register, text: str) -> str:
+    try:
+        octets_of(register, text, 2 * register.base.words)
+    except RefusedError as refused:
+        return f"which its words cannot say: {refused}"
+    return "whose blanks at the end are never read" if text.endswith(" ") else ""
 
 
 def _no_version(register: Register, text: str) -> str:

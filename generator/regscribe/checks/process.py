@@ -5,9 +5,10 @@ from collections.abc import Iterator, Sequence
 from regscribe.checks.held_values import impossible, impossible_part, shown
 from regscribe.checks.rule import Finding, Problem, RuleScope, model_rule, register_rule
 from regscribe.model import BitField, Effect, Kind, Process, Register, Related, WireType, registers_of
+from regscribe_runtime.values.kinds import OCTETS
 
 RAM = "ram"
-NO_NUMBERS = frozenset({Kind.STRING, Kind.FLAGS, Kind.FIELDS, Kind.VERSION})
+NO_NUMBERS = OCTETS | {Kind.FLAGS, Kind.FIELDS, Kind.VERSION}
 HELP_BIT = "name a bit: `register.flag`, or a register of type bit"
 HELP_NUMBER = "name a register that holds a number"
 ProcessRole = tuple[str, str, bool]
@@ -41,7 +42,7 @@ def follows_itself(scope: RuleScope) -> Iterator[Finding]:
 def cannot_take(register: Register, scope: RuleScope) -> Iterator[Problem]:
     """A text is no number, memory that loses its contents restores nothing, and a condition is yes or no."""
     for other in scope.named((*(case.then for case in register.follows), register.shadows)):
-        if (register.kind is Kind.STRING) != (other.kind is Kind.STRING):
+        if {register.kind, other.kind} & OCTETS and _octets(register) != _octets(other):
             related = Related(f"`{other.path}` is of kind {other.kind}", other.span)
             yield f"takes its value from `{other.path}`, of another kind", "correct one", related
     for field in register.fields:
@@ -49,6 +50,11 @@ def cannot_take(register: Register, scope: RuleScope) -> Iterator[Problem]:
             message = f"has the field `{field.id}` of {field.width} bits follow a condition"
             yield message, "let single bits follow conditions, or a register another one"
     yield from _cannot_shadow(register, scope)
+
+
+def _octets(register: Register) -> tuple[object, ...]:
+    """What decides about the bytes of a text, an address or a date."""
+    return register.kind, register.text, register.layout
 
 
 def _cannot_shadow(register: Register, scope: RuleScope) -> Iterator[Problem]:

@@ -8,9 +8,11 @@ from regscribe.checks.representable import HELP_TYPE, Fit, best_fit, ends_of, sa
 from regscribe.checks.rule import Problem, RuleScope, register_rule
 from regscribe.model import IDENTITY, Kind, NotANumber, Order, Register, Sentinel, Space, View, WireType, show
 from regscribe.reference import number_of, sentinel_number
+from regscribe_runtime.values.kinds import OCTETS
+from regscribe_runtime.values.octets import KINDS
 
 WORDS_OF_BITS = {Kind.FLAGS, Kind.FIELDS}
-UNSCALED = {Kind.ENUM, Kind.FLAGS, Kind.FIELDS, Kind.STRING, Kind.VERSION, Kind.BOOLEAN}
+UNSCALED = OCTETS | {Kind.ENUM, Kind.FLAGS, Kind.FIELDS, Kind.VERSION, Kind.BOOLEAN}
 
 
 @register_rule("RS0420", "Default outside the type")
@@ -50,6 +52,8 @@ def sentinel_outside_type(register: Register, _: RuleScope) -> Iterator[Problem]
 def _reports(view: View, sentinel: Sentinel) -> bool:
     if isinstance(sentinel.stored, NotANumber):
         return view.type.is_float
+    if view.type.is_octets:
+        return all(end.denominator == 1 and 0 <= end < 1 << 16 * view.words for end in sentinel.ends or (Fraction(-1),))
     return view.times is not None or all(_carries(view, sentinel._replace(stored=end)) for end in sentinel.ends or ())
 
 
@@ -62,7 +66,7 @@ def _carries(view: View, sentinel: Sentinel) -> bool:
 @register_rule("RS0601", "Sentinel that is a value too")
 def sentinel_is_code(register: Register, _: RuleScope) -> Iterator[Problem]:
     """One code cannot be both a setting and the report of a fault."""
-    if register.sentinels and (register.kind is Kind.STRING or register.base.space.is_bits):
+    if register.sentinels and register.base.space.is_bits:
         what = f"is of kind {register.kind} in {register.base.space}"
         yield f"{what} and has sentinels, which none of its values can be", "remove the sentinels"
         return
@@ -118,8 +122,8 @@ def kind_and_type(register: Register, _: RuleScope) -> Iterator[Problem]:
 def _of_view(kind: Kind, view: View) -> tuple[str, str]:
     """Why a view cannot carry values of a kind, and what to do; empty if it can."""
     wrong = (
-        (kind is Kind.STRING) != (view.type is WireType.STRING)
-        or (kind in UNSCALED - {Kind.STRING} and view.type.is_float)
+        ((kind in OCTETS or view.type.is_octets) and KINDS.get(view.type) is not kind)
+        or (kind in UNSCALED and view.type.is_float)
         or (kind in {*WORDS_OF_BITS, Kind.VERSION} and view.type is WireType.BIT)
         or (kind in WORDS_OF_BITS and not view.type.bits)
     )

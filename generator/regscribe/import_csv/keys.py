@@ -7,6 +7,8 @@ from typing import Any
 from regscribe.evidence.cell_compare import access, number, objects
 from regscribe.files import OneLine
 from regscribe.model import Space, WireType, exact, show
+from regscribe_runtime.values.kinds import MOMENTS
+from regscribe_runtime.values.octets import KINDS
 
 Cells = Mapping[str, str]
 
@@ -29,7 +31,10 @@ def _type(cells: Cells) -> dict[str, Any] | None:
     wire = cells["type"].lower()
     if wire not in list(WireType):
         return None
-    length = {"length": int(cells["words"])} if wire == WireType.STRING and cells.get("words", "").isdecimal() else {}
+    kind = KINDS.get(WireType(wire))
+    if kind in MOMENTS:  # a table does not tell their layout
+        return None
+    length = {"length": int(cells["words"])} if kind and cells.get("words", "").isdecimal() else {}
     return {} if wire == WireType.UINT16 else {"type": wire, **length}
 
 

@@ -17,6 +17,7 @@ from regscribe.lower.tree import TreeNode, TreePosition
 from regscribe.lower.variants import settings_of
 from regscribe.model import Access, Command, CommandStep, Effect, Kind, Protocol, Register, Rounding, Space, View
 from regscribe.reference import RefusedError, UnknownValueError, encode
+from regscribe_runtime.values.kinds import OCTETS
 
 TAKEN = "taken"
 """The name of the only view of an argument that is written to a register."""
@@ -209,7 +210,7 @@ def _effect(node: Value, device: CommandScope) -> Effect:
 
 def _value(node: Value, subject: Subject, device: CommandScope) -> Fraction | str:
     register = None if subject.field else device.registers.get(subject.path)
-    if register and (register.kind is Kind.STRING or (register.kind is Kind.VERSION and node.is_text)):
+    if register and (register.kind in OCTETS or (register.kind is Kind.VERSION and node.is_text)):
         return node.text()
     return code_of_text(node, subject, device.scope) if node.is_text else node.number()
 

@@ -13,6 +13,7 @@ from regscribe.lower.texts import known_name, unknown
 from regscribe.lower.variants import named_models
 from regscribe.model import Example, FrameExample, Kind, Model, Outcome, Register, TimingExample, ValueExample
 from regscribe.reference import number_of
+from regscribe_runtime.values.kinds import OCTETS
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,7 +105,7 @@ def _reading(node: Value | None, register: Register | None) -> tuple[Fraction | 
     if node.is_list:
         flags = [field.id for field in register.fields if field.is_flag]
         return None, tuple(known_name(each, UNKNOWN_FLAG, "flag", flags, of=register.path) for each in node.elements())
-    if node.is_text and register.kind in {Kind.STRING, Kind.VERSION}:
+    if node.is_text and register.kind in OCTETS | {Kind.VERSION}:
         return node.text(), None
     return named_value(node, register.kind, register.enum, register.specials, UNKNOWN_MEMBER), None
 

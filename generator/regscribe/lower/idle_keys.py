@@ -8,8 +8,9 @@ from regscribe.lower.rules import IDLE_DEFAULT, IDLE_KEY
 from regscribe.lower.scales import NOT_STATED
 from regscribe.lower.tree import TreeNode
 from regscribe.model import Access, Kind, Register, Space
+from regscribe_runtime.values.kinds import MOMENTS, OCTETS
 
-_CODES = frozenset({Kind.ENUM, Kind.FLAGS, Kind.FIELDS, Kind.STRING, Kind.VERSION, Kind.BOOLEAN})
+_CODES = OCTETS | {Kind.ENUM, Kind.FLAGS, Kind.FIELDS, Kind.VERSION, Kind.BOOLEAN}
 _LASTING = frozenset({"eeprom", "both"})
 
 
@@ -34,6 +35,18 @@ TABLE: tuple[Idle, ...] = (
         lambda register, _: register.kind in _CODES - {Kind.ENUM},
         "its values are no numbers",
         "remove it, or correct what makes bits, a text or a version of the register",
+    ),
+    Idle(
+        frozenset({"text"}),
+        lambda register, _: register.kind is not Kind.STRING,
+        "its values are no texts",
+        "remove it, or write `type: string`",
+    ),
+    Idle(
+        frozenset({"layout"}),
+        lambda register, _: register.kind not in MOMENTS,
+        "its values are no dates and no times",
+        "remove it, or write `type: datetime`, `date` or `time`",
     ),
     Idle(
         frozenset({"version"}),

@@ -18,7 +18,7 @@ from regscribe.lower.scales import own_units, rule_at, scale_at, unit_at
 from regscribe.lower.scope import Scope
 from regscribe.lower.subject import subject_of
 from regscribe.lower.texts import ends, known_name
-from regscribe.lower.variants import named_models
+from regscribe.lower.variants import Keys, named_models
 from regscribe.lower.views import set_at
 from regscribe.model import (
     Erratum,
@@ -152,7 +152,7 @@ def _lower_tables(root: Value, scope: Scope) -> None:
     for name, node in _own(root, "enums"):
         enum_at(node, scope, name)
     for _, node in _own(root, "views"):
-        set_at(node, Space.HOLDING, 1, scope)
+        set_at(node, Space.HOLDING, Keys(), scope)
     for _, node in _own(root, "decimals"):
         rule_at(node, scope)
     for _, node in _own(root, "scales"):

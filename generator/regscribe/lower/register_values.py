@@ -33,6 +33,7 @@ from regscribe.model import (
     always,
     show,
 )
+from regscribe_runtime.values.kinds import OCTETS
 
 _NOT_GIVEN = Open("not given")
 
@@ -147,7 +148,7 @@ def beginning_of(
 
 def named_value(node: Value, kind: Kind, enum: Enum | None, specials: tuple[Special, ...], rule: str) -> Fraction | str:
     """A value of use as a map spells it: a number, a text or version, or the id of an enum member or special value."""
-    if kind is Kind.STRING:
+    if kind in OCTETS:
         return node.text()
     if not node.is_text:
         return node.number()

@@ -9,6 +9,7 @@ from regscribe.lower.enums import enum_of, fields_of
 from regscribe.lower.idle_keys import report_idle_keys
 from regscribe.lower.matchers import given_named
 from regscribe.lower.node import ZERO, Keyed, Value
+from regscribe.lower.octets import text_of
 from regscribe.lower.register_values import beginning_of, range_of, ranges_at, sentinels_of, specials_of
 from regscribe.lower.rules import NO_ACCESS
 from regscribe.lower.scales import NOT_STATED, Scaling, decimals_rule, rescaled, scale_of, unit_of
@@ -36,12 +37,13 @@ from regscribe.model import (
 )
 from regscribe.model.identifiers import has_mark, indexed
 from regscribe_runtime.values.conditions import GIVEN, at_least
+from regscribe_runtime.values.octets import KINDS
 from regscribe_runtime.values.wire_types import PAGE_BITS
 
 _RULES = {"views": "views", "scale": "scale", "decimals": "scale", "range_decimals": "special_scale"}
 """Keys that may name a rule of the map, and what the rule makes."""
 _BY_KEY = {"enum": Kind.ENUM, "flags": Kind.FLAGS, "fields": Kind.FIELDS, "version": Kind.VERSION}
-_BY_TYPE = {WireType.STRING: Kind.STRING, WireType.BIT: Kind.BOOLEAN}
+_BY_TYPE = KINDS | {WireType.BIT: Kind.BOOLEAN}
 
 
 def register_of(entry: TreeNode, everywhere: Scope) -> Register:
@@ -101,6 +103,8 @@ def register_of(entry: TreeNode, everywhere: Scope) -> Register:
         follows=_follows(settings.get("follows"), scope),
         difference=settings.truth_of("difference"),
         inferred=inferred_of(settings),
+        text=text_of(settings),
+        layout=settings.line_of("layout"),
         version_digits=digits,
         version_group=group,
         array=place.array,

@@ -49,6 +49,7 @@ IDLE_BLOCK = "RS0364"
 ENDLESS = "RS0365"
 UNKNOWN_ARGUMENT = "RS0345"
 NO_PART = "RS0340"
+BAD_LAYOUT = "RS0341"
 
 _NAMES = "A name must mean something, or the driver would look up what does not exist."
 
@@ -109,6 +110,7 @@ RULES: tuple[Rule, ...] = (
         "Default without effect",
         "A default that means nothing to any of its registers would be believed.",
     ),
+    Rule(BAD_LAYOUT, "Layout of no date or time", "What no word tells cannot be read; what tells it twice may differ."),
     Rule(UNKNOWN_BLOCK, "Unknown block", _NAMES),
     Rule(UNKNOWN_CHAIN, "Unknown chain", _NAMES),
     Rule(SAME_BLOCK, "Two blocks at one header", "Under two names its registers would have two meanings."),

@@ -2,6 +2,7 @@
 
 from regscribe.lower.conditions import condition_of
 from regscribe.lower.node import Keyed, Value
+from regscribe.lower.octets import words_of
 from regscribe.lower.rules import IDLE_KEY, IDLE_LENGTH, NO_PART, TYPE_BESIDE_VIEWS, UNKNOWN_VIEWS, WRONG_SORT
 from regscribe.lower.scope import Scope
 from regscribe.lower.terms import ONE, term_of
@@ -22,12 +23,14 @@ from regscribe.model import (
     WordOrder,
     order_from,
 )
+from regscribe_runtime.values.kinds import MOMENTS
+from regscribe_runtime.values.octets import KINDS
 from regscribe_runtime.values.wire_types import PAGE_BITS
 
 _OF_EACH_VIEW = ("type", "word_order", "byte_order", "functions", "write_at", "write")
 WRITTEN = "write"
 """The name of the view in which a register is written that says `write_at` or `write`."""
-_INHERITED = ("type", "length", "word_order", "byte_order")
+_INHERITED = ("type", "word_order", "byte_order")
 _DEFAULT_TYPES = {
     Space.COIL: WireType.BIT,
     Space.DISCRETE: WireType.BIT,
@@ -39,8 +42,7 @@ _DEFAULT_TYPES = {
 def views_of(entry: TreeNode, scope: Scope) -> tuple[View, ...]:
     """The views of a register, the base view first; RS0306 for an unknown view set, RS0336 for an idle length."""
     settings = entry.settings
-    space = settings.choice_of("space", Space.HOLDING)
-    words = settings.whole_of("length", space.most if space is Space.IDENTIFICATION else 1)
+    space, words = settings.choice_of("space", Space.HOLDING), settings
     views: tuple[View, ...] = ()
     if "views" in settings:
         for key in (key for key in _OF_EACH_VIEW if key in settings):
@@ -52,14 +54,14 @@ def views_of(entry: TreeNode, scope: Scope) -> tuple[View, ...]:
     views = views or _single(settings, space, words, scope)
     views = tuple(_in_part(entry, view) if view.space.part_bits else _on_page(entry, view) for view in views)
     types = dict.fromkeys(view.type for view in views)
-    if "length" in settings and WireType.STRING not in types:
+    if "length" in settings and not any(wire.is_octets and KINDS[wire] not in MOMENTS for wire in types):
         message = f"`{entry.id}` has a `length`, but its type is {', '.join(types)}"
         remedy = "remove `length`, or write `type: string`"
         settings["length"].report(IDLE_LENGTH, message, remedy=remedy, at_key=True)
     return views
 
 
-def _single(keys: Keys, space: Space, words: int, scope: Scope) -> tuple[View, ...]:
+def _single(keys: Keys, space: Space, words: Keyed, scope: Scope) -> tuple[View, ...]:
     """The view of a register without a set; two, for reading and for writing, where it is written in another way."""
     view = _view("base", keys, space, words, scope)
     if keys.choice_of("access", Access.READ) is not Access.READ_WRITE or not keys.keys() & {"write_at", "write"}:
@@ -69,7 +71,7 @@ def _single(keys: Keys, space: Space, words: int, scope: Scope) -> tuple[View, .
     return view._replace(functions=reads or (space.read_function,)), written
 
 
-def _written(read: View, keys: Keys, words: int, scope: Scope) -> View:
+def _written(read: View, keys: Keys, words: Keyed, scope: Scope) -> View:
     """The view in which a register is written that is read as `read`."""
     node, own = keys.get("write"), Keys()
     stated = dict(node.items()) if node else {}
@@ -122,19 +124,23 @@ def at_of(entry: TreeNode) -> int:
     return at.whole() + entry.place.shift
 
 
-def set_at(node: Value, space: Space, words: int, scope: Scope) -> tuple[View, ...]:
+def set_at(node: Value, space: Space, words: Keyed, scope: Scope) -> tuple[View, ...]:
     """The views of the set that stands at `node`, the base view first; read once for all registers that have it.
 
-    `words` is the length of texts.
+    `words` are the keys that say the length of texts, and the layout of dates.
     """
 
     def make() -> list[View]:
         return [_view_of_set(name, each, space, words, scope) for name, each in node.items()]
 
-    return tuple(sorted(scope.once((node.path, space, words), make), key=lambda view: view.name != "base"))
+    return tuple(sorted(scope.once((node.path, space, *_lengths(words)), make), key=lambda view: view.name != "base"))
 
 
-def _view_of_set(name: str, node: Value, space: Space, words: int, scope: Scope) -> View:
+def _lengths(keys: Keyed) -> tuple[str, str]:
+    return keys.text_of("length"), keys.text_of("layout")
+
+
+def _view_of_set(name: str, node: Value, space: Space, words: Keyed, scope: Scope) -> View:
     """A view of a set."""
     view = _view(name, node, space, words, scope)
     _report_idle(view, node)
@@ -144,7 +150,7 @@ def _view_of_set(name: str, node: Value, space: Space, words: int, scope: Scope)
 def _report_idle(view: View, node: Value) -> None:
     """Report what a view says of words or fractions that its type does not have (RS0338)."""
     idle = {
-        "word_order": view.type is not WireType.STRING and view.type.words == 1 and "its value is one word",
+        "word_order": not view.type.is_octets and view.type.words == 1 and "its value is one word",
         "rounding": view.type.is_float and "a float carries fractions",
     }
     for key, why in idle.items():
@@ -153,7 +159,7 @@ def _report_idle(view: View, node: Value) -> None:
             stated.report(IDLE_KEY, f"view `{view.name}` has `{key}`, but {why}", remedy="remove it", at_key=True)
 
 
-def _view(name: str, keys: Keyed, space: Space, words: int, scope: Scope) -> View:
+def _view(name: str, keys: Keyed, space: Space, words: Keyed, scope: Scope) -> View:
     wire = keys.choice_of("type", _DEFAULT_TYPES.get(space, WireType.UINT16))
     factor, region = term_of(keys.child("factor"), scope, ONE), keys.child("region")
     return View(
@@ -161,7 +167,7 @@ def _view(name: str, keys: Keyed, space: Space, words: int, scope: Scope) -> Vie
         space=space,
         offset=keys.whole_of("offset"),
         type=wire,
-        words=words if wire is WireType.STRING else wire.words,
+        words=words_of(wire, words, space),
         factor=(factor if isinstance(factor, Number) else 1) * (1 << wire.fraction),
         rounding=keys.choice_of("rounding", Rounding.NONE),
         saturates=keys.truth_of("saturates"),

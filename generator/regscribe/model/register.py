@@ -8,6 +8,7 @@ from regscribe.model.enums import BitField, Enum, Special
 from regscribe_runtime.values.conditions import ALWAYS, Cases, Condition, always
 from regscribe_runtime.values.facts import PLAIN_READING, Governs, ReadFacts, WriteCondition
 from regscribe_runtime.values.kinds import Access, Kind
+from regscribe_runtime.values.octets import PLAIN_TEXT, TextForm
 from regscribe_runtime.values.scales import SAME, Conversion, Range, Sentinel
 from regscribe_runtime.values.terms import Term
 from regscribe_runtime.values.views import View, preferred, read_view
@@ -49,6 +50,7 @@ class Register:
     `symbol` is a clean reading of the manual's short code, `printed` the code as it is printed (empty: the same).
     `version_digits` is how many decimal digits a `VERSION` packs, `version_groups` how many digits stand in a group.
     In a `block` addresses count from its base, which each device tells.
+    `text` is the form of a text, `layout` that of a date or a time.
     `rules` are the names of the map's view set and scale or decimals rule, by key (`views`, `scale`); drivers use them.
     """
 
@@ -95,6 +97,8 @@ class Register:
     follows: Cases[str] = ()
     difference: bool = False
     inferred: tuple[Inferred, ...] = ()
+    text: TextForm = PLAIN_TEXT
+    layout: str = ""
     version_digits: int = 0
     version_group: int = 0
     array: str = ""

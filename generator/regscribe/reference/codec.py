@@ -7,6 +7,7 @@ from regscribe.model.enums import Special
 from regscribe.model.register import Register
 from regscribe.reference.ieee import ieee_bits
 from regscribe.reference.limits import in_range, is_valid
+from regscribe.reference.octets import meaning_of, octets_of
 from regscribe.reference.outcome import (
     NOT_DECODABLE,
     OUT_OF_RANGE,
@@ -18,7 +19,7 @@ from regscribe.reference.outcome import (
 )
 from regscribe.reference.surroundings import NOTHING_KNOWN, Known, choose, decimal_factor, holds
 from regscribe.reference.terms import present_view, straight
-from regscribe.reference.words import HALF, carried, spelled, text_of, wire_number, word_order, words_of_text
+from regscribe.reference.words import HALF, bytes_in_order, carried, spelled, wire_number, word_order, words_in_order
 from regscribe_runtime.values.kinds import Kind
 from regscribe_runtime.values.numbers import show
 from regscribe_runtime.values.scales import NAN, Conversion, NotANumber, Sentinel
@@ -35,10 +36,18 @@ def decode(register: Register, view: View, words: tuple[int, ...], known: Known 
     if order is None or seen is None:
         return NOT_DECODABLE
     view = seen
-    if view.type is WireType.STRING:
-        text = text_of(words, order)
-        return NOT_DECODABLE if text is None else Reading(Meaning.VALUE, text)
+    if view.type.is_octets:
+        return _of_octets(register, bytes(bytes_in_order(words, order)), known)
     return _of_number(register, view, wire_number(view, words, order), known)
+
+
+def _of_octets(register: Register, raw: bytes, known: Known) -> Reading:
+    number = int.from_bytes(raw, "big")
+    for sentinel in present_sentinels(register, known):
+        if sentinel.stored <= number <= (sentinel.stored if sentinel.high is None else sentinel.high):  # type: ignore[operator] # numbers
+            return Reading(Meaning.FAULT, fault=sentinel.id)
+    text = meaning_of(register, raw)
+    return NOT_DECODABLE if text is None else Reading(Meaning.VALUE, text)
 
 
 def _of_number(register: Register, view: View, number: Fraction | NotANumber | None, known: Known) -> Reading:
@@ -162,8 +171,11 @@ def encode(
     if order is None or seen is None:
         raise RefusedError(RefusalReason.CONDITION, "the order of the words, or the factor of the view, is not known")
     view = seen
-    if view.type is WireType.STRING:
-        return words_of_text(view, str(value), order)
+    if view.type.is_octets:
+        raw = octets_of(register, str(value), 2 * view.words)
+        if _of_octets(register, raw, known).meaning is Meaning.FAULT:
+            raise RefusedError(RefusalReason.SENTINEL, f"{value} is how the device reports a fault")
+        return words_in_order(list(raw), order)
     number = version_number(register, value) if isinstance(value, str) else value
     number = _checked(register, number, known)
     pattern = register.kind in PATTERNS

@@ -5,7 +5,7 @@ from fractions import Fraction
 from itertools import groupby, product
 from typing import NamedTuple, TypeVar
 
-from regscribe.model import Enum, Given, Kind, Limit, Number, Register, WireType
+from regscribe.model import Enum, Given, Kind, Limit, Number, Register
 from regscribe.reference.settled_scales import forms, widest
 
 K = TypeVar("K", bound=Hashable)
@@ -41,7 +41,7 @@ def domain(register: Register, field: str = "") -> tuple[Stretch, ...]:
         return next((_of_bits(bits.enum, bits.width) for bits in register.fields if bits.id == field), ANYTHING)
     if register.enum is not None or register.kind in {Kind.FLAGS, Kind.FIELDS}:
         return _of_bits(register.enum, register.bits)
-    if register.kind is Kind.STRING or register.base.type is WireType.STRING:
+    if register.base.type.is_octets:
         return ANYTHING
     return _without_faults(register, _of_number(register))
 

@@ -108,20 +108,6 @@ def carried(view: View, number: Fraction) -> Fraction | None:
     return number if fits else None
 
 
-def text_of(words: tuple[int, ...], order: Arrangement) -> str | None:
-    """Return the ASCII text in `words` up to the first NUL, without blanks at its end; None if it is no ASCII."""
-    letters = bytes(bytes_in_order(words, order))
-    raw = letters[: letters.index(0)] if 0 in letters else letters
-    return raw.decode("ascii").rstrip(" ") if raw.isascii() else None
-
-
-def words_of_text(view: View, text: str, order: Arrangement) -> tuple[int, ...]:
-    """Return the words of an ASCII text, filled up with blanks; RefusedError if it does not fit."""
-    if not text.isascii() or "\0" in text or len(text) > 2 * view.words:
-        raise RefusedError(RefusalReason.TYPE, f"{text!r} does not fit {2 * view.words} ASCII characters")
-    return words_in_order(list(text.encode("ascii").ljust(2 * view.words)), order)
-
-
 def spelled(view: View, number: Fraction, order: Arrangement, *, rounded: bool) -> tuple[int, ...]:
     """Return the words of a wire number; RefusedError if the view cannot carry it."""
     if view.type.is_float:

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
 from typing import Any
 
-from regscribe.testing.compare import decoded, differs, encoded, expect_none, refused, same
+from regscribe.testing.compare import decoded, differs, encoded, expect_none, refused, same, spelled
 from regscribe.testing.vectors import Json, Trial, Vectors, known, number
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.conditions import ALWAYS
@@ -85,7 +85,7 @@ class DriverUnderTest:
             yield from differs(
                 place["path"], "aliases", [alias - first for alias in register.aliases], place.get("aliases", [])
             )
-            default = "" if register.default is None else register.default
+            default = "" if register.default is None else spelled(register, register.default)
             if default != place.get("default", "") and not same(default, place.get("default", "0")):
                 yield from differs(place["path"], "default", default, place.get("default"))
             yield from differs(place["path"], "access", register.access, entry["access"])

@@ -7,6 +7,7 @@ from regscribe.emit.markdown.context import PageContext, fact_table
 from regscribe.emit.markdown.escape import Md, code, escape, join, lines, link, md, prose
 from regscribe.emit.markdown.page_values import PageTable
 from regscribe.emit.markdown.process import follows
+from regscribe.emit.octet_words import octets_words
 from regscribe.emit.outline import Leaf, aliases, formula
 from regscribe.emit.words import (
     ACCESS,
@@ -25,6 +26,7 @@ from regscribe.emit.words import (
     value_words,
 )
 from regscribe.model import IDENTITY, Array, Kind, Model, Order, OrderCases, Register, Setting, View, show
+from regscribe_runtime.values.kinds import OCTETS
 
 KINDS = {
     Kind.NUMBER: "number",
@@ -34,6 +36,13 @@ KINDS = {
     Kind.FLAGS: "bits, see below",
     Kind.FIELDS: "bit fields, see below",
     Kind.STRING: "text",
+    Kind.BYTES: "raw bytes",
+    Kind.IPV4: "address of a network (IPv4)",
+    Kind.IPV6: "address of a network (IPv6)",
+    Kind.MAC: "hardware address",
+    Kind.DATETIME: "date and time",
+    Kind.DATE: "date",
+    Kind.TIME: "time",
     Kind.VERSION: "version, packed decimal digits",
     Kind.BOOLEAN: "yes (1) or no (0)",
 }
@@ -194,8 +203,8 @@ def _access(context: PageContext, model: Model, register: Register) -> Md:
 
 
 def _kind(register: Register) -> Md:
-    if register.kind is Kind.STRING:
-        return md(f"text of {2 * register.base.words} characters")
+    if register.kind in OCTETS:
+        return md(octets_words(register))
     if register.kind is Kind.VERSION and register.version_group:
         groups = register.version_digits // register.version_group
         return md("version, packed decimal digits: ", ".".join(["n" * register.version_group] * groups))

@@ -8,13 +8,19 @@ from regscribe.emit.python.expressions import Specs, expression
 from regscribe.emit.python.formatting import Call, Expression, call, group, lay, mapping
 from regscribe.emit.python.literals import docstring, exact, literal, plain
 from regscribe.emit.words import listed, one_line, range_words
-from regscribe.model import PLAIN_READING, Access, Cases, Command, Kind, Range, Register, show
+from regscribe.model import PLAIN_READING, Access, Cases, Command, Kind, Range, Register, WireType, show
+from regscribe_runtime.values.kinds import OCTETS
+from regscribe_runtime.values.octets import PLAIN_TEXT
 
 DESCRIPTORS = {Access.READ: "ReadOnly", Access.READ_WRITE: "ReadWrite", Access.WRITE: "WriteOnly"}
 
 
 NAMED = {Kind.ENUM: "choice", Kind.FLAGS: "flags", Kind.FIELDS: "word_of"}
 """The kinds whose values are of a class of their own, and the function of the runtime that takes it."""
+
+
+OCTET_TYPES = {WireType.STRING: "text", WireType.BYTES: "octets"}
+"""The names of types of bytes in Python, where they are not those of the map."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,13 +66,22 @@ class Declarations:
         if named := self._named(register):
             return f"{helper(NAMED[register.kind])}({named})"
         match register.kind:
-            case Kind.STRING:
-                return helper("text")
+            case kind if kind in OCTETS:
+                return self._octets(register)
             case Kind.VERSION:
                 return f"{helper('version')}({register.version_digits}, {register.version_group})"
         if register.specials:
             return self._numeric(register)
         return helper("raw_float" if register.kind is Kind.RAW and register.fractional else register.kind)
+
+    def _octets(self, register: Register) -> Expression:
+        """The type of a text, an address, or a date, with its form."""
+        helper = self.specs.pool.helper
+        if register.layout:
+            return f"{helper(f'{register.kind}_as')}({literal(register.layout)})"
+        if register.text != PLAIN_TEXT:
+            return call(helper("text_as"), expression(register.text))
+        return helper(OCTET_TYPES.get(register.base.type, register.base.type))
 
     def _named(self, register: Register) -> str:
         """The class of the values, if they have one of their own."""
@@ -150,6 +165,8 @@ TYPES = {
     Kind.STRING: "str",
     Kind.VERSION: "str",
     Kind.BOOLEAN: "bool",
+    Kind.BYTES: "bytes",
+    Kind.MAC: "str",
 }
 
 

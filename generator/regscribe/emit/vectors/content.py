@@ -4,11 +4,11 @@ from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from typing import Any
 
-from regscribe.emit.vectors import offered_values
+from regscribe.emit.vectors import octet_vectors, offered_values
 from regscribe.emit.vectors.candidates import Proposal, wire_bits
 from regscribe.emit.vectors.scale import Scale, scale_now
 from regscribe.emit.vectors.situations import Situation
-from regscribe.model import Kind, Order, Register, View, WireType, show
+from regscribe.model import Kind, Register, View, show
 from regscribe.reference import (
     AS_IS,
     Meaning,
@@ -61,15 +61,8 @@ def surroundings(situation: Situation) -> Json:
 
 
 def _words(register: Register, view: View, scale: Scale | None, situation: Situation) -> dict[tuple[int, ...], str]:
-    if view.type is WireType.STRING:
-        return {
-            (0x4133,) * view.words: "the high byte is A, the low byte is 3",
-            (
-                *((0x4142,) * (view.words - 1)),
-                0x4100 if view.byte_order is Order.BIG else 0x0041,
-            ): "filled up with zero",
-            (0xC3A9,) * view.words: "no ASCII",
-        }
+    if view.type.is_octets:
+        return octet_vectors.words(register, view, word_order(view, situation.known) or AS_IS)
     order = word_order(view, situation.known) or AS_IS
     bits = wire_bits(register, view, scale, situation.known, full=situation.full)
     return {words_of_bits(view, pattern, order): note for pattern, note in bits.items()}
@@ -108,7 +101,7 @@ def _writes(register: Register, view: View, scale: Scale | None, situation: Situ
     known, encodes, refuses = situation.known, [], []
     offered: Iterable[tuple[Fraction | str, str]]
     if register.kind in offered_values.TEXTS:
-        offered = offered_values.texts(register, view)
+        offered = octet_vectors.texts(register, view)
     else:
         offered = _once(offered_values.numbers(register, view, scale, known, full=situation.full)).items()
     for value, note in offered:

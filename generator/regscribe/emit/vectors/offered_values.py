@@ -9,17 +9,17 @@ from regscribe.emit.vectors.candidates import PATTERNS_OF_BITS, Proposal, codes,
 from regscribe.emit.vectors.scale import LARGEST, Scale
 from regscribe.model import Kind, Register, View, WireType, show
 from regscribe.reference import Surroundings, present_sentinels, special_value
+from regscribe_runtime.values.kinds import OCTETS
 
 Json = dict[str, Any]
 CODED = frozenset({Kind.ENUM, Kind.FLAGS, Kind.FIELDS, Kind.BOOLEAN})
-TEXTS = frozenset({Kind.STRING, Kind.VERSION})
+TEXTS = OCTETS | {Kind.VERSION}
 WIDEST = LARGEST[WireType.FLOAT64]
 """No float holds a value beyond it."""
 HALF, TENTH = Fraction(1, 2), Fraction(1, 10)
 TOO_FINE_FOR_FLOAT32 = Fraction("16777217")
 TOO_FINE = Fraction("0.000000001")
 BEYOND_FLOAT32 = Fraction(10**39)
-TEXTS_TRIED = {"A": "one character", "": "empty", "\u00e9": "no ASCII"}
 
 
 def numbers(
@@ -105,24 +105,6 @@ def rounded(scale: Scale) -> Iterator[Proposal]:
             yield Proposal(middle + scale.step * HALF, "half a step: the rule decides")
             yield Proposal(middle + scale.step * Fraction(49, 100), "less than half a step")
             yield Proposal(middle + scale.step * Fraction(51, 100), "more than half a step")
-
-
-def texts(register: Register, view: View) -> Iterator[tuple[str, str]]:
-    """Yield texts to write to a string or a version, with notes."""
-    if register.kind is Kind.VERSION:
-        digits, group = register.version_digits, register.version_group or register.version_digits
-        for text, note in (
-            ("1" * digits, "all ones"),
-            ("0" * digits, "all zeros"),
-            ("9" * digits, "all nines"),
-            ("1" * (digits + 1), "a digit too many"),
-        ):
-            yield ".".join(text[start : start + group] for start in range(0, len(text), group)), note
-        return
-    yield from TEXTS_TRIED.items()
-    full = "".join(chr(ord("A") + place % 26) for place in range(2 * view.words))
-    yield full, "as long as it may be"
-    yield full + "Z", "one character too many"
 
 
 def domain(register: Register, view: View, scale: Scale | None, known: Surroundings) -> Iterator[Json]:

@@ -3,12 +3,12 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from regscribe.model import Kind
 from regscribe.simulate.device import codec, plain_values
 from regscribe.simulate.device.device import READS, SimulatedDevice
 from regscribe.simulate.device.device_plan import AddressSpan
 from regscribe.simulate.line.server_context import BROADCAST
 from regscribe.simulate.line.service import Exchange
+from regscribe_runtime.values.kinds import OCTETS
 from regscribe_runtime.wire.packing import MalformedError
 from regscribe_runtime.wire.pdu import EXCEPTION_BIT, decode_reply, decode_request
 from regscribe_runtime.wire.requests import SPACES, Request
@@ -98,6 +98,6 @@ def _spelled(device: SimulatedDevice, place: AddressSpan, words: tuple[int, ...]
     stored = codec.decode(state.seen(view), words, state.order(view))
     if stored is None:
         return f"{name} = NaN"
-    if register.kind is Kind.STRING or isinstance(stored, str):
+    if register.kind in OCTETS or isinstance(stored, str):
         return f"{name} = {str(stored).rstrip(chr(0) + ' ')!r}"
     return f"{name} = {plain_values.spell(state, register, stored)}"

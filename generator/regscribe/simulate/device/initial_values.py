@@ -2,10 +2,11 @@
 
 from fractions import Fraction
 
-from regscribe.model import BOTTOM, Identity, Is, Kind, Register
+from regscribe.model import BOTTOM, Identity, Is, Register
 from regscribe.reference import number_of
 from regscribe.simulate.device.present_meaning import PresentMeaning
 from regscribe.simulate.device.value_arguments import with_field
+from regscribe_runtime.values.kinds import OCTETS
 
 
 def initial_value(register: Register, state: PresentMeaning) -> Fraction | str:
@@ -16,7 +17,7 @@ def initial_value(register: Register, state: PresentMeaning) -> Fraction | str:
     """
     rules = state.blueprint.register_map.identity
     identities = [each.identity for each in rules if state.blueprint.model.name in each.models]
-    if register.kind is Kind.STRING:
+    if register.kind in OCTETS:
         return _initial_text(register, identities)
     tests = _identity_tests(register, identities)
     if tests:

@@ -12,6 +12,7 @@ from regscribe.simulate.device.device_plan import Stored
 from regscribe.simulate.device.state import DeviceState
 from regscribe.simulate.device.value_arguments import codes_of, field_value, with_field
 from regscribe.simulate.errors import SimulatorError
+from regscribe_runtime.values.kinds import OCTETS
 
 Plain = str | int | float | bool | list[str]
 """A number, a name, a text, or the names of set flags (`part=value` of bit fields)."""
@@ -64,7 +65,7 @@ def set_to(state: DeviceState, register: Register, plain: object) -> None:
 def _bounded(register: Register, plain: str | float | Decimal) -> str | int | float | Decimal:
     """Refuse a number that would take long to compute with: ValueError."""
     try:
-        exponent = Decimal(str(plain)).adjusted() if register.kind is not Kind.STRING else 0
+        exponent = Decimal(str(plain)).adjusted() if register.kind not in OCTETS else 0
     except InvalidOperation:
         return plain
     if abs(exponent) > LARGEST:

@@ -8,7 +8,7 @@ from types import MappingProxyType
 from regscribe.model import NAN, BitField, CommandStep, Kind, Model, NotANumber, Register, RegisterMap, Space, parse
 from regscribe.model.located import layout_of, located
 from regscribe.reference import Surroundings, holds, present_sentinels, version_text
-from regscribe.simulate.device import codec
+from regscribe.simulate.device import codec, octets
 from regscribe.simulate.device.device_plan import AddressSpan, Blueprint, Image, Stored, draw
 from regscribe.simulate.device.existence import exists
 from regscribe.simulate.device.initial_values import initial_value
@@ -24,6 +24,7 @@ from regscribe.simulate.device.value_arguments import (
 )
 from regscribe.simulate.errors import SimulatorError
 from regscribe_runtime.values.blocks import stated_bases
+from regscribe_runtime.values.kinds import OCTETS
 
 Value = Fraction | str
 """A value of use: the number in the unit of use, a text, or the id of a sentinel."""
@@ -242,7 +243,7 @@ class DeviceState(PresentMeaning):
     def meant(self, register: Register, stored: Stored) -> Value:
         """Return the value of use of a stored value, or the id of the sentinel that it is (`nan` without one)."""
         if isinstance(stored, str):
-            return stored.partition("\0")[0].rstrip(" ")
+            return octets.meant(register, stored, present_sentinels(register, self))
         fault = self.fault(register, stored)
         if fault or not isinstance(stored, Fraction):
             return fault or NAN.value
@@ -296,8 +297,8 @@ class DeviceState(PresentMeaning):
         return with_field(stored, field, number_of(register, field, value))
 
     def _to_stored(self, register: Register, value: Plain) -> Stored:
-        if register.kind is Kind.STRING:
-            return str(value)
+        if register.kind in OCTETS:
+            return octets.stored(register, str(value))
         if isinstance(value, NotANumber):
             whole = [view.name for view in register.views if not view.type.is_float]
             if whole:

@@ -10,6 +10,7 @@ from typing import Any
 from regscribe.tools.live.errors import meant
 from regscribe_runtime import Bit, Choice, Field, Flags, Register, SpecialNumber, ValueRefused, Word
 from regscribe_runtime.registers.enums import unnamed_bits
+from regscribe_runtime.registers.octets import OctetType
 
 Plain = str | int | float | bool | list[str]
 """A value without Python's types: numbers, members and special values by name, the names of set flags."""
@@ -36,6 +37,8 @@ def show(register: Register[Any], value: Any) -> Plain:  # noqa: ANN401 - a valu
         return _show_parts(value)
     if register.kind == "boolean":
         return bool(value)
+    if isinstance(register.value_type, OctetType):
+        return register.value_type.spell(value)
     return value if isinstance(value, (int, float)) else str(value)
 
 
@@ -78,7 +81,10 @@ def parse(register: Register[Any], plain: Plain, *, unit: str = "", current_unit
             return _boolean(register.path, plain)
     if not isinstance(plain, str):
         raise ValueRefused(register.path, f"{plain!r} is no text: put it in quotes")
-    return plain
+    try:
+        return register.value_type.parse(plain) if isinstance(register.value_type, OctetType) else plain
+    except ValueError as error:
+        raise ValueRefused(register.path, f"`{plain[:60]}` is no {register.kind}: {error}") from None
 
 
 def choices(register: Register[Any]) -> tuple[str, ...]:

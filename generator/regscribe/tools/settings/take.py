@@ -11,9 +11,10 @@ from regscribe.tools.live.value_text import is_number, show
 from regscribe.tools.settings.backup import NO_GROUP, Backup, BackupOrigin, Saved
 from regscribe_runtime import Register, RegscribeError
 from regscribe_runtime.operations.session import Operation, Session, Task
+from regscribe_runtime.values.kinds import OCTETS, Kind
 from regscribe_runtime.values.numbers import exact
 
-TEXTS = frozenset({"string", "version"})
+TEXTS = OCTETS | {Kind.VERSION}
 
 
 def writable(driver: Driver) -> list[Register[Any]]:

@@ -13,7 +13,7 @@ from regscribe_runtime.planning.plan import Block
 from regscribe_runtime.registers import codec
 from regscribe_runtime.registers.codec import Converter
 from regscribe_runtime.registers.register import Register
-from regscribe_runtime.values.kinds import Kind
+from regscribe_runtime.values.kinds import OCTETS
 from regscribe_runtime.values.orders import gathered
 from regscribe_runtime.values.views import View
 from regscribe_runtime.values.wire_types import Order
@@ -83,7 +83,7 @@ def _split(placed: Sequence[Placed]) -> tuple[list[Placed], list[Placed]]:
     end = 0
     for one in placed:
         register, view, start = one
-        packed = register.kind is not Kind.STRING and not view.type.spelling
+        packed = register.kind not in OCTETS and not view.type.spelling
         plain = packed and view.space.is_words and view.byte_order is Order.BIG
         (together if plain and start >= end else alone).append(one)
         end = max(end, start + view.words)

@@ -16,12 +16,12 @@ from regscribe_runtime.operations.write_request import apply, send
 from regscribe_runtime.registers.presence import value_text
 from regscribe_runtime.report import Words
 from regscribe_runtime.values.facts import Governs, Setting
-from regscribe_runtime.values.kinds import Kind
+from regscribe_runtime.values.kinds import OCTETS, Kind
 from regscribe_runtime.values.numbers import brief
 from regscribe_runtime.values.serial_line import ADDRESSINGS, PARITIES, LineChange
 from regscribe_runtime.wire.requests import verify
 
-MARKS = frozenset({Kind.STRING, Kind.VERSION})
+MARKS = OCTETS | {Kind.VERSION}
 """Kinds of registers whose words identify a device: they do not change, and no neighbour holds the same."""
 
 FIRST_UNIT = 1

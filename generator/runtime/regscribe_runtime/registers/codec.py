@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from functools import partial
-from typing import Any, NamedTuple, NoReturn, Protocol
+from typing import Any, NamedTuple, NoReturn, Protocol, cast
 
 from regscribe_runtime.errors import (
     NotDecodable,
@@ -16,12 +16,13 @@ from regscribe_runtime.errors import (
     ValueNotDecodable,
     ValueRefused,
 )
+from regscribe_runtime.registers.octets import OctetType
 from regscribe_runtime.registers.value_types import ValueType
 from regscribe_runtime.values.conditions import Cases, Givens, State, choose, registers_of
-from regscribe_runtime.values.kinds import Kind
+from regscribe_runtime.values.kinds import OCTETS, Kind
 from regscribe_runtime.values.numbers import ROUNDINGS, Number, brief, exact, half_up, rough, shortest
 from regscribe_runtime.values.orders import OrderCases, WordOrder, gathered, spread
-from regscribe_runtime.values.scales import Conversion, Decimals, Limit, Open, Range, in_case
+from regscribe_runtime.values.scales import Conversion, Decimals, Limit, Open, Range, Sentinel, in_case
 from regscribe_runtime.values.terms import Term, UnsettledError, registers_in, resolve
 from regscribe_runtime.values.views import Scaled, View, scale_needs
 from regscribe_runtime.values.wire_types import Order, WireType
@@ -352,8 +353,8 @@ def decoder(
         partial(_number, register.path, view.type) if view.type.spelling else view.type.unpack
     )
     convert: Converter = same
-    if register.kind is Kind.STRING:
-        unpack = partial(_text, register.path)
+    if isinstance(register.value_type, OctetType):
+        unpack = partial(_octets, register, in_case(register.sentinels, state, givens))
     else:
         convert = reader(register, view, state, givens, named=named)
 
@@ -388,12 +389,15 @@ def _number(register: str, wire_type: WireType, words: Words) -> float:
         raise NotDecodable(register, f"no number of type {wire_type}: {error}") from None
 
 
-def _text(register: str, words: Words) -> str:
-    raw = struct.pack(f">{len(words)}H", *words).partition(b"\0")[0]  # what follows is whatever was there before
+def _octets(register: Coded, faults: tuple[Sentinel, ...], words: Words) -> Any:
+    raw = struct.pack(f">{len(words)}H", *words)
+    fault = next((one for one in faults if one.reports(int.from_bytes(raw))), None)
+    if fault:
+        raise SensorFault(register.path, fault.id, fault.label)
     try:
-        return raw.decode("ascii").rstrip(" ")
-    except UnicodeDecodeError:
-        raise NotDecodable(register, f"{raw.hex(' ')} is no ASCII text") from None
+        return cast("OctetType[Any]", register.value_type).read(raw)
+    except ValueError as error:
+        raise NotDecodable(register.path, str(error)) from None
 
 
 def carried_over(
@@ -403,7 +407,7 @@ def carried_over(
     view, other = (present(each, register.path, state, givens) for each in (view, other))
     numbers = arranger(view, register.path, state, givens)(words)
     arrange = arranger(other, register.path, state, givens, sending=True)
-    if register.kind is Kind.STRING:
+    if register.kind in OCTETS:
         return tuple(arrange(numbers))
     wire = view.type.unpack(numbers)
     shown = _wire_words(register, other, _exactly(view, wire) / Fraction(view.factor), rounded=True)
@@ -427,8 +431,8 @@ def encode(
     """
     arrange = arranger(view, register.path, state, givens, sending=True)
     view = present(view, register.path, state, givens)
-    if register.kind is Kind.STRING:
-        return tuple(arrange(_from_text(register, view, value)))
+    if isinstance(register.value_type, OctetType):
+        return tuple(arrange(_octet_words(register, view, value, in_case(register.sentinels, state, givens))))
     if isinstance(value, float) and view.type in _NARROW and view.type.carries(value):
         value = Fraction(value)  # 2.0**63 is meant, whose shortest decimal is another number
     amount, special = _amount(register, int(value) & ~kept if kept else value, state, givens)  # type: ignore[call-overload] # flags are whole numbers
@@ -555,9 +559,12 @@ def _float_words(register: Coded, view: View, exactly: Fraction, *, rounded: boo
     return view.type.pack(there)
 
 
-def _from_text(register: Coded, view: View, value: object) -> tuple[int, ...]:
-    if not isinstance(value, str) or not value.isascii() or "\0" in value:
-        raise ValueRefused(register.path, f"{brief(value)} is no ASCII text without NUL")
-    if len(value) > 2 * view.words:
-        raise ValueRefused(register.path, f"{brief(value)} has {len(value)} characters; {2 * view.words} fit")
-    return struct.unpack(f">{view.words}H", value.ljust(2 * view.words).encode("ascii"))
+def _octet_words(register: Coded, view: View, value: object, faults: tuple[Sentinel, ...]) -> tuple[int, ...]:
+    try:
+        raw = cast("OctetType[Any]", register.value_type).write(value, 2 * view.words)
+    except ValueError as error:
+        raise ValueRefused(register.path, str(error)) from None
+    fault = next((one for one in faults if one.reports(int.from_bytes(raw))), None)
+    if fault:
+        raise ValueRefused(register.path, f"{brief(value)} is how the device reports {fault.label}")
+    return struct.unpack(f">{view.words}H", raw)

@@ -6,6 +6,7 @@ from typing import Generic, Never, Self, TypeVar, cast
 
 from regscribe_runtime.errors import ValueRefused
 from regscribe_runtime.registers import codec, element
+from regscribe_runtime.registers.octets import OctetType
 from regscribe_runtime.registers.presence import absence
 from regscribe_runtime.registers.value_types import ValueType
 from regscribe_runtime.values.conditions import ALWAYS, Cases, Condition, Givens, State, always, at_least
@@ -70,7 +71,9 @@ class Register(Generic[T]):
         self.at, self.views, self.value_type, self.kind = at, views, value_type, value_type.kind
         self.scale, self.range, self.valid, self.sentinels = scale, range, valid, sentinels
         self.special_scale = special_scale
-        self.default, self.section, self.aliases = default, section, aliases
+        spelled = isinstance(value_type, OctetType) and isinstance(default, str)
+        self.default: T | float | str | None = value_type.parse(default) if spelled else default  # type: ignore[attr-defined] # of octets
+        self.section, self.aliases = section, aliases
         self.unit: Cases[str] = always(unit) if isinstance(unit, str) else unit
         self.writable, self.persistence = writable, persistence
         self.unlock, self.apply, self.danger = unlock, apply, danger

@@ -149,13 +149,3 @@ def version(digits: int, group: int) -> ValueType[str]:
         return Fraction(int(packed))
 
     return ValueType(Kind.VERSION, make, code, coded=True)
-
-
-def _refuse_number(register: str, value: Any) -> Fraction:
-    if not isinstance(value, str):
-        raise ValueRefused(register, f"{brief(value)} is no text")
-    message = f"{value!r} is of the wrong type"  # texts are encoded from their characters, never through a number
-    raise TypeError(message)
-
-
-text: ValueType[str] = ValueType(Kind.STRING, str, _refuse_number, coded=True)

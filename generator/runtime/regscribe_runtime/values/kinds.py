@@ -19,6 +19,18 @@ class Kind(StrEnum):
     STRING = "string"
     VERSION = "version"
     BOOLEAN = "boolean"
+    BYTES = "bytes"
+    IPV4 = "ipv4"
+    IPV6 = "ipv6"
+    MAC = "mac"
+    DATETIME = "datetime"
+    DATE = "date"
+    TIME = "time"
+
+
+MOMENTS = frozenset({Kind.DATETIME, Kind.DATE, Kind.TIME})
+OCTETS = MOMENTS | {Kind.STRING, Kind.BYTES, Kind.IPV4, Kind.IPV6, Kind.MAC}
+"""Kinds whose values are bytes and no numbers; outside of programs they are spelled as texts."""
 
 
 class Access(StrEnum):

@@ -99,7 +99,8 @@ class WireType(StrEnum):
     A type is one row: its name, the code by which `struct` packs it or else how words spell it, and what the docs say
     of it beside its name. `words` are the registers that one value takes (a bit takes one address; of a string, one of
     them), `minimum` and `maximum` the limits of whole numbers, `bits` those of a pattern (0: its bits are none), and
-    2 to the power of `fraction` what the number on the wire is divided by.
+    2 to the power of `fraction` what the number on the wire is divided by. Types that are `is_octets` have bytes and no
+    number; where a map states their length, `words` is the least.
     """
 
     code: str
@@ -113,6 +114,7 @@ class WireType(StrEnum):
     maximum: int
     is_float: bool
     is_integer: bool
+    is_octets: bool
 
     BIT = "bit", "H", "", 0, 1
     UINT8 = "uint8", narrow(8, signed=False, extended=False), _BYTE
@@ -151,22 +153,34 @@ class WireType(StrEnum):
     Q24_8 = "q24.8", "i", "an int32 in units of 1/256", 8
     UQ8_8 = "uq8.8", "H", "a uint16 in units of 1/256", 8
     UQ16_16 = "uq16.16", "I", "a uint32 in units of 1/65536", 16
-    STRING = "string", "H"
+    STRING = "string", 1
+    BYTES = "bytes", 1
+    IPV4 = "ipv4", 2
+    IPV6 = "ipv6", 8
+    EUI48 = "eui48", 3
+    EUI64 = "eui64", 4
+    DATETIME = "datetime", 1
+    DATE = "date", 1
+    TIME = "time", 1
 
-    def __new__(cls, name: str, how: str | Spelling = "H", note: str = "", fraction: int = 0, width: int = 0) -> Self:
+    def __new__(
+        cls, name: str, how: str | Spelling | int = "H", note: str = "", fraction: int = 0, width: int = 0
+    ) -> Self:
         """The type of this row."""
         found = str.__new__(cls, name)
         found._value_ = name
         found.note, found.fraction = note, fraction
-        found.code, found.spelling = (how, None) if isinstance(how, str) else ("", how)
+        found.is_octets = isinstance(how, int)
+        found.code = how if isinstance(how, str) else "H" if isinstance(how, int) else ""
+        found.spelling = None if isinstance(how, str | int) else how
         found.is_float = found.code in _FLOATS
-        found.is_integer = not found.is_float and name != "string"
+        found.is_integer = not found.is_float and not found.is_octets
         if found.spelling:
             found.words, found.bits, found.minimum, found.maximum, *_ = found.spelling
             found.packer = struct.Struct(f">{2 * found.words}s")
             return found
         found.packer = struct.Struct(">" + found.code)
-        found.words = found.packer.size // 2
+        found.words = how if isinstance(how, int) else found.packer.size // 2
         found.bits = width or 16 * found.words
         sign = found.code in _SIGNED
         found.minimum = -(1 << (found.bits - 1)) if sign else 0
