@@ -9,7 +9,7 @@ from typing import Any, Literal, NamedTuple, get_args, get_origin
 from regscribe_runtime import NotPresent, ValueNotDecodable
 from regscribe_runtime.operations import tasks
 from regscribe_runtime.operations.prepared_read import dependencies
-from regscribe_runtime.operations.session import Session
+from regscribe_runtime.operations.session import Pause, Session
 from regscribe_runtime.operations.snapshot import Snapshot
 from regscribe_runtime.planning.read_places import ReadPlace, read_places
 from regscribe_runtime.registers.register import Register
@@ -43,14 +43,17 @@ def read_through(driver: Any, chosen: Sequence[Register[Any]], *, seed: int = 0,
     requests: list[Request] = []
     try:
         asked = next(operation)
-        while isinstance(asked, Request):
+        while isinstance(asked, Request | Pause):
+            if isinstance(asked, Pause):  # between requests, where the device needs time
+                asked = operation.send(None)
+                continue
             requests.append(asked)
             space = READ_SPACES[asked.function]
             words = tuple(word_at(space, asked.address + offset, seed) for offset in range(asked.quantity))
             asked = operation.send(Reply(asked.function, words))
     except StopIteration as done:
         return ReadTrace(tuple(requests), done.value, session)
-    message = f"a read paused: {asked}"
+    message = f"a read asked for {asked}"
     raise TypeError(message)
 
 
