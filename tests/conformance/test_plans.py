@@ -69,7 +69,7 @@ class Bench(NamedTuple):
         with redirect_stdout(StringIO()) as out:
             assert run(["plan", str(self.path), "--model", "A", "--json", *one.words, *line, *remembered]) == 0
         found = json.loads(out.getvalue())["requests"]
-        return [(each["function"], each["address"], each["quantity"]) for each in found]
+        return [_whole(each["function"], each["address"], each["quantity"]) for each in found]
 
     def _saw(self, one: Question, driver: Any) -> Requests:
         driver.read(*one.what)  # from now on it knows what values depend on
@@ -84,8 +84,19 @@ def _is_known(driver: Any, registers: Sequence[Any]) -> bool:
     return all(path in driver.session.memory for found in needs.values() for path in found)
 
 
+def _whole(function: int, address: int, quantity: int) -> tuple[int, int, int]:
+    """A request of a plan; a queue and an object of the identification come as a whole."""
+    bits = {24: 6, 43: 8}.get(function)
+    return (function, address >> bits << bits, 0) if bits else (function, address, quantity)
+
+
 def _asked(pdu: bytes) -> tuple[int, int, int]:
-    """What a request asks for; function 07 names no address."""
+    """What a request asks for; function 07 names no address, others have the number of a file, queue or object in it."""
+    if pdu[0] == 20:
+        file, record, quantity = struct.unpack(">HHH", pdu[3:])
+        return 20, file << 16 | record, quantity
+    if pdu[0] in {24, 43}:
+        return pdu[0], pdu[3] << 8 if pdu[0] == 43 else struct.unpack(">H", pdu[1:])[0] << 6, 0
     function, address, quantity = struct.unpack(">BHH", pdu) if len(pdu) > 1 else (pdu[0], 0, 1)
     return function, address, quantity
 
