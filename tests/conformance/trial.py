@@ -347,7 +347,7 @@ def _request(register: Register, view: View, words: Words) -> bytes:
 
 def number_of(value: Any) -> object:
     """A value of a driver as a text, or as a number: a float is one of its own."""
-    if isinstance(value, str | judges.OCTETS):
+    if isinstance(value, (str, *judges.OCTETS)):
         return value if isinstance(value, str) else judges.spelled(value)
     return value if isinstance(value, float) else Fraction(int(value))
 
