@@ -2,10 +2,11 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import Any
 
 from regscribe.checks.probe_states import verdict
 from regscribe.checks.rule import MAP, Finding, RuleScope, Scopes, map_rule
-from regscribe.model import ByCase, Condition, GivenRef, Identity, Kind, OrderCases, Register, RegisterMap, Span
+from regscribe.model import ByCase, Cases, Condition, GivenRef, Identity, Kind, OrderCases, Register, RegisterMap, Span
 from regscribe_runtime.values.terms import parts_of
 from regscribe_runtime.values.views import scale_needs
 
@@ -50,7 +51,14 @@ def _collect_case_sets(scopes: Scopes) -> list[CaseSet]:
 def _conditions(register: Register) -> Iterator[tuple[str, tuple[Condition, ...]]]:
     """The conditions of each set of cases of a register, with what they decide."""
     ranges = (("range", register.range), ("valid range", register.valid))
-    for what, cases in (("scale", register.scale), *ranges, ("unit", register.unit)):
+    beginnings = (("default", register.default_cases), ("delivered value", register.delivered_cases))
+    every: tuple[tuple[str, Cases[Any]], ...] = (
+        ("scale", register.scale),
+        *ranges,
+        ("unit", register.unit),
+        *beginnings,
+    )
+    for what, cases in every:
         if len(cases) > 1 or (cases and not cases[0].when.always):
             yield what, tuple(case.when for case in cases)
     for part in parts_of((register.scale, register.range, register.valid)):

@@ -153,10 +153,11 @@ def bits_of_one_name(register: Register, _: RuleScope) -> Iterator[Problem]:
 @register_rule("RS0655", "Default with bits that mean nothing")
 def default_of_no_name(register: Register, _: RuleScope) -> Iterator[Problem]:
     """A driver writes no bit that has no name, so it could never write this default."""
-    if register.kind is not Kind.FLAGS or not isinstance(register.default, Fraction):
-        return
-    unnamed = int(register.default) & ~register.named_bits
-    if 0 <= register.default < 1 << register.bits and unnamed:
-        bits = ", ".join(str(bit) for bit in range(register.bits) if unnamed >> bit & 1)
-        message = f"has default {show(register.default)}, but no flag at bit {bits}"
-        yield message, "name the bits, or give the value as `delivered`"
+    for what, value in register.beginnings if register.kind is Kind.FLAGS else ():
+        if what != "default" or not isinstance(value, Fraction):
+            continue
+        unnamed = int(value) & ~register.named_bits
+        if 0 <= value < 1 << register.bits and unnamed:
+            bits = ", ".join(str(bit) for bit in range(register.bits) if unnamed >> bit & 1)
+            message = f"has default {show(value)}, but no flag at bit {bits}"
+            yield message, "name the bits, or give the value as `delivered`"

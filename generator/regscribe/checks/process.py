@@ -63,7 +63,7 @@ def _cannot_shadow(register: Register, scope: RuleScope) -> Iterator[Problem]:
         related = Related(f"`{origin.path}` is kept in RAM", origin.span)
         message = f"shadows `{origin.path}`, which is lost without power, too"
         yield message, "name the register of lasting memory", related
-    if register.shadows and register.delivered is not None:
+    if register.shadows and (register.delivered is not None or register.delivered_cases):
         message = f"shadows `{register.shadows}` and has a delivered value, but takes the other's when power comes"
         yield message, "give `delivered` to the register of lasting memory"
 
@@ -131,7 +131,7 @@ def impossible_effect(scope: RuleScope) -> Iterator[Finding]:
 
 def _effect_problems(effect: Effect, scope: RuleScope) -> Iterator[tuple[Register, str]]:
     for register in scope.named(effect.defaults):
-        if register.default is None:
+        if register.default is None and not register.default_cases:
             yield register, f"returns `{register.path}` to its default, which it has not"
     for path, value in effect.sets:
         for register, field in _resolve(path, scope):

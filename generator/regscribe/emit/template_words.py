@@ -54,7 +54,7 @@ def limits(register: Register) -> str:
 
 def default(register: Register) -> str:
     """The default with its label, `1 = run`; empty where the manual gives none."""
-    return text.value_words(register, register.default)
+    return text.default_words(register, register.default, register.default_cases)
 
 
 def order(view: View) -> str:

@@ -351,6 +351,15 @@ def value_words(register: Register, value: Fraction | str | None, wording: Wordi
     return f"{show(value)} = {wording.text(one_line(label))}" if label else show(value)
 
 
+def default_words(
+    register: Register, default: Fraction | str | None, cases: Cases[Fraction | str], wording: Wording = PLAIN
+) -> str:
+    """Return a default, or its cases: `celsius: 25; otherwise: 77`."""
+    if default is not None:
+        return value_words(register, default, wording)
+    return cases_words(map_cases(cases, lambda value: value_words(register, value, wording)), wording)
+
+
 def order_words(order: WordOrder | OrderCases, wording: Wording = PLAIN) -> str:
     """Return the word order: itself, by the codes of the register that sets it, or by cases."""
     if not isinstance(order, OrderCases):

@@ -38,7 +38,7 @@ def _model(register_map: RegisterMap, model: Model) -> ModelCoverage:
         registers=len(model.registers),
         ranged=number(lambda register: register.range),
         coded=number(lambda register: register.enum or register.fields or register.specials or register.sentinels),
-        defaults=number(lambda register: register.default is not None),
+        defaults=number(lambda register: register.default is not None or bool(register.default_cases)),
         units=number(lambda register: any(case.then for case in register.unit)),
         sections=number(lambda register: register.section),
         examples=number(lambda register: register.path in shown),

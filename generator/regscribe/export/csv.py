@@ -99,7 +99,7 @@ def rows(maps: Iterable[RegisterMap]) -> Iterator[Row]:
 
 def _register_row(register_map: RegisterMap, model: Model, register: Register) -> Row:
     minimum, maximum = _limits(register)
-    default, at, first = register.default, register.at, register.page << PAGE_BITS
+    at, first = register.at, register.page << PAGE_BITS
     views = {
         one.name: {"address": one.address(at) - first, "words": one.words, "type": one.type}
         | ({"space": one.space} if one.space is not register.base.space else {})
@@ -121,7 +121,7 @@ def _register_row(register_map: RegisterMap, model: Model, register: Register) -
         unit=cases_words(map_cases(register.unit, one_line)),
         minimum=minimum,
         maximum=maximum,
-        default=show(default) if isinstance(default, Fraction) else one_line(default or ""),
+        default=_default(register),
         values=_object(_values(register)),
         bits=_object({bits_words(field): _bit_label(field) for field in register.fields}),
         views=_object(views),
@@ -132,6 +132,16 @@ def _register_row(register_map: RegisterMap, model: Model, register: Register) -
         block=register.block,
         page=str(register.page or ""),
     )
+
+
+def _default(register: Register) -> str:
+    if register.default_cases:
+        return cases_words(map_cases(register.default_cases, _beginning))
+    return "" if register.default is None else _beginning(register.default)
+
+
+def _beginning(value: Fraction | str) -> str:
+    return show(value) if isinstance(value, Fraction) else one_line(value)
 
 
 def _command_row(register_map: RegisterMap, model: Model, command: Command) -> Row:

@@ -131,6 +131,23 @@ def _sentinel(node: Value, when: Condition) -> Sentinel:
     return Sentinel(low, name, label, high, when)
 
 
+Beginning = tuple[Fraction | str | None, Cases[Fraction | str]]
+"""A value that a register begins with, or else such values by case."""
+
+
+def beginnings_of(
+    node: Value | None, kind: Kind, enum: Enum | None, specials: tuple[Special, ...], scope: Scope
+) -> Beginning:
+    """The `default` or `delivered` value of a register, or its cases."""
+    if node is None or not node.is_list:
+        return beginning_of(node, kind, enum, specials), ()
+
+    def make(case: Value) -> Fraction | str:
+        return beginning_of(case.child("is"), kind, enum, specials) or ZERO
+
+    return None, cases_of(node, scope, make)
+
+
 def beginning_of(
     node: Value | None, kind: Kind, enum: Enum | None, specials: tuple[Special, ...]
 ) -> Fraction | str | None:

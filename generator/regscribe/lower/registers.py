@@ -10,7 +10,7 @@ from regscribe.lower.idle_keys import report_idle_keys
 from regscribe.lower.matchers import given_named
 from regscribe.lower.node import ZERO, Keyed, Value
 from regscribe.lower.octets import text_of
-from regscribe.lower.register_values import beginning_of, range_of, ranges_at, sentinels_of, specials_of
+from regscribe.lower.register_values import beginnings_of, range_of, ranges_at, sentinels_of, specials_of
 from regscribe.lower.rules import NO_ACCESS
 from regscribe.lower.scales import NOT_STATED, Scaling, decimals_rule, rescaled, scale_of, unit_of
 from regscribe.lower.scope import Scope
@@ -56,6 +56,8 @@ def register_of(entry: TreeNode, everywhere: Scope) -> Register:
     kind = kind_of(entry, views, scaling, specials)
     enum = enum_of(settings.get("enum"), scope, inline_id=entry.qualified_id)
     unit, unit_id = unit_of(settings.get("unit"), scope)
+    default, defaults = beginnings_of(settings.get("default"), kind, enum, specials, scope)
+    delivered, deliveries = beginnings_of(settings.get("delivered"), kind, enum, specials, scope)
     range_decimals = settings.get("range_decimals")
     divided = any(special.code for special in specials)  # 0 stays 0
     digits, group = version_of(settings.get("version"))
@@ -81,8 +83,10 @@ def register_of(entry: TreeNode, everywhere: Scope) -> Register:
         specials=specials,
         special_scale=decimals_rule(range_decimals, scope) if range_decimals and divided else SAME,
         sentinels=sentinels_of(entry, scope),
-        default=beginning_of(settings.get("default"), kind, enum, specials),
-        delivered=beginning_of(settings.get("delivered"), kind, enum, specials),
+        default=default,
+        default_cases=defaults,
+        delivered=delivered,
+        delivered_cases=deliveries,
         enum=enum,
         fields=fields_of(entry, scope, condition),
         writable=write_condition(settings.get("writable"), scope),

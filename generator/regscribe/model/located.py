@@ -41,6 +41,7 @@ def located(model: Model, layout: Layout) -> Model:
             at=register.at + header.base,
             aliases=tuple(alias + header.base for alias in register.aliases),
             delivered=Fraction(word or 0) if number else register.delivered,
+            delivered_cases=() if number else register.delivered_cases,
             block="",
         )
 

@@ -33,7 +33,8 @@ class Register:
     transmit the base view.
     `scale` goes from the stored value to the value of use, `special_scale` from the code of a special value to its
     value of use (the decimals that divide the range); `default` is a value of use: a number (an enum's code, a word's
-    bits), a text or version, or None where the manual gives none; `delivered` is what a new device holds instead.
+    bits), a text or version, or None where the manual gives none, or gives `default_cases` instead; `delivered` (or
+    `delivered_cases`) is what a new device holds instead.
     `valid` is what a reading must lie in. `section` is where the manual describes it. It exists only while `when`
     holds.
     `rescales` names the unit (of the map's units) whose registers the device converts when this one is written.
@@ -76,6 +77,8 @@ class Register:
     sentinels: tuple[Sentinel, ...] = ()
     default: Fraction | str | None = None
     delivered: Fraction | str | None = None
+    default_cases: Cases[Fraction | str] = ()
+    delivered_cases: Cases[Fraction | str] = ()
     enum: Enum | None = None
     fields: tuple[BitField, ...] = ()
     writable: WriteCondition | None = None
@@ -147,8 +150,12 @@ class Register:
     @property
     def beginnings(self) -> tuple[tuple[str, Fraction | str], ...]:
         """The default and the delivered value, as far as the map says them, each with what it is."""
-        both = (("default", self.default), ("delivered value", self.delivered))
-        return tuple((what, value) for what, value in both if value is not None)
+        both = (
+            ("default", self.default, self.default_cases),
+            ("delivered value", self.delivered, self.delivered_cases),
+        )
+        every = ((what, value) for what, one, cases in both for value in (one, *(case.then for case in cases)))
+        return tuple((what, value) for what, value in every if value is not None)
 
     @property
     def faults(self) -> tuple[Fraction, ...]:

@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from regscribe.simulate import simulate
+from regscribe.tools.settings import factory
 from regscribe_runtime import NotDecodable, SensorFault, ValueRefused
 from regscribe_runtime.registers import codec
 
@@ -34,6 +35,7 @@ groups:
         unit: [{when: {ratio: 1}, is: W}, {is: kW}]
       - {at: 3, name: Current, multiply: {product: [0.1, ratio]}}
       - {at: 4, name: Level, scale: {from: 0, to: ratio, raw: 0..4000}}
+      - {at: 5, name: Band, default: [{when: {ratio: 40}, is: 7}, {is: 5}], delivered: [{when: {sf: 3}, is: 1}]}
       - {id: points, name: Point, repeat: "1..200", stride: 1, registers: [{at: 100, name: Value, exponent: sf}]}
 """
 
@@ -140,6 +142,15 @@ def test_an_asynchronous_driver_settles_terms_as_well(meter: Any, running: Any) 
             return await found.current.read(), await found.power.read()
 
     assert asyncio.run(read())[0] == 20.0
+
+
+def test_a_default_by_case_counts_as_the_other_defaults_have_it(meter: Any, running: Any) -> None:
+    driver = meter.driver("One")
+
+    assert running.device.peek("band") == 7
+    assert factory(driver)["band"].value == 7
+    assert [case.then for case in driver.registers["band"].default_cases] == [7, 5]
+    assert driver.registers["band"].default is None
 
 
 def test_a_register_names_the_registers_of_its_terms(meter: Any) -> None:

@@ -7,7 +7,7 @@ from regscribe.emit.markdown.escape import Md, code, escape, join, link, md
 from regscribe.emit.markdown.page_values import PageTable, Titled, table
 from regscribe.emit.markdown.register_facts import symbols
 from regscribe.emit.outline import Leaf, aliases, last_address, leaves, lettered
-from regscribe.emit.words import codes_words, one_line, range_words, span_words, special_words, value_words
+from regscribe.emit.words import codes_words, default_words, one_line, range_words, span_words, special_words
 from regscribe.model import Access, Kind, Model, Register, Space, View
 
 ACCESS = {Access.READ: "R", Access.READ_WRITE: "R/W", Access.WRITE: "W"}
@@ -62,7 +62,7 @@ def _row(context: PageContext, leaf: Leaf, offsets: Sequence[int], names: Sequen
         code(lettered(shared.first.path)),
         cell(lambda _, register: escape(ACCESS[register.access])),
         cell(lambda model, register: _range(context, model, register)),
-        cell(lambda model, register: Md(value_words(register, register.default, context.wording(model)))),
+        cell(lambda model, register: Md(_default(context, model, register))),
         cell(lambda _, register: escape(symbols(register))),
         context.covers(shared.models),
     )
@@ -94,3 +94,7 @@ def _range(context: PageContext, model: Model, register: Register) -> Md:
     wording = context.wording(model)
     limits = [range_words(case.then, wording) for case in register.range]
     return Md("; ".join([*limits, *(special_words(special, wording) for special in register.specials)]))
+
+
+def _default(context: PageContext, model: Model, register: Register) -> str:
+    return default_words(register, register.default, register.default_cases, context.wording(model))

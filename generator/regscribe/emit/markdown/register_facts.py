@@ -16,6 +16,7 @@ from regscribe.emit.words import (
     Wording,
     cases_words,
     conversion_words,
+    default_words,
     map_cases,
     one_line,
     order_words,
@@ -23,7 +24,6 @@ from regscribe.emit.words import (
     sentinel_words,
     special_words,
     term_words,
-    value_words,
 )
 from regscribe.model import IDENTITY, Array, Kind, Model, Order, OrderCases, Register, Setting, View, show
 from regscribe_runtime.values.kinds import OCTETS
@@ -133,8 +133,8 @@ def _value_facts(context: PageContext, model: Model, register: Register) -> Iter
     yield "Special values", _specials(register, wording)
     faults = [Md(sentinel_words(sentinel, wording)) for sentinel in register.sentinels]
     yield "Faults instead of a value", lines(*faults)
-    yield "Default", Md(value_words(register, register.default, wording))
-    yield "As delivered", Md(value_words(register, register.delivered, wording))
+    yield "Default", Md(default_words(register, register.default, register.default_cases, wording))
+    yield "As delivered", Md(default_words(register, register.delivered, register.delivered_cases, wording))
     yield "Unit", _unit(context, register, wording)
     scaled = len(scale) == 1 and scale[0].then != IDENTITY
     yield "Scale", md(code(conversion_words(scale[0].then)), ", x being the stored number") if scaled else Md()

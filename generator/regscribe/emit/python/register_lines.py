@@ -43,6 +43,7 @@ class Declarations:
             range=specs.range(register, "range"),
             valid=specs.range(register, "valid"),
             default=_default(register),
+            default_cases=specs.shared(register, "default", register.default_cases),
             unit=specs.unit(register),
             section=_text(register.section),
             sentinels=specs.shared(register, "sentinels", register.sentinels),

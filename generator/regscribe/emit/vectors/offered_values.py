@@ -29,8 +29,9 @@ def numbers(
     if register.kind in CODED:
         yield from _coded(register)
         return
-    if isinstance(register.default, Fraction):
-        yield Proposal(register.default, "default")
+    for what, value in register.beginnings:
+        if what == "default" and isinstance(value, Fraction):
+            yield Proposal(value, what)
     if scale is None:
         yield Proposal(Fraction(1), "no scale holds")
         return

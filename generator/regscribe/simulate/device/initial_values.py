@@ -18,11 +18,11 @@ def initial_value(register: Register, state: PresentMeaning) -> Fraction | str:
     rules = state.blueprint.register_map.identity
     identities = [each.identity for each in rules if state.blueprint.model.name in each.models]
     if register.kind in OCTETS:
-        return _initial_text(register, identities)
+        return _initial_text(register, identities, state)
     tests = _identity_tests(register, identities)
     if tests:
-        return _identifying(register, tests)
-    stated = register.default if register.delivered is None else register.delivered
+        return _identifying(register, tests, state)
+    stated = state.delivered(register)
     if stated is not None:
         special = (
             state.special(register, each) for each in register.specials if each.means is None and each.code == stated
@@ -40,9 +40,11 @@ def _first_accepted(register: Register, state: PresentMeaning) -> Fraction:
     return next((low for low in lows if state.accepts(register, low)), (lows or [Fraction(0)])[0])
 
 
-def _initial_text(register: Register, identities: list[Identity]) -> str:
+def _initial_text(register: Register, identities: list[Identity], state: PresentMeaning) -> str:
     shown = [text for identity in identities for path, text in identity.texts if path == register.path]
-    return next((text for text in (*shown, register.delivered, register.default) if isinstance(text, str)), "")
+    return next(
+        (text for text in (*shown, state.delivered(register), state.default(register)) if isinstance(text, str)), ""
+    )
 
 
 def _identity_tests(register: Register, identities: list[Identity]) -> list[Is]:
@@ -50,15 +52,16 @@ def _identity_tests(register: Register, identities: list[Identity]) -> list[Is]:
     return [test for test in tests if test.codes and not test.negated]
 
 
-def _identifying(register: Register, tests: list[Is]) -> Fraction:
+def _identifying(register: Register, tests: list[Is], state: PresentMeaning) -> Fraction:
     """The default, with every test on the register or on one of its fields made true."""
-    value = number_of(register, register.default) or Fraction(0)
+    default = state.default(register)
+    value = number_of(register, default) or Fraction(0)
     for test in tests:
         low, high = test.codes[0]
         code = Fraction(high if low == BOTTOM else low)
         field = next((each for each in register.fields if each.id == test.field), None)
         if field is not None:
             value = with_field(value, field, code)
-        elif register.default is None or not test.lists(value):
+        elif default is None or not test.lists(value):
             value = code
     return value

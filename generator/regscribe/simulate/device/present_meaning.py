@@ -115,6 +115,15 @@ class PresentMeaning(ABC):
         """Turn a value of use into a stored number (exact: as finely as asked, whatever the device can hold)."""
         return self.line(register).stored(value)
 
+    def default(self, register: Register) -> Fraction | str | None:
+        """Return the default that counts now; None where the map gives none."""
+        return register.default if register.default is not None else choose(register.default_cases, self)
+
+    def delivered(self, register: Register) -> Fraction | str | None:
+        """Return what a new device holds, the default where the map gives nothing else; None without either."""
+        stated = register.delivered if register.delivered is not None else choose(register.delivered_cases, self)
+        return self.default(register) if stated is None else stated
+
     def line(self, register: Register) -> Straight:
         """Return the scale as things stand; the identity where one of its numbers has no value."""
         scale = self.conversion(register)

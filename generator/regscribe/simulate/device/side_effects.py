@@ -81,9 +81,10 @@ class Conduct:
             state.put(path, value)
         for path in effect.defaults:
             register = state.register(path)
-            if register.default is not None:
+            default = state.default(register)
+            if default is not None:
                 self.wear[path] += register.persistence in LASTING
-                state.poke(path, register.default)
+                state.poke(path, default)
         if effect.unlatch and self.controller is not None:
             self.controller.release()
 

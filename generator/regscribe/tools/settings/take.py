@@ -1,6 +1,7 @@
 """The settings of a model: read from a device in one snapshot as a backup, or as its manual gives their defaults."""
 
 from collections.abc import Mapping
+from contextlib import suppress
 from datetime import UTC, datetime
 from fractions import Fraction
 from typing import Any
@@ -11,8 +12,9 @@ from regscribe.tools.live.value_text import is_number, show
 from regscribe.tools.settings.backup import NO_GROUP, Backup, BackupOrigin, Saved
 from regscribe_runtime import Register, RegscribeError
 from regscribe_runtime.operations.session import Operation, Session, Task
+from regscribe_runtime.values.conditions import choose
 from regscribe_runtime.values.kinds import OCTETS, Kind
-from regscribe_runtime.values.numbers import exact
+from regscribe_runtime.values.numbers import Number, exact
 
 TEXTS = OCTETS | {Kind.VERSION}
 
@@ -74,13 +76,17 @@ def backup(driver: Driver, *, link: str = "", now: datetime | None = None) -> Ta
 
 def factory(driver: Driver) -> dict[str, Saved]:
     """The settings of a model by path, where its manual gives a default."""
-    values = {one.path: _default_of(one) for one in writable(driver) if one.default is not None}
+    values = {one.path: _default_of(one, one.default) for one in writable(driver) if one.default is not None}
+    for one in writable(driver):
+        with suppress(KeyError):  # the case depends on what has no default
+            if (default := choose(one.default_cases, values, {})) is not None:
+                values[one.path] = _default_of(one, default)
     return {path: _saved(driver.registers[path], value, values, {}) for path, value in values.items()}
 
 
-def _default_of(register: Register[Any]) -> Any:  # noqa: ANN401 (a value of any register)
+def _default_of(register: Register[Any], default: Number | float | str | None) -> Any:  # noqa: ANN401 (a value of any register)
     """The default as a driver would read it: a member of the enum, a special value, a number, a text."""
-    value_type, default = register.value_type, register.default
+    value_type = register.value_type
     if register.kind in TEXTS or default is None:
         return default
     if value_type.coded:

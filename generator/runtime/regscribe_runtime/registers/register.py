@@ -12,11 +12,23 @@ from regscribe_runtime.registers.value_types import ValueType
 from regscribe_runtime.values.conditions import ALWAYS, Cases, Condition, Givens, State, always, at_least
 from regscribe_runtime.values.facts import PLAIN_READING, Governs, ReadFacts, WriteCondition
 from regscribe_runtime.values.kinds import Access
+from regscribe_runtime.values.numbers import Number
 from regscribe_runtime.values.scales import SAME, Conversion, Range, Sentinel
 from regscribe_runtime.values.views import View, limit_needs, needs
 
 T = TypeVar("T")
-SPEAKING = ("views", "scale", "special_scale", "range", "valid", "sentinels", "unit", "writable", "when")
+SPEAKING = (
+    "views",
+    "scale",
+    "special_scale",
+    "range",
+    "valid",
+    "sentinels",
+    "unit",
+    "writable",
+    "when",
+    "default_cases",
+)
 """The attributes of a register that may refer to other registers."""
 NOWHERE = -(1 << 20)
 """The base of a block that was not found: no request can be made to such an address."""
@@ -26,11 +38,12 @@ class Register(Generic[T]):
     """The declaration of a register: its address, what its words mean and when it may be written.
 
     `at` is the n of its views' address formulas. `special_scale` divides the codes of special values, as the range's
-    decimals divide its limits; `valid` is what a reading must lie in. `default` is the manual's, in engineering units.
-    `unit` is an engineering unit, or cases of them. `stays` is why the value must not be copied to another device
-    (address, line, calibration, identity, counter, operation, momentary; "": it may be), `governs` what it sets of the
-    serial line, `settle` the milliseconds after a write in which reading back is not reliable; `rescales` names the
-    unit whose values the device converts. It exists only while `when` holds; `reading` is how it wants to be read.
+    decimals divide its limits; `valid` is what a reading must lie in. `default` is the manual's, in engineering units
+    (`default_cases` where it differs by case). `unit` is an engineering unit, or cases of them. `stays` is why the
+    value must not be copied to another device (address, line, calibration, identity, counter, operation, momentary; "":
+    it may be), `governs` what it sets of the serial line, `settle` the milliseconds after a write in which reading back
+    is not reliable; `rescales` names the unit whose values the device converts. It exists only while `when` holds;
+    `reading` is how it wants to be read.
 
     In a `block` addresses count from its base, which is not known (`origin` is None) before it is `located`;
     `reach` is the first address behind its element in an array that goes to the end of the block, else 0.
@@ -51,6 +64,7 @@ class Register(Generic[T]):
         range: Cases[Range] = (),  # noqa: A002 (the manuals' own word)
         valid: Cases[Range] = (),
         default: float | str | None = None,
+        default_cases: Cases[Number | str] = (),
         unit: str | Cases[str] = "",
         section: str = "",
         sentinels: tuple[Sentinel, ...] = (),
@@ -73,7 +87,7 @@ class Register(Generic[T]):
         self.special_scale = special_scale
         spelled = isinstance(value_type, OctetType) and isinstance(default, str)
         self.default: T | float | str | None = value_type.parse(default) if spelled else default  # type: ignore[attr-defined] # of octets
-        self.section, self.aliases = section, aliases
+        self.default_cases, self.section, self.aliases = default_cases, section, aliases
         self.unit: Cases[str] = always(unit) if isinstance(unit, str) else unit
         self.writable, self.persistence = writable, persistence
         self.unlock, self.apply, self.danger = unlock, apply, danger
