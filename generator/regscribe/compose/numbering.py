@@ -3,6 +3,7 @@
 The rest of the compiler sees wire addresses alone. A number tells its space where the row does not say it.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -16,8 +17,8 @@ _LAST = 0xFFFF
 _TABLES = ("groups", "sets", "commands", "override", "reserved", "unused")
 _INNER = frozenset({"registers", "each", "set_each", "variants", "steps", "set", "write"})
 """Keys of a row below which more rows, or keys of it, stand."""
-_NUMBERS = frozenset({"at", "aliases", "write_at"})
 _COILS = (5, 15)
+_BITS = frozenset({"coil", "discrete"})
 _NOT_NUMBERED = frozenset({"status", "file", "queue"})
 """Spaces whose addresses no notation has numbers for."""
 
@@ -125,15 +126,23 @@ class _Rows:
         stated = text(node.child("space")) or text(at(node, ("each", "space"))) or stated
         stated = "coil" if text(node.child("function")) in map(str, _COILS) else stated
         spaces = set[str]()
-        relative = node.child("block")  # of a step: counted from the block
-        for key, each in members(node).items():
-            if key in _NUMBERS and not relative:
-                node = put(node, key, self._wire(each, stated, spaces if key == "at" else set()))
-        found = next(iter(spaces), space)
+        numbers = () if node.child("block") else ("at", "aliases")  # a step in a block counts from there
+        node = self._converted(node, numbers, stated, spaces)
+        found = next(iter(spaces), stated or space)
         if spaces and not stated and found != (space or "holding"):
             node = put(node, "space", SourceNode(found, node.place))
+        written = "coil" if found in _BITS else "holding"
+        node = self._converted(node, ("write_at",), written, set())
         for key, each in members(node).items():
-            node = put(node, key, self.rows(each, found, stated)) if key in _INNER else node
+            said = (written, written) if key == "write" else (found, stated)
+            node = put(node, key, self.rows(each, *said)) if key in _INNER else node
+        return node
+
+    def _converted(self, node: SourceNode, keys: Iterable[str], stated: str, spaces: set[str]) -> SourceNode:
+        """The row with the numbers of some keys as wire addresses; the space of the first is added to `spaces`."""
+        for key in keys:
+            each = node.child(key)
+            node = node if each is None else put(node, key, self._wire(each, stated, set() if spaces else spaces))
         return node
 
     def _wire(self, node: SourceNode, stated: str, spaces: set[str]) -> SourceNode:
