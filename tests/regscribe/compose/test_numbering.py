@@ -63,6 +63,11 @@ def test_the_space_that_a_group_says_holds_for_its_rows(sound: Callable[..., Reg
     assert addresses(found) == {"seven": ("input", 7)}
 
 
+def test_registers_of_a_block_count_from_its_base(sound: Callable[..., RegisterMap]) -> None:
+    chain = "chains: {c: {at: [0], marker: [1, 2]}}\nblocks: {b: {chain: c, id: 7}}\nwritten_in: modicon"
+    assert addresses(sound(text("{at: 2, name: Two}", top=chain, group="    block: b\n"))) == {"two": ("holding", 2)}
+
+
 def test_reserved_and_unused_addresses_and_commands_are_written_so_too(sound: Callable[..., RegisterMap]) -> None:
     tail = """\
 reserved: [{at: 30011..30012}]

@@ -69,9 +69,8 @@ def _row(context: PageContext, leaf: Leaf, offsets: Sequence[int], names: Sequen
 
 
 def _span(leaf: Leaf, view: View, register: Register, offset: int = 0) -> Md:
-    first = view.address(register.at) + offset
-    last = last_address(view, register.at, leaf.arrays) + offset
-    return escape(span_words(view.space.spelled(first), view.space.spelled(last)))
+    ends = view.address(register.at), last_address(view, register.at, leaf.arrays)
+    return escape(span_words(*(view.space.spelled(end, offset) for end in ends)))
 
 
 def _other_view(leaf: Leaf, name: str, register: Register) -> Md:

@@ -52,11 +52,15 @@ class Space(StrEnum):
         space.most, space.part_bits, space.last = most, part_bits, last
         return space
 
-    def spelled(self, address: int) -> str:
-        """An address for people: `4:10` is record 10 of file 4; of an object its number."""
+    def spelled(self, address: int, offset: int = 0) -> str:
+        """An address for people: `4:10` is record 10 of file 4; of an object its number.
+
+        `offset` is what a notation of the manual adds to it.
+        """
         part, inside = address >> self.part_bits, address & (1 << self.part_bits) - 1
         if not self.part_bits:
-            return f"{address & WIRE} on page {page}" if (page := self.page(address)) else str(address)
+            shown = (address & WIRE) + offset
+            return f"{shown} on page {page}" if (page := self.page(address)) else str(shown)
         return f"{part}" if self is Space.IDENTIFICATION else f"{part}:{inside}"
 
     def page(self, address: int) -> int:
