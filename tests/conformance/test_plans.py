@@ -91,7 +91,7 @@ def _whole(function: int, address: int, quantity: int) -> tuple[int, int, int]:
 
 
 def _asked(pdu: bytes) -> tuple[int, int, int]:
-    """What a request asks for; function 07 names no address, others have the number of a file, queue or object in it."""
+    """What a request asks; function 07 names no address, others have a number of a file, queue or object in it."""
     if pdu[0] == 20:
         file, record, quantity = struct.unpack(">HHH", pdu[3:])
         return 20, file << 16 | record, quantity

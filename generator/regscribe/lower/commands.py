@@ -48,7 +48,7 @@ def commands_of(root: Value, device: CommandScope) -> tuple[Command, ...]:
 def _command(node: Value, device: CommandScope) -> Command:
     nodes = dict(node.items_of("arguments"))
     arguments = Arguments(nodes, {name: _argument(each, node.key, device) for name, each in nodes.items()})
-    steps = [_step(step, device, arguments) for step in node.elements_of("steps")]
+    steps = [_step_when(step, device, arguments) for step in node.elements_of("steps")]
     _report_idle(node, {step.argument for step, _ in steps})
     return Command(
         id=node.key if node.key.isidentifier() else identifier(node, label=node.key, given=None),
@@ -56,6 +56,7 @@ def _command(node: Value, device: CommandScope) -> Command:
         steps=tuple(step for step, _ in steps),
         step_registers=tuple(path for _, path in steps),
         arguments=tuple(arguments.taken.items()),
+        when=condition_of(node, device.scope),
         description=node.text_of("description"),
         section=node.text_of("source"),
         danger=node.text_of("danger"),
@@ -112,6 +113,11 @@ def _from_register(name: str, target: Register, view: View, arguments: Arguments
         governs=None,
         persistence="",
     )
+
+
+def _step_when(node: Value, device: CommandScope, arguments: Arguments) -> tuple[CommandStep, str]:
+    step, path = _step(node, device, arguments)
+    return step._replace(when=condition_of(node, device.scope)), path
 
 
 def _step(node: Value, device: CommandScope, arguments: Arguments) -> tuple[CommandStep, str]:

@@ -11,6 +11,7 @@ from regscribe.model.identifiers import ways_to_say
 from regscribe.model.process import Effect, Process
 from regscribe.model.register import Array, Computed, Group, Inferred, Register
 from regscribe_runtime.values.blocks import RegisterBlock
+from regscribe_runtime.values.conditions import ALWAYS, Condition
 from regscribe_runtime.values.facts import CommandStep, Identity
 from regscribe_runtime.values.programs import SetpointProgram
 from regscribe_runtime.values.protocol import Protocol
@@ -75,6 +76,7 @@ class Command:
 
     `step_registers` are the paths of the registers that the steps name, empty for a step that names none.
     `arguments` are what a program gives when it sends the command: pairs of a name and a register that none reads.
+    It exists only while `when` holds.
     `effects` are what it changes besides the words that it writes, one after the other.
     """
 
@@ -83,6 +85,7 @@ class Command:
     steps: tuple[CommandStep, ...]
     step_registers: tuple[str, ...] = ()
     arguments: tuple[tuple[str, Register], ...] = ()
+    when: Condition = ALWAYS
     description: str = ""
     section: str = ""
     danger: str = ""

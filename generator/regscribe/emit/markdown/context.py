@@ -110,6 +110,10 @@ def _conditions(
         yield from ((model, sentinel.when) for sentinel in register.sentinels)
         yield from ((model, case.when) for case in register.follows)
         yield from ((model, field.follows) for field in register.fields if field.follows is not None)
+    for model in register_map.models:
+        for command in model.commands:
+            yield model, command.when
+            yield from ((model, step.when) for step in command.steps)
     for identity in register_map.identity:
         yield register_map.models[0], identity.identity.when
 

@@ -171,14 +171,19 @@ def _command(context: PageContext, shared: Merged[Command]) -> RegisterEntry:
         summary=join(DOT, parts),
         paragraphs=_paragraphs(
             by_model(shared, lambda _, item: prose(item.description)),
+            by_model(shared, lambda model, item: _exists(context, model, item)),
             by_model(shared, lambda model, item: effects(context, model, item.effects)),
         ),
         danger=_paragraphs(by_model(shared, lambda _, item: prose(item.danger))),
         tables=(
             *titled("Arguments", ARGUMENTS, shared.states(lambda model, command: _arguments(context, model, command))),
-            *titled("Steps", STEPS, shared.states(lambda _, command: _steps(context, command))),
+            *titled("Steps", STEPS, shared.states(lambda model, command: _steps(context, model, command))),
         ),
     )
+
+
+def _exists(context: PageContext, model: Model, command: Command) -> Md:
+    return Md() if command.when.always else md("It exists only if ", context.condition(command.when, model), ".")
 
 
 ARGUMENTS = ("Name", "Value", "Range", "Unit", "Transmitted as", "What it is")
@@ -202,18 +207,19 @@ def _codes(enum: Enum) -> str:
     return ", ".join(f"{member.code} {one_line(member.label)}" for member in enum.members)
 
 
-def _steps(context: PageContext, command: Command) -> Rows:
-    return tuple(_step(context, number, *each) for number, each in enumerate(command.named_steps, start=1))
+def _steps(context: PageContext, model: Model, command: Command) -> Rows:
+    return tuple(_step(context, model, number, *each) for number, each in enumerate(command.named_steps, start=1))
 
 
-def _step(context: PageContext, number: int, step: CommandStep, path: str) -> tuple[Md, ...]:
+def _step(context: PageContext, model: Model, number: int, step: CommandStep, path: str) -> tuple[Md, ...]:
     if not step.words:
         return md(str(number)), md(f"wait {step.wait} ms"), *[Md()] * (len(STEPS) - 2)
     register = context.register(path) if path else Md()
     words = step.argument or " ".join(map(str, step.words))
     hexadecimal = "" if step.space.is_bits or step.argument else " ".join(f"{word & 0xFFFF:04X}" for word in step.words)
     address = f"{step.block} + {step.address}" if step.block else step.space.spelled(step.address)
-    cells = (str(number), "write", f"{step.function:02d}", address, register, words, hexadecimal)
+    when = md(" only if ", context.condition(step.when, model)) if not step.when.always else Md()
+    cells = (str(number), md("write", when), f"{step.function:02d}", address, register, words, hexadecimal)
     return tuple(map(md, cells))
 
 

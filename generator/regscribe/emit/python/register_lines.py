@@ -151,12 +151,13 @@ def _range_text(cases: Cases[Range]) -> str:
 def command_call(command: Command, declarations: Declarations, takes: str) -> Call:
     """The declaration of a command; `takes` is the function that has its arguments, if it has any."""
     pool = declarations.specs.pool
-    steps = (expression(step) for step in command.steps)
+    steps = (declarations.specs.of(step) for step in command.steps)
+    when = None if command.when.always else declarations.specs.of(command.when)
     danger = pool.maybe(literal(one_line(command.danger)), f"{command.id}_danger") if command.danger else None
     if not takes:
-        return call("Command", *steps, danger=danger)
+        return call("Command", *steps, danger=danger, when=when)
     arguments = mapping([(literal(name), declarations.call(register)) for name, register in command.arguments])
-    return call("CommandWith", takes, *steps, arguments=arguments, danger=danger)
+    return call("CommandWith", takes, *steps, arguments=arguments, danger=danger, when=when)
 
 
 TYPES = {

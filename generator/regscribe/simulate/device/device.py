@@ -58,7 +58,7 @@ class SimulatedDevice:
         self.seed = seed
         self._tuning = Tuning(self.state, unit=_unit(register_map, unit), addressing=addressing)
         self._protocol = register_map.protocol
-        self._commands = Commands(self.model.commands)
+        self._commands = Commands(self.model.commands, self.state)
         self._conduct = Conduct(self.state, self._commands, controller_of(self.state, process=process, seed=seed))
         self._words = WordAccess(self.state, self._commands, self._conduct, seed, self.unit)
         self.moves = bool(process)

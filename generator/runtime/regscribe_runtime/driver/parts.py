@@ -10,6 +10,7 @@ from regscribe_runtime.operations import tasks
 from regscribe_runtime.operations.snapshot import Snapshot
 from regscribe_runtime.registers.element import filled
 from regscribe_runtime.registers.register import Register
+from regscribe_runtime.values.conditions import ALWAYS, Condition
 from regscribe_runtime.values.facts import CommandStep
 
 T = TypeVar("T")
@@ -250,12 +251,19 @@ class _AsyncBoundCommand(_Bound[AsyncPart]):
 
 
 class AnyCommand:
-    """Requests that make the device act, one after the other; `arguments` are declarations of what a program gives."""
+    """Requests that make the device act, one after the other; `arguments` are declarations of what a program gives.
+
+    It exists only while `when` holds.
+    """
 
     def __init__(
-        self, *steps: CommandStep, danger: str = "", arguments: Mapping[str, Register[Any]] = MappingProxyType({})
+        self,
+        *steps: CommandStep,
+        danger: str = "",
+        arguments: Mapping[str, Register[Any]] = MappingProxyType({}),
+        when: Condition = ALWAYS,
     ) -> None:
-        self.steps, self.danger, self.arguments, self.id = steps, danger, arguments, ""
+        self.steps, self.danger, self.arguments, self.when, self.id = steps, danger, arguments, when, ""
 
     def __set_name__(self, owner: type, name: str) -> None:
         self.id = name

@@ -9,6 +9,7 @@ from typing import Any, Protocol
 from regscribe_runtime.errors import (
     ConditionNotMet,
     NotApplied,
+    NotPresent,
     NotWritten,
     RegscribeError,
     ValueRefused,
@@ -20,10 +21,10 @@ from regscribe_runtime.operations.read import know
 from regscribe_runtime.operations.read_back import RegisterWrite, is_lost
 from regscribe_runtime.operations.session import Operation, Pause, Session, Task
 from regscribe_runtime.registers import codec
-from regscribe_runtime.registers.presence import seen
+from regscribe_runtime.registers.presence import condition_text, seen
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.report import Words
-from regscribe_runtime.values.conditions import Givens, State
+from regscribe_runtime.values.conditions import Condition, Givens, State
 from regscribe_runtime.values.facts import CommandStep
 from regscribe_runtime.values.views import View
 from regscribe_runtime.wire.requests import MASK_REGISTER, Request
@@ -36,6 +37,7 @@ class Sendable(Protocol):
     danger: str
     steps: tuple[CommandStep, ...]
     arguments: Mapping[str, Register[Any]]
+    when: Condition
 
 
 WORD = 0xFFFF
@@ -91,15 +93,26 @@ def run(command: Sendable, *, confirm: bool, values: Mapping[str, object] = Mapp
     def task(session: Session) -> Operation[None]:
         if command.danger and not confirm:
             raise ValueRefused(command.id, f"this command is dangerous ({command.danger}): pass confirm=True")
+        state = yield from know(session, command.when.registers, fresh=True)
+        if not command.when.holds(state, session.givens):
+            present = seen(command.when, state, session.givens)
+            raise NotPresent(command.id, condition_text(command.when), present)
         given = yield from _words_of_arguments(session, command, values)
         steps = [one._replace(words=given.get(one.argument, one.words)) for one in command.steps]
         try:
             for number, step in enumerate(steps, start=1):
-                yield from _send_step(session, command, number, step)
+                if (yield from _holds(session, step.when)):
+                    yield from _send_step(session, command, number, step)
         finally:
             session.forget()
 
     return task
+
+
+def _holds(session: Session, when: Condition) -> Operation[bool]:
+    """Whether a condition holds now, by what the device says."""
+    state = yield from know(session, when.registers, fresh=True)
+    return when.holds(state, session.givens)
 
 
 def _words_of_arguments(

@@ -90,7 +90,7 @@ class CommandStep(NamedTuple):
     """One request of a command: words (bits of coils) to an address; without words, a wait in milliseconds.
 
     The address counts from the base of `block`, if there is one. With `argument`, as many words as stand here are those
-    of the argument of that name.
+    of the argument of that name. It is done only while `when` holds.
     """
 
     function: int
@@ -99,6 +99,7 @@ class CommandStep(NamedTuple):
     wait: int = 0
     block: str = ""
     argument: str = ""
+    when: Condition = ALWAYS
 
     @property
     def space(self) -> Space:
