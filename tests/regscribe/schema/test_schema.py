@@ -138,6 +138,8 @@ def test_an_unknown_key_asks_whether_another_was_meant(keys: str, advice: str) -
         ("type: dword", "RS0204 6:8", "write `uint32`"),
         ("type: enum16", "RS0204 6:8", "write `enum: {0: ..., 1: ...}`, and as `type` that of the number"),
         ("type: bool", "RS0204 6:8", "write `bit` in coils and discrete inputs"),
+        ("type: mac", "RS0204 6:8", "write `eui48`"),
+        ("type: timestamp", "RS0204 6:8", "write `datetime` with a `layout`"),
         ("type: uint31", "RS0204 6:8", "did you mean `uint32`?"),
         ("word_order: CDAB", "RS0204 6:14", "write `word_order: little`, and no `byte_order`"),
         ("word_order: swapped", "RS0204 6:14", "write `little`"),
