@@ -3,7 +3,9 @@
 from collections.abc import Iterator
 
 from regscribe.checks.rule import Finding, Problem, RuleScope, Scopes, map_rule, model_rule, register_rule
-from regscribe.model import Array, Register, RegisterMap, Related
+from regscribe.model import Access, Array, Kind, Register, RegisterMap, Related
+from regscribe.model.located import arrays_in
+from regscribe_runtime.values.views import scale_needs
 
 
 @register_rule("RS0695", "Register that cannot move with its block")
@@ -34,6 +36,16 @@ def behind_the_end(scope: RuleScope) -> Iterator[Finding]:
             if one.block == block and one not in inside and one.base.last(one.at) >= begin:
                 message = f"stands at {one.address} of block {block}, where array `{array.id}` goes on from {begin}"
                 yield Finding.at(one, message, "correct one of the addresses", related)
+
+
+@model_rule("RS0711", "Count of packed elements that may change or lacks meaning")
+def counter_of_packed(scope: RuleScope) -> Iterator[Finding]:
+    """Addresses that follow a count must not be changed by a write, nor wait for a scale."""
+    for path in dict.fromkeys(one.counted for one in arrays_in(scope.model.members) if one.packed):
+        counter = scope.registers[path]
+        if counter.access is not Access.READ or counter.kind is not Kind.INTEGER or scale_needs(counter):
+            message = "counts packed elements, but it is no plain whole number that can only be read"
+            yield Finding.at(counter, message, "give it `access: r`, no scale and no codes")
 
 
 @map_rule("RS0696", "Identification by a register of a block that a given places")

@@ -11,7 +11,7 @@ from regscribe.lower.pages import page_number, pages_of
 from regscribe.lower.process import process_of
 from regscribe.lower.programs import programs_of
 from regscribe.lower.registers import folded, register_of, seen_from, subject_counting
-from regscribe.lower.rules import UNKNOWN_GROUP
+from regscribe.lower.rules import NOT_PACKED, UNKNOWN_GROUP
 from regscribe.lower.scope import Scope
 from regscribe.lower.texts import known_name, whole_ends
 from regscribe.lower.tree import (
@@ -155,5 +155,19 @@ def _array(branch: TreeBranch, scope: Scope) -> Array:
         section=branch.section,
         to_end=branch.to_end,
         counted=_counted(branch, scope),
+        packed=_is_packed(branch.node.child("repeat"), branch.block, scope),
         span=span_of(branch.node),
     )
+
+
+def _is_packed(repeat: Value | None, block: str, scope: Scope) -> bool:
+    """Whether what stands behind an array moves up by the elements that are not there; RS0366 where it cannot."""
+    if repeat is None or not repeat.is_mapping or not repeat.truth_of("packed"):
+        return False
+    to = repeat.child("to")
+    counter = scope.find(to.text()) if to and to.is_text else None
+    if not block or counter is None or counter.place.block != block or counter.place.array:
+        remedy = "give in `to` a register of the same block outside arrays, or remove `packed`"
+        message = "what stands behind can only move by a count that stands in the same block, outside all arrays"
+        (repeat.child("packed") or repeat).report(NOT_PACKED, message, remedy=remedy)
+    return True

@@ -4,8 +4,6 @@ from regscribe.lower.node import Value
 from regscribe.lower.rules import ENDLESS, REVERSED
 from regscribe.lower.texts import whole_ends
 
-END = "end"
-
 
 def indices(repeat: Value | None) -> tuple[int, int]:
     """The first index and the greatest that there may be; RS0315 where the first is above it."""

@@ -47,6 +47,7 @@ SAME_BLOCK = "RS0362"
 NO_MARKER = "RS0363"
 IDLE_BLOCK = "RS0364"
 ENDLESS = "RS0365"
+NOT_PACKED = "RS0366"
 UNKNOWN_ARGUMENT = "RS0345"
 NO_PART = "RS0340"
 BAD_LAYOUT = "RS0341"
@@ -116,6 +117,11 @@ RULES: tuple[Rule, ...] = (
     Rule(SAME_BLOCK, "Two blocks at one header", "Under two names its registers would have two meanings."),
     Rule(NO_MARKER, "Chain at several addresses without a marker", "Only a marker tells where a chain begins."),
     Rule(ENDLESS, "Array to the end of no block", "Only the length of a block tells where it ends."),
+    Rule(
+        NOT_PACKED,
+        "Packed array that cannot be",
+        "Addresses can follow a count where it is read first: in a block, from a register outside all arrays.",
+    ),
     Rule(IDLE_BLOCK, "Chain or block without use", "What no register stands in is never looked for."),
     Rule(NO_PART, "Record of no file, or value of no queue", "Its address is the file's (or queue's) and its own."),
 )

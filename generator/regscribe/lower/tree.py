@@ -96,6 +96,7 @@ class TreeBranch:
     elements: tuple[tuple["Item", ...], ...]
     to_end: bool = False
     counted: PlacedCondition | None = None
+    block: str = ""
 
 
 Item = TreeNode | TreeBranch
@@ -200,7 +201,7 @@ def _branch(node: Value, name: str, place: TreePosition) -> TreeBranch:
         branches.append(items_in(elements, element))
     to_end = goes_to_end(repeat, place.block, nested=bool(place.array))
     around = PlacedCondition(counted, place.prefixes) if counted else None
-    return TreeBranch(node, name, first, stride, inside.section, tuple(branches), to_end, around)
+    return TreeBranch(node, name, first, stride, inside.section, tuple(branches), to_end, around, place.block)
 
 
 def entries_of(items: tuple[Item, ...]) -> list[TreeNode]:

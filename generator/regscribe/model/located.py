@@ -1,6 +1,6 @@
 """A model as it stands on one device: the registers of blocks at the addresses where a layout has them."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from fractions import Fraction
 
@@ -23,11 +23,20 @@ def layout_of(register_map: RegisterMap, model: Model, bases: Mapping[str, int])
     return lay_out(register_map.blocks, ends, bases)
 
 
+def arrays_in(members: Iterable[Register | Array]) -> Iterator[Array]:
+    """All arrays, those in others too."""
+    for one in members:
+        if isinstance(one, Array):
+            yield one
+            yield from arrays_in(one.members)
+
+
 def located(model: Model, layout: Layout) -> Model:
     """The model with the registers of blocks, and steps of commands there, where the layout has them.
 
-    A register at a word of a header holds what the chain says.
+    A register at a word of a header holds what the chain says, one that counts packed elements as many as may be.
     """
+    most = {one.counted: one.count for one in arrays_in(model.members) if one.packed}
 
     def moved(register: Register) -> Register:
         header = layout.headers.get(register.block)
@@ -36,12 +45,13 @@ def located(model: Model, layout: Layout) -> Model:
         word = layout.words.get((register.base.space, header.base + register.at))
         headed = 0 <= register.at < HEADER and register.base.words == 1
         number = headed and word is not None and register.kind in {Kind.INTEGER, Kind.RAW, Kind.NUMBER}
+        delivered = Fraction(word or 0) if number else register.delivered
         return replace(
             register,
             at=register.at + header.base,
             aliases=tuple(alias + header.base for alias in register.aliases),
-            delivered=Fraction(word or 0) if number else register.delivered,
-            delivered_cases=() if number else register.delivered_cases,
+            delivered=Fraction(most[register.path]) if register.path in most else delivered,
+            delivered_cases=() if number or register.path in most else register.delivered_cases,
             block="",
         )
 

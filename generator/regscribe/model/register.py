@@ -191,7 +191,8 @@ class Array:
     empty brackets in place of the index (`channels[].decimals`), as it differs from element to element. A step is one
     unit of a register's `at`, which a view may stretch (an IEEE view moves by 2 a step: `View.stride`). `to_end`: a
     device has as many as fit into the rest of the block, `count` at most; `counted`: as many as this register or
-    `given.id` says, `count` at most, so that element i - `first` + 1 exists while it is that at least.
+    `given.id` says, `count` at most, so that element i - `first` + 1 exists while it is that at least. `packed`: what
+    stands behind moves up by each that a device lacks.
     """
 
     id: str
@@ -204,6 +205,7 @@ class Array:
     section: str = ""
     to_end: bool = False
     counted: str = ""
+    packed: bool = False
     span: Span = NOWHERE
 
 

@@ -73,6 +73,8 @@ def _session(driver: Any) -> Session:  # noqa: ANN401 (as above)
         unused=unused_of(driver),
         blocks=blocks,
     )
+    slips = (slip for register in driver.registers.values() for slip in register.slips)
+    session.memory.update({slip.counter: slip.most for slip in slips})
     for chain in dict.fromkeys(block.chain for block in blocks if block.chain):
         here = (headers[block.id] for block in blocks if block.chain == chain)
         session.found(chain, tuple(sorted(here, key=lambda header: header.base)))

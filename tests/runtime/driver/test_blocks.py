@@ -12,6 +12,7 @@ from regscribe.export.collectd import export as collectd
 from regscribe.model import Access
 from regscribe.plugins import OptionError
 from regscribe.simulate.device.device import SimulatedDevice
+from regscribe.simulate.errors import SimulatorError
 from regscribe.tools.live.decode import Decoder
 from regscribe.tools.settings.take import backup
 from regscribe_runtime import NotPresent, ValueRefused
@@ -262,3 +263,103 @@ def test_a_block_is_not_written_to_all_units_at_once(sun: Any) -> None:
 
     with pytest.raises(ValueRefused, match="where block inverter stands differs by unit"):
         request_for(driver.limit, 5, {"one": driver}, givens={})
+
+
+CURVES = """
+format: 1
+map: {id: test/curves, title: Curves, maker: Test, class_prefix: Curves}
+manual: {title: Manual, number: "1"}
+models: {A: {}}
+protocol: {functions: [3, 6, 16]}
+chains: {sunspec: {at: 0}}
+blocks: {volt_var: {chain: sunspec, id: 705}}
+groups:
+  - id: volt_var
+    name: Volt-Var
+    source: "1"
+    block: volt_var
+    each: {access: rw}
+    registers:
+      - {at: 2, name: Points, access: r}
+      - id: curves
+        name: Curve
+        repeat: {from: 1, to: {block: end}, most: 3}
+        stride: 17
+        registers:
+          - {at: 3, name: Active}
+          - id: trip
+            name: Trip
+            repeat: {from: 1, to: points, most: 4, packed: true}
+            stride: 2
+            registers: [{at: 4, name: Volts}, {at: 5, name: Var}]
+          - {at: 12, name: Between, type: uint32}
+          - id: stop
+            name: Stop
+            repeat: {from: 1, to: points, most: 4, packed: true}
+            stride: 1
+            registers: [{at: 14, name: Hertz}]
+          - {at: 18, name: Tail}
+          - {at: 19, name: Last}
+"""
+
+
+def curve(number: int, points: int) -> list[int]:
+    """The words of a curve: each value tells what it is."""
+    trip = [word for point in range(1, points + 1) for word in (number * 100 + point, number * 100 + point + 50)]
+    return [number, *trip, 0, number * 100, *(number * 1000 + point for point in range(1, points + 1)), number + 70, 0]
+
+
+@pytest.mark.parametrize("points", [0, 1, 3, 4])
+@pytest.mark.parametrize("number", [1, 3])
+def test_what_stands_behind_packed_arrays_moves_up(talk: Any, points: int, number: int) -> None:
+    held = [points, *(word for one in range(1, number + 1) for word in curve(one, points))]
+    device = talk(CURVES, dict(enumerate([705, len(held), *held, 0xFFFF, 0])))
+
+    found = device.driver.read().valid
+    for one in range(1, number + 1):
+        path = f"curves[{one}]"
+        assert [found[f"{path}.{name}"] for name in ("active", "between", "tail")] == [one, one * 100, one + 70]
+        for point in range(1, points + 1):
+            assert found[f"{path}.trip[{point}].var"] == one * 100 + point + 50
+            assert found[f"{path}.stop[{point}].hertz"] == one * 1000 + point
+    assert len(found) == 1 + number * (4 + 3 * points)
+    assert (len(device.driver.curves), len(device.driver.curves[1].trip)) == (number, points)
+    device.driver.curves[number].tail.write(5)
+    assert device.words.holds[len(held)] == 5
+    assert asyncio.run(device.other.curves[number].stop.count()) == points
+
+
+def test_an_element_beyond_the_count_is_not_present(talk: Any) -> None:
+    held = [1, *curve(1, 1)]
+    device = talk(CURVES, dict(enumerate([705, len(held), *held, 0xFFFF, 0]))).driver
+
+    with pytest.raises(NotPresent, match=r"trip\[2\].volts: it exists only while points is at least 2; points is 1"):
+        device.curves[1].trip[2].volts.read()
+    with pytest.raises(NotPresent, match=r"curves\[2\].tail: .* block volt_var has 16 words or more"):
+        device.curves[2].tail.read()
+
+
+def test_a_simulated_device_has_the_most_elements(build: Any, direct: Any) -> None:
+    built = build(CURVES)
+    simulated = SimulatedDevice(built.map, "A", unit=1)
+    device = built.driver("A")(direct(simulated), unit=1)
+    simulated.poke("curves[3].stop[4].hertz", 50)
+
+    assert device.points.read() == 4
+    assert device.curves[3].stop[4].hertz.read() == 50
+    with pytest.raises(SimulatorError, match="'points' counts elements"):
+        simulated.poke("points", 2)
+
+
+def test_decode_learns_the_count_from_a_log(build: Any, words: Any, direct: Any) -> None:
+    built, held = build(CURVES), [1, *curve(1, 1)]
+    device = words(dict(enumerate([705, len(held), *held, 0xFFFF, 0])))
+    link = direct(device)
+    built.driver("A")(link, unit=1).curves[1].tail.read()
+    decoder, names = Decoder(built.driver("A")), []
+    for request in link.log:
+        sent = pdu.encode_request(request)
+        for direction, frame in (("sent", sent), ("received", device.handle(sent))):
+            names += [item.name for item in decoder.feed(CapturedFrame("tcp", 1, frame, frame), direction).items]
+
+    assert names == ["points", "points", "curves[1].tail", "curves[1].tail"]

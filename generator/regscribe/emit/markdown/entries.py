@@ -136,6 +136,7 @@ def _array(context: PageContext, branch: Branch, marks: str) -> RegisterEntry:
     parts = (
         code(".".join(f"{item.id}[{letter}]" for item, letter in zip(arrays, LETTERS, strict=False))),
         escape(f"{array.count} elements{_fewer(array)}"),
+        Md("what stands behind moves up by those that a device lacks" if array.packed else ""),
         indices(arrays),
         escape(f"each {array.stride} addresses after the one before" if array.stride > 1 else ""),
         source(array.section),

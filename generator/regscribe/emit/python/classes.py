@@ -96,6 +96,7 @@ class Classes:
         numbers = {"first": str(array.first), "count": str(array.count), "stride": str(array.stride)}
         numbers |= {"to_end": "True"} if array.to_end else {}
         numbers |= {"counted": literal(array.counted)} if array.counted else {}
+        numbers |= {"packed": "True"} if array.packed else {}
         many = ", as far as the block goes" if array.to_end else f", as {array.counted} says" if array.counted else ""
         what = (
             f"{one_line(array.name)} {array.first} to {array.first + array.count - 1}{many}: {one_line(array.section)}."

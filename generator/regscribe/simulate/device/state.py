@@ -6,7 +6,7 @@ from threading import Lock
 from types import MappingProxyType
 
 from regscribe.model import NAN, BitField, CommandStep, Kind, Model, NotANumber, Register, RegisterMap, Space, parse
-from regscribe.model.located import layout_of, located
+from regscribe.model.located import arrays_in, layout_of, located
 from regscribe.reference import Surroundings, holds, present_sentinels, version_text
 from regscribe.simulate.device import codec, octets
 from regscribe.simulate.device.device_plan import AddressSpan, Blueprint, Image, Stored, draw
@@ -256,9 +256,13 @@ class DeviceState(PresentMeaning):
         """Set a register, or `register.field`, to a value of use, whatever its access and range (as a process would).
 
         A text is a text, a number in decimals, or the id of a sentinel, a special value or an enum member; LOW_FAULT
-        and HIGH_FAULT are the register's own sentinels.
+        and HIGH_FAULT are the register's own sentinels. SimulatorError for a register that counts packed elements: a
+        simulated device has as many as there may be.
         """
         register, field = self.find(path)
+        if any(array.packed and array.counted == register.path for array in arrays_in(self._model.members)):
+            message = f"register {path!r} counts elements, of which a simulated device has as many as there may be"
+            raise SimulatorError(message)
         self._pending.pop(register.path, None)
         self.store(register.path, self._changed(register, field, value))
 

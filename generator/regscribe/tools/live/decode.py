@@ -157,6 +157,7 @@ class Decoder:
                 state[register.path] = codec.decode(register, view, part, state, self._givens, named=False)
             except (RegscribeError, KeyError, ValueError):
                 state.pop(register.path, None)
+        self._places[unit].counted(state)
 
     def _items(self, unit: int, request: Request, words: tuple[int, ...] | None) -> Iterator[DecodedItem]:
         for register, view, part in self._registers(unit, request, words):

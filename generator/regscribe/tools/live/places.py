@@ -22,8 +22,10 @@ class RegisterPlaces:
         self._blocks: dict[str, RegisterBlock] = {one.id: one for one in driver._blocks}  # noqa: SLF001 (its facts)
         self._headers = {name: Header(0, base) for name, base in bases.items()}
         self._pages, self._page = driver._pages, 0  # noqa: SLF001 (as above)
+        self._counters = {path for one in self._registers for path in one.counters}
+        self._counts: dict[str, Any] = {}
         self._seen: dict[tuple[str, int], int] = {}
-        self._index = self._indexed()
+        self._index = self._indexed({})
 
     def at(self, space: str, address: int) -> Here:
         """The registers that begin at an address."""
@@ -52,7 +54,13 @@ class RegisterPlaces:
         for chain in chains:
             self._learn(chain)
         if len(self._headers) > before:
-            self._index = self._indexed()
+            self._index = self._indexed(self._counts)
+
+    def counted(self, state: Mapping[str, Any]) -> None:
+        """Learn from values of registers where those behind packed arrays stand."""
+        counts = {path: state[path] for path in self._counters if path in state}
+        if counts != self._counts:
+            self._counts, self._index = counts, self._indexed(counts)
 
     def _learn(self, chain: Chain) -> None:
         found = headers_in(chain, {address: word for (space, address), word in self._seen.items()})
@@ -60,11 +68,13 @@ class RegisterPlaces:
             if block.chain == chain and block.id not in self._headers and (header := find(block, found)):
                 self._headers[block.id] = header
 
-    def _indexed(self) -> dict[tuple[str, int], Here]:
+    def _indexed(self, counts: Mapping[str, Any]) -> dict[tuple[str, int], Here]:
         found: dict[tuple[str, int], Here] = defaultdict(list)
         for declared in self._registers:
             header = self._headers.get(declared.block)
-            register = declared.located(header.base) if header else declared
-            for view, address in places(register) if header or not declared.block else ():
+            register = declared.placed(header.base, counts) if header else declared
+            counted = [one for one in declared.when.leaves if one.register in counts]
+            here = register.origin is not None and all(one.holds(counts, {}) for one in counted)
+            for view, address in places(register) if here else ():
                 found[view.space, address].append((register, view))
         return dict(found)

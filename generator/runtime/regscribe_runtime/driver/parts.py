@@ -10,6 +10,7 @@ from regscribe_runtime.operations import tasks
 from regscribe_runtime.operations.snapshot import Snapshot
 from regscribe_runtime.registers.element import filled
 from regscribe_runtime.registers.register import Register
+from regscribe_runtime.values.blocks import Slip
 from regscribe_runtime.values.conditions import ALWAYS, Condition
 from regscribe_runtime.values.facts import CommandStep
 
@@ -43,21 +44,38 @@ def _catalogue(owner: type, *, whole: bool) -> Mapping[str, Register[Any]]:
 
 
 def _registers(owner: type) -> Iterator[tuple[str, Register[Any]]]:
-    for name, declared in _declared(owner, Register, Array).items():
-        if isinstance(declared, Register):
-            yield name, declared
-        elif isinstance(declared, Array):
-            inside = list(_registers(declared.element))
-            begin = min((register.at for _, register in inside), default=0)
-            for place, index in enumerate(range(declared.first, declared.first + declared.count)):
-                for path, register in inside:
-                    there = f"{name}[{index}].{path}"
-                    moved = register.moved(place * declared.stride, there)
-                    if declared.to_end:
-                        moved.reach = begin + (place + 1) * declared.stride
-                    if declared.counted:
-                        moved.counted(declared.counted, place + 1)
-                    yield there, moved
+    members = _declared(owner, Register, Array)
+    packed = {name: _span(one) for name, one in members.items() if isinstance(one, Array) and one.packed}
+    for name, declared in members.items():
+        inside = [(name, declared)] if isinstance(declared, Register) else _elements(name, declared)
+        for path, register in inside:
+            before = tuple(slip for other, (end, slip) in packed.items() if other != name and register.at >= end)
+            if before:
+                register = register.moved(0, path)  # noqa: PLW2901 (a copy, since models share declarations)
+                register.slips += before
+            yield path, register
+
+
+def _elements(name: str, array: "Array[Any, Any]") -> Iterator[tuple[str, Register[Any]]]:
+    inside = list(_registers(array.element))
+    begin = min((register.at for _, register in inside), default=0)
+    inner = [_span(one)[1] for one in _declared(array.element, Array).values() if one.packed]
+    for place, index in enumerate(range(array.first, array.first + array.count)):
+        for path, register in inside:
+            there = f"{name}[{index}].{path}"
+            moved = register.moved(place * array.stride, there)
+            if array.to_end and not inner:
+                moved.reach = begin + (place + 1) * array.stride
+            if array.counted:
+                moved.counted(array.counted, place + 1)
+            moved.slips += tuple(slip._replace(words=place * slip.words) for slip in inner if place)
+            yield there, moved
+
+
+def _span(array: "Array[Any, Any]") -> tuple[int, Slip]:
+    """The first address behind a packed array with all its elements, and what it leaves free with fewer."""
+    begin = min(register.at for _, register in _registers(array.element))
+    return begin + array.count * array.stride, Slip(array.counted, array.stride, array.count)
 
 
 @cache
@@ -175,7 +193,7 @@ class Array(Generic[P, A]):
     """A repeated structure: `count` elements, numbered from `first` as in the manual, `stride` steps apart.
 
     `to_end`: there are as many as fit into what the block has left, `count` at most; `counted`: as many as this
-    register (or `given.id`) says, `count` at most.
+    register (or `given.id`) says, `count` at most. `packed`: what stands behind moves up by each that a device lacks.
     """
 
     def __init__(
@@ -188,10 +206,11 @@ class Array(Generic[P, A]):
         stride: int,
         to_end: bool = False,
         counted: str = "",
+        packed: bool = False,
     ) -> None:
         self.element, self.awaitable = element, awaitable
         self.first, self.count, self.stride, self.to_end = first, count, stride, to_end
-        self.counted = counted
+        self.counted, self.packed = counted, packed
         self.id = ""
 
     def __set_name__(self, owner: type, name: str) -> None:

@@ -6,8 +6,16 @@ from collections.abc import Callable, Iterable
 from functools import wraps
 from typing import Any, TypeVar, cast
 
-from regscribe_runtime.errors import GATEWAY, BrokenChain, ExceptionAnswer, NotPresent, RegscribeError
+from regscribe_runtime.errors import (
+    GATEWAY,
+    BrokenChain,
+    ExceptionAnswer,
+    NotPresent,
+    RegscribeError,
+    ValueNotDecodable,
+)
 from regscribe_runtime.operations.session import Operation, Session, Task
+from regscribe_runtime.registers import codec
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.blocks import END_OF_SPACE, HEADER, Chain, Header, RegisterBlock
 from regscribe_runtime.wire.requests import Request
@@ -49,8 +57,29 @@ def locate(session: Session, registers: Iterable[Register[Any]]) -> Operation[di
             yield from headers(session, chain)
         except BrokenChain as error:
             broken[chain] = error
-    found = {one.path: broken.get(session.blocks[one.block].chain) or absence(session, one) for one in inside}
+    unknown = yield from _count(session, inside)
+    found: dict[str, RegscribeError | None] = {}
+    for one in inside:
+        uncounted = next((unknown[path] for path in session.declared[one.path].counters if path in unknown), None)
+        found[one.path] = broken.get(session.blocks[one.block].chain) or uncounted or absence(session, one)
     return {path: error for path, error in found.items() if error}
+
+
+def _count(session: Session, registers: Iterable[Register[Any]]) -> Operation[dict[str, RegscribeError]]:
+    """Read the counters that tell where registers stand, unless they are known; the errors of those without a value."""
+    unknown: dict[str, RegscribeError] = {}
+    counters = [path for one in registers for path in session.declared[one.path].counters] if session.counters else []
+    for path in dict.fromkeys(counters):
+        counter = session.registers[path]
+        if path not in session.memory and counter.origin is not None:
+            view = counter.read_view()
+            request = Request(view.space.read_function, view.address(counter.at), view.words)
+            try:
+                words = yield from session.exchange(request)
+                session.remember(path, codec.decode(counter, view, words, {}, session.givens, named=False))
+            except ValueNotDecodable as error:
+                unknown[path] = error
+    return unknown
 
 
 def headers(session: Session, chain: Chain | None) -> Operation[tuple[Header, ...]]:
@@ -83,7 +112,8 @@ def absence(session: Session, register: Register[Any]) -> NotPresent | None:
     if header.length is None:
         end = header.base + session.declared[register.path].end
         return NotPresent(register.path, "its addresses end by 65535", {"the first one behind it": str(end)})
-    what = f"block {block.id} has {session.declared[register.path].end - HEADER} words or more"
+    end = session.declared[register.path].placed(header.base, session.memory).end
+    what = f"block {block.id} has {end - header.base - HEADER} words or more"
     return NotPresent(register.path, what, {f"the length of the block at {header.base}": str(header.length)})
 
 

@@ -59,7 +59,8 @@ class Session:
     restored if that operation fails.
 
     `declared` are the registers as the driver's class has them, `registers` the same where they stand on this device.
-    `chains` are the chains of `blocks` that were walked since the link was opened, `places` the blocks that were found.
+    `counters` are registers that tell where others stand, `chains` the chains of `blocks` that were walked since the
+    link was opened, `places` the blocks that were found.
     """
 
     def __init__(  # noqa: PLR0913 (keywords, for what a driver's class has)
@@ -83,6 +84,7 @@ class Session:
         self.declared, self.commands, self.groups = registers, commands, groups
         self.blocks = {block.id: block for block in blocks}
         self.registers = registers
+        self.counters = {path for register in registers.values() for path in register.counters}
         self.places: dict[str, Header] = {}
         self.chains: dict[str, tuple[Header, ...]] = {}
         self.memory: dict[str, Any] = {}
@@ -129,6 +131,8 @@ class Session:
             self._ends[path] = time.monotonic() + float(good_for)
         self.proven.add(path)
         self.prepared.clear()
+        if path in self.counters:
+            self._place(self.blocks[self.registers[path].block].chain)
 
     def forget(self, paths: Iterable[str] | None = None) -> None:
         """Drop some registers from memory; all of them without `paths`."""
@@ -171,7 +175,7 @@ class Session:
         for path, register in self.declared.items():
             header = self.places.get(register.block)
             if header and self.blocks[register.block].chain == chain:
-                moved = register.located(header.base)
+                moved = register.placed(header.base, self.memory)
                 changed[path] = moved if moved.end <= header.end else register.located(None)
         self.registers = {**self.registers, **changed}
         self._ground = None

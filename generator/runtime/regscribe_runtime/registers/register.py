@@ -9,6 +9,7 @@ from regscribe_runtime.registers import codec, element
 from regscribe_runtime.registers.octets import OctetType
 from regscribe_runtime.registers.presence import absence
 from regscribe_runtime.registers.value_types import ValueType
+from regscribe_runtime.values.blocks import Slip
 from regscribe_runtime.values.conditions import ALWAYS, Cases, Condition, Givens, State, always, at_least
 from regscribe_runtime.values.facts import PLAIN_READING, Governs, ReadFacts, WriteCondition
 from regscribe_runtime.values.kinds import Access
@@ -46,7 +47,8 @@ class Register(Generic[T]):
     `reading` is how it wants to be read.
 
     In a `block` addresses count from its base, which is not known (`origin` is None) before it is `located`;
-    `reach` is the first address behind its element in an array that goes to the end of the block, else 0.
+    `reach` is the first address behind its element in an array that goes to the end of the block, else 0. `slips` are
+    the packed arrays in front of it.
 
     `decode` and `encode` need no device: `state` holds the values of the registers in `needs`.
     """
@@ -94,6 +96,7 @@ class Register(Generic[T]):
         self.stays, self.governs, self.settle, self.rescales = stays, governs, settle, rescales
         self.when, self.reading = when, reading
         self.block, self.reach = block, 0
+        self.slips: tuple[Slip, ...] = ()
         self.origin: int | None = None if block else 0
         self.id = self.path = ""
 
@@ -139,6 +142,21 @@ class Register(Generic[T]):
         other.origin, other.at, other.reach = base, self.at + steps, self.reach and self.reach + steps
         other.aliases = tuple(alias + steps for alias in self.aliases)
         return other
+
+    def placed(self, base: int, counts: State) -> Self:
+        """As `located`, on a device with these counts of elements in packed arrays; nowhere if one is not known."""
+        if not all(slip.counter in counts for slip in self.slips):
+            return self.located(None)
+        moved = self.located(base)
+        steps = sum(slip.steps(int(counts[slip.counter])) for slip in self.slips)
+        moved.at += steps
+        moved.aliases = tuple(alias + steps for alias in moved.aliases)
+        return moved
+
+    @property
+    def counters(self) -> tuple[str, ...]:
+        """The registers that tell where it stands in its block."""
+        return tuple(dict.fromkeys(slip.counter for slip in self.slips))
 
     @property
     def end(self) -> int:

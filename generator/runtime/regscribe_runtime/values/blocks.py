@@ -39,6 +39,18 @@ class RegisterBlock(NamedTuple):
     number: int = 1
 
 
+class Slip(NamedTuple):
+    """A packed array in front: what follows moves up by `words` for each element that a device lacks of `most`."""
+
+    counter: str
+    words: int
+    most: int
+
+    def steps(self, count: int) -> int:
+        """The steps to an address on a device with so many elements."""
+        return -self.words * (self.most - count)
+
+
 class Header(NamedTuple):
     """A block as a device has it: its id, the address of its first word, and how many words follow its header.
 
