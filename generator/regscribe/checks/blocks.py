@@ -21,7 +21,7 @@ def cannot_move(register: Register, scope: RuleScope) -> Iterator[Problem]:
             yield message, "correct `space` of one of them"
 
 
-@model_rule("RS0710", "Array to an end that the map does not tell, or with registers behind it")
+@model_rule("RS0674", "Array to an end that the map does not tell, or with registers behind it")
 def behind_the_end(scope: RuleScope) -> Iterator[Finding]:
     """Where a device has more elements, one stands there; only a block in a chain has a length."""
     chained = [block.id for block in scope.register_map.blocks if block.chain]
@@ -38,7 +38,7 @@ def behind_the_end(scope: RuleScope) -> Iterator[Finding]:
                 yield Finding.at(one, message, "correct one of the addresses", related)
 
 
-@model_rule("RS0711", "Count of packed elements that may change or lacks meaning")
+@model_rule("RS0675", "Count of packed elements that may change or lacks meaning")
 def counter_of_packed(scope: RuleScope) -> Iterator[Finding]:
     """Addresses that follow a count must not be changed by a write, nor wait for a scale."""
     for path in dict.fromkeys(one.counted for one in arrays_in(scope.model.members) if one.packed):

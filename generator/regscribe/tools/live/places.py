@@ -74,7 +74,8 @@ class RegisterPlaces:
             header = self._headers.get(declared.block)
             register = declared.placed(header.base, counts) if header else declared
             counted = [one for one in declared.when.leaves if one.register in counts]
-            here = register.origin is not None and all(one.holds(counts, {}) for one in counted)
+            reaches = not header or register.end <= header.end
+            here = reaches and register.origin is not None and all(one.holds(counts, {}) for one in counted)
             for view, address in places(register) if here else ():
                 found[view.space, address].append((register, view))
         return dict(found)
