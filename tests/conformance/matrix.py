@@ -65,6 +65,7 @@ TRIALS: dict[str, tuple[Trial, ...]] = {
         ([3, 4, 1, 2], {}),
     ),
     "byte_order": (("little", {}), ([{"when": SEL, "is": "little"}, {"is": "big"}], {})),
+    "byte": (("high", {}),),
     "functions": (([3], {}), ([3, 16], {}), ([6], {}), ([1], {}), ([4], {}), ([7], {}), ([2], {})),
     "write_at": ((40, {}), (40, {"functions": [3, 16]})),
     "write": (

@@ -22,6 +22,7 @@ TRIALS: dict[str, tuple[Any, ...]] = {
     "saturates": (True,),
     "word_order": ("little", {"register": "ord", "codes": {0: "big", 1: "little"}}, [2, 1]),
     "byte_order": ("little", [{"when": {"sel": 1}, "is": "little"}, {"is": "big"}]),
+    "byte": ("high",),
     "functions": ([3], [3, 16], [3, 6], [6], [16], [1], [4]),
     "align": (2, 4),
     "region": ("1000..1199", "1010..1015"),

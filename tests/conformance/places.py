@@ -5,7 +5,7 @@ from typing import Any
 
 Json = dict[str, Any]
 
-WIRE_KEYS = ("type", "word_order", "byte_order", "functions")
+WIRE_KEYS = ("type", "word_order", "byte_order", "byte", "functions")
 CHAIN, BLOCK = 30000, 7
 """Where a chain begins, and the id of its blocks."""
 INNER, OUTER, VIEW = 100, 250, 600

@@ -213,7 +213,9 @@ def _meaning(draw: Draw, sel: Decider, name: str, kind: str) -> tuple[Json, Json
 
 
 def _orders(draw: Draw, keys: Json) -> Json:
-    """The keys with an order of words, where there are several, and of bytes."""
+    """The keys with an order of words, where there are several, and of bytes; of a byte which one it is."""
+    if keys["type"] in {"uint8", "int8"}:
+        return keys | ({"byte": "high"} if _maybe(draw, 2) else {})
     if keys.get("length", 1) > 1 or "layout" in keys or (not keys["type"].endswith(ONE_WORD) and _maybe(draw, 2)):
         by_register = {"register": "order", "codes": {0: "big", 1: "little"}}
         by_case = [{"when": {"order": 1}, "is": "little"}, {"is": "big"}]

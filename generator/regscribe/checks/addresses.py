@@ -19,7 +19,7 @@ from regscribe.checks.rule import (
     register_rule,
 )
 from regscribe.lower.conditions import both, excludes
-from regscribe.model import Condition, Page, Register, RegisterMap, Related, Space, View
+from regscribe.model import Condition, Order, Page, Register, RegisterMap, Related, Space, View
 from regscribe_runtime.values.wire_types import PAGE_BITS
 
 WRITE_IN = "name under `written_in` the notation that the rows are written in (`modicon` for 40001 and 400001)"
@@ -84,7 +84,8 @@ def _overlaps(every: Iterable[TakenAddresses], scope: RuleScope) -> Iterator[Fin
     before: list[TakenAddresses] = []
     for stretch in every:
         before = [one for one in before if one.ground == stretch.ground and one.last >= stretch.first]
-        rivals = [one for one in before if not _apart(one.register.when, stretch.register.when, scope)]
+        rivals = [one for one in before if not _other_bytes(one.view, stretch.view)]
+        rivals = [one for one in rivals if not _apart(one.register.when, stretch.register.when, scope)]
         if rivals:
             earlier, later = sorted((max(rivals, key=attrgetter("last")), stretch), key=lambda one: one.register.span)
             other = earlier.register
@@ -92,6 +93,35 @@ def _overlaps(every: Iterable[TakenAddresses], scope: RuleScope) -> Iterator[Fin
             related = Related(f"`{other.path}` takes {earlier}", other.span)
             yield Finding.at(later.register, message, _advice(earlier.register, later.register), related)
         before.append(stretch)
+
+
+def _other_bytes(one: View, other: View) -> bool:
+    """Whether two views are the two bytes of a word."""
+    return one.is_byte and other.is_byte and {one.byte_order, other.byte_order} == {Order.BIG, Order.LITTLE}
+
+
+@register_rule("RS0611", "Byte written beside another register")
+def byte_written(register: Register, scope: RuleScope) -> Iterator[Problem]:
+    """A write is of whole words, so it would write the other byte as 0."""
+    mine = [one for one in stretches(register) if one.view.is_byte and one.serves(reading=False)]
+    if not register.access.writable or not mine:
+        return
+    others = scope.once("bytes", lambda: _bytes(scope.model.registers))
+    for stretch in mine:
+        for other in others.get((stretch.ground, stretch.first), ()):
+            if other.register is not register and _other_bytes(stretch.view, other.view):
+                related = Related(f"`{other.register.path}` is the other byte", other.register.span)
+                message = f"can be written at {stretch}, of which `{other.register.path}` is the other byte"
+                yield message, "give it `access: r`, or describe the word as one register with `fields`", related
+
+
+def _bytes(registers: Iterable[Register]) -> dict[tuple[tuple[str, Space], int], list[TakenAddresses]]:
+    found: dict[tuple[tuple[str, Space], int], list[TakenAddresses]] = {}
+    for register in registers:
+        for stretch in stretches(register):
+            if stretch.view.is_byte:
+                found.setdefault((stretch.ground, stretch.first), []).append(stretch)
+    return found
 
 
 def _apart(one: Condition, other: Condition, scope: RuleScope) -> bool:

@@ -144,6 +144,18 @@ TABLE: tuple[Idle, ...] = (
         "its value is one word",
         "remove it; `byte_order` orders the bytes of a word",
     ),
+    Idle(
+        frozenset({"byte_order"}),
+        lambda register, entry: register.base.is_byte and "views" not in entry.settings,
+        "its value is one byte",
+        "remove it; `byte: high` is the upper one",
+    ),
+    Idle(
+        frozenset({"byte"}),
+        lambda register, entry: not register.base.is_byte and "views" not in entry.settings,
+        "its value is no byte of a word",
+        "remove it, or write `type: uint8` or `int8`",
+    ),
 )
 """The keys that may be without effect, and when they are."""
 

@@ -19,7 +19,10 @@ _NO_NUMBERS = {
 }
 """Values of keys that make codes, bits or a text of the register."""
 _RIVALS = (
-    (frozenset({"views"}), frozenset({"type", "length", "word_order", "byte_order", "functions", "write_at", "write"})),
+    (
+        frozenset({"views"}),
+        frozenset({"type", "length", "word_order", "byte_order", "byte", "functions", "write_at", "write"}),
+    ),
     (frozenset({"type"}), frozenset({"views"})),
     (frozenset({"scale"}), frozenset({"decimals", *_LINEAR})),
     (frozenset({"decimals"}), frozenset({"scale", *_LINEAR})),

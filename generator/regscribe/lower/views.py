@@ -27,10 +27,10 @@ from regscribe_runtime.values.kinds import MOMENTS
 from regscribe_runtime.values.octets import KINDS
 from regscribe_runtime.values.wire_types import PAGE_BITS
 
-_OF_EACH_VIEW = ("type", "word_order", "byte_order", "functions", "write_at", "write")
+_OF_EACH_VIEW = ("type", "word_order", "byte_order", "byte", "functions", "write_at", "write")
 WRITTEN = "write"
 """The name of the view in which a register is written that says `write_at` or `write`."""
-_INHERITED = ("type", "word_order", "byte_order")
+_INHERITED = ("type", "word_order", "byte_order", "byte")
 _DEFAULT_TYPES = {
     Space.COIL: WireType.BIT,
     Space.DISCRETE: WireType.BIT,
@@ -152,6 +152,8 @@ def _report_idle(view: View, node: Value) -> None:
     idle = {
         "word_order": not view.type.is_octets and view.type.words == 1 and "its value is one word",
         "rounding": view.type.is_float and "a float carries fractions",
+        "byte": not view.is_byte and "its value is no byte of a word",
+        "byte_order": view.is_byte and "its value is one byte (`byte: high` is the upper one)",
     }
     for key, why in idle.items():
         stated = node.child(key)
@@ -162,6 +164,7 @@ def _report_idle(view: View, node: Value) -> None:
 def _view(name: str, keys: Keyed, space: Space, words: Keyed, scope: Scope) -> View:
     wire = keys.choice_of("type", _DEFAULT_TYPES.get(space, WireType.UINT16))
     factor, region = term_of(keys.child("factor"), scope, ONE), keys.child("region")
+    byte = keys.child("byte")
     return View(
         name=name,
         space=space,
@@ -172,7 +175,7 @@ def _view(name: str, keys: Keyed, space: Space, words: Keyed, scope: Scope) -> V
         rounding=keys.choice_of("rounding", Rounding.NONE),
         saturates=keys.truth_of("saturates"),
         order=_order(keys.child("word_order"), scope),
-        byte_order=_order(keys.child("byte_order"), scope),
+        byte_order=Order.LITTLE if byte and byte.text() == "high" else _order(keys.child("byte_order"), scope),
         functions=keys.wholes_of("functions"),
         align=keys.whole_of("align", 1),
         region=whole_ends(region) if region else None,

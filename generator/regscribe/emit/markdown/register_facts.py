@@ -177,7 +177,7 @@ def transmission(context: PageContext, view: View) -> Md:
         ROUNDING[view.rounding],
         f"stops at {view.type.minimum} and {view.type.maximum}" if view.saturates else "",
         words,
-        "least significant byte first" if view.byte_order is Order.LITTLE else "",
+        _low_first(view) if view.byte_order is Order.LITTLE else "",
         md("byte order: ", Md(order_words(view.byte_order, wording)))
         if isinstance(view.byte_order, OrderCases)
         else "",
@@ -186,6 +186,10 @@ def transmission(context: PageContext, view: View) -> Md:
         f"address and count multiples of {view.align}" if view.align > 1 else "",
     )
     return join("; ", map(md, parts))
+
+
+def _low_first(view: View) -> str:
+    return "the high byte of the word" if view.is_byte else "least significant byte first"
 
 
 def view_type(view: View) -> str:

@@ -74,7 +74,11 @@ class AddressIndex:
         self._bounds = {
             (space, page): self._bounds_of(space, page) for space in Space for page in range(len(model.pages) + 1)
         }
-        some = (there for there, spans in self._all.items() if any(not one.register.when.always for one in spans))
+        some = (
+            there
+            for there, spans in self._all.items()
+            if any(not one.register.when.always for one in spans) or (len(spans) > 1 and spans[0].view.is_byte)
+        )
         self.conditional = {there: tuple(self._all[there]) for there in some}
 
     def _take(self, place: AddressSpan) -> None:

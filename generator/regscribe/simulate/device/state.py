@@ -2,6 +2,8 @@
 
 from collections.abc import Mapping
 from fractions import Fraction
+from functools import reduce
+from operator import or_
 from threading import Lock
 from types import MappingProxyType
 
@@ -109,10 +111,13 @@ class DeviceState(PresentMeaning):
         """As `words`, where registers may not exist, or several share an address."""
         if (space, address) not in self.blueprint.layout.conditional:
             return self._image.get(space, {}).get(address, self.blueprint.image[space].get(address))
-        place = self.place(space, address)
-        if place is None or not place.serves(writing=False):
-            return None
-        words = codec.encode(place.view, self.stored(place.register.path), self.order(place.view))
+        spans = self.blueprint.layout.conditional[space, address]
+        shown = [self._shown(one, address) for one in spans if one.serves(writing=False) and self.exists(one.register)]
+        bytes_only = all(one.view.is_byte for one in spans)  # the two bytes of a word are of two registers
+        return None if not shown else reduce(or_, shown) if bytes_only else shown[0]
+
+    def _shown(self, place: AddressSpan, address: int) -> int:
+        words = codec.encode(self.seen(place.view), self.stored(place.register.path), self.order(place.view))
         return words[address - place.start]
 
     def place(self, space: Space, address: int, *, writing: bool = False) -> AddressSpan | None:

@@ -11,6 +11,8 @@ from regscribe_runtime.values.scales import Conversion, Range, Sentinel
 from regscribe_runtime.values.terms import Term, registers_in
 from regscribe_runtime.values.wire_types import Order, Rounding, Space, WireType
 
+ONE_BYTE = frozenset({WireType.UINT8, WireType.INT8})
+
 
 class View(NamedTuple):
     """One way to transmit a value.
@@ -50,6 +52,11 @@ class View(NamedTuple):
     def allows(self, function: int) -> bool:
         """Whether a function code may address it."""
         return not self.functions or function in self.functions
+
+    @property
+    def is_byte(self) -> bool:
+        """Whether the value is one byte of a word: the high one where the byte order is little."""
+        return self.type in ONE_BYTE and self.space.is_words
 
     @property
     def readable(self) -> bool:
