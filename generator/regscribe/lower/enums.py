@@ -123,7 +123,7 @@ def _field(node: Value, scope: Scope, entry: TreeNode) -> BitField:
 
 
 def _bit(node: Value, bit: int, *, at_key: bool = False) -> int:
-    if 0 <= bit <= 63:  # noqa: PLR2004 - the widest wire type has bits 0 to 63
+    if 0 <= bit <= 127:  # noqa: PLR2004 - the widest wire type has bits 0 to 127
         return bit
     node.report(BAD_BITS, f"there is no bit {bit}", remedy="bits count from 0, the least significant", at_key=at_key)
     return 0

@@ -117,7 +117,7 @@ def _of_kind(register: Register, value: Fraction) -> Reading:
         text = version_text(register, value)
         return NOT_DECODABLE if text is None else Reading(Meaning.VALUE, text)
     if register.kind is Kind.BOOLEAN:
-        return Reading(Meaning.VALUE, Fraction(value != 0))
+        return Reading(Meaning.VALUE, value) if value in {0, 1} else NOT_DECODABLE
     if register.fractional:
         beyond = ieee_bits(value, WireType.FLOAT64) is None  # no float of any program can hold it
         return NOT_DECODABLE if beyond else Reading(Meaning.VALUE, value)

@@ -39,6 +39,8 @@ def domain(register: Register, field: str = "") -> tuple[Stretch, ...]:
     """The values of use that the map allows for: members and invalid codes of an enum, the range and special values."""
     if field:
         return next((_of_bits(bits.enum, bits.width) for bits in register.fields if bits.id == field), ANYTHING)
+    if register.kind is Kind.BOOLEAN:
+        return (Stretch(Fraction(0), Fraction(1)),)
     if register.enum is not None or register.kind in {Kind.FLAGS, Kind.FIELDS}:
         return _of_bits(register.enum, register.bits)
     if register.base.type.is_octets:

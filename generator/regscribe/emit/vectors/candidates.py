@@ -137,7 +137,7 @@ def codes(register: Register) -> Iterator[Proposal]:
     if register.enum is not None:
         yield from _enum_codes(register.enum)
     if register.kind in PATTERNS_OF_BITS:
-        yield from (Proposal(Fraction(1 << bit), f"bit {bit} alone") for bit in range(min(register.bits, 64)))
+        yield from (Proposal(Fraction(1 << bit), f"bit {bit} alone") for bit in range(register.bits))
         for bits in register.fields:
             if not bits.is_flag:
                 yield from _field_codes(bits)

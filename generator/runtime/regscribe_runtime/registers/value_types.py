@@ -128,7 +128,14 @@ def _bit(register: str, value: Any) -> Fraction:
     return Fraction(int(value))
 
 
-boolean: ValueType[bool] = ValueType(Kind.BOOLEAN, bool, _bit, coded=True)
+def _truth(number: int) -> bool:
+    if number not in (0, 1):
+        raise NotDecodable(_BOOLEAN, f"{number} is neither 0 nor 1")
+    return bool(number)
+
+
+_BOOLEAN = "a truth value"
+boolean: ValueType[bool] = ValueType(Kind.BOOLEAN, _truth, _bit, coded=True)
 
 _VERSION = "a version"
 
