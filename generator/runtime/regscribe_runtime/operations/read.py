@@ -116,7 +116,7 @@ def know(session: Session, paths: Iterable[str], *, fresh: bool = False, depth: 
 
 def absences(session: Session, paths: Iterable[str], *, depth: int = 0) -> Operation[dict[str, RegscribeError]]:
     """The errors by path of registers that do not exist now; what decides that is read where it is not remembered."""
-    asked = [one for path in paths if not (one := session.registers[path]).when.always]
+    asked = [one for path in paths if (one := session.registers[path]).when.tests]
     if not asked:
         return {}
     unknown = yield from _unknown(session, chain.from_iterable(one.when.registers for one in asked), depth=depth + 1)
@@ -126,7 +126,7 @@ def absences(session: Session, paths: Iterable[str], *, depth: int = 0) -> Opera
 
 def present(session: Session, register: Register[Any], *, fresh: bool = False) -> Operation[None]:
     """Raise NotPresent if a register does not exist now, by what the device holds; `fresh`: nothing is remembered."""
-    if register.when.always:
+    if not register.when.tests:
         return
     for again in (fresh, True):
         if again:

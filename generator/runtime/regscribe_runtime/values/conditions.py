@@ -195,4 +195,4 @@ def choose(cases: Cases[T], state: State, givens: Givens) -> T | None:
 
 def registers_of(cases: Cases[Any]) -> tuple[str, ...]:
     """The registers in the conditions of the cases, each once."""
-    return tuple(dict.fromkeys([name for case in cases for name in case.when.registers]))
+    return tuple(dict.fromkeys([name for case in cases if case.when.tests for name in case.when.registers]))
