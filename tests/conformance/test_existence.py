@@ -387,3 +387,44 @@ def test_an_asyncio_driver_counts_the_elements() -> None:
         assert await table.awaitable.modules.count() == 3
 
     asyncio.run(ask())
+
+
+COMMANDS: dict[str, Any] = {
+    "registers": [{"at": 0, "name": "Mode", "type": "uint16"}, {"at": 1, "name": "Lock", "type": "uint16"}],
+    "commands": {
+        "reset": {"name": "Reset", "when": {"mode": 1}, "steps": [{"at": 100, "words": [7]}]},
+        "start": {
+            "name": "Start",
+            "steps": [
+                {"at": 1, "words": [0], "when": {"lock": {"not": 0}}},
+                {"at": 101, "words": [8]},
+                {"at": 102, "words": [9], "when": {"mode": 1}},
+            ],
+        },
+    },
+}
+
+
+def sent(table: Table) -> list[tuple[int, tuple[int, ...]]]:
+    """The addresses and words that were written."""
+    return [(entry[2], entry[4]) for entry in table.wire.log if entry[1] == 6]  # type: ignore[index]
+
+
+def test_a_command_that_does_not_exist_is_not_sent_and_the_device_refuses_it() -> None:
+    table = Table(COMMANDS, mode=0)
+    with pytest.raises(NotPresent, match="reset: it exists only while mode is 1; mode is 0"):
+        table.driver.commands.reset()
+    assert sent(table) == []
+    assert table.device.handle(bytes([6, 0, 100, 0, 7]))[0] == 0x86
+    table.device.poke("mode", 1)
+    table.driver.commands.reset()
+    assert sent(table) == [(100, (7,))]
+
+
+@pytest.mark.parametrize(
+    ("state", "addresses"), [({}, [101]), ({"lock": 5}, [1, 101]), ({"lock": 5, "mode": 1}, [1, 101, 102])]
+)
+def test_a_step_is_sent_only_while_its_condition_holds(state: dict[str, int], addresses: list[int]) -> None:
+    table = Table(COMMANDS, **state)
+    table.driver.commands.start()
+    assert [address for address, _ in sent(table)] == addresses

@@ -92,6 +92,16 @@ def never_holds(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
                 help_text = f"compare the codes with what {tested or 'the givens'} can be, and with one another"
                 yield Finding(cases.subject, cases.span, message, help_text)
     yield from _identities(register_map, scopes)
+    yield from _commands(scopes)
+
+
+def _commands(scopes: Scopes) -> Iterator[Finding]:
+    for scope in scopes:
+        for command in scope.model.commands:
+            for what, when in (("it", command.when), *(("a step of it", step.when) for step in command.steps)):
+                if not when.always and not verdict((when,), scope).possible:
+                    message = f"command `{command.id}`: {what} has a condition that can never hold"
+                    yield Finding(command.id, command.span, message, "compare the codes with what the registers can be")
 
 
 def _identities(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
@@ -179,6 +189,10 @@ def given_unused(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]
     registers = (register for scope in scopes for register in scope.model.registers)
     parts = (part for register in registers for part in parts_of((register.scale, register.range, register.views)))
     used |= {part.given for part in parts if isinstance(part, GivenRef)}
+    for scope in scopes:
+        for command in scope.model.commands:
+            whens = (command.when, *(step.when for step in command.steps))
+            used |= {test.given for when in whens for test in when.leaves}
     for given in register_map.givens:
         if given.id not in used:
             message = f"given `{given.id}` decides nothing"

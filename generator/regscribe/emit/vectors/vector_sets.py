@@ -40,8 +40,8 @@ def vector_sets(register_map: RegisterMap) -> list[Json]:
     for model in register_map.models:
         for register in model.registers:
             tried = tuple(finder.situations(model, register, view) for view in register.views)
-            sides = (find(register_map, model, register) for find in (writable_situations, existence_situations))
-            bare = (_bare(register), (tried, *sides))
+            writable = writable_situations(register_map, model, register)
+            bare = (_bare(register), (tried, writable, existence_situations(register_map, model, register)))
             if bare not in keys:
                 content = _content(*bare)
                 keys[bare] = json.dumps(content)

@@ -11,9 +11,11 @@ from regscribe.emit.python.register_lines import Declarations
 from regscribe.model import (
     ALWAYS,
     Access,
+    Condition,
     Conversion,
     Governs,
     Interval,
+    Is,
     Kind,
     Model,
     Range,
@@ -58,6 +60,7 @@ EVERYTHING = Register(
     stays="line",
     governs=Governs(Setting.BAUD),
     settle=5,
+    when=Condition((Is("mode", ((1, 1),)),)),
     reading=ReadFacts(clears=True),
     block="head",
 )
