@@ -159,6 +159,10 @@ def on_unreachable_page(register: Register, scope: RuleScope) -> Iterator[Proble
         if other and (other.page or other.block or not other.access.writable):
             related = Related(f"`{path}` selects it", other.span)
             yield f"stands on a page that `{path}` selects, which cannot be written first", "name another one", related
+        elif other and other.stays != "operation":
+            related = Related(f"`{path}` selects it", other.span)
+            message = f"stands on a page that `{path}` selects, which reading it changes"
+            yield message, f"give `{path}` `stays: operation`: it is no setting", related
     if register.page and any(view.space.part_bits or view.space is Space.STATUS for view in register.views):
         yield "stands on a page, and pages are of holding and input registers and bits", "move it to another group"
     if register.page and register.path in {

@@ -24,7 +24,7 @@ groups:
     source: "1"
     each: {access: rw}
     registers:
-      - {at: 2, name: Bank, enum: {0: none, 5: inputs, 6: outputs}}
+      - {at: 2, name: Bank, stays: operation, enum: {0: none, 5: inputs, 6: outputs}}
       - {at: 3, name: Plain}
   - id: inputs
     name: Inputs
