@@ -5,12 +5,15 @@ from typing import Any
 
 import pytest
 
+from regscribe.simulate.device.describe import tell
 from regscribe.simulate.device.device import SimulatedDevice
+from regscribe.simulate.line.service import Exchange
 from regscribe.tools.live.decode import Decoder
 from regscribe.tools.live.dry_run import dry
 from regscribe_runtime import ValueRefused
 from regscribe_runtime.driver.broadcast import request_for
 from regscribe_runtime.wire.capture import CapturedFrame
+from regscribe_runtime.wire.framing import Frame
 
 MAP = """
 format: 1
@@ -112,6 +115,16 @@ def test_a_device_answers_for_the_page_that_is_selected(device: Any) -> None:
     handle(bytes([6, 0, 2, 0, 6]))
     assert handle(bytes([3, 0, 10, 0, 1])) == bytes([3, 2, 0, 0])
     assert handle(bytes([3, 0, 11, 0, 1])) == bytes([0x83, 2])
+
+
+def test_a_simulated_device_tells_what_stands_on_the_page(device: Any) -> None:
+    simulated, asked = device.link.device, bytes([3, 0, 10, 0, 1])
+    simulated.poke("bank", "INPUTS")
+    simulated.poke("alpha", 2)
+
+    told = tell([simulated], Exchange(Frame(1, asked), simulated.handle(asked), b""))
+
+    assert told.what == "alpha = 2"
 
 
 def test_a_dry_run_selects_pages_and_writes_nothing_else(device: Any) -> None:

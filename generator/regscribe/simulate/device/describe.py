@@ -9,6 +9,7 @@ from regscribe.simulate.device.device_plan import AddressSpan
 from regscribe.simulate.line.server_context import BROADCAST
 from regscribe.simulate.line.service import Exchange
 from regscribe_runtime.values.kinds import OCTETS
+from regscribe_runtime.values.wire_types import PAGE_BITS
 from regscribe_runtime.wire.packing import MalformedError
 from regscribe_runtime.wire.pdu import EXCEPTION_BIT, decode_reply, decode_request
 from regscribe_runtime.wire.requests import SPACES, Request
@@ -79,15 +80,16 @@ def _values(device: SimulatedDevice, request: Request, words: tuple[int, ...]) -
     spaces = [SPACES[request.function], *alike]
     at = request.address
     while at < request.address + request.quantity:
-        places = (layout.place(each, at, writing=not request.reads) for each in spaces)
+        places = (layout.place(each, device.on_page(each, at), writing=not request.reads) for each in spaces)
         place = next(filter(None, places), None)
         if place is None:
             at += 1
             continue
-        part = words[at - request.address : place.end - request.address]
-        whole = at == place.start and len(part) == place.view.words
+        shift = place.view.space.page(place.start) << PAGE_BITS
+        part = words[at - request.address : place.end - shift - request.address]
+        whole = at == place.start - shift and len(part) == place.view.words
         yield _spelled(device, place, part if whole else ())
-        at = place.end
+        at = place.end - shift
 
 
 def _spelled(device: SimulatedDevice, place: AddressSpan, words: tuple[int, ...]) -> str:

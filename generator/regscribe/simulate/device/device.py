@@ -193,16 +193,16 @@ class SimulatedDevice:
         documents = self.state.blueprint.layout.documents
         function = next((code for code in candidates if documents(READS[code], request.address)), request.function)
         space = READS[function]
-        words = self._words.read(space, function, self._on_page(space, request.address), request.quantity)
+        words = self._words.read(space, function, self.on_page(space, request.address), request.quantity)
         return encode_reply(Reply(request.function, words))
 
     def _write(self, pdu: bytes) -> bytes:
         request = self._request(pdu)
         space = functions.SPACES[request.function]
-        done = self._words.write(space, request.function, self._on_page(space, request.address), request.words)
+        done = self._words.write(space, request.function, self.on_page(space, request.address), request.words)
         return encode_reply(Reply(request.function, request.words, request.address + self._tuning.first, done))
 
-    def _on_page(self, space: Space, address: int) -> int:
+    def on_page(self, space: Space, address: int) -> int:
         """The address on the page that is selected now, if that has something there."""
         layout = self.state.blueprint.layout
         for number, page in enumerate(self.model.pages, start=1):
@@ -215,7 +215,7 @@ class SimulatedDevice:
     def _mask_word(self, pdu: bytes) -> bytes:
         request = self._request(pdu)
         keep, put = request.words
-        address = self._on_page(Space.HOLDING, request.address)
+        address = self.on_page(Space.HOLDING, request.address)
         (word,) = self._words.read(Space.HOLDING, request.function, address, 1)
         masked = ((word & keep) | (put & ~keep & 0xFFFF),)
         self._words.write(Space.HOLDING, request.function, address, masked)
