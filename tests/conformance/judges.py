@@ -402,7 +402,7 @@ def _frames(register: Register, view: View, words: list[int]) -> tuple[bytes, by
 
 def bench_of(built: Built) -> DriverUnderTest:
     """The driver beside the vectors of its map."""
-    found = document(built.map)
+    found = document(built.written or built.map)
     vectors = Vectors(
         found["map"],
         tuple(found["models"]),

@@ -40,11 +40,15 @@ class Case(NamedTuple):
 
 
 class Built(NamedTuple):
-    """A case's map, compiled, its registers where the device has them, and its driver; `bases` of its blocks."""
+    """A case's map, compiled, its registers where the device has them, and its driver; `bases` of its blocks.
+
+    `written` is the map with addresses in blocks as they are written, where it has any.
+    """
 
     map: RegisterMap
     module: Any
     bases: Mapping[str, int] = MappingProxyType({})
+    written: RegisterMap | None = None
 
 
 def load(path: Path) -> list[Json]:
@@ -138,7 +142,7 @@ def build(text: str) -> Built:
     (model,) = register_map.models
     layout = layout_of(register_map, model, {})
     placed = replace(register_map, models=(located(model, layout),)) if layout.headers else register_map
-    return Built(placed, module_of(code), {name: header.base for name, header in layout.headers.items()})
+    return Built(placed, module_of(code), {name: header.base for name, header in layout.headers.items()}, register_map)
 
 
 def module_of(code: str) -> ModuleType:
