@@ -73,7 +73,7 @@ def _printed_numbers(register_map: RegisterMap) -> dict[tuple[str, str], str]:
     """The addresses of registers in the first notation of their space, by model and path."""
     notations = {notation.space: notation for notation in reversed(register_map.notations)}
     return {
-        (model.name, register.path): f"{notation.name} {notation.space.spelled(register.address, notation.offset)}"
+        (model.name, register.path): f"{notation.name} {notation.printed(register.address)}"
         for model in register_map.models
         for register in (model.registers if notations else ())
         if (notation := notations.get(register.base.space)) and not register.block

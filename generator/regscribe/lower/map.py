@@ -93,7 +93,8 @@ def _module_id(about: Value) -> str:
 
 
 def _notation(node: Value) -> Notation:
-    return Notation(node.text_of("name"), node.choice_of("space", Space.HOLDING), node.whole_of("offset"))
+    space, base = node.choice_of("space", Space.HOLDING), node.whole_of("base", 10)
+    return Notation(node.text_of("name"), space, node.whole_of("offset"), base)
 
 
 def _given(node: Value, products: list[Product]) -> Given:

@@ -30,11 +30,16 @@ class Manual:
 
 @dataclass(frozen=True, slots=True)
 class Notation:
-    """Another way to write an address of a space: the wire address plus `offset`."""
+    """Another way to write an address of a space: the wire address plus `offset`, in the `base` 10 or 16."""
 
     name: str
     space: Space
     offset: int
+    base: int = 10
+
+    def printed(self, address: int) -> str:
+        """A wire address as the manual prints it."""
+        return f"0x{address + self.offset:04X}" if self.base == 16 else self.space.spelled(address, self.offset)  # noqa: PLR2004
 
 
 class GivenKind(StrEnum):

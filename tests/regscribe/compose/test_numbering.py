@@ -128,6 +128,14 @@ def test_the_docs_show_the_wire_address_and_the_number_of_the_manual(sound: Call
     assert "| 11 | 300012 | [Eleven](#register-eleven) |" in page
 
 
+def test_a_manual_that_prints_hexadecimal_addresses_is_shown_so(sound: Callable[..., RegisterMap]) -> None:
+    top = "notations: [{name: manual, space: holding, offset: 0, base: 16}]\nwritten_in: manual"
+    page = render(sound(text("{at: 0x3100, name: Level}", top=top)))["docs/acme/one.md"]
+
+    assert "| 12544 | 0x3100 | [Level](#register-level) |" in page
+    assert "| Wire address | 12544 (manual 0x3100) |" in page
+
+
 def test_messages_show_the_number_of_the_manual_and_the_wire_address(maps: Maps) -> None:
     (found,) = compile_map(maps("acme/one", text("{at: 40001, name: First}", "{at: 40001, name: Again}"))).diagnostics
 

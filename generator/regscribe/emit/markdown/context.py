@@ -68,7 +68,7 @@ class PageContext:
     def notations(self, space: Space, address: int) -> Md:
         """Return the other notations of an address: `absolute 40001`."""
         found = [item for item in self.map.notations if item.space is space]
-        return md(", ".join(f"{one_line(item.name)} {space.spelled(address, item.offset)}" for item in found))
+        return md(", ".join(f"{one_line(item.name)} {item.printed(address)}" for item in found))
 
     def address(self, space: Space, address: int, block: str = "") -> Md:
         """Return an address with its other notations in brackets; none of one that counts from the base of a block."""

@@ -8,7 +8,7 @@ from regscribe.emit.markdown.page_values import PageTable, Titled, table
 from regscribe.emit.markdown.register_facts import symbols
 from regscribe.emit.outline import Leaf, aliases, last_address, leaves, lettered
 from regscribe.emit.words import codes_words, default_words, one_line, range_words, span_words, special_words
-from regscribe.model import Access, Kind, Model, Register, Space, View
+from regscribe.model import Access, Kind, Model, Notation, Register, Space, View
 
 ACCESS = {Access.READ: "R", Access.READ_WRITE: "R/W", Access.WRITE: "W"}
 MANY = 3
@@ -34,28 +34,28 @@ def _table(context: PageContext, where: tuple[str, Space], found: Sequence[Leaf]
     notations = [item for item in context.map.notations if ("", item.space) == where]
     names = dict.fromkeys(view.name for leaf in found for view in leaf.register.first.views[1:])
     headers = ("Address", *(one_line(item.name) for item in notations), *names, "Also at", *HEADERS)
-    return table(headers, (_row(context, leaf, [item.offset for item in notations], list(names)) for leaf in ordered))
+    return table(headers, (_row(context, leaf, notations, list(names)) for leaf in ordered))
 
 
 HEADERS = ("Name", "Id", "Access", "Range", "Default", "Unit", "Models")
 
 
-def _row(context: PageContext, leaf: Leaf, offsets: Sequence[int], names: Sequence[str]) -> tuple[Md, ...]:
+def _row(context: PageContext, leaf: Leaf, notations: Sequence[Notation], names: Sequence[str]) -> tuple[Md, ...]:
     shared = leaf.register
     owners = [f"{one_line(array.name)} {array.first} to {array.first + array.count - 1}: " for array in leaf.arrays]
 
     def cell(fact: Callable[[Model, Register], Md]) -> Md:
         return by_model(shared, fact)
 
-    def notation(offset: int) -> Md:
-        return cell(lambda _, register: _span(leaf, register.base, register, offset))
+    def address(notation: Notation | None = None) -> Md:
+        return cell(lambda _, register: _span(leaf, register.base, register, notation))
 
     def other_view(name: str) -> Md:
         return cell(lambda _, register: _other_view(leaf, name, register))
 
     return (
-        notation(0),
-        *map(notation, offsets),
+        address(),
+        *map(address, notations),
         *map(other_view, names),
         cell(lambda _, register: join(", ", (_span(leaf, alias, register) for alias in aliases(register)))),
         link(md(*owners, one_line(shared.first.name)), context.anchor("register", shared.key)),
@@ -68,9 +68,9 @@ def _row(context: PageContext, leaf: Leaf, offsets: Sequence[int], names: Sequen
     )
 
 
-def _span(leaf: Leaf, view: View, register: Register, offset: int = 0) -> Md:
+def _span(leaf: Leaf, view: View, register: Register, notation: Notation | None = None) -> Md:
     ends = view.address(register.at), last_address(view, register.at, leaf.arrays)
-    return escape(span_words(*(view.space.spelled(end, offset) for end in ends)))
+    return escape(span_words(*map(notation.printed if notation else view.space.spelled, ends)))
 
 
 def _other_view(leaf: Leaf, name: str, register: Register) -> Md:
