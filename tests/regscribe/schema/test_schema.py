@@ -62,7 +62,7 @@ def places(found: list[Diagnostic]) -> list[str]:
         ("models: [A], except: [B]", "RS0207 6:15"),
         ("fields: {f: {label: x}}", "RS0202 6:11"),
         ("fields: {f: {bit: 1, bits: 0..3}}", "RS0207 6:23"),
-        ("flags: {64: x}", "RS0205 6:10"),
+        ("flags: {2000: x}", "RS0205 6:10"),
         ("decimals: 19", "RS0204 6:12"),
         ("decimals: 1.5", "RS0203 6:12"),
         ("aliases: [465537]", "RS0204 6:12"),
