@@ -110,7 +110,9 @@ def _selected(subject: PlannedModel, ids: Sequence[str], groups: Sequence[str], 
             refuse(unknown("group", group, members, where=f"of {subject.model.name}"))
         paths += _below(subject.readable, members[group])
     for name in ids:
-        if below := _below(subject.readable, [name]):
+        if name in subject.registers and subject.registers[name].access.readable:
+            paths.append(name)  # also what is read only where it is named
+        elif below := _below(subject.readable, [name]):
             paths += below
         elif _below(subject.registers, [name]):
             refuse(f"`{name}` of {subject.model.name} can only be written")

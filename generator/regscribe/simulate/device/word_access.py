@@ -73,10 +73,10 @@ class WordAccess:
         return found
 
     def _clear(self, space: Space, address: int, count: int) -> None:
-        """Set what this reading clears to 0."""
+        """Set what this reading clears to 0, or to an empty text."""
         places = (self.state.place(space, each) for each in range(address, address + count))
         for path in {place.register.path for place in places if place and place.register.reading.clears}:
-            self.state.store(path, Fraction(0))
+            self.state.store(path, "" if isinstance(self.state.stored(path), str) else Fraction(0))
 
     def _fill(self, space: Space, address: int, *, first: bool) -> int:
         """The word at an address where no readable register stands; raises Refusal."""

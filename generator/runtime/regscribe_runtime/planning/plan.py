@@ -171,7 +171,7 @@ GAPS = {
     "hole": "no registers",
     "refused": "refused by this unit",
     "unreadable": "not readable",
-    "clears": "cleared by reading",
+    "clears": "reading clears one of them",
 }
 """What may lie between two requests, in words."""
 
@@ -188,7 +188,7 @@ def split(before: Block | None, block: Block, terms: Terms) -> Split:
     if barred in GAPS:
         spelled = block.space.spelled
         where = f"{spelled(before.end)}..{spelled(block.address - 1)}" if gap > 0 else f"at {spelled(block.address)}"
-        return Split(SplitReason(barred), f"{GAPS[barred]} {where}")
+        return Split(SplitReason(barred), GAPS[barred] if barred == "clears" else f"{GAPS[barred]} {where}")
     together, most = block.end - before.address, terms.limits.most(block.space)
     if together > most:
         return Split(SplitReason.LIMIT, f"{together} together, limit {most}")
