@@ -170,7 +170,10 @@ class Present(Mapping[str, Fraction]):
         return Surroundings(self, given.codes, given.facts, given.numbers, Texts(self, given.texts))
 
     def __getitem__(self, path: str) -> Fraction:
-        value, field = self.reading(path)
+        try:
+            value, field = self.reading(path)
+        except UnknownValueError:  # what it depends on has no value
+            value, field = None, None
         if not isinstance(value, Fraction):
             raise KeyError(path)
         return value if field is None else Fraction(int(value) >> field.low & (1 << field.width) - 1)

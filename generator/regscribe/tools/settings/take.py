@@ -12,6 +12,7 @@ from regscribe.tools.live.value_text import is_number, show
 from regscribe.tools.settings.backup import NO_GROUP, Backup, BackupOrigin, Saved
 from regscribe_runtime import Register, RegscribeError
 from regscribe_runtime.operations.session import Operation, Session, Task
+from regscribe_runtime.registers.octets import OctetType
 from regscribe_runtime.values.conditions import choose
 from regscribe_runtime.values.kinds import OCTETS, Kind
 from regscribe_runtime.values.numbers import Number, exact
@@ -87,6 +88,8 @@ def factory(driver: Driver) -> dict[str, Saved]:
 def _default_of(register: Register[Any], default: Number | float | str | None) -> Any:  # noqa: ANN401 (a value of any register)
     """The default as a driver would read it: a member of the enum, a special value, a number, a text."""
     value_type = register.value_type
+    if isinstance(value_type, OctetType) and isinstance(default, str):
+        return value_type.parse(default)
     if register.kind in TEXTS or default is None:
         return default
     if value_type.coded:
