@@ -363,3 +363,21 @@ def test_decode_learns_the_count_from_a_log(build: Any, words: Any, direct: Any)
             names += [item.name for item in decoder.feed(CapturedFrame("tcp", 1, frame, frame), direction).items]
 
     assert names == ["points", "points", "curves[1].tail", "curves[1].tail"]
+
+
+def test_a_count_that_changes_moves_what_stands_behind(talk: Any) -> None:
+    def holds(points: int) -> dict[int, int]:
+        held = [points, *curve(1, points)]
+        return dict(enumerate([705, 20, *held, *[0] * (20 - len(held)), 0xFFFF, 0]))
+
+    device = talk(CURVES, holds(3))
+    assert device.driver.read()["curves[1].tail"] == 71
+    device.words.holds = holds(1)  # somebody has set it up anew
+    assert device.driver.read()["curves[1].tail"] == 71
+    assert device.driver.curves[1].tail.read() == 71
+    device.words.holds = holds(2)
+    device.driver.curves[1].tail.write(9)
+    assert device.words.holds == holds(2) | {2 + len(curve(1, 2)) - 1: 9}
+    device.words.holds = holds(3)
+    device.driver.configure({"curves[1].tail": 8})
+    assert device.words.holds == holds(3) | {2 + len(curve(1, 3)) - 1: 8}

@@ -63,7 +63,7 @@ def configure(
     """Bring several registers (by path, declaration or attribute) to their values; see `BareDevice.configure`."""
 
     def task(session: Session) -> Operation[WriteReport]:
-        gone = yield from locate(session, named(session, values))
+        gone = yield from locate(session, named(session, values), fresh=True)
         chosen = assignments(session, values, gone)
         work = Transaction(session, tell)
         present = yield from read_present(session, chosen)

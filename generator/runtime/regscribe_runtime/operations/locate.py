@@ -26,13 +26,20 @@ MOST_HEADERS = 256
 F = TypeVar("F", bound=Callable[..., Task[Any]])
 
 
-def locating(make: F) -> F:
-    """The tasks of `make`, whose first argument is a register, with the register where it stands on the device."""
+class MovedError(Exception):
+    """A counter changed while registers were read that stand behind the elements that it counts."""
+
+
+def locating(make: F, *, fresh: bool = False) -> F:
+    """The tasks of `make`, whose first argument is a register, with the register where it stands on the device.
+
+    With `fresh` what tells where it stands in its block is read once more.
+    """
 
     @wraps(make)
     def made(register: Register[Any], *args: Any, **how: Any) -> Task[Any]:
         def task(session: Session) -> Operation[Any]:
-            here = yield from located(session, register)
+            here = yield from located(session, register, fresh=fresh)
             return (yield from make(here, *args, **how)(session))
 
         return task if register.block else make(register, *args, **how)
@@ -40,17 +47,24 @@ def locating(make: F) -> F:
     return cast("F", made)
 
 
-def located(session: Session, register: Register[Any]) -> Operation[Register[Any]]:
+def located(session: Session, register: Register[Any], *, fresh: bool = False) -> Operation[Register[Any]]:
     """The register where it stands on the device; NotPresent if its block is not there, BrokenChain if unknown."""
-    gone = yield from locate(session, [register])
+    gone = yield from locate(session, [register], fresh=fresh)
     if gone:
         raise gone[register.path]
     return session.registers[register.path]
 
 
-def locate(session: Session, registers: Iterable[Register[Any]]) -> Operation[dict[str, RegscribeError]]:
-    """Find the blocks of registers that are not known yet; the errors by path of registers that are not there."""
+def locate(
+    session: Session, registers: Iterable[Register[Any]], *, fresh: bool = False
+) -> Operation[dict[str, RegscribeError]]:
+    """Find the blocks of registers that are not known yet; the errors by path of registers that are not there.
+
+    With `fresh` the counters of packed arrays in front of them are read once more.
+    """
     inside = [register for register in registers if register.block] if session.blocks else []
+    if fresh:
+        session.forget(path for one in inside for path in session.declared[one.path].counters)
     broken: dict[Chain | None, RegscribeError] = {}
     for chain in dict.fromkeys(session.blocks[register.block].chain for register in inside):
         try:

@@ -16,7 +16,7 @@ from regscribe_runtime.errors import (
     ValueNotDecodable,
 )
 from regscribe_runtime.operations.bisect import REFUSALS, Bisection, is_absence
-from regscribe_runtime.operations.locate import locate
+from regscribe_runtime.operations.locate import MovedError, locate
 from regscribe_runtime.operations.prepared_read import MISSING, PreparedRead, dependencies, make_ready, missing
 from regscribe_runtime.operations.session import Operation, Session, Task
 from regscribe_runtime.operations.snapshot import Snapshot
@@ -203,11 +203,16 @@ def read_many(registers: Sequence[Register[Any]], *, fresh: bool = True, rest: b
     """
 
     def task(session: Session) -> Operation[Snapshot]:
-        gone = yield from locate(session, registers)
-        here = [session.registers[one.path] for one in registers if one.path not in gone]
-        found = yield from _read_located(here, fresh=fresh, rest=rest)(session)
         entries: dict[str, Any] = dict.fromkeys(one.path for one in registers)
-        return Snapshot(entries | found.entries | gone, found.answers)
+        for _ in range(TRIES):
+            gone = yield from locate(session, registers)
+            here = [session.registers[one.path] for one in registers if one.path not in gone]
+            try:
+                found = yield from _read_located(here, fresh=fresh, rest=rest)(session)
+            except MovedError:
+                continue
+            return Snapshot(entries | found.entries | gone, found.answers)
+        raise Unsteady(unit=session.unit, changed=tuple(session.counters), tries=TRIES)
 
     return task
 
@@ -260,6 +265,8 @@ def _adopt(session: Session, changed: Mapping[str, Any]) -> None:
     for path, value in changed.items():
         if value is not MISSING:
             session.remember(path, value)
+    if session.counters.intersection(changed):
+        raise MovedError
 
 
 def _doubtful(session: Session, registers: Sequence[Register[Any]]) -> bool:

@@ -42,7 +42,8 @@ __all__ = [
 ]
 
 read, read_raw, read_unit = locating(reads.read), locating(reads.read_raw), locating(reads.read_unit)
-write, write_raw, change = locating(writes.write), locating(writes.write_raw), locating(writes.change)
+write, write_raw = locating(writes.write, fresh=True), locating(writes.write_raw, fresh=True)
+change = locating(writes.change, fresh=True)
 
 
 def count_present(registers: Sequence[Register[Any]]) -> Task[int]:

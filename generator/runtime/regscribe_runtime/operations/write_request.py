@@ -55,6 +55,9 @@ def write_request(session: Session, view: View, address: int, words: Words) -> R
 
 def send(session: Session, one: RegisterWrite) -> Operation[None]:
     """Send one write; afterwards, also after an error, the remembered value of the register is forgotten."""
+    here = session.registers.get(one.path, one.register)
+    if here.at != one.register.at:
+        raise ValueRefused(one.path, f"it moved meanwhile: {', '.join(here.counters)} changed; write it once more")
     try:
         if one.bits:
             request = Request(MASK_REGISTER, one.address, 1, (~one.bits & WORD, one.words[0] & one.bits))
