@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import pytest
 
 from regscribe import source
+from regscribe.schema import schema_json
 from regscribe_runtime import RegscribeError
 
 from .suite import Json, build, diagnose, whole_map, words_of
@@ -33,7 +34,7 @@ class Row(NamedTuple):
 
 def recipes() -> Iterator[tuple[str, str, str]]:
     """The title, the map and the rest of every recipe."""
-    for section in PAGE.split("\n## ")[1:]:
+    for section in PAGE.split("\n## More\n")[0].split("\n## ")[1:]:
         title, _, body = section.partition("\n")
         found = BLOCK.findall(body)
         assert len(found) == 1, f"{title}: one block of YAML"
@@ -75,6 +76,27 @@ def test_a_recipe_is_a_sound_map(title: str, text: str) -> None:
 
     assert register_map is not None, (title, found)
     assert found == [], title
+
+
+ELSEWHERE = {"extends", "uses", "programs", "process"}
+"""Keys with a page of their own, or for maps of several files."""
+
+
+def _keys(node: Any) -> Iterator[str]:
+    """Every key of a map."""
+    for each in node.values() if isinstance(node, dict) else node if isinstance(node, list) else ():
+        yield from _keys(each)
+    if isinstance(node, dict):
+        yield from map(str, node)
+
+
+def test_every_key_that_the_index_by_task_names_has_a_recipe() -> None:
+    used = {key for _, text, _ in recipes() for key in _keys(_parts(text))}
+    schema = schema_json()
+    tables = [schema, *schema["$defs"].values()]
+    named = {key for table in tables for key, one in table.get("properties", {}).items() if "x-task" in one}
+
+    assert named - used == ELSEWHERE
 
 
 def _driver(row: Row, server: Server, givens: str) -> Any:

@@ -59,6 +59,17 @@ def test_the_index_by_task_has_something_for_every_subject() -> None:
     assert [one.count("\n- that ") >= 3 for one in index.split("\n**")[1:]] == [True] * len(SUBJECTS)
 
 
+PLAIN = {
+    *("at", "name", "id", "symbol", "printed", "description", "source", "views", "range_decimals", "except"),
+}
+"""Keys of a register that every reader of the tutorial knows, or that belong to another."""
+
+
+def test_every_key_of_a_register_says_in_x_task_what_it_is_for() -> None:
+    properties = schema_json()["$defs"]["register"]["properties"]
+    assert {key for key, details in properties.items() if "x-task" not in details} - PLAIN == set()
+
+
 def test_the_known_units_are_listed() -> None:
     listed = render(schema_json()).split(f"\n## {KNOWN_UNITS_HEADING}\n")[1]
     assert [symbol for symbol in KNOWN_UNITS if f"`{symbol}`" not in listed] == []
