@@ -4,26 +4,34 @@ from regscribe.lower.commands import CommandScope, step_of_value
 from regscribe.lower.node import Value
 from regscribe.model import Page
 
+UNIT = ""
+"""In place of a register: another unit id."""
 Selection = tuple[tuple[str, str], ...]
 """The registers that select a page, and the value of each, as the map spells them."""
 
 
 def page_number(group: Value, root: Value) -> int:
     """The number of the page that a group stands on, from 1 on in the order of the map; 0 where it is on none."""
-    return list(_pages(root)).index(_selection(group)) + 1 if group.child("page") else 0
+    return list(_pages(root)).index(_selection(group)) + 1 if _is_on_page(group) else 0
 
 
 def _pages(root: Value) -> dict[Selection, Value]:
     """The pages of a map, each with the first group that is on it."""
     found: dict[Selection, Value] = {}
     for group in root.elements_of("groups"):
-        if group.child("page"):
+        if _is_on_page(group):
             found.setdefault(_selection(group), group)
     return found
 
 
+def _is_on_page(group: Value) -> bool:
+    return bool(group.child("page") or group.child("unit_id"))
+
+
 def _selection(group: Value) -> Selection:
-    return tuple((key, each.text()) for key, each in group.items_of("page"))
+    unit = group.child("unit_id")
+    selected = tuple((key, each.text()) for key, each in group.items_of("page"))
+    return ((UNIT, unit.text()), *selected) if unit else selected
 
 
 def pages_of(root: Value, device: CommandScope) -> tuple[Page, ...]:
@@ -37,4 +45,4 @@ def pages_of(root: Value, device: CommandScope) -> tuple[Page, ...]:
 
 def _page(group: Value, device: CommandScope) -> Page:
     steps = [step_of_value(each, key, device) for key, each in group.items_of("page")]
-    return Page(tuple(step for step, _ in steps), tuple(path for _, path in steps))
+    return Page(tuple(step for step, _ in steps), tuple(path for _, path in steps), group.whole_of("unit_id"))

@@ -123,10 +123,14 @@ class IdentityRule:
 
 @dataclass(frozen=True, slots=True)
 class Page:
-    """What selects a page: `steps` write the registers `selectors`; nothing for a page of other models."""
+    """What selects a page: `steps` write the registers `selectors`, or another unit id (0: none) is asked.
+
+    Nothing for a page of other models.
+    """
 
     steps: tuple[CommandStep, ...] = ()
     selectors: tuple[str, ...] = ()
+    unit: int = 0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -119,6 +119,7 @@ from regscribe_runtime.values.conditions import always as always
 from regscribe_runtime.values.facts import CommandStep as CommandStep
 from regscribe_runtime.values.facts import Governs as Governs
 from regscribe_runtime.values.facts import Identity as Identity
+from regscribe_runtime.values.facts import Page as Page
 from regscribe_runtime.values.facts import ReadFacts as ReadFacts
 from regscribe_runtime.values.facts import Setting as Setting
 from regscribe_runtime.values.facts import WriteCondition as WriteCondition

@@ -129,7 +129,7 @@ class DirectLink:
         if fate == "gone":
             message = "the cable is out"
             raise LinkLost(message)
-        answer = None if fate == "missed" or unit != self.device.unit else self._answer(request)
+        answer = None if fate == "missed" or not self._is_here(unit) else self._answer(request, unit)
         if answer is None or fate == "lost":
             raise NoAnswer(unit=unit, function=request.function, address=request.address, seconds=1.0)
         if fate == "garbled":
@@ -137,10 +137,14 @@ class DirectLink:
             raise WrongAnswer(message)
         return answer
 
-    def _answer(self, request: Request) -> Any:
+    def _is_here(self, unit: int) -> bool:
+        return unit in getattr(self.device, "units", [self.device.unit])
+
+    def _answer(self, request: Request, unit: int) -> Any:
         first = {"modbus": 0, "jbus": 1}[self.addressing]
         asked = request._replace(address=request.address + first)
-        answer = self.device.handle(pdu.encode_request(asked))
+        more = {} if unit == self.device.unit else {"unit": unit}
+        answer = self.device.handle(pdu.encode_request(asked), **more)
         reply = None if answer is None else pdu.decode_reply(asked, answer)
         return reply and reply._replace(address=reply.address - first if reply.address else 0)
 

@@ -59,6 +59,8 @@ def _page(context: PageContext, model: Model, group: Group) -> Md:
         md(context.register(path), " = ", " ".join(map(str, step.words)))
         for step, path in zip(page.steps, page.selectors, strict=True)
     )
+    if page.unit:
+        return md(f"page {number}: unit id {page.unit}")
     return md(f"page {number}, selected by ", join(", ", written))
 
 

@@ -22,6 +22,7 @@ from regscribe.emit.python.register_lines import (
 from regscribe.emit.python.reserved_names import free
 from regscribe.emit.words import one_line, term_words
 from regscribe.model import Array, Chain, Model, Register, RegisterMap
+from regscribe_runtime.values.facts import Page as PageFacts
 
 Members = Mapping[str, Sequence[Register | Array]]
 
@@ -191,10 +192,10 @@ class Classes:
         return self.pool.share(built, "programs", f"programs_{model.name}", comment="setpoint programs")
 
     def _pages(self, model: Model) -> list[str]:
-        if not any(page.steps for page in model.pages):
+        if not any(page.steps or page.unit for page in model.pages):
             return []
-        pages = [group([expression(step) for step in page.steps]) for page in model.pages]
-        name = self.pool.share(group(pages), "pages", f"pages_{model.name}", comment="what selects each page")
+        pages = group([expression(PageFacts(page.steps, page.unit)) for page in model.pages])
+        name = self.pool.share(pages, "pages", f"pages_{model.name}", comment="how each page is reached")
         return [f"{INDENT}_pages = {name}"]
 
     def _unused(self, model: Model) -> str:

@@ -9,7 +9,7 @@ RUNTIME = sorted(
     """
     AnyOf Array AsyncBareDevice AsyncClient AsyncDevice AsyncLink AsyncPart BOTTOM BareDevice Bit ByCase Case Chain
     Choice ClientSettings Command CommandStep CommandWith Computed Condition Conversion Decimals Device ExceptionCode
-    Fact Field Flags GivenRef Governs Group Identity Interval Is Latency Link NotANumber Open Order OrderCases Part
+    Fact Field Flags GivenRef Governs Group Identity Interval Is Latency Link NotANumber Open Order OrderCases Page Part
     Power Product ProgramAction ProgramCounts ProgramFinal ProgramPart ProgramSegments ProgramStates ProgramTimeUnit
     Protocol Range ReadFacts ReadOnly ReadWrite Ref RegisterBlock Rounding Sentinel SerialDefaults SerialSettings
     SetpointProgram Setting Space SpaceLimits SpecialNumber SubPart Sum SyncClient TOP TcpSettings TextForm View

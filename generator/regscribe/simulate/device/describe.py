@@ -34,7 +34,7 @@ class Told:
 def tell(devices: Sequence[SimulatedDevice], exchange: Exchange) -> Told:
     """Describe a request and its answer in the names of the device that it concerns."""
     request = exchange.request
-    device = next((each for each in devices if each.unit == request.unit), None)
+    device = next((each for each in devices if request.unit in each.units), None)
     if request.unit == BROADCAST:
         device = devices[0] if devices else None
     verb = NAMES.get(request.pdu[0], f"function {request.pdu[0]}") if request.pdu else "nothing"
@@ -65,7 +65,7 @@ def _registers(device: SimulatedDevice, exchange: Exchange) -> str:
     words = request.words
     if request.reads and exchange.answer is not None:
         words = decode_reply(request, exchange.answer).words
-    shown = list(_values(device, request, words))
+    shown = list(_values(device, request, words, exchange.request.unit))
     if not shown:
         first, last = request.address, request.address + request.quantity - 1
         space = SPACES[request.function]
@@ -74,13 +74,13 @@ def _registers(device: SimulatedDevice, exchange: Exchange) -> str:
     return ", ".join(shown[:MOST_SHOWN]) + (f" and {more} more" if more > 0 else "")
 
 
-def _values(device: SimulatedDevice, request: Request, words: tuple[int, ...]) -> Iterator[str]:
+def _values(device: SimulatedDevice, request: Request, words: tuple[int, ...], unit: int) -> Iterator[str]:
     layout = device.state.blueprint.layout
     alike = (READS[code] for codes in device.register_map.alike for code in codes if code in READS)
     spaces = [SPACES[request.function], *alike]
     at = request.address
     while at < request.address + request.quantity:
-        places = (layout.place(each, device.on_page(each, at), writing=not request.reads) for each in spaces)
+        places = (layout.place(each, device.on_page(each, at, unit), writing=not request.reads) for each in spaces)
         place = next(filter(None, places), None)
         if place is None:
             at += 1

@@ -62,6 +62,7 @@ class SimulatedDevice:
         self._conduct = Conduct(self.state, self._commands, controller_of(self.state, process=process, seed=seed))
         self._words = WordAccess(self.state, self._commands, self._conduct, seed, self.unit)
         self.moves = bool(process)
+        self._asked: int | None = None
         self._lock = RLock()
         self._functions: dict[int, Callable[[bytes], bytes]] = {
             **dict.fromkeys(READS, self._read),
@@ -151,14 +152,16 @@ class SimulatedDevice:
             if self._conduct.controller is not None:
                 self._conduct.controller.advance(seconds)
 
-    def handle(self, pdu: bytes, *, broadcast: bool = False) -> bytes | None:
+    def handle(self, pdu: bytes, *, broadcast: bool = False, unit: int | None = None) -> bytes | None:
         """Carry out a request (function code and data) and return the answer; None where the device keeps silent.
 
-        A broadcast is acted on if the protocol says that its function may be broadcast, and never answered.
+        A broadcast is acted on if the protocol says that its function may be broadcast, and never answered. `unit` is
+        the id that was asked, where it is not its own.
         """
         if not pdu or pdu[0] & EXCEPTION_BIT or (broadcast and pdu[0] not in self._protocol.broadcast):
             return None
         with self._lock:
+            self._asked = unit
             try:
                 answer: bytes | None = self._act(pdu)
             except Refusal as refusal:
@@ -193,29 +196,44 @@ class SimulatedDevice:
         documents = self.state.blueprint.layout.documents
         function = next((code for code in candidates if documents(READS[code], request.address)), request.function)
         space = READS[function]
-        words = self._words.read(space, function, self.on_page(space, request.address), request.quantity)
+        words = self._words.read(space, function, self.on_page(space, request.address, self._asked), request.quantity)
         return encode_reply(Reply(request.function, words))
 
     def _write(self, pdu: bytes) -> bytes:
         request = self._request(pdu)
         space = functions.SPACES[request.function]
-        done = self._words.write(space, request.function, self.on_page(space, request.address), request.words)
+        done = self._words.write(
+            space, request.function, self.on_page(space, request.address, self._asked), request.words
+        )
         return encode_reply(Reply(request.function, request.words, request.address + self._tuning.first, done))
 
-    def on_page(self, space: Space, address: int) -> int:
-        """The address on the page that is selected now, if that has something there."""
+    @property
+    def units(self) -> tuple[int, ...]:
+        """All unit ids to which it answers now: its own, and those of groups behind it."""
+        return (self.unit, *(page.unit for page in self.model.pages if page.unit))
+
+    def on_page(self, space: Space, address: int, unit: int | None = None) -> int:
+        """The address on the page that is selected now, if that has something there; of a `unit` behind it, there."""
         layout = self.state.blueprint.layout
+        if behind := [
+            number for number, page in enumerate(self.model.pages, start=1) if page.unit and page.unit == unit
+        ]:
+            return behind[0] << PAGE_BITS | address
         for number, page in enumerate(self.model.pages, start=1):
             paged = number << PAGE_BITS | address
             here = layout.place(space, paged) or layout.place(space, paged, writing=True)
-            if here and all(self.state.shows(*one) for one in zip(page.steps, page.selectors, strict=True)):
+            if (
+                here
+                and page.steps
+                and all(self.state.shows(*one) for one in zip(page.steps, page.selectors, strict=True))
+            ):
                 return paged
         return address
 
     def _mask_word(self, pdu: bytes) -> bytes:
         request = self._request(pdu)
         keep, put = request.words
-        address = self.on_page(Space.HOLDING, request.address)
+        address = self.on_page(Space.HOLDING, request.address, self._asked)
         (word,) = self._words.read(Space.HOLDING, request.function, address, 1)
         masked = ((word & keep) | (put & ~keep & 0xFFFF),)
         self._words.write(Space.HOLDING, request.function, address, masked)

@@ -59,18 +59,19 @@ class ServerContext:
         self._units: dict[int, SimulatedDevice] = {}
         self._foreign = foreign
         for device in devices:
-            if device.unit in self._units:
-                message = f"two simulated devices have unit {device.unit}: give each a unit id of its own"
-                raise SimulatorError(message)
-            self._units[device.unit] = device
-        self._devices = tuple(self._units.values())
+            for unit in device.units:
+                if unit in self._units:
+                    message = f"two simulated devices have unit {unit}: give each a unit id of its own"
+                    raise SimulatorError(message)
+                self._units[unit] = device
+        self._devices = tuple(dict.fromkeys(self._units.values()))
         self._random = {each: Random(f"{each.seed} {each.unit}") for each in self._devices}  # noqa: S311 - repeatable, and no secret
 
     def _at(self, unit: int) -> SimulatedDevice | None:
         """The device of a unit id; if two were set to it, the first."""
         device = self._units.get(unit)
-        if device is None or device.unit != unit:
-            self._units = {each.unit: each for each in reversed(self._devices)}
+        if device is None or unit not in device.units:
+            self._units = {own: each for each in reversed(self._devices) for own in each.units}
         return self._units.get(unit)
 
     def has(self, unit: int) -> bool:
@@ -85,7 +86,7 @@ class ServerContext:
             return None
         found = self._at(unit)
         if found is not None:
-            return found.handle(pdu)
+            return found.handle(pdu, unit=unit)
         if self._foreign is Foreign.GATEWAY:
             return encode_reply(Reply(pdu[0], exception=NO_RESPONSE_FROM_TARGET))
         return None

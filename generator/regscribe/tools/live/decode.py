@@ -189,7 +189,7 @@ class Decoder:
         """
         space = SPACES.get(request.function, "")
         for offset in range(request.quantity):
-            here = self._places[unit].at(space, request.address + offset)
+            here = self._places[unit].at(space, request.address + offset, unit)
             meant = [one for one in here if _serves(*one, reading=request.reads)]
             for register, view in meant or here:
                 yield register, view, (words or ())[offset : offset + view.words]

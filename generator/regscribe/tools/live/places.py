@@ -27,15 +27,18 @@ class RegisterPlaces:
         self._seen: dict[tuple[str, int], int] = {}
         self._index = self._indexed({})
 
-    def at(self, space: str, address: int) -> Here:
-        """The registers that begin at an address."""
+    def at(self, space: str, address: int, unit: int) -> Here:
+        """The registers that begin at an address, of the device or of a unit behind it."""
+        for number, page in enumerate(self._pages, start=1):
+            if page.unit and page.unit == unit:
+                return self._index.get((space, number << PAGE_BITS | address), [])
         behind = self._index.get((space, self._page << PAGE_BITS | address), []) if self._page else []
         return behind or self._index.get((space, address), [])
 
     def wrote(self, space: str, address: int, words: Sequence[int]) -> None:
         """Learn which page was selected."""
         for number, steps in enumerate(self._pages, start=1):
-            for step in steps:
+            for step in steps.steps:
                 if (step.space, step.address) == (space, address):
                     self._page = number if step.words == tuple(words) else self._page * (self._page != number)
 

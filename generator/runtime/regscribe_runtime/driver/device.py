@@ -23,7 +23,7 @@ from regscribe_runtime.operations.snapshot import Snapshot
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.report import Wear, WriteReport
 from regscribe_runtime.values.blocks import Header, RegisterBlock
-from regscribe_runtime.values.facts import CommandStep, Identity
+from regscribe_runtime.values.facts import Identity, Page
 from regscribe_runtime.values.programs import SetpointProgram
 from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.wire_types import Space
@@ -53,7 +53,7 @@ class _Common:
     protocol: ClassVar[Protocol] = Protocol()
     identity: ClassVar[tuple[Identity, ...]] = ()
     setpoint_programs: ClassVar[tuple[SetpointProgram, ...]] = ()
-    _pages: ClassVar[tuple[tuple[CommandStep, ...], ...]] = ()
+    _pages: ClassVar[tuple[Page, ...]] = ()
     _unused: ClassVar[tuple[tuple[Space, int, int], ...]] = ()
     _blocks: ClassVar[tuple[RegisterBlock, ...]] = ()
     registers: ClassVar[Catalogue] = Catalogue(whole=True)

@@ -28,7 +28,7 @@ def carry_out(operation: Operation[T], link: Link, unit: int, session: Session |
                 elif isinstance(asked, LineChange):
                     _retune(asked, session, link)
                 else:
-                    reply = link.call(session.unit if session else unit, _timed(asked, session, link))
+                    reply = link.call(asked.unit or (session.unit if session else unit), _timed(asked, session, link))
             except RegscribeError as error:
                 asked = operation.throw(error)
             else:
@@ -52,7 +52,9 @@ async def carry_out_async(operation: Operation[T], link: AsyncLink, unit: int, s
                 elif isinstance(asked, LineChange):
                     _retune(asked, session, link)
                 else:
-                    reply = await link.call(session.unit if session else unit, _timed(asked, session, link))
+                    reply = await link.call(
+                        asked.unit or (session.unit if session else unit), _timed(asked, session, link)
+                    )
             except RegscribeError as error:
                 asked = operation.throw(error)
             else:

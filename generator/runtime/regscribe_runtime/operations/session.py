@@ -15,7 +15,7 @@ from regscribe_runtime.planning.plan import RequestLimits, Terms
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.report import Wear, WriteReport
 from regscribe_runtime.values.blocks import Chain, Header, RegisterBlock, find, stated_bases
-from regscribe_runtime.values.facts import CommandStep
+from regscribe_runtime.values.facts import Page
 from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.serial_line import MODBUS, LineChange, SerialLine
 from regscribe_runtime.values.wire_types import WIRE, Space
@@ -51,7 +51,7 @@ class Session:
     so it is cleared whenever the memory changes. `proven` are remembered registers that were read since the link was
     opened, `absences` addresses that this unit refused; those in `unused` (space, first, last) are read as 0.
 
-    `pages` are the steps that select each page, `page` is the one that the present operation has selected (0: none).
+    `pages` are how each page is reached, `page` is the one that the present operation has selected (0: none).
 
     `line` is the link's serial line (None over TCP), `retry` the retries (None: those of the link), `wrote` whether the
     present operation has sent anything but reads. `broken_off` is the report of the last `configure` that was cancelled
@@ -73,7 +73,7 @@ class Session:
         givens: Mapping[str, Any],
         groups: Mapping[str, Any] = MappingProxyType({}),
         unused: tuple[tuple[Space, int, int], ...] = (),
-        pages: tuple[tuple[CommandStep, ...], ...] = (),
+        pages: tuple[Page, ...] = (),
         blocks: tuple[RegisterBlock, ...] = (),
     ) -> None:
         low, high = protocol.unit_ids
@@ -273,7 +273,7 @@ class Session:
         asked = request
         if self.pages and (page := SPACES[request.function].page(request.address) if request.function in SPACES else 0):
             yield from self._turn_to(page)
-            request = request._replace(address=request.address & WIRE, page=page)
+            request = request._replace(address=request.address & WIRE, page=page, unit=self.pages[page - 1].unit)
         elif not request.reads and not request.selects:
             self.page = 0
         left = self._tries.reads if request.reads else 0
@@ -286,7 +286,7 @@ class Session:
                 finally:
                     self._rested = time.monotonic() + self._pause
                 assert reply is not None, "an executor answers a request with a reply"  # noqa: S101 (their contract)
-                words = verify(request, reply, unit=self.unit, protocol=self.protocol)
+                words = verify(request, reply, unit=request.unit or self.unit, protocol=self.protocol)
             except (NoAnswer, WrongAnswer, LinkLost, ExceptionAnswer) as error:
                 if not left or not _is_passing(error) or self._clears(asked):
                     raise
@@ -301,8 +301,10 @@ class Session:
         """Write what selects a page, unless this operation has done so, and nothing else since."""
         if self.page == page:
             return
+        if not self.pages[page - 1].steps:
+            return
         self.page = 0
-        for step in self.pages[page - 1]:
+        for step in self.pages[page - 1].steps:
             request = Request(step.function, step.address, len(step.words), step.words, selects=True)
             yield from self.exchange(request)
         self.page = page

@@ -105,3 +105,10 @@ class CommandStep(NamedTuple):
     def space(self) -> Space:
         """The address space that the function writes."""
         return next((space for space in Space if self.function in space.write_functions), Space.HOLDING)
+
+
+class Page(NamedTuple):
+    """How registers with addresses of their own are reached: after `steps`, or at another unit id (0: the same)."""
+
+    steps: tuple[CommandStep, ...] = ()
+    unit: int = 0

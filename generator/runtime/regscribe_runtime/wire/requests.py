@@ -38,7 +38,7 @@ class Request(NamedTuple):
 
     `seconds` is its response timeout, set on the way to the link; 0 leaves it to the link. `answered`: unit 0 is no
     broadcast but a device that answers. `page` is the number of the page that it means
-    (0: none), `selects` whether it writes what selects one.
+    (0: none), `selects` whether it writes what selects one. `unit` is the unit id, where it is not that of the device.
     """
 
     function: int
@@ -49,6 +49,7 @@ class Request(NamedTuple):
     answered: bool = False
     page: int = 0
     selects: bool = False
+    unit: int = 0
 
     @property
     def reads(self) -> bool:
