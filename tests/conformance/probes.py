@@ -43,7 +43,8 @@ def _transmitted(view: View, numbers: Iterable[Fraction | int | NotANumber]) -> 
     for number in numbers:
         with suppress(RefusedError):  # it does not fit
             stored = number if isinstance(number, NotANumber) else Fraction(number)
-            yield transmit(view._replace(order=Order.BIG, byte_order=Order.BIG, times=None), stored)
+            turned = view.byte_order if isinstance(view.byte_order, Order) else Order.BIG
+            yield transmit(view._replace(order=Order.BIG, byte_order=turned, times=None), stored)
 
 
 def _stored(register: Register) -> Iterator[Fraction | NotANumber]:

@@ -14,6 +14,9 @@ from regscribe.model import (
     Decimals,
     Kind,
     Order,
+    Power,
+    Product,
+    Ref,
     Register,
     RegisterMap,
     Sentinel,
@@ -131,3 +134,15 @@ def test_texts_are_no_numbers_and_faults_are_remarked(only: Only) -> None:
     assert "level" not in text(only(register(WireType.STRING, Kind.STRING)))
     faulty = register(sentinels=(Sentinel(Fraction(-32768), "LOW", "sensor\nlow"),))
     assert any(line.startswith("# no value") and "sensor low" in line for line in block(only(faulty)))
+
+
+def test_a_scale_whose_numbers_stand_in_registers_is_worked_out_for_one_state(only: Only) -> None:
+    scale = always(Conversion(multiply=Product((Power(Ref("sf")), Ref("ratio")))))
+    lines = block(only(register(scale=scale)), Surroundings({"sf": Fraction(-2), "ratio": Fraction(40)}))
+    assert "Scale 0.4" in lines
+
+
+def test_a_view_whose_factor_nobody_knows_is_left_out(only: Only) -> None:
+    view = View("base", WireType.INT16, offset=9, times=Power(Ref("places")))
+    assert "its scale depends on places" in text(only(register(views=(view,))))
+    assert "Scale 0.1" in block(only(register(views=(view,))), Surroundings({"places": Fraction(1)}))

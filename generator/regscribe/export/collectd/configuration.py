@@ -146,14 +146,11 @@ def _scale(register: Register, view: View, known: Surroundings) -> tuple[Fractio
         return Fraction(1), Fraction(0)
     try:
         line = straight(choose(register.scale, known) if register.scale else IDENTITY, known)
+        seen = present_view(view, known)
     except UnknownValueError as unknown:
         raise _unknown(unknown, "its scale") from None
-    if line is None:
+    if line is None or seen is None:
         message = "no scale is stated for this state of the device"
-        raise LeftOutError(message)
-    seen = present_view(view, known)
-    if seen is None:
-        message = f"its {view.name} view has no factor in this state of the device"
         raise LeftOutError(message)
     return line.slope / Fraction(seen.factor), line.offset
 
