@@ -145,10 +145,12 @@ def _wrong_type(error: Violation) -> Complaint:
 
 
 def _instead(error: Violation) -> str:
-    """Say what the language writes for a value that others spell so, or (`number`) for a number in this place."""
+    """Say what the language writes for a value that others spell so, or for a `number` or a `list` in this place."""
     known: Mapping[str, str] = error.schema.get("x-instead", {})
     if isinstance(error.instance, str):
         written = known.get(re.sub(r"[\s_-]", "", error.instance[:100]).lower(), "")
+    elif isinstance(error.instance, list):
+        written = known.get("list", "")
     else:
         number = isinstance(error.instance, int | Decimal) and not isinstance(error.instance, bool)
         written = known.get("number", "").format(describe(error.instance).split()[-1]) if number else ""
