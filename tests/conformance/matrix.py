@@ -41,7 +41,7 @@ Trial = tuple[Any, Json]
 
 SEL = {"sel": 1}
 TRIALS: dict[str, tuple[Trial, ...]] = {
-    "at": ((12, {}),),
+    "at": ((12, {}), ([11, 10], {}), ([10, 12], {})),
     "name": (("Y", {}),),
     "id": (("z", {}),),
     "symbol": (("S.1", {}),),

@@ -62,12 +62,20 @@ def stretches(register: Register) -> Iterator[TakenAddresses]:
     """The addresses that a register takes: by its views, then by its aliases."""
     for view in register.views:
         by = f"view {view.name}" if len(register.views) > 1 else ""
-        yield TakenAddresses(view.space, view.address(register.at), view.last(register.at), register, by, view)
+        for first, last in _parts(view, view.address(register.at)):
+            yield TakenAddresses(view.space, first, last, register, by, view)
     for alias in dict.fromkeys(register.aliases):
         if alias == register.address:
             continue  # RS0403 reports it
         base = register.base
-        yield TakenAddresses(base.space, alias, alias + base.words - 1, register, "alias", base)
+        for first, last in _parts(base, alias):
+            yield TakenAddresses(base.space, first, last, register, "alias", base)
+
+
+def _parts(view: View, address: int) -> list[tuple[int, int]]:
+    """The addresses of a view from the first to the last; of words that stand apart each alone."""
+    each = [(address + offset, address + offset) for offset in view.offsets]
+    return each if view.is_apart else [(address, address + view.words - 1)]
 
 
 @model_rule("RS0401", "Addresses overlap")
@@ -122,6 +130,40 @@ def _bytes(registers: Iterable[Register]) -> dict[tuple[tuple[str, Space], int],
             if stretch.view.is_byte:
                 found.setdefault((stretch.ground, stretch.first), []).append(stretch)
     return found
+
+
+@register_rule("RS0612", "Words apart that no request can carry")
+def words_apart(register: Register, scope: RuleScope) -> Iterator[Problem]:
+    """They are read by one request, so that both are of one moment, with what stands between them; never written."""
+    if not any(view.is_apart for view in register.views):
+        return
+    if register.access.writable:
+        yield "has words that stand apart, which no request writes alone", "give it `access: r`"
+    if scope.register_map.protocol.read_holes:
+        return
+    known = scope.once("read along", lambda: _read_along(scope))
+    for view in register.views:
+        between = range(view.address(register.at), view.last(register.at))
+        holes = [at for at in between if (register.block, view.space, at) not in known]
+        if holes:
+            shown = ", ".join(map(str, holes[:5]))
+            message = f"has words that stand apart, and a request for both would read {shown}, which no register has"
+            yield message, "describe what stands between, list it under `unused`, or say `read_holes: true`"
+
+
+def _read_along(scope: RuleScope) -> set[tuple[str, Space, int]]:
+    """The addresses that any read may cover."""
+    found = {
+        (one.register.block, one.space, at)
+        for register in scope.model.registers
+        for one in stretches(register)
+        if one.serves(reading=True)
+        and register.access.readable
+        and register.when.always
+        and not register.reading.clears
+        for at in range(one.first, one.last + 1)
+    }
+    return found | {("", space, at) for space, first, last in scope.model.unused for at in range(first, last + 1)}
 
 
 def _apart(one: Condition, other: Condition, scope: RuleScope) -> bool:

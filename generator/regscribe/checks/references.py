@@ -208,8 +208,9 @@ def order_codes(register: Register, scope: RuleScope) -> Iterator[Problem]:
 def order_places(register: Register, _: RuleScope) -> Iterator[Problem]:
     """A place that is named twice, or left out, would decode one word as another."""
     for view in register.views:
+        count = view.type.words if view.type.is_integer or view.type.is_float else view.words
         for order in orders_of(view.order):
-            if not isinstance(order, Order) and sorted(order) != list(range(1, view.words + 1)):
+            if not isinstance(order, Order) and (len(set(order)), len(order), max(order)) != (count, count, view.words):
                 places = ", ".join(map(str, order))
-                message = f"has the word order [{places}] in view {view.name}, which has {view.words} words"
-                yield message, f"give each place from 1 to {view.words} once, that of the most significant word first"
+                message = f"has the word order [{places}] in view {view.name}, which has {count} words"
+                yield message, f"give each place from 1 to {count} once, that of the most significant word first"

@@ -145,6 +145,12 @@ TABLE: tuple[Idle, ...] = (
         "remove it; `byte_order` orders the bytes of a word",
     ),
     Idle(
+        frozenset({"word_order"}),
+        lambda _, entry: "at" in entry.settings and entry.settings["at"].is_list,
+        "`at` lists the address of each word, that of the most significant first",
+        "remove it",
+    ),
+    Idle(
         frozenset({"byte_order"}),
         lambda register, entry: register.base.is_byte and "views" not in entry.settings,
         "its value is one byte",

@@ -31,6 +31,7 @@ _OF_EACH_VIEW = ("type", "word_order", "byte_order", "byte", "functions", "write
 WRITTEN = "write"
 """The name of the view in which a register is written that says `write_at` or `write`."""
 _INHERITED = ("type", "word_order", "byte_order", "byte")
+_KNOWN: dict[tuple[int, ...], WordOrder] = {(1,): Order.BIG, (1, 2): Order.BIG, (2, 1): Order.LITTLE}
 _DEFAULT_TYPES = {
     Space.COIL: WireType.BIT,
     Space.DISCRETE: WireType.BIT,
@@ -52,6 +53,9 @@ def views_of(entry: TreeNode, scope: Scope) -> tuple[View, ...]:
         view_set = scope.named(settings["views"], "views", rule=UNKNOWN_VIEWS, what="view set")
         views = set_at(view_set, space, words, scope) if view_set else ()
     views = views or _single(settings, space, words, scope)
+    at = settings.get("at")
+    if at and at.is_list:
+        views = tuple(_spread_out(entry, view, at) for view in views)
     views = tuple(_in_part(entry, view) if view.space.part_bits else _on_page(entry, view) for view in views)
     types = dict.fromkeys(view.type for view in views)
     if "length" in settings and not any(wire.is_octets and KINDS[wire] not in MOMENTS for wire in types):
@@ -121,7 +125,20 @@ def at_of(entry: TreeNode) -> int:
         remedy = "give `at`: the address in the manual's table, or the n of its views"
         entry.node.report(WRONG_SORT, message, remedy=remedy)
         return 0
-    return at.whole() + entry.place.shift
+    return min(each.whole() for each in at.elements()) + entry.place.shift
+
+
+def _spread_out(entry: TreeNode, view: View, at: Value) -> View:
+    """The view of words whose addresses are listed, the most significant first; RS0330 for another number of them."""
+    numbers = [each.whole() for each in at.elements()]
+    fixed = view.type.is_integer or view.type.is_float
+    if not fixed or "views" in entry.settings or not view.space.is_words or len(set(numbers)) != view.type.words:
+        what = f"`{entry.id}` lists {len(numbers)} addresses; view {view.name} has {view.words} words of {view.type}"
+        remedy = "list each address once, of a number of as many words, without `views`"
+        at.report(WRONG_SORT, what, remedy=remedy)
+        return view
+    places = tuple(number - min(numbers) + 1 for number in numbers)
+    return view._replace(words=max(places), order=_KNOWN.get(places, places))
 
 
 def set_at(node: Value, space: Space, words: Keyed, scope: Scope) -> tuple[View, ...]:

@@ -77,7 +77,7 @@ def bytes_in_order(words: tuple[int, ...], order: Arrangement) -> list[int]:
 def words_in_order(raw: list[int], order: Arrangement) -> tuple[int, ...]:
     """Return the words on the wire of bytes that stand the most significant (or the first letter) first."""
     places = _places(order, len(raw) // 2)
-    words = [0] * len(places)
+    words = [0] * (max(places) + 1)  # some that stand apart have others between them
     for place, first, second in zip(places, raw[::2], raw[1::2], strict=True):
         words[place] = 256 * first + second if order.bytes is Order.BIG else 256 * second + first
     return tuple(words)

@@ -194,6 +194,9 @@ def _low_first(view: View) -> str:
 
 def view_type(view: View) -> str:
     """Return the type of a view, with its words where they are several."""
+    if view.is_apart:
+        offsets = ", ".join(f"+{offset}" for offset in view.offsets)
+        return f"{view.type.value}, {len(view.offsets)} words at {offsets}"
     return f"{view.type.value}, {view.words} words" if view.words > 1 else view.type.value
 
 

@@ -99,8 +99,8 @@ def _patterns(view: View, *, full: bool) -> Iterator[tuple[int, str]]:
         yield from ((ieee_bits(Fraction(text), view.type) or 0, note) for text, note in texts.items())
         yield from PATTERNS[view.type].items() if full else ()
         return
-    width = view.type.bits or 16 * view.words
-    words = width if view.type is WireType.BIT or view.space is Space.STATUS else 16 * view.words
+    width = view.type.bits or 16 * len(view.offsets)
+    words = width if view.type is WireType.BIT or view.space is Space.STATUS else 16 * len(view.offsets)
     yield ORDERED << max(0, width - 64) >> max(0, 56 - width) & ((1 << words) - 1), "every byte differs"
     if full:
         lowest, highest = view.type.minimum, view.type.maximum

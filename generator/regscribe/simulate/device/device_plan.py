@@ -29,6 +29,11 @@ class AddressSpan:
         return (access.writable and view.writable) if writing else (access.readable and view.readable)
 
     @property
+    def addresses(self) -> list[int]:
+        """The addresses of its words."""
+        return [self.start + offset for offset in self.view.offsets]
+
+    @property
     def end(self) -> int:
         """The first address behind the value."""
         return self.start + self.view.words
@@ -82,10 +87,10 @@ class AddressIndex:
         self.conditional = {there: tuple(self._all[there]) for there in some}
 
     def _take(self, place: AddressSpan) -> None:
-        for address in range(place.start, place.end):
+        for address in place.addresses:
             self._all.setdefault((place.view.space, address), []).append(place)
         access, view = place.register.access, place.view
-        addresses = range(place.start, place.end)
+        addresses = place.addresses
         for index, fits in (
             (self._places, access.readable and view.readable),
             (self._written, access.writable and view.writable),

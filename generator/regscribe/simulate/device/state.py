@@ -333,4 +333,4 @@ class DeviceState(PresentMeaning):
             if not place.view.readable:
                 continue
             words = codec.encode(self.seen(place.view), stored, self.order(place.view))
-            image.setdefault(place.view.space, {}).update(zip(range(place.start, place.end), words, strict=True))
+            image.setdefault(place.view.space, {}).update((each, words[each - place.start]) for each in place.addresses)

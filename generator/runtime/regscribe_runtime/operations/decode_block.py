@@ -83,7 +83,7 @@ def _split(placed: Sequence[Placed]) -> tuple[list[Placed], list[Placed]]:
     end = 0
     for one in placed:
         register, view, start = one
-        packed = register.kind not in OCTETS and not view.type.spelling
+        packed = register.kind not in OCTETS and not view.type.spelling and not view.is_apart
         plain = packed and view.space.is_words and view.byte_order is Order.BIG
         (together if plain and start >= end else alone).append(one)
         end = max(end, start + view.words)

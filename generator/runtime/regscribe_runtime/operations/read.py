@@ -20,7 +20,7 @@ from regscribe_runtime.operations.locate import MovedError, locate
 from regscribe_runtime.operations.prepared_read import MISSING, PreparedRead, dependencies, make_ready, missing
 from regscribe_runtime.operations.session import Operation, Session, Task
 from regscribe_runtime.operations.snapshot import Snapshot
-from regscribe_runtime.planning.address_ranges import RegisterSpan
+from regscribe_runtime.planning.address_ranges import RegisterSpan, span_of
 from regscribe_runtime.planning.plan import Block, RequestLimits, blocks
 from regscribe_runtime.planning.read_places import read_places
 from regscribe_runtime.registers import codec
@@ -47,7 +47,7 @@ MAX_DEPTH = 8
 
 def item_of(register: Register[Any], view: View) -> RegisterSpan:
     """The addresses of a register in a view."""
-    return RegisterSpan(view.space, view.address(register.at), view.words)
+    return span_of(view, view.address(register.at))
 
 
 def fetch(session: Session, items: Iterable[RegisterSpan]) -> Operation[dict[RegisterSpan, tuple[int, ...]]]:

@@ -24,6 +24,13 @@ class RegisterSpan(NamedTuple):
     space: Space
     address: int
     words: int
+    offsets: tuple[int, ...] = ()
+
+    @property
+    def ranges(self) -> list[Range]:
+        """Its own addresses: all, or each of its words where they stand apart (at `offsets`)."""
+        each = [(self.address + offset, self.address + offset + 1) for offset in self.offsets]
+        return each or [(self.address, self.end)]
 
     @property
     def end(self) -> int:
@@ -140,13 +147,18 @@ def _merged(by_space: Mapping[Space, list[Range]] | None) -> dict[Space, list[Ra
 def _by_space(items: Iterable[RegisterSpan]) -> dict[Space, list[Range]]:
     found: dict[Space, list[Range]] = defaultdict(list)
     for item in items:
-        found[item.space].append((item.address, item.end))
+        found[item.space] += item.ranges
     return found
 
 
 def _widened(item: RegisterSpan, align: int) -> RegisterSpan:
     first = item.address // align * align
     return RegisterSpan(item.space, first, -(-(item.end - first) // align) * align)
+
+
+def span_of(view: View, address: int) -> RegisterSpan:
+    """What a view takes whose first word stands at an address."""
+    return RegisterSpan(view.space, address, view.words, tuple(view.offsets) if view.is_apart else ())
 
 
 def ground_of(
@@ -169,7 +181,7 @@ def ground_of(
             end = address + view.words
             there = register.access.readable and view.readable and register.path not in absent
             ranges = readable if there else unreadable
-            ranges[view.space].append((address, end))
+            ranges[view.space] += span_of(view, address).ranges
             if register.reading.clears and view.readable:
                 alone[view.space].append((address, end))
             if view.align > 1:

@@ -29,8 +29,8 @@ def cheapest_cover(items: Sequence[RegisterSpan], tariff: Tariff, most: int) -> 
     paid = [0]
     begun: list[int] = []
     candidates: list[_Open] = []
-    for place, (_, start, words) in enumerate(items):
-        end, before = start + words, paid[-1]
+    for place, item in enumerate(items):
+        start, end, before = item.address, item.end, paid[-1]
         # an earlier start is of no use if starting here has cost no more than it will go on costing
         candidates = [
             one if one.end >= end else one._replace(end=end)

@@ -7,7 +7,7 @@ an integer view never replaces an IEEE one. Aliases repeat the base view. The ot
 from operator import attrgetter
 from typing import NamedTuple
 
-from regscribe_runtime.planning.address_ranges import AddressRanges, RegisterSpan, places
+from regscribe_runtime.planning.address_ranges import AddressRanges, RegisterSpan, places, span_of
 from regscribe_runtime.values.views import Placed, View, read_view
 
 _precision = attrgetter("type", "words", "factor", "times", "rounding", "saturates")
@@ -23,7 +23,7 @@ class ReadPlace(NamedTuple):
 def read_places(register: Placed) -> tuple[ReadPlace, ...]:
     """All places to read a register at, that of the preferred view first; at least one."""
     preferred = read_view(register)
-    first = ReadPlace(preferred, RegisterSpan(preferred.space, preferred.address(register.at), preferred.words))
+    first = ReadPlace(preferred, span_of(preferred, preferred.address(register.at)))
     if len(register.views) == 1 and not register.aliases:
         return (first,)
     found = {first.span: first}
@@ -33,7 +33,7 @@ def read_places(register: Placed) -> tuple[ReadPlace, ...]:
             and view.byte_order == preferred.byte_order
             and same_precision(view, preferred)
         ):
-            span = RegisterSpan(view.space, address, view.words)
+            span = span_of(view, address)
             found.setdefault(span, ReadPlace(view, span))
     return tuple(place for place in found.values() if place.view.readable) or (first,)
 

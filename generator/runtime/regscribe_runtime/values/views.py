@@ -1,12 +1,13 @@
 """Views: the ways to transmit a value, and the order of their words."""
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple, Protocol
 
 from regscribe_runtime.values.conditions import Cases, Condition, registers_of
 from regscribe_runtime.values.facts import ReadFacts
 from regscribe_runtime.values.kinds import Access
 from regscribe_runtime.values.numbers import Number
-from regscribe_runtime.values.orders import OrderCases, WordOrder
+from regscribe_runtime.values.orders import OrderCases, WordOrder, orders_of
 from regscribe_runtime.values.scales import Conversion, Range, Sentinel
 from regscribe_runtime.values.terms import Term, registers_in
 from regscribe_runtime.values.wire_types import Order, Rounding, Space, WireType
@@ -52,6 +53,19 @@ class View(NamedTuple):
     def allows(self, function: int) -> bool:
         """Whether a function code may address it."""
         return not self.functions or function in self.functions
+
+    @property
+    def offsets(self) -> Sequence[int]:
+        """Where its words stand, counted from the first address: next to each other, or some of `words` only."""
+        order = orders_of(self.order)[0]
+        if isinstance(order, Order) or len(order) == self.words:
+            return range(self.words)
+        return sorted(place - 1 for place in order)
+
+    @property
+    def is_apart(self) -> bool:
+        """Whether other things stand between its words."""
+        return len(self.offsets) < self.words
 
     @property
     def is_byte(self) -> bool:
