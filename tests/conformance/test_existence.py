@@ -5,6 +5,7 @@ from typing import Any
 
 import pytest
 
+from regscribe.export.collectd import export
 from regscribe.simulate.device.device import SimulatedDevice
 from regscribe_runtime import Absent, ConditionNotMet, ExceptionAnswer, NotDecodable, NotPresent, SensorFault
 
@@ -428,3 +429,16 @@ def test_a_step_is_sent_only_while_its_condition_holds(state: dict[str, int], ad
     table = Table(COMMANDS, **state)
     table.driver.commands.start()
     assert [address for address, _ in sent(table)] == addresses
+
+
+def test_a_poll_leaves_out_what_does_not_exist() -> None:
+    built = build(whole_map(PARTS))
+    options = {"model": "A", "at": "h:502", "name": "", "unit": "1", "every": "1", "given": "", "base": ""}
+    texts = [export([built.map], {**options, "with": f"mode={mode}"})[""] for mode in (0, 1)]
+    assert ["left out: level - it exists only while" in text for text in texts] == [True, False]
+
+
+def test_a_text_counts_no_elements() -> None:
+    registers = [{"at": 90, "id": "n", "name": "N", "type": "string", "length": 2}, REPEATED["registers"][1]]
+    _, found = diagnose(whole_map({"registers": registers}))
+    assert "RS0330" in {one.rule for one in found}

@@ -11,6 +11,7 @@ from typing import NamedTuple
 from regscribe.emit.words import (
     bits_words,
     cases_words,
+    condition_words,
     conversion_words,
     labels_of,
     limit_words,
@@ -68,6 +69,7 @@ class Row(NamedTuple):
     section: str = ""
     block: str = ""
     page: str = ""
+    exists: str = ""
 
 
 COLUMNS = Row._fields
@@ -131,6 +133,7 @@ def _register_row(register_map: RegisterMap, model: Model, register: Register) -
         section=one_line(register.section),
         block=register.block,
         page=str(register.page or ""),
+        exists="" if register.when.always else one_line(condition_words(register.when, model)),
     )
 
 

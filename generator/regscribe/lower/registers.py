@@ -11,7 +11,7 @@ from regscribe.lower.matchers import given_named
 from regscribe.lower.node import ZERO, Keyed, Value
 from regscribe.lower.octets import text_of
 from regscribe.lower.register_values import beginnings_of, range_of, ranges_at, sentinels_of, specials_of
-from regscribe.lower.rules import NO_ACCESS
+from regscribe.lower.rules import NO_ACCESS, WRONG_SORT
 from regscribe.lower.scales import NOT_STATED, Scaling, decimals_rule, rescaled, scale_of, unit_of
 from regscribe.lower.scope import Scope
 from regscribe.lower.texts import version_of
@@ -189,6 +189,9 @@ def seen_from(entry: TreeNode, prefixes: tuple[str, ...], scope: Scope, *, folde
 def subject_counting(node: Value, scope: Scope) -> str:
     """The register, or `given.id`, that says how many elements an array has; RS0301 or RS0312 where there is none."""
     given = node.child("given")
+    counter = None if given else scope.find(node.text())
+    if counter and "string" in {counter.settings.text_of("type"), counter.settings.text_of("kind")}:
+        node.report(WRONG_SORT, f"`{node.text()}` holds a text, which counts nothing", remedy="name a whole number")
     return f"{GIVEN}.{given_named(given, scope, 'number')}" if given else scope.path(node)
 
 

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import isfinite
 
-from regscribe.emit.words import one_line, sentinel_words
+from regscribe.emit.words import condition_words, one_line, sentinel_words
 from regscribe.model import IDENTITY, Kind, Model, Order, Register, RegisterMap, Space, View, WireType
-from regscribe.reference import Surroundings, UnknownValueError
+from regscribe.reference import Surroundings, UnknownValueError, holds
 from regscribe.reference.surroundings import choose
 from regscribe.reference.terms import present_view, straight
 from regscribe.reference.words import word_order
@@ -91,6 +91,7 @@ def _data(name: str, register: Register, known: Surroundings) -> Iterator[str]:
     if register.page:
         message = "it stands on a page, which the plugin cannot select"
         raise LeftOutError(message)
+    _check_existence(register, known)
     view = _view(register)
     scale, shift = _scale(register, view, known)
     kind = TYPES[view.type] + ("LE" if _order(view, known) is Order.LITTLE else "")
@@ -108,6 +109,16 @@ def _data(name: str, register: Register, known: Surroundings) -> Iterator[str]:
     if shift:
         yield f"    Shift {_decimal(shift)}"
     yield "  </Data>"
+
+
+def _check_existence(register: Register, known: Surroundings) -> None:
+    try:
+        exists = holds(register.when, known)
+    except UnknownValueError as unknown:
+        raise _unknown(unknown, "whether it exists") from None
+    if not exists:
+        message = f"it exists only while {one_line(condition_words(register.when))}"
+        raise LeftOutError(message)
 
 
 def _view(register: Register) -> View:
