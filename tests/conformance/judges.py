@@ -11,7 +11,7 @@ from ipaddress import IPv4Address, IPv6Address
 from typing import Any
 
 from regscribe.emit.vectors import document
-from regscribe.model import BitField, Kind, Register, View
+from regscribe.model import BitField, Kind, Register, Sentinel, View
 from regscribe.model import exact as exact_number
 from regscribe.reference import (
     Meaning,
@@ -21,6 +21,7 @@ from regscribe.reference import (
     decode,
     encode,
     holds,
+    part_value,
     special_value,
     surroundings_of,
 )
@@ -84,6 +85,13 @@ def spelled(found: Any) -> str:
     return found.hex() if isinstance(found, bytes) else str(getattr(found, "isoformat", found.__str__)())
 
 
+def said_of_part(value: Any) -> object:
+    """A part of a word: an exact number, or the id of the fault that it reports."""
+    if isinstance(value, SensorFault | Sentinel):
+        return value.fault if isinstance(value, SensorFault) else value.id
+    return value if isinstance(value, str) else exact_number(value) if isinstance(value, float) else Fraction(value)
+
+
 def said_by_driver(found: Any) -> object:  # noqa: PLR0911 (as many kinds of values)
     """A value of a driver in the words of rows."""
     if isinstance(found, bool | str):
@@ -97,7 +105,7 @@ def said_by_driver(found: Any) -> object:  # noqa: PLR0911 (as many kinds of val
         names = {one.name.lower() for one in type(found) if one in found}
         return {"flags": names} | ({"unnamed": rest} if rest else {})
     if hasattr(found, "parts"):
-        return {"fields": {name: int(value) for name, value in found}}
+        return {"fields": {name: said_of_part(value) for name, value in found}}
     if hasattr(found, "label"):
         return {"name": found.name}
     return found
@@ -113,7 +121,9 @@ def expected_of(row: Json) -> object:
         return {"flags": set(row["flags"])} | ({"unnamed": row["unnamed"]} if "unnamed" in row else {})
     if "member" in row or "special" in row:
         return {"name": row.get("member", row.get("special"))}
-    return {key: row[key] for key in ("unknown", "fields", "fault") if key in row}
+    if "fields" in row:
+        return {"fields": {name: said_of_part(part) for name, part in row["fields"].items()}}
+    return {key: row[key] for key in ("unknown", "fault") if key in row}
 
 
 def read_by_driver(read: Any, path: str) -> object:
@@ -141,13 +151,21 @@ def value_for(built: Built, row: Json) -> Any:  # noqa: PLR0911 (as many kinds o
     if "flags" in row:
         return declared.value_type.make(sum(1 << one.low for one in register.fields if one.id in row["flags"]))
     if "fields" in row:
-        return declared.value_type.make(0).replace(**row["fields"])
+        return _word(register, declared.value_type.make, row["fields"])
     value = row["value"] if "value" in row else row["refuses"]
     if isinstance(declared.value_type, OctetType) and isinstance(value, str):
         return declared.value_type.parse(value)
     if register.kind is not Kind.VERSION and value in {*NO_NUMBERS, *FAR}:
         return FAR[value] if value in FAR else float(value)
     return _as_float(value) if isinstance(value, Decimal) else value
+
+
+def _word(register: Register, make: Any, parts: Json) -> Any:
+    """A word whose parts are numbers, or report the faults of these ids."""
+    numbers = {name: part for name, part in parts.items() if not isinstance(part, str)}
+    ends = [(one, fault.ends) for one in register.fields for fault in one.sentinels if fault.id == parts[one.id]]
+    faults = sum(int(found[0]) % (1 << one.width) << one.low for one, found in ends if found)
+    return make(int(make(0).replace(**numbers)) | faults)
 
 
 def _as_float(value: Decimal) -> float | Decimal:
@@ -256,7 +274,8 @@ def _said_by_reference(register: Register, value: Fraction | str, row: Json) -> 
         names = {one.id for one in register.fields if int(value) >> one.low & 1}
         return {"flags": names} | ({"unnamed": int(value) & ~named} if int(value) & ~named else {})
     if "fields" in row:
-        return {"fields": {one.id: int(value) >> one.low & (1 << one.width) - 1 for one in register.fields}}
+        parts = {one.id: part_value(one, int(value)) for one in register.fields}
+        return {"fields": {name: said_of_part(part) for name, part in parts.items()}}
     return value
 
 

@@ -376,6 +376,18 @@ def _order_word(order: WordOrder) -> str:
     return ORDER[order] if isinstance(order, Order) else f"from the most significant at {', '.join(map(str, order))}"
 
 
+def part_words(field: BitField) -> str:
+    """Return what is said of the number of a part: `x/10 °C, x signed, -40 to 125, 127 = none`; perhaps nothing."""
+    formula = conversion_words(Conversion(field.multiply, field.add)) if field.is_scaled else ""
+    parts = [
+        f"{formula} {field.unit}".strip() if formula != "x" else field.unit,
+        "x signed" if field.signed else "",
+        span_words(show(field.range[0]), show(field.range[1])) if field.range else "",
+        *map(sentinel_words, field.sentinels),
+    ]
+    return ", ".join(filter(None, parts))
+
+
 def bits_words(field: BitField) -> str:
     """Return the bits of a field: `3` or `8..11`."""
     return span_words(field.low, field.high, "..")

@@ -18,6 +18,7 @@ from regscribe.emit.words import (
     listed,
     map_cases,
     one_line,
+    part_words,
     plain_interval,
 )
 from regscribe.model import (
@@ -185,6 +186,7 @@ def _values(register: Register) -> dict[str, str]:
 
 def _bit_label(field: BitField) -> str:
     codes = ", ".join(f"{code} = {one_line(label)}" for code, label in labels_of(field.enum).items())
+    codes = codes or one_line(part_words(field))
     return f"{one_line(field.label)}: {codes}" if codes else one_line(field.label)
 
 

@@ -3,13 +3,13 @@
 from collections.abc import Callable
 from dataclasses import replace
 
+from regscribe.lower.labels import id_of, identifier_of, label_of
 from regscribe.lower.node import Keyed, Value
 from regscribe.lower.rules import BAD_BITS, UNKNOWN_ENUM
 from regscribe.lower.scope import Scope
-from regscribe.lower.texts import identifier, whole_ends
+from regscribe.lower.texts import whole_ends
 from regscribe.lower.tree import TreeNode
 from regscribe.model import BitField, Condition, Enum, Member
-from regscribe.model.identifiers import label_id
 
 COLUMNS = "columns"
 """The key beside the codes of an enum that names the columns of the manual's table."""
@@ -47,21 +47,6 @@ def enum_at(table: Value, scope: Scope, name: str) -> Enum:
 def _codes(table: Value) -> list[Value]:
     """The members of an enum, without what stands beside the codes."""
     return [node for key, node in table.items() if key != COLUMNS]
-
-
-def label_of(node: Value) -> str:
-    """Label of a code, a bit or a special value; of a code without a label its cells."""
-    return (node.text_of("label") or ", ".join(node.texts_of("cells"))) if node.is_mapping else node.text()
-
-
-def id_of(node: Value) -> str:
-    """Id of a code or a special value: given, or made of its label."""
-    return node.text_of("id") or label_id(label_of(node))
-
-
-def identifier_of(node: Value, label: str) -> str:
-    """Python name of a code, a bit or a special value with that label; RS0317 where there is none."""
-    return identifier(node.child("label") or node, label=label, given=node.child("id"), derive=label_id)
 
 
 def code_anywhere(table: Value, text: str) -> int | None:

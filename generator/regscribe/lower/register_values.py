@@ -6,7 +6,7 @@ A range may be a union or differ by case; limits may be registers or open, and h
 from fractions import Fraction
 
 from regscribe.lower.conditions import both, cases_of, condition_of, excludes
-from regscribe.lower.enums import identifier_of, label_of
+from regscribe.lower.labels import identifier_of, label_of
 from regscribe.lower.node import ZERO, Value
 from regscribe.lower.rules import BAD_DEFAULT, REVERSED
 from regscribe.lower.scales import Scaling, decimals_rule

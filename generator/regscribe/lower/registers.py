@@ -6,6 +6,7 @@ from fractions import Fraction
 
 from regscribe.lower.conditions import both, cases_of, condition, write_condition
 from regscribe.lower.enums import enum_of, fields_of
+from regscribe.lower.field_numbers import with_numbers
 from regscribe.lower.idle_keys import report_idle_keys
 from regscribe.lower.matchers import given_named
 from regscribe.lower.node import ZERO, Keyed, Value
@@ -88,7 +89,7 @@ def register_of(entry: TreeNode, everywhere: Scope) -> Register:
         delivered=delivered,
         delivered_cases=deliveries,
         enum=enum,
-        fields=fields_of(entry, scope, condition),
+        fields=with_numbers(fields_of(entry, scope, condition), entry, scope),
         writable=write_condition(settings.get("writable"), scope),
         when=_existence(entry, scope),
         persistence=settings.text_of("persistence"),

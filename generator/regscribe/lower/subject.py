@@ -3,12 +3,16 @@
 from dataclasses import dataclass
 from fractions import Fraction
 
-from regscribe.lower.enums import code_anywhere, enum_for, fields_of, id_of
+from regscribe.lower.enums import code_anywhere, enum_for, fields_of
+from regscribe.lower.labels import id_of
 from regscribe.lower.node import ZERO, Value
 from regscribe.lower.rules import DIVIDED, UNKNOWN_FIELD, UNKNOWN_MEMBER
 from regscribe.lower.scope import Scope
 from regscribe.lower.texts import unknown
 from regscribe.lower.tree import TreeNode
+
+_SCALES = ("type", "multiply", "add", "decimals")
+"""Keys by which the number of a bit field is another than that of its bits."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +41,11 @@ def subject_of(node: Value, key: str, scope: Scope) -> Subject | None:
         scope.missing(node, register if dot and not field.endswith("]") and "]." not in key else key, at_key=True)
         return None
     known = {each.id: (each.low, each.high) for each in fields_of(owner, scope.at(owner))}
+    fields = owner.settings.child("fields")
+    stated = fields.child(field) if fields else None
+    if stated and any(stated.child(key) for key in _SCALES):
+        message = f"`{field}` of `{register}` is a number with a sign or a scale, which no condition asks for"
+        node.report(UNKNOWN_FIELD, message, remedy="ask for the bits in another field without them", at_key=True)
     if field not in known:
         unknown(node, UNKNOWN_FIELD, "bit field", field, known, of=register, at_key=True)
     return Subject(register, owner, field, known.get(field))

@@ -5,6 +5,7 @@ from fractions import Fraction
 
 from regscribe.model.diagnostic import NOWHERE, Span
 from regscribe_runtime.values.conditions import Cases, Condition
+from regscribe_runtime.values.scales import Sentinel
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +58,8 @@ class Enum:
 class BitField:
     """Bits `low` to `high` (0 is the least significant) of a word: one flag, a number or an enum.
 
+    The number of a part is `multiply` times that in its bits (in two's complement if `signed`), and `add`; `range` is
+    what may be written, `sentinels` numbers in the bits that report faults.
     `follows`: the device sets a flag where this holds, and clears it where not (None: it does neither by itself).
     """
 
@@ -67,6 +70,22 @@ class BitField:
     enum: Enum | None = None
     description: str = ""
     follows: Condition | None = None
+    signed: bool = False
+    multiply: Fraction = Fraction(1)
+    add: Fraction = Fraction(0)
+    unit: str = ""
+    range: tuple[Fraction, Fraction] | None = None
+    sentinels: tuple[Sentinel, ...] = ()
+
+    @property
+    def is_scaled(self) -> bool:
+        """Whether its number is not just that of its bits."""
+        return self.signed or self.multiply != 1 or self.add != 0
+
+    @property
+    def is_number(self) -> bool:
+        """Whether more is said of its number than the bits."""
+        return self.is_scaled or self.range is not None or bool(self.sentinels)
 
     @property
     def width(self) -> int:
@@ -76,7 +95,7 @@ class BitField:
     @property
     def is_flag(self) -> bool:
         """Whether it is one bit with no enum."""
-        return self.width == 1 and self.enum is None
+        return self.width == 1 and self.enum is None and not self.is_number
 
 
 Units = Cases[str]

@@ -3,7 +3,7 @@
 from fractions import Fraction
 from math import floor
 
-from regscribe.model.enums import Special
+from regscribe.model.enums import BitField, Special
 from regscribe.model.register import Register
 from regscribe.reference.ieee import ieee_bits
 from regscribe.reference.limits import in_range, is_valid
@@ -66,6 +66,26 @@ def _of_number(register: Register, view: View, number: Fraction | NotANumber | N
 def sentinel_number(view: View, sentinel: Sentinel) -> Fraction | NotANumber | None:
     """Return the wire number by which a view reports a fault; None if it cannot."""
     return NAN if isinstance(sentinel.stored, NotANumber) else carried(view, Fraction(sentinel.stored * view.factor))
+
+
+def part_value(field: BitField, word: int) -> Fraction | Sentinel:
+    """Return the number of use in the bits of a field, or the fault that they report."""
+    size = 2**field.width
+    number = word // 2**field.low % size
+    if field.signed and number >= size // 2:
+        number -= size
+    for sentinel in field.sentinels:
+        if sentinel.ends and sentinel.ends[0] <= number <= sentinel.ends[1]:
+            return sentinel
+    return Fraction(field.multiply * number + field.add)
+
+
+def part_bits(field: BitField, value: Fraction) -> int | None:
+    """Return the number of the bits that spell a value of use; None where none do."""
+    number = (value - field.add) / field.multiply
+    least = -(2 ** (field.width - 1)) if field.signed else 0
+    fits = number.denominator == 1 and least <= number < least + 2**field.width
+    return int(number) % 2**field.width if fits else None
 
 
 def present_sentinels(register: Register, known: Known) -> tuple[Sentinel, ...]:

@@ -65,7 +65,19 @@ def _value(where: str, trial: Trial, found: Any, vector: Json, expected: object)
     if "flags" in vector:
         yield from differs(where, "flags", _flags(found), {name.lower() for name in vector["flags"]})
     for name, part in vector.get("fields", {}).items():
-        yield from differs(where, name, getattr(found, name, None), int(part))
+        value = getattr(found, name, None)
+        if not same(value, part):
+            yield from differs(where, name, value, part)
+    for name, fault in vector.get("part_faults", {}).items():
+        yield from differs(where, name, _fault_of(found, name), fault)
+
+
+def _fault_of(found: object, name: str) -> str:
+    """The fault that a part of a word reports."""
+    try:
+        return f"the value {getattr(found, name, None)!r}"
+    except SensorFault as fault:
+        return fault.fault
 
 
 def _named(where: str, key: str, found: object, name: str, members: Iterable[Json]) -> Iterator[str]:

@@ -75,6 +75,7 @@ from regscribe_runtime.registers.enums import Bit as Bit
 from regscribe_runtime.registers.enums import Choice as Choice
 from regscribe_runtime.registers.enums import Field as Field
 from regscribe_runtime.registers.enums import Flags as Flags
+from regscribe_runtime.registers.enums import NumberField as NumberField
 from regscribe_runtime.registers.enums import SpecialNumber as SpecialNumber
 from regscribe_runtime.registers.enums import Word as Word
 from regscribe_runtime.registers.octets import OctetType as OctetType

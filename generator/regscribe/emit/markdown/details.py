@@ -9,7 +9,7 @@ from regscribe.emit.markdown.escape import Md, code, escape, md, prose
 from regscribe.emit.markdown.page_values import Titled, table
 from regscribe.emit.markdown.register_facts import transmission, view_type
 from regscribe.emit.outline import Leaf, formula
-from regscribe.emit.words import bits_words, conversion_words, one_line, range_words, when_words
+from regscribe.emit.words import bits_words, conversion_words, one_line, part_words, range_words, when_words
 from regscribe.model import Enum, Kind, Model, Register, View
 
 Rows = tuple[tuple[Md, ...], ...]
@@ -111,7 +111,7 @@ def _bit_rows(register: Register) -> Rows:
     for field in register.fields:
         name = field.id.upper() if register.kind is Kind.FLAGS else field.id  # a flag is an enum's member
         members = field.enum.members if field.enum else ()
-        codes = ", ".join(f"{member.code} = {one_line(member.label)}" for member in members)
+        codes = ", ".join(f"{member.code} = {one_line(member.label)}" for member in members) or part_words(field)
         label = escape(one_line(field.label))
         rows.append((escape(bits_words(field)), label, code(name), escape(codes), prose(field.description)))
     return tuple(rows)

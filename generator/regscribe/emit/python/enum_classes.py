@@ -6,8 +6,9 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from regscribe.emit.python.class_sharing import suffix
+from regscribe.emit.python.expressions import expression
 from regscribe.emit.python.formatting import INDENT, WIDTH, Call, call, group, lay, width
-from regscribe.emit.python.literals import camel, docstring, literal, plain
+from regscribe.emit.python.literals import camel, docstring, exact, literal, plain
 from regscribe.emit.python.reserved_names import free, taken
 from regscribe.emit.words import member_words, one_line
 from regscribe.model import Array, BitField, Enum, Kind, Register, RegisterMap
@@ -129,8 +130,28 @@ class NamedClasses:
     def _part(self, part: BitField) -> Call:
         if part.is_flag:
             return call("Bit", str(part.low), literal(part.label))
+        if part.is_number:
+            return _number_part(part)
         kind = self.name(part.enum.id, enum_content(part.enum)) if part.enum else "int"
         return call("Field", str(part.low), str(part.high), kind, literal(part.label))
+
+
+def _number_part(part: BitField) -> Call:
+    """A part that is a number with a sign, a scale, limits or faults."""
+    faults = tuple((*(one.ends or ()), one.id, one.label) for one in part.sentinels)
+    whole = part.multiply.denominator == part.add.denominator == 1
+    return call(
+        "NumberField",
+        str(part.low),
+        str(part.high),
+        "int" if whole else "float",
+        literal(part.label),
+        signed="True" if part.signed else None,
+        multiply=exact(part.multiply) if part.multiply != 1 else None,
+        add=exact(part.add) if part.add else None,
+        limits=expression(part.range) if part.range else None,
+        faults=expression(faults) if faults else None,
+    )
 
 
 def _registers(members: Sequence[Register | Array]) -> list[Register]:
@@ -154,15 +175,29 @@ def enum_key(enum: Enum) -> str:
 def word_content(register: Register) -> Content:
     """Identity of a word's class in a module: ids, labels and bits of its parts, and their enums."""
     parts = tuple(
-        (part.id, part.label, part.low, part.high, part.enum and enum_content(part.enum)) for part in register.fields
+        (part.id, part.label, part.low, part.high, part.enum and enum_content(part.enum), *_numeric(part))
+        for part in register.fields
     )
     return ("word", register.id, parts)
+
+
+def _numeric(part: BitField) -> Content:
+    """What tells the number of a part from another's."""
+    return (part.signed, part.multiply, part.add, part.range, part.sentinels) if part.is_number else ()
 
 
 def word_key(register: Register) -> str:
     """Identity of a word's class in all modules: its content and the descriptions of its parts."""
     parts = [
-        (part.id, part.label, part.low, part.high, one_line(part.description), part.enum and enum_key(part.enum))
+        (
+            part.id,
+            part.label,
+            part.low,
+            part.high,
+            one_line(part.description),
+            part.enum and enum_key(part.enum),
+            *_numeric(part),
+        )
         for part in register.fields
     ]
     return f"{register.kind} {register.id} {parts}"

@@ -141,6 +141,11 @@ def codes(register: Register) -> Iterator[Proposal]:
         for bits in register.fields:
             if not bits.is_flag:
                 yield from _field_codes(bits)
+            for sentinel in bits.sentinels:
+                for end in sentinel.ends or ():
+                    yield Proposal(
+                        Fraction(int(end) % (1 << bits.width) << bits.low), f"{bits.id}: fault {sentinel.id}"
+                    )
 
 
 def _enum_codes(enum: Enum) -> Iterator[Proposal]:

@@ -8,7 +8,7 @@ from regscribe.emit.vectors import octet_vectors, offered_values
 from regscribe.emit.vectors.candidates import Proposal, wire_bits
 from regscribe.emit.vectors.scale import Scale, scale_now
 from regscribe.emit.vectors.situations import Situation
-from regscribe.model import Kind, Register, View, show
+from regscribe.model import Kind, Register, Sentinel, View, show
 from regscribe.reference import (
     AS_IS,
     Meaning,
@@ -17,6 +17,7 @@ from regscribe.reference import (
     Surroundings,
     decode,
     encode,
+    part_value,
     present_view,
     special_value,
     word_order,
@@ -91,10 +92,14 @@ def _named(register: Register, value: Fraction, known: Surroundings) -> Json:
 
 
 def _parts(register: Register, value: int) -> Json:
-    parts = {bits.id: (value >> bits.low) % (1 << bits.width) for bits in register.fields}
+    parts = {bits.id: part_value(bits, value) for bits in register.fields}
     if register.kind is Kind.FLAGS:
-        return {"flags": [name for name, part in parts.items() if part & 1]}
-    return {"fields": {name: str(part) for name, part in parts.items()}} if register.kind is Kind.FIELDS else {}
+        return {"flags": [name for name, part in parts.items() if part == 1]}
+    if register.kind is not Kind.FIELDS:
+        return {}
+    faults = {name: part.id for name, part in parts.items() if isinstance(part, Sentinel)}
+    numbers = {name: show(part) for name, part in parts.items() if isinstance(part, Fraction)}
+    return {"fields": numbers} | ({"part_faults": faults} if faults else {})
 
 
 def _writes(register: Register, view: View, scale: Scale | None, situation: Situation) -> Json:

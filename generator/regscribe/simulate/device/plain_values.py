@@ -5,8 +5,8 @@ from decimal import Decimal, InvalidOperation, localcontext
 from difflib import get_close_matches
 from fractions import Fraction
 
-from regscribe.model import BitField, Enum, Kind, Register
-from regscribe.reference import choose
+from regscribe.model import BitField, Enum, Kind, Register, Sentinel, parse, show
+from regscribe.reference import choose, part_bits, part_value
 from regscribe.reference.codec import PATTERNS
 from regscribe.simulate.device.device_plan import Stored
 from regscribe.simulate.device.state import DeviceState
@@ -95,10 +95,14 @@ def _parts(register: Register, stored: Fraction) -> list[str]:
         value = field_value(stored, field)
         rest = with_field(rest, field, Fraction(0))
         if not field.is_flag:
-            shown.append(f"{field.id}={_ids(field.enum).get(value, int(value))}")
+            shown.append(f"{field.id}={_ids(field.enum).get(value) or _number(part_value(field, int(stored)))}")
         elif value:
             shown.append(field.id)
     return [*shown, str(int(rest))] if rest else shown
+
+
+def _number(value: Fraction | Sentinel) -> str:
+    return value.id if isinstance(value, Sentinel) else show(value)
 
 
 def _ids(enum: Enum | None) -> dict[Fraction, str]:
@@ -113,7 +117,7 @@ def _word(register: Register, parts: list[object]) -> Fraction:
         field = fields.get(name.strip().lower())
         if field is not None:
             word = with_field(word, field, _part(register, field, value) if equals else Fraction(1))
-        elif str(part).isdecimal() and len(str(part)) <= len(str(1 << 64)):
+        elif str(part).isdecimal() and len(str(part)) <= len(str(1 << 128)):
             word += int(str(part))
         else:
             message = f"`{register.path}` has no flag `{part}`{meant(str(part), fields)}"
@@ -126,10 +130,19 @@ def _part(register: Register, field: BitField, value: str) -> Fraction:
     if value.strip().lower() in members:
         return members[value.strip().lower()]
     try:
-        return Fraction(int(value))
+        bits = part_bits(field, parse(value))
+        return Fraction(fault_bits(field, value) if bits is None else bits)
     except ValueError:
         message = f"`{register.path}.{field.id}` has no value `{value}`{meant(value, members)}"
         raise SimulatorError(message) from None
+
+
+def fault_bits(field: BitField, value: str) -> int:
+    """Return the number in the bits of the fault of this id; ValueError for any other text."""
+    found = next((one.ends for one in field.sentinels if one.id.lower() == value.strip().lower()), None)
+    if found is None:
+        raise ValueError(value)
+    return int(found[0]) % (1 << field.width)
 
 
 def meant(name: str, known: Iterable[str]) -> str:

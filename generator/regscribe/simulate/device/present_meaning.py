@@ -25,6 +25,7 @@ from regscribe.reference import (
     choose,
     divided_limits,
     is_valid,
+    part_value,
     present_view,
     round_by,
     straight,
@@ -181,6 +182,8 @@ class PresentMeaning(ABC):
             return False
         if not all(_is_member(field.enum, field_value(value, field)) for field in register.fields if field.enum):
             return False
+        if not all(_in_part(field, int(value)) for field in register.fields if field.range):
+            return False
         if any(self.special(register, special) == value for special in register.specials):
             return True
         limits = self.limits(register)
@@ -195,6 +198,11 @@ class PresentMeaning(ABC):
         """Return what is valid now; nothing where everything is."""
         found = choose(register.valid, self)
         return () if found is None else divided_limits(found, self.power(found.decimals), self)
+
+
+def _in_part(field: BitField, word: int) -> bool:
+    value, limits = part_value(field, word), field.range
+    return limits is None or not isinstance(value, Fraction) or limits[0] <= value <= limits[1]
 
 
 def _is_member(enum: Enum | None, value: Fraction) -> bool:

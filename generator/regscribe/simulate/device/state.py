@@ -9,7 +9,7 @@ from types import MappingProxyType
 
 from regscribe.model import NAN, BitField, CommandStep, Kind, Model, NotANumber, Register, RegisterMap, Space, parse
 from regscribe.model.located import arrays_in, layout_of, located
-from regscribe.reference import Surroundings, holds, present_sentinels, version_text
+from regscribe.reference import Surroundings, holds, part_bits, part_value, present_sentinels, version_text
 from regscribe.simulate.device import codec, octets
 from regscribe.simulate.device.device_plan import AddressSpan, Blueprint, Image, Stored, draw
 from regscribe.simulate.device.existence import exists
@@ -19,7 +19,6 @@ from regscribe.simulate.device.value_arguments import (
     GivenValue,
     Plain,
     fault_named,
-    field_value,
     known_givens,
     number_of,
     with_field,
@@ -239,7 +238,8 @@ class DeviceState(PresentMeaning):
         stored = self.stored(register.path)
         if field is None or not isinstance(stored, Fraction):
             return self.meant(register, stored)
-        return field_value(stored, field)
+        value = part_value(field, int(stored))
+        return value if isinstance(value, Fraction) else value.id
 
     def fault(self, register: Register, stored: Stored) -> str:
         """Return the id of the sentinel that a stored number is; empty where it is none."""
@@ -303,7 +303,9 @@ class DeviceState(PresentMeaning):
         stored = self.stored(register.path)
         if field is None or not isinstance(stored, Fraction):
             return self._to_stored(register, value)
-        return with_field(stored, field, number_of(register, field, value))
+        number = number_of(register, field, value)
+        bits = part_bits(field, number) if field.is_number else None
+        return with_field(stored, field, number if bits is None else Fraction(bits))
 
     def _to_stored(self, register: Register, value: Plain) -> Stored:
         if register.kind in OCTETS:

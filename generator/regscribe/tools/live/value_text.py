@@ -8,7 +8,18 @@ from enum import Enum
 from typing import Any
 
 from regscribe.tools.live.errors import meant
-from regscribe_runtime import Bit, Choice, Field, Flags, Register, SpecialNumber, ValueRefused, Word
+from regscribe_runtime import (
+    Bit,
+    Choice,
+    Field,
+    Flags,
+    NumberField,
+    Register,
+    SensorFault,
+    SpecialNumber,
+    ValueRefused,
+    Word,
+)
 from regscribe_runtime.registers.enums import unnamed_bits
 from regscribe_runtime.registers.octets import OctetType
 
@@ -106,10 +117,16 @@ def _members_of(register: Register[Any]) -> Any:  # noqa: ANN401 - an enum, flag
 def _show_parts(word: Word) -> list[str]:
     rest, shown = int(word), []
     for name, value in word:
-        shown.append(f"{name}={value.name if isinstance(value, Choice) else text_of(value)}")
+        shown.append(f"{name}={_part_text(value)}")
         part = vars(type(word))[name]
         rest &= ~((1 << part.high + 1) - (1 << part.low))
     return [*shown, f"rest=0x{rest:04X}"] if rest else shown
+
+
+def _part_text(value: Any) -> str:  # noqa: ANN401 - a value of any part
+    if isinstance(value, SensorFault):
+        return value.fault
+    return value.name if isinstance(value, Choice) else text_of(value)
 
 
 def _number(register: Register[Any], plain: Plain, unit: str, current: str) -> Any:  # noqa: ANN401 - or a special value
@@ -240,14 +257,19 @@ def _with_part(register: Register[Any], word: Any, text: str) -> Any:  # noqa: A
     if name not in word.parts or not value:
         hint = meant(name, word.parts) if name not in word.parts else ": write part=value"
         raise ValueRefused(register.path, f"`{text[:60]}` is no part{hint}")
-    return word.replace(**{name: _part(register, vars(type(word))[name], value)})
+    try:
+        return word.replace(**{name: _part(register, vars(type(word))[name], value)})
+    except ValueError as error:
+        raise ValueRefused(register.path, str(error)) from None
 
 
-def _part(register: Register[Any], part: Bit | Field[Any], text: str) -> int:
+def _part(register: Register[Any], part: Bit | Field[Any], text: str) -> float:
     if isinstance(part, Bit):
         return int(_boolean(register.path, text))
     if issubclass(part.kind, Choice):
         return int(_member(register, part.kind, text))
+    if isinstance(part, NumberField):
+        return _exactly(register, _digits(register, text.strip())[0])
     number = _whole(text)
     if number is None:
         raise ValueRefused(register.path, f"`{text[:60]}` is no whole number")

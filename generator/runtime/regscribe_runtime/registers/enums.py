@@ -2,7 +2,11 @@
 
 from collections.abc import Iterator
 from enum import Enum, IntEnum, IntFlag
+from fractions import Fraction
 from typing import Any, ClassVar, Generic, Self, TypeVar, overload
+
+from regscribe_runtime.errors import SensorFault
+from regscribe_runtime.values.numbers import Number, exact, rough
 
 V = TypeVar("V")
 
@@ -92,6 +96,66 @@ class Bit(Field[bool]):
         super().__init__(low, low, bool, label)
 
 
+class NumberField(Field[V]):
+    """Bits that spell a number: value = `multiply` x number + `add`; a `signed` one is in two's complement.
+
+    `limits` are what may be written, as values; `faults` numbers that report faults: both ends, id and label.
+    """
+
+    def __init__(  # noqa: PLR0913 (a number has this many properties; most are keywords)
+        self,
+        low: int,
+        high: int,
+        kind: type[V],
+        label: str = "",
+        *,
+        signed: bool = False,
+        multiply: Number = 1,
+        add: Number = 0,
+        limits: tuple[Number, Number] | None = None,
+        faults: tuple[tuple[Number, Number, str, str], ...] = (),
+    ) -> None:
+        super().__init__(low, high, kind, label)
+        self.signed, self.multiply, self.add, self.limits, self.faults = signed, multiply, add, limits, faults
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.name = f"{owner.__name__}.{name}"
+
+    def of(self, code: int) -> V:
+        """The value in the word `code`; SensorFault for a number that reports a fault."""
+        size = 1 << self.high - self.low + 1
+        number = code >> self.low & size - 1
+        number -= size if self.signed and number >= size >> 1 else 0
+        for low, high, fault, label in self.faults:
+            if low <= number <= high:
+                raise SensorFault(self.name, fault, label)
+        kind: Any = self.kind
+        value: V = kind(Fraction(number) * self.multiply + self.add)
+        return value
+
+    def code_of(self, value: float) -> int:
+        """The bits of a value; ValueError for one that they cannot spell, or that must not be written."""
+        amount = exact(value)
+        number = (amount - self.add) / Fraction(self.multiply)
+        size = 1 << self.high - self.low + 1
+        least = -(size >> 1) if self.signed else 0
+        low, high = self.limits or (amount, amount)
+        fits = number.denominator == 1 and least <= number < least + size and low <= amount <= high
+        if not fits or any(first <= number <= last for first, last, *_ in self.faults):
+            limits = f" and lies in {rough(Fraction(low))} to {rough(Fraction(high))}" if self.limits else ""
+            steps = f"steps of {rough(Fraction(self.multiply))} that {size.bit_length() - 1} bits hold"
+            message = f"{self.name} is {value!r}, which is none of its {steps}{limits}"
+            raise ValueError(message)
+        return number.numerator & size - 1
+
+    @overload
+    def __get__(self, instance: None, owner: type) -> Self: ...
+    @overload
+    def __get__(self, instance: "Word", owner: type) -> V: ...
+    def __get__(self, instance: "Word | None", owner: type) -> Self | V:
+        return self if instance is None else self.of(int(instance))
+
+
 class Word(int):
     """A word of bit fields: an int whose subclasses name its parts; `replace` makes a changed copy."""
 
@@ -100,7 +164,7 @@ class Word(int):
     def __init_subclass__(cls) -> None:
         cls.parts = tuple(name for name, part in vars(cls).items() if isinstance(part, Field))
 
-    def replace(self, **parts: int) -> Self:
+    def replace(self, **parts: float) -> Self:
         """A copy with some parts set anew; TypeError for an unknown part, ValueError for one that does not fit."""
         code = int(self)
         for name, value in parts.items():
@@ -109,6 +173,7 @@ class Word(int):
                 raise TypeError(message)
             part = vars(type(self))[name]
             mask = (1 << (part.high - part.low + 1)) - 1
+            value = part.code_of(value) if isinstance(part, NumberField) else value  # noqa: PLW2901 (its bits)
             if not 0 <= int(value) <= mask:
                 message = f"{name} is {value!r}, but {part.high - part.low + 1} bits hold 0 to {mask}"
                 raise ValueError(message)
@@ -116,7 +181,13 @@ class Word(int):
         return type(self)(code)
 
     def __iter__(self) -> Iterator[tuple[str, Any]]:
-        return ((name, getattr(self, name)) for name in self.parts)
+        return ((name, self._part(name)) for name in self.parts)
+
+    def _part(self, name: str) -> Any:
+        try:
+            return getattr(self, name)
+        except SensorFault as fault:
+            return fault
 
     def __repr__(self) -> str:
         inside = ", ".join(f"{name}={value!r}" for name, value in self)
