@@ -135,7 +135,7 @@ def _bytes(registers: Iterable[Register]) -> dict[tuple[tuple[str, Space], int],
 @register_rule("RS0612", "Words apart that no request can carry")
 def words_apart(register: Register, scope: RuleScope) -> Iterator[Problem]:
     """They are read by one request, so that both are of one moment, with what stands between them; never written."""
-    if not any(view.is_apart for view in register.views):
+    if not any(view.is_apart and len(view.offsets) == view.type.words for view in register.views):
         return
     if register.access.writable:
         yield "has words that stand apart, which no request writes alone", "give it `access: r`"
