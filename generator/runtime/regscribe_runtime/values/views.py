@@ -85,6 +85,8 @@ class View(NamedTuple):
 
     def needs(self) -> tuple[str, ...]:
         """The registers that set the orders of words and bytes and the factor, if any do."""
+        if isinstance(self.order, Order) and isinstance(self.byte_order, Order) and self.times is None:
+            return ()
         orders = (one for one in (self.order, self.byte_order) if isinstance(one, OrderCases))
         found = [name for one in orders for name in registers_of(one.cases)]
         return tuple(dict.fromkeys((*found, *(registers_in(self.times) if self.times is not None else ()))))

@@ -215,7 +215,7 @@ class WireType(StrEnum):
     def nearest(self, number: Fraction) -> float:
         """The IEEE number of the type nearest to `number`, of two the even one; OverflowError beyond the largest."""
         there = self.packer.unpack(self.packer.pack(float(number)))[0]
-        if self is WireType.FLOAT64 or not math.isfinite(there):  # Python rounds to a float64 correctly
+        if self is WireType.FLOAT64 or there == number or not math.isfinite(there):  # Python rounds to a float64 well
             return float(there)
         # through a float64 it is rounded twice, which may lead to the neighbour
         pattern = self._pattern(there)
