@@ -2,6 +2,7 @@
 
 import sys
 from collections.abc import Iterable, Sequence
+from fractions import Fraction
 
 import click
 
@@ -12,7 +13,7 @@ from regscribe.cli.shared.output import print_json, raised_as, refuse, remark, s
 from regscribe.cli.shared.planned_model import PlannedModel
 from regscribe.cli.shared.target_options import base_option
 from regscribe.emit.words import span_words
-from regscribe.model import RegisterMap
+from regscribe.model import RegisterMap, parse
 from regscribe.tools.live.errors import unknown
 from regscribe_runtime.operations.prepared_read import laid_out
 from regscribe_runtime.planning import plan
@@ -46,6 +47,7 @@ MOST_NAMED = 3
 @click.option("--tcp", is_flag=True, help="Over TCP; with --baud through a gateway to such a line.")
 @click.option("--remembered", is_flag=True, help="Without the registers that the meaning of others depends on.")
 @base_option
+@click.option("--with", "state", multiple=True, metavar="NAME=VALUE", help="What a register holds (repeatable).")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object.")
 def command(  # noqa: PLR0913 - one parameter an option
     *,
@@ -60,6 +62,7 @@ def command(  # noqa: PLR0913 - one parameter an option
     tcp: bool,
     remembered: bool,
     bases: tuple[str, ...],
+    state: tuple[str, ...],
     as_json: bool,
 ) -> None:
     """Show the requests that read registers of a model at the least cost on a line, and why they are not one.
@@ -68,22 +71,43 @@ def command(  # noqa: PLR0913 - one parameter an option
     that of the model's driver on such a line, in the order of sending: what the meaning of others depends on (decimals,
     input type, word order) is read behind them. Times are the expected ones: the mean of the
     manual's shortest and longest. Where a device tells the base of blocks, an assumed one counts unless --base says
-    it; a driver finds them by requests of its own, once per connection.
+    it; a driver finds them by requests of its own, once per connection. Registers that exist under a condition are
+    left out where it does not hold by --with, or else by the defaults of the map.
     """
     (register_map,) = compiled_maps([find_map(map_name)], nothing="nothing is planned")
     subject = _subject(register_map, model, bases)
     wanted = _selected(subject, ids, groups, everything=everything)
-    terms = subject.terms(_cost(subject, baud, form, framing, tcp=tcp))
+    absent = subject.absent(register_map, dict(_held(subject, text) for text in state))
+    terms = subject.terms(_cost(subject, baud, form, framing, tcp=tcp), absent)
+    gone = [path for path in wanted if path in absent]
+    wanted = [path for path in wanted if path not in absent]
     selected = [subject.registers[path] for path in wanted]
-    layout, read, _ = laid_out(subject.registers, selected, terms, fresh=not remembered)
+    layout, read, _ = laid_out(subject.registers, selected, terms, fresh=not remembered, gone=absent)
+    read = {path: one for path, one in read.items() if path not in absent}
     spans = [read_places(register)[0].span for register in read.values()]
     single = sum(terms.cost.tariff(span.space).of(span.words) for span in spans)
     also = list(read)[len(wanted) :]
     report = _PlanReport(layout, list(read), terms, milliseconds(single))
     if as_json:
-        print_json(map=register_map.id, model=subject.model.name, also=also, **report.plain())
+        missing = {"absent": gone} if gone else {}
+        print_json(map=register_map.id, model=subject.model.name, also=also, **missing, **report.plain())
     else:
         report.print(f"{register_map.title} {subject.model.name}", also)
+        if gone:
+            tell(f"left out, since they do not exist then: {', '.join(gone)}\n")
+
+
+def _held(subject: PlannedModel, text: str) -> tuple[str, Fraction]:
+    """The path and the number of `NAME=VALUE`; a member of an enum by its id."""
+    path, equals, value = text.partition("=")
+    register = subject.registers.get(path)
+    if not equals or register is None:
+        refuse(f"--with {text}: write NAME=VALUE, NAME being a register of {subject.model.name}")
+    members = {member.id.lower(): Fraction(member.code) for member in register.enum.members} if register.enum else {}
+    if value.lower() in members:
+        return path, members[value.lower()]
+    with raised_as(click.UsageError, ValueError):
+        return path, parse(value)
 
 
 def _subject(register_map: RegisterMap, wanted: str | None, bases: Sequence[str]) -> PlannedModel:

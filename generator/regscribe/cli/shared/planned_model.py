@@ -1,10 +1,13 @@
 """A compiled model to plan for: the planner of its driver takes its registers as they are."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 
 from regscribe import model as compiled
+from regscribe.checks.held_values import default_values, with_fields
 from regscribe.model.located import layout_of, located
+from regscribe.reference import Surroundings, UnknownValueError, holds, surroundings_of
 from regscribe_runtime.planning.address_ranges import ground_of
 from regscribe_runtime.planning.cost import Cost
 from regscribe_runtime.planning.plan import RequestLimits, Terms
@@ -33,8 +36,24 @@ class PlannedModel:
         """The paths of all registers that are read where all are."""
         return [path for path, register in self.registers.items() if register.is_read_along]
 
-    def terms(self, cost: Cost) -> Terms:
+    def absent(self, register_map: compiled.RegisterMap, state: Mapping[str, Fraction]) -> frozenset[str]:
+        """The registers that do not exist while others hold `state`, else their defaults; in doubt one exists."""
+        known = surroundings_of(register_map, {}, with_fields(self.model, default_values(self.model) | state))
+        asked = [one for one in self.registers.values() if not one.when.always]
+        gone = {one.path for one in asked if not _may_hold(one.when, known)}
+        while more := {one.path for one in asked if one.path not in gone and gone.intersection(one.when.registers)}:
+            gone |= more
+        return frozenset(gone)
+
+    def terms(self, cost: Cost, absent: Collection[str] = ()) -> Terms:
         """Limits, readable ground and cost that a plan is made under."""
         unused = (*self.model.unused, *self.layout.stretches)
-        ground = ground_of(self.registers.values(), unused=unused, holes=self.protocol.read_holes)
+        ground = ground_of(self.registers.values(), unused=unused, holes=self.protocol.read_holes, absent=absent)
         return Terms(RequestLimits.of(self.protocol), ground, cost)
+
+
+def _may_hold(condition: compiled.Condition, known: Surroundings) -> bool:
+    try:
+        return holds(condition, known)
+    except UnknownValueError:
+        return True
