@@ -157,8 +157,8 @@ def test_what_does_not_exist_in_a_state_is_not_planned(folder: Path, cli: Cli) -
     text = MAP.replace("{at: 5, name: Limit,", "{at: 5, name: Limit, when: {mode: run},")
     (folder / "oven.yaml").write_text(text, encoding="utf-8")
     plans = [cli("plan", "oven.yaml", "--model", "M1", "--all", *more) for more in ([], ["--with", "mode=run"])]
-    assert ["left out, since they do not exist then: limit" in one.stdout for one in plans] == [True, False]
+    assert ["left out, since they do not exist then: limit" in one.out for one in plans] == [True, False]
     held = cli("plan", "oven.yaml", "--model", "M1", "--all", "--with", "mode=stop", "--json")
-    assert json.loads(held.stdout)["absent"] == ["limit"]
+    assert json.loads(held.out)["absent"] == ["limit"]
     wrong = cli("plan", "oven.yaml", "--model", "M1", "--all", "--with", "nothing=1")
-    assert "write NAME=VALUE" in wrong.stderr
+    assert "write NAME=VALUE" in wrong.err
