@@ -7,6 +7,7 @@ import pytest
 
 from regscribe.export.collectd import export
 from regscribe.simulate.device.device import SimulatedDevice
+from regscribe.simulate.errors import SimulatorError
 from regscribe_runtime import Absent, ConditionNotMet, ExceptionAnswer, NotDecodable, NotPresent, SensorFault
 
 from .matrix_watch import Wire
@@ -442,3 +443,17 @@ def test_a_text_counts_no_elements() -> None:
     registers = [{"at": 90, "id": "n", "name": "N", "type": "string", "length": 2}, REPEATED["registers"][1]]
     _, found = diagnose(whole_map({"registers": registers}))
     assert "RS0330" in {one.rule for one in found}
+
+
+def test_a_simulated_device_asks_for_a_given_that_decides_what_exists() -> None:
+    given = {"cooled": {"type": "boolean", "description": "whether it cools", "reason": "an option"}}
+    registers = [{"at": 0, "name": "Level", "type": "uint16", "when": {"given": "cooled"}}]
+    register_map, found = diagnose(whole_map({"givens": given, "registers": registers}))
+    assert register_map is not None, found
+    with pytest.raises(SimulatorError, match="cooled"):
+        SimulatedDevice(register_map, "A", unit=1)
+    answers = [
+        SimulatedDevice(register_map, "A", unit=1, givens={"cooled": cooled}).handle(bytes([3, 0, 0, 0, 1]))
+        for cooled in (True, False)
+    ]
+    assert answers == [bytes([3, 2, 0, 0]), bytes([0x83, 2])]

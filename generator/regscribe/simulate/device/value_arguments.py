@@ -127,6 +127,9 @@ def _stated(given: Given, value: GivenValue) -> bool | str | Fraction | frozense
 
 
 def _used_givens(model: Model) -> Iterator[str]:
+    whens = [register.when for register in model.registers]
+    whens += [one.when for command in model.commands for one in (command, *command.steps)]
+    yield from (test.given for when in whens for test in when.leaves if test.given)
     for register in model.registers:
         permission = (register.writable,) if register.writable else ()
         for case in (*register.scale, *register.range, *register.valid, *register.sentinels, *permission):
