@@ -271,11 +271,8 @@ class Session:
     def exchange(self, request: Request) -> Operation[tuple[int, ...]]:
         """Send one request and verify its answer; a read is sent again as `retry` says, a write never."""
         asked = request
-        if self.pages and (page := SPACES[request.function].page(request.address) if request.function in SPACES else 0):
-            yield from self._turn_to(page)
-            request = request._replace(address=request.address & WIRE, page=page, unit=self.pages[page - 1].unit)
-        elif not request.reads and not request.selects:
-            self.page = 0
+        if self.pages:
+            request = yield from self._on_its_page(request)
         left = self._tries.reads if request.reads else 0
         while True:
             if self.protocol.pause and (left_to_rest := self._rested - time.monotonic()) > 0:
@@ -296,6 +293,16 @@ class Session:
                     self.prepared.clear()
                 return words
             yield Pause(self._tries.pause)
+
+    def _on_its_page(self, request: Request) -> Operation[Request]:
+        """The request as it goes out once its page is selected."""
+        page = SPACES[request.function].page(request.address) if request.function in SPACES else 0
+        if page:
+            yield from self._turn_to(page)
+            return request._replace(address=request.address & WIRE, page=page, unit=self.pages[page - 1].unit)
+        if not request.reads and not request.selects:
+            self.page = 0
+        return request
 
     def _turn_to(self, page: int) -> Operation[None]:
         """Write what selects a page, unless this operation has done so, and nothing else since."""
