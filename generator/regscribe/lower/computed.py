@@ -1,9 +1,9 @@
 """Computed values: numbers that follow from several registers."""
 
 from regscribe.lower.node import Value
-from regscribe.lower.scales import unit_of
 from regscribe.lower.scope import Scope
 from regscribe.lower.terms import term_of
+from regscribe.lower.units import unit_of
 from regscribe.model import Computed
 
 

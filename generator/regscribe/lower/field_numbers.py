@@ -6,10 +6,10 @@ from fractions import Fraction
 from regscribe.lower.labels import identifier_of, label_of
 from regscribe.lower.node import Value
 from regscribe.lower.rules import BAD_BITS, IDLE_KEY
-from regscribe.lower.scales import unit_of
 from regscribe.lower.scope import Scope
 from regscribe.lower.texts import ends, key_ends
 from regscribe.lower.tree import TreeNode
+from regscribe.lower.units import unit_of
 from regscribe.model import BitField, Sentinel, show
 
 _OF_NUMBERS = ("type", "multiply", "add", "decimals", "unit", "range", "sentinels")

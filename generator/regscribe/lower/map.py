@@ -14,10 +14,11 @@ from regscribe.lower.models import model_of, scopes_of, stretch_of
 from regscribe.lower.node import Value
 from regscribe.lower.protocol import faults_of, notes_of, protocol_of
 from regscribe.lower.rules import NO_MODULE, UNKNOWN_MEMBER, UNKNOWN_REGISTER
-from regscribe.lower.scales import own_units, rule_at, scale_at, unit_at
+from regscribe.lower.scales import rule_at, scale_at
 from regscribe.lower.scope import Scope
 from regscribe.lower.subject import subject_of
 from regscribe.lower.texts import ends, known_name
+from regscribe.lower.units import own_units, unit_at
 from regscribe.lower.variants import Keys, named_models
 from regscribe.lower.views import set_at
 from regscribe.model import (

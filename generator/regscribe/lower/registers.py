@@ -13,10 +13,11 @@ from regscribe.lower.node import ZERO, Keyed, Value
 from regscribe.lower.octets import text_of
 from regscribe.lower.register_values import beginnings_of, range_of, ranges_at, sentinels_of, specials_of
 from regscribe.lower.rules import NO_ACCESS, WRONG_SORT
-from regscribe.lower.scales import NOT_STATED, Scaling, decimals_rule, rescaled, scale_of, unit_of
+from regscribe.lower.scales import NOT_STATED, Scaling, decimals_rule, scale_of
 from regscribe.lower.scope import Scope
 from regscribe.lower.texts import version_of
 from regscribe.lower.tree import TreeNode, span_of
+from regscribe.lower.units import rescaled, unit_of
 from regscribe.lower.views import at_of, views_of
 from regscribe.model import (
     SAME,
