@@ -8,7 +8,9 @@ import pytest
 from regscribe.export.collectd import export
 from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.simulate.errors import SimulatorError
+from regscribe.tools.live.decode import Decoder
 from regscribe_runtime import Absent, ConditionNotMet, ExceptionAnswer, NotDecodable, NotPresent, SensorFault
+from regscribe_runtime.wire.capture import CapturedFrame
 
 from .matrix_watch import Wire
 from .suite import build, diagnose, whole_map
@@ -457,3 +459,13 @@ def test_a_simulated_device_asks_for_a_given_that_decides_what_exists() -> None:
         for cooled in (True, False)
     ]
     assert answers == [bytes([3, 2, 0, 0]), bytes([0x83, 2])]
+
+
+def test_of_two_registers_at_one_address_the_one_that_exists_is_decoded() -> None:
+    driver = build(whole_map(PARTS)).module.CaseA
+    for mode, names in ((1, ["level"]), (2, ["level_list"])):
+        decoder = Decoder(driver, state={"mode": mode})
+        request, answer = bytes([3, 0, 1, 0, 1]), bytes([3, 2, 0, 1])
+        decoder.feed(CapturedFrame("tcp", 1, request, request), "sent")
+        found = decoder.feed(CapturedFrame("tcp", 1, answer, answer), "received")
+        assert [item.name for item in found.items] == names

@@ -2,6 +2,7 @@
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from typing import Any, NamedTuple
 
 from regscribe.tools.live.capture import RECEIVED, SENT
@@ -154,15 +155,28 @@ class Decoder:
         self._places[unit].saw(SPACES.get(request.function, ""), request.address, words)
         for register, view, part in list(self._registers(unit, request, words)) * 2:
             try:
+                register.check_present(state, self._givens)
                 state[register.path] = codec.decode(register, view, part, state, self._givens, named=False)
             except (RegscribeError, KeyError, ValueError):
                 state.pop(register.path, None)
         self._places[unit].counted(state)
 
     def _items(self, unit: int, request: Request, words: tuple[int, ...] | None) -> Iterator[DecodedItem]:
-        for register, view, part in self._registers(unit, request, words):
+        placed = list(self._registers(unit, request, words))
+        here = {view.address(register.at) for register, view, _ in placed if self._exists(unit, register)}
+        for register, view, part in placed:
             item = DecodedItem(register.path, view.name)
-            yield item if words is None else self._decode(item, unit, register, view, part)
+            if words is None:
+                yield item
+            elif self._exists(unit, register) or view.address(register.at) not in here:
+                yield self._decode(item, unit, register, view, part)
+
+    def _exists(self, unit: int, register: Register[Any]) -> bool:
+        """Whether a register is known to exist, so that no other one at its address does."""
+        with suppress(KeyError, RegscribeError):
+            register.check_present(self._states[unit], self._givens)
+            return True
+        return False
 
     def _decode(
         self, item: DecodedItem, unit: int, register: Register[Any], view: View, words: tuple[int, ...]
