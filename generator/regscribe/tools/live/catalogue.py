@@ -44,7 +44,8 @@ def find(name: str, packages: Sequence[str] = ()) -> Known:
         names = [text for one in known for text in (one.model, full_name(one))]
         raise TargetError(unknown("model", name, names, where="among the drivers") + "; `regscribe devices` lists all")
     if len(found) > 1:
-        message = f"several maps have a model `{name}`: write {' or '.join(map(full_name, found))}"
+        what = f"{name} has several models" if wanted == found[0].map_id else f"several maps have a model `{name}`"
+        message = f"{what}: write {' or '.join(map(full_name, found))}"
         raise TargetError(message)
     return found[0]
 

@@ -9,6 +9,7 @@ from regscribe.cli.commands.decode import command
 from regscribe.tools.live import catalogue
 from regscribe.tools.live.capture import RECEIVED, SENT, captured
 from regscribe.tools.live.decode import Decoded, Decoder
+from regscribe.tools.live.errors import TargetError
 from regscribe_runtime.wire.capture import frames
 from regscribe_runtime.wire.framing import build
 
@@ -174,3 +175,9 @@ def test_an_answer_alone_is_not_taken_for_a_request(frame: str, told: str) -> No
 def test_the_frame_in_the_help_is_sound() -> None:
     (frame,) = re.findall(r"decode 16C ([0-9A-F ]+)\n", command.epilog or "")
     assert [(one.address, one.complaint) for one in decoded([frame])] == [(4000, "")]
+
+
+def test_the_id_of_a_map_names_its_only_model() -> None:
+    assert catalogue.find("athena/platinum-m5000").model == "M5000"
+    with pytest.raises(TargetError, match="fdc/series-100 has several models: write fdc/series-100:B"):
+        catalogue.find("fdc/series-100")
