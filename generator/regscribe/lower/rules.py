@@ -127,6 +127,9 @@ RULES: tuple[Rule, ...] = (
 )
 
 DEPENDS_ON_MAP = frozenset(
-    {UNKNOWN_REGISTER, OTHER_MODELS, UNKNOWN_GIVEN, UNKNOWN_MODEL, NO_ACCESS, IDLE_VARIANT, ON_NO_MODEL}
+    {
+        *(UNKNOWN_REGISTER, OTHER_MODELS, UNKNOWN_GIVEN, UNKNOWN_MODEL, NO_ACCESS),
+        *(IDLE_VARIANT, ON_NO_MODEL, IDLE_BLOCK),
+    }
 )
 """Rules that cannot be judged in a library alone: what it lacks may stand in the maps that use it."""
