@@ -469,3 +469,25 @@ def test_of_two_registers_at_one_address_the_one_that_exists_is_decoded() -> Non
         decoder.feed(CapturedFrame("tcp", 1, request, request), "sent")
         found = decoder.feed(CapturedFrame("tcp", 1, answer, answer), "received")
         assert [item.name for item in found.items] == names
+
+
+def test_a_value_that_needs_a_register_which_is_gone_is_not_decoded_by_what_was_remembered() -> None:
+    parts = {
+        "decimals": {"digits": {"register": "places"}},
+        "registers": [
+            {"at": 0, "name": "Mode", "type": "uint16"},
+            {"at": 1, "name": "Places", "type": "uint16", "range": "0..3", "when": {"mode": 1}},
+            {"at": 2, "name": "Value", "type": "uint16", "decimals": "digits"},
+            {"at": 3, "name": "Other", "type": "uint16", "when": {"mode": 2}},
+        ],
+    }
+    table = Table(parts, mode=1, places=1)
+    table.device.poke("value", 12.5)
+    assert table.driver.value.read() == 12.5
+    table.device.poke("mode", 2)
+    assert table.driver.other.read() == 0
+    with pytest.raises(NotPresent, match="places"):
+        table.driver.value.write(1.5)
+    with pytest.raises(NotDecodable, match="depends on places"):
+        table.driver.value.read()
+    assert isinstance(table.driver.read().errors["value"], NotDecodable)
