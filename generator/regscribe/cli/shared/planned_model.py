@@ -38,7 +38,7 @@ class PlannedModel:
 
     def absent(self, register_map: compiled.RegisterMap, state: Mapping[str, Fraction]) -> frozenset[str]:
         """The registers that do not exist while others hold `state`, else their defaults; in doubt one exists."""
-        known = surroundings_of(register_map, {}, with_fields(self.model, default_values(self.model) | state))
+        known = surroundings_of(register_map, {}, with_fields(self.model, {**default_values(self.model), **state}))
         asked = [one for one in self.registers.values() if not one.when.always]
         gone = {one.path for one in asked if not _may_hold(one.when, known)}
         while more := {one.path for one in asked if one.path not in gone and gone.intersection(one.when.registers)}:
