@@ -8,8 +8,9 @@ from regscribe.tools.live.names import Driver
 from regscribe.tools.live.reading import unit_of
 from regscribe.tools.live.value_text import is_number, parse
 from regscribe.tools.settings.backup import Backup, Saved
-from regscribe_runtime import Register, ValueNotDecodable, ValueRefused
+from regscribe_runtime import NotPresent, Register, ValueNotDecodable, ValueRefused
 from regscribe_runtime.registers import codec
+from regscribe_runtime.registers.presence import absence
 from regscribe_runtime.values.views import View
 
 KINDS = ("address", "line", "calibration", "identity", "counter", "operation")
@@ -63,7 +64,8 @@ def fit(
         if path in values and (reason := _contradiction(driver.registers[path], saved, values[path], context)):
             misfits.append(Misfit(path, reason))
             del values[path]
-    left = tuple(one for one in misfits if one.path not in stays)
+    there = (one for one in misfits if not _did_not_exist(one.path, driver, context))
+    left = tuple(one for one in there if one.path not in stays)
     return BackupFit(values, left, stays, tuple(_strangeness(backup, driver)))
 
 
@@ -73,6 +75,15 @@ class _Context(NamedTuple):
     saved: Mapping[str, Any]
     restored: Mapping[str, Any]
     givens: Mapping[str, Any]
+
+
+def _did_not_exist(path: str, driver: Driver, context: _Context) -> bool:
+    """Whether a setting did not exist on the device that was saved, so that there is nothing to restore."""
+    register = driver.registers.get(path)
+    if register is None or path in context.saved:
+        return False
+    lacking = {name: NotPresent(name, "", {}) for name in register.when.registers if name not in context.saved}
+    return isinstance(absence(path, register.when, context.saved, context.givens, lacking), NotPresent)
 
 
 def _staying(backup: Backup, driver: Driver, include: Collection[str]) -> dict[str, str]:
