@@ -62,7 +62,7 @@ def test_other_units_broadcasts_and_unknown_functions_are_told(device: Simulated
     assert told(struct.pack(">BHH", 6, 1, 900), device, unit=0) == Told(
         0, "write", "setpoint = 90 °F", "broadcast", good=True
     )
-    assert told(b"\x2b\x0e\x01", device).verb == "function 43"
+    assert told(b"\x0b", device).verb == "function 11"
     assert told(struct.pack(">BHH", 3, 500, 3), device).what == "holding 500..502"
 
 

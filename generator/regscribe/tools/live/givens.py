@@ -98,7 +98,7 @@ def given_of(name: str, form: str, text: str, choices: Iterable[str] = ()) -> Gi
         return parse(text)
     if form == "choice":
         return Fact.choice(name, text, *choices)
-    return codes_in(filter(None, text.split(",")) if text != "none" else ())
+    return codes_in(() if text == "none" else text.split(","))
 
 
 def flag_of(name: str, text: str) -> bool:

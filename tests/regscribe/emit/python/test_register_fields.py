@@ -63,6 +63,7 @@ EVERYTHING = Register(
     when=Condition((Is("mode", ((1, 1),)),)),
     reading=ReadFacts(clears=True),
     block="head",
+    default_cases=always(Fraction(4)),
 )
 
 
