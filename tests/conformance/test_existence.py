@@ -9,6 +9,7 @@ from regscribe.export.collectd import export
 from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.simulate.errors import SimulatorError
 from regscribe.tools.live.decode import Decoder
+from regscribe.tools.settings import backup, restore
 from regscribe_runtime import Absent, ConditionNotMet, ExceptionAnswer, NotDecodable, NotPresent, SensorFault
 from regscribe_runtime.wire.capture import CapturedFrame
 
@@ -491,3 +492,13 @@ def test_a_value_that_needs_a_register_which_is_gone_is_not_decoded_by_what_was_
     with pytest.raises(NotDecodable, match="depends on places"):
         table.driver.value.read()
     assert isinstance(table.driver.read().errors["value"], NotDecodable)
+
+
+def test_a_backup_says_what_did_not_exist_and_is_restored_without_it() -> None:
+    saved = Table(mode=1, level=3, fan=9)
+    taken = saved.driver.run(backup(type(saved.driver)))
+    errors = {path for path, one in taken.settings() if one.error}
+    assert errors == {"level_list", "detail", "units[1].speed", "units[2].speed"}
+    other = Table(mode=0)
+    other.driver.run(restore(type(other.driver), taken))
+    assert [other.device.peek(path) for path in ("mode", "level", "fan")] == [1, 3, 9]
