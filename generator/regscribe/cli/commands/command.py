@@ -58,11 +58,11 @@ def command(
 
 def _values(command: AnyCommand, arguments: tuple[str, ...]) -> dict[str, object]:
     """The values of arguments; one that the command does not have keeps its text, and is refused."""
-    given = dict(one.partition("=")[::2] for one in arguments)
-    return {
-        name: value_text.parse(command.arguments[name], text) if name in command.arguments else text
-        for name, text in given.items()
-    }
+    given: dict[str, object] = {}
+    for one in arguments:
+        name, _, text = one.partition("=")
+        given[name] = value_text.parse(command.arguments[name], text) if name in command.arguments else text
+    return given
 
 
 def _list(target: Target, *, as_json: bool) -> None:

@@ -114,7 +114,7 @@ def _unpacked(packed: bytes, size: int) -> bytes:
     return _spread(packed, "low") if size == 2 * len(packed) else packed.rjust(size, b"\0")
 
 
-def _network(kind: Kind, address: type[Any], size: int) -> OctetType[Any]:
+def _network(kind: Kind, address: type[IPv4Address | IPv6Address], size: int) -> OctetType[Any]:
     def write(value: object, room: int) -> bytes:
         if not isinstance(value, address):
             message = f"{brief(value)} is no {address.__name__}"
