@@ -11,8 +11,8 @@ from regscribe.lower.texts import whole_ends
 from regscribe.lower.tree import TreeNode
 from regscribe.model import BitField, Condition, Enum, Member
 
-COLUMNS = "columns"
-"""The key beside the codes of an enum that names the columns of the manual's table."""
+COLUMNS, OTHER = "columns", "other"
+"""The keys beside the codes of an enum: the columns of the manual's table, and the label of all other codes."""
 
 
 def enum_of(node: Value | None, scope: Scope, *, inline_id: str) -> Enum | None:
@@ -41,12 +41,19 @@ def enum_at(table: Value, scope: Scope, name: str) -> Enum:
         elif node.child("invalid") and (here or label):
             invalid.append((node.key_whole(), node.text_of("invalid")))
     columns = table.texts_of(COLUMNS)
-    return Enum(id=name, members=tuple(members), invalid=tuple(invalid), span=table.key_span, columns=columns)
+    return Enum(
+        id=name,
+        members=tuple(members),
+        invalid=tuple(invalid),
+        span=table.key_span,
+        columns=columns,
+        other=table.line_of(OTHER),
+    )
 
 
 def _codes(table: Value) -> list[Value]:
     """The members of an enum, without what stands beside the codes."""
-    return [node for key, node in table.items() if key != COLUMNS]
+    return [node for key, node in table.items() if key not in {COLUMNS, OTHER}]
 
 
 def code_anywhere(table: Value, text: str) -> int | None:

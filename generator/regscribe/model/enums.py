@@ -43,7 +43,8 @@ class Enum:
     """Codes with meanings, as one model has them; `invalid` lists codes that the manual calls invalid, with why.
 
     `id` is the map's name; models whose members differ have enums of the same id with different members.
-    `columns` are the heads of the manual's table, where it says several things of each code.
+    `columns` are the heads of the manual's table, where it says several things of each code; `other` is what it calls
+    all codes that it does not list.
     """
 
     id: str
@@ -52,6 +53,7 @@ class Enum:
     description: str = ""
     span: Span = NOWHERE
     columns: tuple[str, ...] = ()
+    other: str = ""
 
 
 @dataclass(frozen=True, slots=True)

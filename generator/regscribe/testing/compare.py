@@ -62,6 +62,8 @@ def _value(where: str, trial: Trial, found: Any, vector: Json, expected: object)
         yield from _named(where, key, found, vector[key], trial.entry.get(f"{key}s", ()))
     if "unknown" in vector:
         yield from differs(where, "known", getattr(found, "known", None), not vector["unknown"])
+        other = trial.entry.get("other", f"unknown code {vector['value']}")
+        yield from differs(where, "label", getattr(found, "label", None), other)
     if "flags" in vector:
         yield from differs(where, "flags", _flags(found), {name.lower() for name in vector["flags"]})
     for name, part in vector.get("fields", {}).items():

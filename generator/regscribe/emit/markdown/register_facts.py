@@ -215,7 +215,8 @@ def _kind(register: Register) -> Md:
     if register.kind is Kind.VERSION and register.version_group:
         groups = register.version_digits // register.version_group
         return md("version, packed decimal digits: ", ".".join(["n" * register.version_group] * groups))
-    return md(KINDS[register.kind])
+    other = f"; any other is {one_line(register.enum.other)}" if register.enum and register.enum.other else ""
+    return md(KINDS[register.kind], other)
 
 
 def _specials(register: Register, wording: Wording) -> Md:

@@ -164,7 +164,9 @@ def _registers(members: Sequence[Register | Array]) -> list[Register]:
 
 def enum_content(enum: Enum) -> Content:
     """Identity of an enum's class in a module: ids, codes, labels and cells."""
-    return ("enum", enum.id, tuple((member.code, member.id, member.label, member.cells) for member in enum.members))
+    other = (enum.other,) if enum.other else ()
+    members = tuple((member.code, member.id, member.label, member.cells) for member in enum.members)
+    return ("enum", enum.id, members, *other)
 
 
 def enum_key(enum: Enum) -> str:
@@ -231,7 +233,8 @@ def _enum_body(enum: Enum, about: str) -> list[str]:
     """The base class of an enum, its docstring (`about` unless it has a description of its own) and members."""
     about = one_line(enum.description) or about
     members = [(str(member.code), member.id, member.label, member_words(member, enum)) for member in enum.members]
-    return ["Choice", *docstring(about, 1), "", *_members(members)]
+    base = f"Choice, other={literal(enum.other)}" if enum.other else "Choice"
+    return [base, *docstring(about, 1), "", *_members(members)]
 
 
 def _special_body(register: Register) -> list[str]:

@@ -161,6 +161,7 @@ def _names(register: Register) -> Json:
     found: Json = {}
     if register.enum is not None:
         found["members"] = _members(register.enum)
+        found |= {"other": register.enum.other} if register.enum.other else {}
     if register.specials:
         found["specials"] = [
             {"code": show(special.code), "id": special.id, "label": special.label}

@@ -11,11 +11,22 @@ from regscribe_runtime.values.numbers import Number, exact, rough
 V = TypeVar("V")
 
 
-class Choice(IntEnum):
+_OTHERS: dict[tuple[str, str], str] = {}
+"""What manuals call the codes that they do not list, by the name and the module of the class."""
+
+
+class _Labelled:
+    """Takes the label of all other codes with the bases of a class."""
+
+    def __init_subclass__(cls, *, other: str = "") -> None:
+        _OTHERS[cls.__qualname__, cls.__module__] = other
+
+
+class Choice(_Labelled, IntEnum):
     """An enum of a register: members carry the manual's `label` and perhaps a `description`.
 
     A code that the manual does not list is read as a pseudo-member named `UNKNOWN_<code>` whose `known` is False; a
-    write refuses it.
+    write refuses it. `other` is the manual's label for all of these, if it has one.
     """
 
     _value_: int
@@ -36,7 +47,8 @@ class Choice(IntEnum):
             return None
         unknown = int.__new__(cls, value)
         unknown._name_, unknown._value_ = f"UNKNOWN_{value}", value
-        unknown.label, unknown.description, unknown.known = f"unknown code {value}", "", False
+        others = _OTHERS.get((cls.__qualname__, cls.__module__), "")
+        unknown.label, unknown.description, unknown.known = others or f"unknown code {value}", "", False
         return unknown
 
 
