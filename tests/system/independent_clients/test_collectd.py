@@ -108,5 +108,5 @@ def single(number: float) -> float:
 
 def shown_in(device: SimulatedDevice, register: Register) -> str:
     view = register.preferred
-    swapped = device.state.order(view) is Order.LITTLE
+    swapped = device.state.order(view).words is Order.LITTLE
     return column(register, view.space, view.type, view.name, swapped=swapped)

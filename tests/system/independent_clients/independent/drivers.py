@@ -79,7 +79,7 @@ def written(family: Family) -> tuple[Case, ...]:
         cases: dict[str, list[Case]] = {}
         for register in _harmless(device):
             for view in register.views:
-                swapped = device.state.order(view) is Order.LITTLE
+                swapped = device.state.order(view).words is Order.LITTLE
                 name = column(register, view.space, view.type, view.name, swapped=swapped)
                 if (case := _write(stage, driver, register, view, name)) is not None:
                     cases.setdefault(f"{register.kind} {name}", []).append(case)

@@ -44,7 +44,7 @@ class Stretch:
 def shown(device: SimulatedDevice) -> list[Shown]:
     """Return every readable value of the device in every view and at every alias, by space and address."""
     found = [
-        Shown(register, view, address, device.state.order(view) is Order.LITTLE)
+        Shown(register, view, address, device.state.order(view).words is Order.LITTLE)
         for register in device.model.registers
         if register.access.readable
         for view in register.views
