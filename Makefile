@@ -48,8 +48,9 @@ format: $(INSTALLED) ## format the code
 bench: $(INSTALLED) ## measure against the budgets and against other tools, side by side
 	$(BIN)/python tests/system/bench/run.py
 
-fuzz: $(INSTALLED) ## random maps in thousands (FUZZ_MAPS=..): drivers, reference, simulator, vectors and plans must agree
-	$(BIN)/pytest -q -m slow tests/conformance/test_differential.py tests/conformance/test_plans.py
+fuzz: $(INSTALLED) ## random maps in thousands (FUZZ_MAPS=..): drivers, reference, simulator, vectors, plans and generated tests must agree
+	$(BIN)/pytest -q -m slow tests/conformance/test_differential.py \
+		tests/conformance/test_plans.py tests/conformance/test_properties.py
 
 conformance: $(INSTALLED) ## what the language means, as bytes and values: the cases of tests/conformance, by everybody who is judged
 	$(BIN)/pytest -q -n 2 -m "not slow" tests/conformance

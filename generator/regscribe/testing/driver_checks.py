@@ -38,7 +38,8 @@ class DriverUnderTest:
         return [
             trial
             for trial in self.trials
-            if trial.entry["access"] != "r" and (trial.case.get("domain") or trial.entry["kind"] not in WITH_DOMAIN)
+            if trial.entry["access"] != "r"
+            and trial.case.get("domain" if trial.entry["kind"] in WITH_DOMAIN else "encode")
         ]
 
     @cached_property

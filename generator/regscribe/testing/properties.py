@@ -25,8 +25,8 @@ each_run = settings(max_examples=40, deadline=None, derandomize=True, database=N
 
 NO_VALUES: tuple[object, ...] = (math.nan, math.inf, -math.inf, None, [1], object())
 PARTS = 1_000_000
-SIGNIFICANT = 6
-"""Decimal digits that every float32 keeps."""
+SIGNIFICANT = {"float16": 3, "float32": 6, "float64": 6}
+"""Decimal digits that every number of a type keeps (more of them in no vector)."""
 NUMERIC = frozenset({"number", "integer", "raw"})
 
 
@@ -177,13 +177,13 @@ def _inside(trial: Trial, stretch: dict[str, Any]) -> st.SearchStrategy[Any]:
     low, high, step = Fraction(stretch["low"]), Fraction(stretch["high"]), Fraction(stretch.get("step", 0))
     holes = {Fraction(text) for text in stretch.get("except", ())}
     slope, offset = Fraction(stretch.get("slope", 1)), Fraction(stretch.get("offset", 0))
-    is_float = _view(trial)["type"].startswith("float")
+    digits = SIGNIFICANT.get(_view(trial)["type"])
 
     def carried(there: Fraction) -> Fraction:
-        if not is_float:
+        if digits is None:
             return there
         wire = (there - offset) / slope
-        few = Context(prec=SIGNIFICANT).divide(Decimal(wire.numerator), Decimal(wire.denominator))
+        few = Context(prec=digits).divide(Decimal(wire.numerator), Decimal(wire.denominator))
         return slope * Fraction(few) + offset
 
     def value(part: int) -> Fraction:
@@ -193,7 +193,7 @@ def _inside(trial: Trial, stretch: dict[str, Any]) -> st.SearchStrategy[Any]:
     def possible(there: Fraction) -> bool:
         return low <= there <= high and there not in holes and carried(there) == there
 
-    part = 10 if is_float and not step else 1
+    part = 10 if digits and not step else 1
     small = st.integers(-99_999, 99_999).map(lambda count: slope * Fraction(count, part) + offset)
     near = small.map(lambda there: low + (there - low) // step * step if step else there)
     anywhere = st.one_of(st.integers(0, PARTS).map(value), near.filter(lambda there: low <= there <= high))

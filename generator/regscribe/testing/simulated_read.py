@@ -13,7 +13,8 @@ from regscribe_runtime.operations.session import Pause, Session
 from regscribe_runtime.operations.snapshot import Snapshot
 from regscribe_runtime.planning.read_places import ReadPlace, read_places
 from regscribe_runtime.registers.register import Register
-from regscribe_runtime.values.blocks import RegisterBlock, lay_out
+from regscribe_runtime.values.blocks import RegisterBlock, headers_in, lay_out
+from regscribe_runtime.values.kinds import Kind
 from regscribe_runtime.values.wire_types import Space
 from regscribe_runtime.wire.requests import READ_SPACES, Reply, Request
 
@@ -21,6 +22,7 @@ Cell = tuple[str, int]
 """A space and a wire address."""
 
 BITS = frozenset({"coil", "discrete"})
+TEXTUAL = frozenset({Kind.STRING, Kind.VERSION})
 
 
 class ReadTrace(NamedTuple):
@@ -38,7 +40,7 @@ def read_through(driver: Any, chosen: Sequence[Register[Any]], *, seed: int = 0,
     """
     session = _session(driver)
     needs = frozenset().union(*dependencies(session.registers, chosen).values())
-    session.memory.update(dict.fromkeys(needs, code))
+    session.memory.update({path: _holding(session.registers[path], code) for path in needs})
     operation = tasks.read_many(chosen, fresh=False)(session)
     requests: list[Request] = []
     try:
@@ -57,13 +59,18 @@ def read_through(driver: Any, chosen: Sequence[Register[Any]], *, seed: int = 0,
     raise TypeError(message)
 
 
+def _holding(register: Register[Any], code: int) -> int | str:
+    """What a register that holds `code` is remembered with: the number, or a text of its digits."""
+    return str(code) if register.kind in TEXTUAL else code
+
+
 def _session(driver: Any) -> Session:  # noqa: ANN401 (as above)
     """A session of a device where the blocks of the driver stand one behind the other."""
     blocks: tuple[RegisterBlock, ...] = driver._blocks  # noqa: SLF001 (a fact for the runtime and its judges)
     ends: dict[str, int] = {}
     for register in driver.registers.values():
         ends[register.block] = max(ends.get(register.block, 0), *(end for _, _, end in _places(register)))
-    headers = lay_out(blocks, ends, {}).headers
+    headers, words = lay_out(blocks, ends, {})
     session = Session(
         unit=driver.protocol.unit_ids[0],
         protocol=driver.protocol,
@@ -76,8 +83,9 @@ def _session(driver: Any) -> Session:  # noqa: ANN401 (as above)
     slips = (slip for register in driver.registers.values() for slip in register.slips)
     session.memory.update({slip.counter: slip.most for slip in slips})
     for chain in dict.fromkeys(block.chain for block in blocks if block.chain):
-        here = (headers[block.id] for block in blocks if block.chain == chain)
-        session.found(chain, tuple(sorted(here, key=lambda header: header.base)))
+        session.found(
+            chain, headers_in(chain, {at: word for (space, at), word in words.items() if space == chain.space})
+        )
     return session
 
 

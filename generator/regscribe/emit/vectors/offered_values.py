@@ -6,7 +6,7 @@ from math import ceil, floor
 from typing import Any
 
 from regscribe.emit.vectors.candidates import PATTERNS_OF_BITS, Proposal, codes, with_neighbours
-from regscribe.emit.vectors.scale import LARGEST, Scale
+from regscribe.emit.vectors.scale import LARGEST, Scale, range_now
 from regscribe.model import Kind, Register, View, WireType, show
 from regscribe.reference import Surroundings, present_sentinels, special_value
 from regscribe_runtime.values.kinds import OCTETS
@@ -112,7 +112,7 @@ def domain(register: Register, view: View, scale: Scale | None, known: Surroundi
     """Yield the codes of an enum, or each interval of numbers that are the same when written and read back."""
     if register.enum is not None:
         yield from ({"low": str(member.code), "high": str(member.code)} for member in register.enum.members)
-    elif scale is not None and register.kind not in CODED | TEXTS:
+    elif scale is not None and register.kind not in CODED | TEXTS and _may_be_written(register, known):
         line = _line(scale, view)
         holes = _holes(register, scale, known)
         for low, high, step in _faultless(register, scale, known, _stretches(register, scale, line)):
@@ -121,11 +121,17 @@ def domain(register: Register, view: View, scale: Scale | None, known: Surroundi
             yield {key: value for key, value in found.items() if value}
 
 
+def _may_be_written(register: Register, known: Surroundings) -> bool:
+    """Whether numbers are taken now: a range of which no case holds takes none."""
+    return not register.range or range_now(register, known) is not None
+
+
 def _stretches(register: Register, scale: Scale, line: dict[str, str]) -> Iterator[tuple[Fraction, Fraction, str]]:
     """Yield lowest and highest value and the step between values, empty for none."""
     if register.fractional:
         step = show(scale.size) if scale.size else ""
-        yield from ((max(low, -WIDEST), min(high, WIDEST), step) for low, high in scale.domain())
+        inner = (scale.on_steps(max(low, -WIDEST), min(high, WIDEST)) for low, high in scale.domain())
+        yield from ((low, high, step) for low, high in inner if low <= high)
     elif not line:  # which whole numbers an IEEE number can carry along a line has no form here
         whole_step, stretches = scale.whole_domain()
         yield from ((low, high, show(whole_step)) for low, high in stretches)

@@ -68,7 +68,7 @@ class Scale:
             (lowest if low is None else max(lowest, low), highest if high is None else min(highest, high))
             for low, high in limits
         )
-        stretches = (self._on_steps(low, high) for low, high in inner)
+        stretches = (self.on_steps(low, high) for low, high in inner)
         return tuple((low, high) for low, high in stretches if low <= high)
 
     def whole_domain(self) -> tuple[Fraction, tuple[tuple[Fraction, Fraction], ...]]:
@@ -86,7 +86,8 @@ class Scale:
         )
         return period, tuple((low, high) for low, high in inner if low <= high)
 
-    def _on_steps(self, low: Fraction, high: Fraction) -> tuple[Fraction, Fraction]:
+    def on_steps(self, low: Fraction, high: Fraction) -> tuple[Fraction, Fraction]:
+        """Return the first and the last value between two that stand on a step."""
         if not self.wire_step:
             return low, high
         size = self.size
