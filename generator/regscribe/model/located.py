@@ -20,7 +20,18 @@ def layout_of(register_map: RegisterMap, model: Model, bases: Mapping[str, int])
         last = [view.last(register.at) for view in register.views]
         last += [alias + register.base.words - 1 for alias in register.aliases]
         ends[register.block] = max(ends.get(register.block, 0), *(one + 1 for one in last))
+    for array in arrays_in(model.members):
+        inside = list(_registers_in(array))
+        if array.to_end and inside:  # its last element has room for the stride, whatever stands at the end of that
+            reach = min(register.at for register in inside) + array.count * array.stride
+            ends[inside[0].block] = max(ends[inside[0].block], reach)
     return lay_out(register_map.blocks, ends, bases)
+
+
+def _registers_in(array: Array) -> Iterator[Register]:
+    """The registers of the first element, those of arrays in it too."""
+    for one in array.members:
+        yield from _registers_in(one) if isinstance(one, Array) else (one,)
 
 
 def arrays_in(members: Iterable[Register | Array]) -> Iterator[Array]:

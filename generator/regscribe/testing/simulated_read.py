@@ -69,7 +69,7 @@ def _session(driver: Any) -> Session:  # noqa: ANN401 (as above)
     blocks: tuple[RegisterBlock, ...] = driver._blocks  # noqa: SLF001 (a fact for the runtime and its judges)
     ends: dict[str, int] = {}
     for register in driver.registers.values():
-        ends[register.block] = max(ends.get(register.block, 0), *(end for _, _, end in _places(register)))
+        ends[register.block] = max(ends.get(register.block, 0), register.end, *(end for _, _, end in _places(register)))
     headers, words = lay_out(blocks, ends, {})
     session = Session(
         unit=driver.protocol.unit_ids[0],

@@ -13,6 +13,7 @@ from regscribe.model import Access
 from regscribe.plugins import OptionError
 from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.simulate.errors import SimulatorError
+from regscribe.testing.simulated_read import wrong_requests
 from regscribe.tools.live.decode import Decoder
 from regscribe.tools.settings.take import backup
 from regscribe_runtime import NotPresent, ValueRefused
@@ -234,6 +235,18 @@ def test_an_array_has_as_many_elements_as_the_block_has_room_for(build: Any, wor
     with pytest.raises(IndexError):
         _ = device.modules[10]
     assert len(built.driver("A").modules.element.registers) == 2
+
+
+def test_a_simulated_device_has_room_for_what_stands_unnamed_at_the_end_of_the_last_element(
+    build: Any, direct: Any
+) -> None:
+    built = build(STRINGS.replace("stride: 3", "stride: 4"))
+    driver = built.driver("A")
+    device = driver(direct(SimulatedDevice(built.map, "A", unit=1)), unit=1)
+
+    assert len(device.modules) == 9
+    assert "modules[9].volts" in device.read().valid
+    assert wrong_requests(device, list(device.registers.values())) == []
 
 
 def test_asyncio_awaits_the_count_of_elements(talk: Any) -> None:
