@@ -357,7 +357,13 @@ def ask(device: SimulatedDevice, register: Register, view: View) -> list[int]:
     function = READ_FUNCTIONS[view.space.value]
     if function == 7:
         return [device.handle(b"\x07")[1]]  # type: ignore[index] # it answers
-    answer = device.handle(_asked(register, view))
+    address, most = view.address(register.at), device.register_map.protocol.most_read(view.space)
+    portions = [(address + start, min(most, view.words - start)) for start in range(0, view.words, most)]
+    return [word for portion in portions for word in _answered(device, function, view, *portion)]
+
+
+def _answered(device: SimulatedDevice, function: int, view: View, address: int, count: int) -> list[int]:
+    answer = device.handle(_asked(function, address, count))
     assert answer is not None
     assert answer[0] == function, answer.hex(" ")
     if function in (1, 2):
@@ -365,19 +371,18 @@ def ask(device: SimulatedDevice, register: Register, view: View) -> list[int]:
     data = answer[{20: 4, 24: 3, 43: 9}.get(function, 2) :]
     data += bytes(2 * view.words - len(data)) if function == 43 else b""
     words = [int.from_bytes(data[at : at + 2], "big") for at in range(0, len(data), 2)]
-    return words[view.address(register.at) & 63 :][: view.words] if function == 24 else words
+    return words[address & 63 :][: view.words] if function == 24 else words
 
 
-def _asked(register: Register, view: View) -> bytes:
-    """The request that reads a register in a view."""
-    function, address = READ_FUNCTIONS[view.space.value], view.address(register.at)
+def _asked(function: int, address: int, count: int) -> bytes:
+    """The request that reads words (or bits) from an address on."""
     if function == 20:  # byte count, 6, file, record, number of words
-        return struct.pack(">BBBHHH", 20, 7, 6, address >> 16, address & 0xFFFF, view.words)
+        return struct.pack(">BBBHHH", 20, 7, 6, address >> 16, address & 0xFFFF, count)
     if function == 43:
         return bytes((43, 14, 4, address >> 8))
     if function == 24:
         return struct.pack(">BH", 24, address >> 6)
-    return struct.pack(">BHH", function, address, view.words)
+    return struct.pack(">BHH", function, address, count)
 
 
 def decoded_by_tool(built: Built, memory: Any, row: Json) -> str:
@@ -419,7 +424,7 @@ def _frames(register: Register, view: View, words: list[int]) -> tuple[bytes, by
         data = struct.pack(f">H{before}x{before}x", count)[: 2 * before or None] + data if before else data
         data += bytes(2 * (1 + count) - len(data))
         head = struct.pack(">BH", 24, len(data))
-    return _asked(register, view), head + data
+    return _asked(READ_FUNCTIONS[view.space.value], view.address(register.at), view.words), head + data
 
 
 def bench_of(built: Built) -> DriverUnderTest:

@@ -6,6 +6,7 @@ from itertools import combinations
 from regscribe.checks.addresses import stretches
 from regscribe.checks.rule import Finding, Problem, RuleScope, Scopes, map_rule, model_rule, register_rule
 from regscribe.model import Register, RegisterMap, Related, Space
+from regscribe_runtime.values.kinds import DIVISIBLE
 
 FURTHER_FUNCTIONS = {Space.HOLDING: (22, 23)}
 """Functions of a space besides those that drivers use: mask write, and write and read."""
@@ -71,8 +72,10 @@ def regions_overlap(scope: RuleScope) -> Iterator[Finding]:
 
 @register_rule("RS0458", "Value longer than a request")
 def longer_than_request(register: Register, scope: RuleScope) -> Iterator[Problem]:
-    """A value that does not fit one request can never be read whole."""
+    """A number that does not fit one request can never be read whole; a text is read in several."""
     protocol, access = scope.register_map.protocol, register.access
+    if register.kind in DIVISIBLE and not register.reading.clears and not register.base.space.is_whole:
+        return
     limits = (("read", access.readable, protocol.most_read), ("write", access.writable, protocol.most_written))
     for view in register.views:
         for way, allowed, limit in limits:

@@ -259,6 +259,16 @@ class NotDecodable(ValueNotDecodable):
 LOST = (NoAnswer, LinkLost, WrongAnswer)
 """Errors after which a write may have been carried out nevertheless."""
 
+UNDECIDED = frozenset({4, 5, 11})
+"""Exceptions after which a write may have been carried out: failed midway, taken but not done, and a gateway's."""
+
+
+def is_lost(error: Exception) -> bool:
+    """Whether a write may have been carried out although it ended in this error."""
+    if isinstance(error, ExceptionAnswer):
+        return error.code in UNDECIDED and not error.name
+    return isinstance(error, LOST) and not isinstance(error, PartialWrite)
+
 
 _BOTH: dict[tuple[type[WriteFailed], type[RegscribeError]], type[WriteFailed]] = {}
 

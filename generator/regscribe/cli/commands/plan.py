@@ -17,8 +17,8 @@ from regscribe.model import RegisterMap, parse
 from regscribe.tools.live.errors import unknown
 from regscribe_runtime.operations.prepared_read import laid_out
 from regscribe_runtime.planning import plan
-from regscribe_runtime.planning.cost import Cost, milliseconds
-from regscribe_runtime.planning.plan import Planned, SplitReason, Terms
+from regscribe_runtime.planning.cost import Cost
+from regscribe_runtime.planning.plan import Block, Planned, SplitReason, Terms
 from regscribe_runtime.planning.read_order import ReadOrder
 from regscribe_runtime.planning.read_places import read_places
 from regscribe_runtime.values.blocks import bases_in
@@ -85,9 +85,9 @@ def command(  # noqa: PLR0913 - one parameter an option
     layout, read, _ = laid_out(subject.registers, selected, terms, fresh=not remembered, gone=absent)
     read = {path: one for path, one in read.items() if path not in absent}
     spans = [read_places(register)[0].span for register in read.values()]
-    single = sum(terms.cost.tariff(span.space).of(span.words) for span in spans)
+    single = plan.explain([Block(span.space.read_function, span.address, span.words, (span,)) for span in spans], terms)
     also = list(read)[len(wanted) :]
-    report = _PlanReport(layout, list(read), terms, milliseconds(single))
+    report = _PlanReport(layout, list(read), terms, single)
     if as_json:
         missing = {"absent": gone} if gone else {}
         print_json(map=register_map.id, model=subject.model.name, also=also, **missing, **report.plain())
@@ -171,13 +171,15 @@ def _remark_unlisted(what: str, value: object, listed: Sequence[object]) -> None
 class _PlanReport:
     """A plan as a table for people, and as JSON."""
 
-    def __init__(self, layout: ReadOrder, paths: Sequence[str], terms: Terms, single_ms: float) -> None:
-        self.terms, self.single_ms, self.paths = terms, single_ms, paths
+    def __init__(self, layout: ReadOrder, paths: Sequence[str], terms: Terms, single: plan.Plan) -> None:
+        self.terms, self.single = terms, single
         self.found = plan.explain(layout.blocks, terms, again=layout.again)
-        self.names: list[list[str]] = [[] for _ in layout.blocks]
+        names: list[list[str]] = [[] for _ in layout.blocks]
         for path in paths:
             for number in dict.fromkeys(found[path].block for found in (layout.places, layout.checks) if path in found):
-                self.names[number].append(path)
+                names[number].append(path)
+        sent = [len(plan.as_sent(block, terms)) for block in layout.blocks]
+        self.names = [own for own, times in zip(names, sent, strict=True) for _ in range(times)]
 
     def print(self, title: str, also: Sequence[str]) -> None:
         """Print the requests as a table, the totals, and the cost of one request for each register."""
@@ -188,8 +190,8 @@ class _PlanReport:
         serial = f"{line.baud} baud, {line.bits} bits a character, {cost.framing.upper()}" if line else ""
         show_table(COLUMNS, [*head, *rows], title=f"{title}, {' to '.join(filter(None, (way, serial)))}")
         total = f"{count(len(found.requests), 'request')}, {found.wanted} addresses wanted, {found.carried} carried"
-        single = f"{count(len(self.paths), 'request')}, {self.single_ms:.1f} ms"
-        ratio = self.single_ms / found.ms if found.ms else 1
+        single = f"{count(len(self.single.requests), 'request')}, {self.single.ms:.1f} ms"
+        ratio = self.single.ms / found.ms if found.ms else 1
         tell(f"{total}, {found.bytes} bytes, {found.ms:.1f} ms\n")
         tell(f"one request a register: {single}, {ratio:.1f} times as long\n")
         if also:
@@ -231,7 +233,7 @@ class _PlanReport:
             ],
             "total": {"requests": len(found.requests), "wanted": found.wanted, "carried": found.carried}
             | {"bytes": found.bytes, "ms": round(found.ms, 3)},
-            "one_by_one": {"requests": len(self.paths), "ms": round(self.single_ms, 3)},
+            "one_by_one": {"requests": len(self.single.requests), "ms": round(self.single.ms, 3)},
         }
 
 

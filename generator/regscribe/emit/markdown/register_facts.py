@@ -184,8 +184,14 @@ def transmission(context: PageContext, view: View) -> Md:
         view.type.note if view.space.is_words else "",
         f"functions {', '.join(map(str, view.functions))} only" if view.functions else "",
         f"address and count multiples of {view.align}" if view.align > 1 else "",
+        _portions(context, view),
     )
     return join("; ", map(md, parts))
+
+
+def _portions(context: PageContext, view: View) -> str:
+    most = context.map.protocol.most_read(view.space)
+    return f"in requests of up to {most} words, not of one moment" if view.words > most else ""
 
 
 def _low_first(view: View) -> str:

@@ -13,6 +13,7 @@ from regscribe.simulate.device.commands import Commands
 from regscribe.simulate.device.device_plan import AddressSpan, Blueprint, Stored
 from regscribe.simulate.device.side_effects import Conduct
 from regscribe.simulate.device.state import DeviceState
+from regscribe_runtime.values.kinds import DIVISIBLE
 
 WRITE_ONE = 6
 
@@ -115,25 +116,28 @@ class WordAccess:
         return self._write_values(space, function, address, words)
 
     def _write_values(self, space: Space, function: int, address: int, words: Sequence[int]) -> int:
-        written: list[tuple[AddressSpan, tuple[int, ...], Stored]] = []
+        written: list[tuple[AddressSpan, int, tuple[int, ...], Stored]] = []
         limited = not self.commands.is_step(space, address, words)
         done = 0
         try:
             while done < len(words):
                 place = self._place(space, function, address + done, len(words) - done)
                 self._check_access(place.register)
-                sent, before = tuple(words[done : done + place.view.words]), self.state.stored(place.register.path)
-                self.state.store(place.register.path, self._accepted(place, sent, limited=limited))
-                written.append((place, sent, before))
-                done += place.view.words
+                start, before = address + done, self.state.stored(place.register.path)
+                sent = tuple(words[done : done + place.end - start])
+                self.state.store(
+                    place.register.path, self._accepted(place, self._whole(place, start, sent), limited=limited)
+                )
+                written.append((place, start, sent, before))
+                done += len(sent)
         except Refusal:
             if not done or self.state.blueprint.register_map.faults.later_write is not Later.STOP:
-                for place, _, before in reversed(written):
+                for place, _, _, before in reversed(written):
                     self.state.store(place.register.path, before)
                 raise
-        for place, sent, before in written:
+        for place, start, sent, before in written:
             self.conduct.written(place.register, before)
-            self.conduct.commanded(self.commands.saw(space, place.start, sent))
+            self.conduct.commanded(self.commands.saw(space, start, sent))
         if len(written) > 1 and done == len(words):  # a step may write several values at once
             self.conduct.commanded(self.commands.saw(space, address, words))
         return done
@@ -149,11 +153,25 @@ class WordAccess:
             raise Refusal(faults.unused_write if (space, address) in layout.unused else faults.address)
         if not place.view.allows(function):
             raise Refusal(faults.view_function)
+        if self._is_divisible(place):
+            return place
         if address != place.start:
             raise Refusal(faults.misaligned_address)
         if place.view.words > left:
             raise Refusal(faults.view_function if function == WRITE_ONE else faults.misaligned_count)
         return place
+
+    def _is_divisible(self, place: AddressSpan) -> bool:
+        """Whether a value takes several requests."""
+        most = self.state.blueprint.register_map.protocol.most_written(place.view.space)
+        return place.register.kind in DIVISIBLE and place.view.words > most
+
+    def _whole(self, place: AddressSpan, start: int, sent: tuple[int, ...]) -> tuple[int, ...]:
+        """All words of a value of which some are sent, from the address `start` on."""
+        if len(sent) == place.view.words:
+            return sent
+        held, before = self.state.peek_words(place.register.path, place.view.name), start - place.start
+        return (*held[:before], *sent, *held[before + len(sent) :])
 
     def _check_access(self, register: Register) -> None:
         faults = self.state.blueprint.register_map.faults

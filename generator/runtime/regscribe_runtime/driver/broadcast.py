@@ -50,6 +50,8 @@ def request_for(
         raise ValueRefused(register.path, reason)
     check_condition(register, state, givens)
     words = register.encode(value, view=view, state=state, givens=givens)
+    if any(len(words) > driver.protocol.most_written(chosen.space) for driver in drivers.values()):
+        raise ValueRefused(register.path, "it takes several requests: write unit by unit")
     address = chosen.address(register.at)
     if chosen.space.page(address):
         raise ValueRefused(register.path, "each unit has to be on its page first: write unit by unit")

@@ -168,7 +168,7 @@ def _add_planned_requests(work: Transaction, pieces: Sequence[RegisterWrite]) ->
             work.unlocked.add(unlock)
             work.requests.append(Sent(0, 0, (), (), unlock))
         paths = tuple(piece.path for piece in together)
-        work.requests.append(Sent(request.function, request.address, request.words, paths))
+        work.requests += work.sent(request, paths)
     names = dict.fromkeys(piece.register.apply for piece in pieces)
     work.requests += [Sent(0, 0, (), (), name) for name in names if name]
 

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from regscribe_runtime.errors import LeftAt, NotWritten, RegscribeError, ValueRefused, lost
+from regscribe_runtime.errors import LeftAt, NotWritten, RegscribeError, ValueRefused, is_lost, lost
 from regscribe_runtime.operations.read import read_request
-from regscribe_runtime.operations.read_back import RegisterWrite, is_lost, words_of
+from regscribe_runtime.operations.read_back import RegisterWrite, words_of
 from regscribe_runtime.operations.session import Operation, Pause, Session
 from regscribe_runtime.operations.write_request import apply, send
 from regscribe_runtime.registers.presence import value_text

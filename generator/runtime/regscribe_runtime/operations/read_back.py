@@ -6,11 +6,9 @@ from collections.abc import Iterable
 from typing import Any
 
 from regscribe_runtime.errors import (
-    LOST,
     ExceptionAnswer,
     LinkLost,
     NotWritten,
-    PartialWrite,
     ReadBackDiffers,
     RegscribeError,
     ValueNotDecodable,
@@ -32,9 +30,6 @@ Target = tuple["Register[Any]", "View"]
 
 LOOKS = (0.0, 1.0)
 """Seconds before each attempt to read back: a lost link may need a moment."""
-
-UNDECIDED = frozenset({4, 5, 11})
-"""Exceptions after which a write may have been carried out: failed midway, taken but not done, and a gateway's."""
 
 
 class RegisterWrite:
@@ -89,13 +84,6 @@ class RegisterWrite:
         """The error for a register that holds something else than was sent."""
         value, held = self.value(session), self.held(read, session)
         return ReadBackDiffers(self.path, sent=self.words, read=read, value=value, held=held)
-
-
-def is_lost(error: Exception) -> bool:
-    """Whether a write may have been carried out although it ended in this error."""
-    if isinstance(error, ExceptionAnswer):
-        return error.code in UNDECIDED and not error.name
-    return isinstance(error, LOST) and not isinstance(error, PartialWrite)
 
 
 def read_back_needs(register: Register[Any], view: View) -> tuple[str, ...]:
@@ -177,6 +165,8 @@ def fate_of_lost(session: Session, write: RegisterWrite, cause: RegscribeError) 
         return None
     values = write.held(read, session), write.value(session)
     held, wanted = (getattr(value, "name", None) or repr(value) for value in values)
+    if len(write.words) > session.protocol.most_written(write.view.space):
+        return lost(kind, write.path, f"{reason}; it takes several requests, and holds {held}, not {wanted}", cause)
     if keeps(register):
         return lost(NotWritten, write.path, f"{reason}; it holds {held}, not {wanted}", cause)
     return lost(kind, write.path, f"{reason}; it holds {held}, and the device changes it by itself", cause)

@@ -9,6 +9,7 @@ from regscribe_runtime.errors import ExceptionAnswer, LinkLost, NoAnswer, Regscr
 from regscribe_runtime.link.links import LinkState, Retry
 from regscribe_runtime.link.timing import response_seconds, slowest
 from regscribe_runtime.operations.missing_registers import MissingRegisters
+from regscribe_runtime.operations.portions import in_portions
 from regscribe_runtime.planning.address_ranges import AddressRanges, ground_of, places
 from regscribe_runtime.planning.cost import Cost
 from regscribe_runtime.planning.plan import RequestLimits, Terms
@@ -59,6 +60,7 @@ class Session:
     restored if that operation fails.
 
     `declared` are the registers as the driver's class has them, `registers` the same where they stand on this device.
+    `most` are the most addresses of a request by function.
     `counters` are registers that tell where others stand, `chains` the chains of `blocks` that were walked since the
     link was opened, `places` the blocks that were found.
     """
@@ -104,6 +106,7 @@ class Session:
         self._tries = Retry()
         self._timed: dict[Request, Request] = {}
         self._behind = slowest(protocol)
+        self.most = {function: protocol.most(function) for function in SPACES}
         self.unused, self.absences = unused, MissingRegisters()
         self._ground: AddressRanges | None = None
         self._absent: frozenset[str] = frozenset()
@@ -269,7 +272,12 @@ class Session:
         return found
 
     def exchange(self, request: Request) -> Operation[tuple[int, ...]]:
-        """Send one request and verify its answer; a read is sent again as `retry` says, a write never."""
+        """Send one request and verify its answer; a read is sent again as `retry` says, a write never.
+
+        What is more than the device takes at once (a long text) is sent in portions.
+        """
+        if request.quantity > self.most.get(request.function, request.quantity):
+            return (yield from in_portions(self, request))
         asked = request
         if self.pages:
             request = yield from self._on_its_page(request)

@@ -6,11 +6,11 @@ from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from typing import Any
 
-from regscribe_runtime.errors import ExceptionAnswer, PartialWrite, RegscribeError
+from regscribe_runtime.errors import ExceptionAnswer, PartialWrite, RegscribeError, is_lost
+from regscribe_runtime.operations.portions import portions_of
 from regscribe_runtime.operations.read_back import (
     RegisterWrite,
     Target,
-    is_lost,
     keeps,
     look_back,
     settling_seconds,
@@ -20,6 +20,7 @@ from regscribe_runtime.operations.session import Operation, Pause, Session
 from regscribe_runtime.operations.write_order import Batch, batches
 from regscribe_runtime.operations.write_request import EEPROM, run
 from regscribe_runtime.report import Change, Fate, Progress, Sent, Teller, Words, WriteReport
+from regscribe_runtime.wire.requests import Request
 
 TOUCHED = frozenset({Fate.WRITTEN, Fate.DIFFERS, Fate.UNKNOWN})
 """Fates of registers that may hold something else than before."""
@@ -137,8 +138,13 @@ class Transaction:
         request, paths = batch.request, tuple(piece.path for piece in batch.pieces)
         fates = {self.changes[path].fate for path in paths}
         fate = fates.pop() if len(fates) == 1 else Fate.UNKNOWN
-        self.requests.append(Sent(request.function, request.address, request.words, paths, fate=fate))
+        self.requests += self.sent(request, paths, fate)
         return fate
+
+    def sent(self, request: Request, paths: tuple[str, ...], fate: Fate = Fate.PLANNED) -> list[Sent]:
+        """The records of a request that writes registers: more than one where it goes out in portions."""
+        each = portions_of(self.session, request)
+        return [Sent(one.function, one.address, one.words, paths, fate=fate) for one in each]
 
     def _judge(self, batch: Batch, error: RegscribeError) -> Operation[None]:
         """Find the fate of the values of a request that ended in an error."""

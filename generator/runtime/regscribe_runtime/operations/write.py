@@ -10,14 +10,13 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import Any, TypeVar
 
-from regscribe_runtime.errors import RegscribeError, ValueRefused
+from regscribe_runtime.errors import RegscribeError, ValueRefused, is_lost
 from regscribe_runtime.operations.line_change import check_unit, follow
 from regscribe_runtime.operations.read import know, present, read
 from regscribe_runtime.operations.read_back import (
     RegisterWrite,
     fate_of_lost,
     in_view,
-    is_lost,
     read_back_needs,
     verify_write,
     words_of,

@@ -14,11 +14,12 @@ from regscribe_runtime.errors import (
     RegscribeError,
     ValueRefused,
     WriteUnknown,
+    is_lost,
 )
 from regscribe_runtime.errors import lost as failed
 from regscribe_runtime.operations.locate import base_of
 from regscribe_runtime.operations.read import know
-from regscribe_runtime.operations.read_back import RegisterWrite, is_lost
+from regscribe_runtime.operations.read_back import RegisterWrite
 from regscribe_runtime.operations.session import Operation, Pause, Session, Task
 from regscribe_runtime.registers import codec
 from regscribe_runtime.registers.presence import condition_text, seen

@@ -64,6 +64,11 @@ class Terms(NamedTuple):
     ground: AddressRanges
     cost: Cost
 
+    def most(self, block: Block) -> int:
+        """The most addresses of one request there."""
+        most, stretch = self.limits.most(block.space), self.ground.stretch(block.items[0])
+        return most - most % (stretch.align if stretch else 1)
+
 
 class SplitReason(StrEnum):
     """Why a request is not one with the request before."""
@@ -124,7 +129,10 @@ class Plan(NamedTuple):
 
 
 def blocks(items: Iterable[RegisterSpan], terms: Terms) -> tuple[Block, ...]:
-    """The requests of least total cost that read all items; ValueError for one that cannot be read."""
+    """The requests of least total cost that read all items; ValueError for one that cannot be read.
+
+    An item that is longer than a request is a block of its own, which goes out `as_sent`.
+    """
     stretches: dict[tuple[Space, AddressStretch], dict[RegisterSpan, list[RegisterSpan]]] = defaultdict(dict)
     for item in dict.fromkeys(items):
         stretch = terms.ground.stretch(item)
@@ -154,17 +162,27 @@ def explain(requests: Sequence[Block], terms: Terms, *, again: int = 0) -> Plan:
 
     The last `again` of them are repeated reads.
     """
-    first_time = sorted(requests[: len(requests) - again], key=lambda one: (one.space, one.address))
+    sent = [
+        (part, number >= len(requests) - again) for number, one in enumerate(requests) for part in as_sent(one, terms)
+    ]
+    first_time = sorted((part for part, repeated in sent if not repeated), key=lambda one: (one.space, one.address))
     reasons = {block: split(before, block, terms) for before, block in pairwise((None, *first_time)) if block}
     planned = []
-    for number, block in enumerate(requests):
-        repeated = number >= len(requests) - again
-        wanted = {address for item in block.items for address in range(item.address, item.end)}
+    for block, repeated in sent:
+        held = range(block.address, block.end)
+        wanted = {address for item in block.items for address in range(item.address, item.end) if address in held}
         size = terms.cost.frame_bytes(block.space, block.quantity)
         ms = milliseconds(terms.cost.tariff(block.space).of(block.quantity))
         reason = Split(SplitReason.AGAIN, "others depend on it, and it on them") if repeated else reasons[block]
         planned.append(Planned(block, len(wanted), size, ms, reason))
     return Plan(tuple(planned))
+
+
+def as_sent(block: Block, terms: Terms) -> list[Block]:
+    """The requests of a block: several where a value in it is longer than a request."""
+    most = terms.most(block)
+    starts = range(block.address, block.end, most)
+    return [block._replace(address=start, quantity=min(most, block.end - start)) for start in starts]
 
 
 GAPS = {
@@ -189,11 +207,19 @@ def split(before: Block | None, block: Block, terms: Terms) -> Split:
         spelled = block.space.spelled
         where = f"{spelled(before.end)}..{spelled(block.address - 1)}" if gap > 0 else f"at {spelled(block.address)}"
         return Split(SplitReason(barred), GAPS[barred] if barred == "clears" else f"{GAPS[barred]} {where}")
-    together, most = block.end - before.address, terms.limits.most(block.space)
-    if together > most:
-        return Split(SplitReason.LIMIT, f"{together} together, limit {most}")
+    if beyond := _beyond(before, block, terms.limits.most(block.space)):
+        return Split(SplitReason.LIMIT, beyond)
     if barred:
         return Split(SplitReason.ALIGNMENT, f"requests from {block.address} on must be aligned")
     tariff = terms.cost.tariff(block.space)
-    saved = tariff.of(together) - tariff.of(before.quantity) - tariff.of(block.quantity)
+    saved = tariff.of(block.end - before.address) - tariff.of(before.quantity) - tariff.of(block.quantity)
     return Split(SplitReason.CHEAPER, f"{gap} between, saves {milliseconds(saved):.1f} ms")
+
+
+def _beyond(before: Block, block: Block, most: int) -> str:
+    """How far two neighbours together are more than a request may carry; empty where they are not."""
+    long = next((one.items[0].words for one in (before, block) if one.quantity < one.items[0].words), 0)
+    if long:
+        return f"a value of {long} in requests of its own, limit {most}"
+    together = block.end - before.address
+    return f"{together} together, limit {most}" if together > most else ""

@@ -32,6 +32,9 @@ MOMENTS = frozenset({Kind.DATETIME, Kind.DATE, Kind.TIME})
 OCTETS = MOMENTS | {Kind.STRING, Kind.BYTES, Kind.IPV4, Kind.IPV6, Kind.MAC}
 """Kinds whose values are bytes and no numbers; outside of programs they are spelled as texts."""
 
+DIVISIBLE = frozenset({Kind.STRING, Kind.BYTES})
+"""Kinds whose values may take several requests."""
+
 
 class Access(StrEnum):
     """Whether a register can be read and written."""

@@ -91,12 +91,18 @@ class Protocol(NamedTuple):
     def most_read(self, space: Space) -> int:
         """The most addresses of a space in one read."""
         own = next((one.read for one in self.spaces if one.space is space), 0)
-        return space.most if space.is_whole else own or (self.read_bits if space.is_bits else self.read_words)
+        usual = self.read_bits if space.is_bits else self.read_words
+        return space.most if space.is_whole else min(space.most, own or usual)
 
     def most_written(self, space: Space) -> int:
         """The most addresses of a space in one write."""
         own = next((one.write for one in self.spaces if one.space is space), 0)
-        return own or (self.write_bits if space.is_bits else self.write_words)
+        return min(space.most, own or (self.write_bits if space.is_bits else self.write_words))
+
+    def most(self, function: int) -> int:
+        """The most addresses in one request of a function that reads or writes a space."""
+        space = next(one for one in Space if function in {one.read_function, *one.write_functions})
+        return self.most_read(space) if function == space.read_function else self.most_written(space)
 
     @property
     def timeout(self) -> float:

@@ -56,6 +56,18 @@ class Request(NamedTuple):
         """Whether it only reads, so that it may be sent again."""
         return self.function in READS
 
+    def portions(self, most: int) -> list["Request"]:
+        """The requests of up to `most` addresses each that carry the same, from the first address on."""
+        starts = range(0, self.quantity, most)
+        return [
+            self._replace(
+                address=self.address + start,
+                quantity=min(most, self.quantity - start),
+                words=self.words[start : start + most],
+            )
+            for start in starts
+        ]
+
     def shifted(self, steps: int) -> "Request":
         """The request with its address moved, if its function has one: JBUS counts from 1 where Modbus does from 0."""
         if not steps or self.function in UNADDRESSED:
