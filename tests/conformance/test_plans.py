@@ -97,13 +97,62 @@ def _asked(pdu: bytes) -> tuple[int, int, int]:
         return 20, file << 16 | record, quantity
     if pdu[0] in {24, 43}:
         return pdu[0], pdu[3] << 8 if pdu[0] == 43 else struct.unpack(">H", pdu[1:])[0] << 6, 0
-    function, address, quantity = struct.unpack(">BHH", pdu) if len(pdu) > 1 else (pdu[0], 0, 1)
-    return function, address, quantity
+    function, address, quantity = struct.unpack(">BHH", pdu[:5]) if len(pdu) > 1 else (pdu[0], 0, 1)
+    return function, address, 1 if function in {5, 6} else quantity
 
 
 def everything(device: Any) -> tuple[Question, Question]:
     """All registers, and their group."""
     return Question(("--all",)), Question(("--group", "all"), (device.groups.all,))
+
+
+PAGED: Json = {
+    "decimals": {"digits": {"register": "places"}},
+    "protocol": {"functions": [1, 3, 4, 5, 6, 16, 23], "limits": {"read_words": 4}, "latency": {6: {"fixed": "5..9"}}},
+    "groups": [
+        {
+            "id": "all",
+            "name": "All",
+            "source": "1",
+            "each": {"access": "rw", "stays": "operation"},
+            "registers": [
+                {"at": 0, "name": "Bank"},
+                {"at": 1, "name": "Row", "type": "uint32"},
+                {"at": 5, "name": "Switch", "space": "coil"},
+            ],
+        },
+        {
+            "id": "own",
+            "name": "Own",
+            "source": "1",
+            "registers": [{"at": 9, "name": "Places", "access": "rw", "range": "0..3"}],
+        },
+        *[
+            {
+                "id": f"page_{number}",
+                "name": f"Page {number}",
+                "source": "1",
+                **reached,
+                "each": {"access": "r", **how},
+                "registers": [
+                    {"id": f"one_{number}", "at": 10, "name": "One", "decimals": "digits"},
+                    {"id": f"two_{number}", "at": 12, "name": "Two", "type": "uint32"},
+                    {"id": f"far_{number}", "at": 90, "name": "Far", "type": "uint32"},
+                    {"id": f"in_{number}", "at": 3, "name": "In", "space": "input", "functions": [4]},
+                ],
+            }
+            for number, (reached, how) in enumerate(
+                (
+                    ({"page": {"bank": 3, "row": 5}}, {}),
+                    ({"page": {"bank": 4, "row": 6}}, {"functions": [23]}),
+                    ({"page": {"switch": 1}}, {}),
+                    ({"unit_id": 7}, {}),
+                )
+            )
+        ],
+    ],
+}
+"""Pages that are selected by several writes, by the request that reads, by a coil, and by the unit id."""
 
 
 def of_ids(device: Any, chance: random.Random) -> Question:
@@ -147,6 +196,18 @@ def test_the_plan_of_a_case_is_what_its_driver_sends(case: Case, server: Server,
     with bench(path, case.map, device, server) as made:
         questions = [chance.choice(everything(device)), of_ids(device, chance)]
         assert list(made.differences(*chance.sample(questions, 2))) == []
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_the_plan_of_pages_is_what_a_driver_sends(seed: int, server: Server, path: Path) -> None:
+    device = build(whole_map(PAGED)).module.CaseA
+    chance = random.Random(seed)  # noqa: S311 (found again by its seed)
+    server.memory.clear()
+    group = Question(("--group", f"page_{seed % 4}"), (getattr(device.groups, f"page_{seed % 4}"),))
+
+    with bench(path, PAGED, device, server) as made:
+        questions = [Question(("--all",)), group, *(of_ids(device, chance) for _ in range(FEW_IDS))]
+        assert list(made.differences(*chance.sample(questions, len(questions)))) == []
 
 
 def differences(parts: Json, seed: int, server: Server, path: Path) -> list[str]:

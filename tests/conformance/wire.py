@@ -5,7 +5,7 @@ import struct
 import threading
 from collections import defaultdict
 
-READS = {1: "coil", 2: "discrete", 3: "holding", 4: "input"}
+READS = {1: "coil", 2: "discrete", 3: "holding", 4: "input", 23: "holding"}
 WRITES = {5: "coil", 6: "holding", 15: "coil", 16: "holding"}
 BITS = frozenset({"coil", "discrete"})
 ON = 0xFF00
@@ -39,6 +39,8 @@ class Memory:
         if special := {20: self._records, 21: self._records, 24: self._queue, 43: self._object}.get(function):
             return special(pdu)
         address, number = struct.unpack(">HH", pdu[1:5])
+        if function == 23:
+            self.put("holding", int.from_bytes(pdu[5:7], "big"), list(struct.unpack(f">{pdu[9] // 2}H", pdu[10:])))
         if function in READS:
             found = self.get(READS[function], address, number)
             packed = _packed(found) if READS[function] in BITS else struct.pack(f">{number}H", *found)

@@ -27,6 +27,7 @@ from regscribe.checks import (  # noqa: F401 (each declares its rules)
     views,
     worked_frames,
     worked_values,
+    write_and_read,
     write_order,
 )
 from regscribe.checks.rule import DECLARED, Finding, RuleScope

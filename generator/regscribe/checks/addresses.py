@@ -20,7 +20,7 @@ from regscribe.checks.rule import (
 )
 from regscribe.lower.conditions import both, excludes
 from regscribe.model import Condition, Order, Page, Register, RegisterMap, Related, Space, View
-from regscribe_runtime.values.wire_types import PAGE_BITS
+from regscribe_runtime.values.wire_types import PAGE_BITS, WRITE_AND_READ
 
 WRITE_IN = "name under `written_in` the notation that the rows are written in (`modicon` for 40001 and 400001)"
 LAST_PART, LAST_OBJECT = 0xFFFF, 0xFF
@@ -291,7 +291,8 @@ def _accesses(register: Register) -> Iterator[tuple[str, View, tuple[int, ...]]]
     if register.access.readable:
         for view in register.views:
             if view.readable or view is register.read_view:
-                yield "read", view, (view.space.read_function,)
+                by = WRITE_AND_READ if view.is_read_behind_write else view.space.read_function
+                yield "read", view, (by,)
     if register.access.writable:
         for view in register.views:
             if view.writable or view is register.write_view:

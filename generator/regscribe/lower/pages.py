@@ -36,13 +36,16 @@ def _selection(group: Value) -> Selection:
 
 def pages_of(root: Value, device: CommandScope) -> tuple[Page, ...]:
     """What selects each page on a model; nothing for a page that the model has no register of."""
-    used = {
-        view.space.page(view.address(register.at)) for register in device.registers.values() for view in register.views
-    }
-    pages = _pages(root).values()
-    return tuple(_page(group, device) if number in used else Page() for number, group in enumerate(pages, start=1))
+    used: dict[int, bool] = {}
+    for register in device.registers.values():
+        for view in register.views:
+            number = view.space.page(view.address(register.at))
+            used[number] = used.get(number, False) or view.is_read_behind_write
+    pages = enumerate(_pages(root).values(), start=1)
+    return tuple(_page(group, device, used[number]) if number in used else Page() for number, group in pages)
 
 
-def _page(group: Value, device: CommandScope) -> Page:
+def _page(group: Value, device: CommandScope, at_once: bool) -> Page:  # noqa: FBT001 (a field of the page)
     steps = [step_of_value(each, key, device) for key, each in group.items_of("page")]
-    return Page(tuple(step for step, _ in steps), tuple(path for _, path in steps), group.whole_of("unit_id"))
+    paths = tuple(path for _, path in steps)
+    return Page(tuple(step for step, _ in steps), paths, group.whole_of("unit_id"), at_once)

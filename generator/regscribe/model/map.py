@@ -125,12 +125,13 @@ class IdentityRule:
 class Page:
     """What selects a page: `steps` write the registers `selectors`, or another unit id (0: none) is asked.
 
-    Nothing for a page of other models.
+    `at_once`: function 23 does so in the request that reads. Nothing for a page of other models.
     """
 
     steps: tuple[CommandStep, ...] = ()
     selectors: tuple[str, ...] = ()
     unit: int = 0
+    at_once: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

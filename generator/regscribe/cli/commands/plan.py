@@ -18,7 +18,7 @@ from regscribe.tools.live.errors import unknown
 from regscribe_runtime.operations.prepared_read import laid_out
 from regscribe_runtime.planning import plan
 from regscribe_runtime.planning.cost import Cost
-from regscribe_runtime.planning.plan import Block, Planned, SplitReason, Terms
+from regscribe_runtime.planning.plan import Plan, Planned, SplitReason, Terms
 from regscribe_runtime.planning.read_order import ReadOrder
 from regscribe_runtime.planning.read_places import read_places
 from regscribe_runtime.values.blocks import bases_in
@@ -85,9 +85,9 @@ def command(  # noqa: PLR0913 - one parameter an option
     layout, read, _ = laid_out(subject.registers, selected, terms, fresh=not remembered, gone=absent)
     read = {path: one for path, one in read.items() if path not in absent}
     spans = [read_places(register)[0].span for register in read.values()]
-    single = plan.explain([Block(span.space.read_function, span.address, span.words, (span,)) for span in spans], terms)
+    found = plan.explain(layout.blocks, terms, again=layout.again)
     also = list(read)[len(wanted) :]
-    report = _PlanReport(layout, list(read), terms, single)
+    report = _PlanReport(layout, list(read), terms, found, plan.one_by_one(spans, terms))
     if as_json:
         missing = {"absent": gone} if gone else {}
         print_json(map=register_map.id, model=subject.model.name, also=also, **missing, **report.plain())
@@ -171,15 +171,16 @@ def _remark_unlisted(what: str, value: object, listed: Sequence[object]) -> None
 class _PlanReport:
     """A plan as a table for people, and as JSON."""
 
-    def __init__(self, layout: ReadOrder, paths: Sequence[str], terms: Terms, single: plan.Plan) -> None:
-        self.terms, self.single = terms, single
-        self.found = plan.explain(layout.blocks, terms, again=layout.again)
+    def __init__(self, layout: ReadOrder, paths: Sequence[str], terms: Terms, found: Plan, one_by_one: Plan) -> None:
+        self.terms, self.found, self.one_by_one = terms, found, one_by_one
         names: list[list[str]] = [[] for _ in layout.blocks]
         for path in paths:
-            for number in dict.fromkeys(found[path].block for found in (layout.places, layout.checks) if path in found):
+            for number in dict.fromkeys(held[path].block for held in (layout.places, layout.checks) if path in held):
                 names[number].append(path)
-        sent = [len(plan.as_sent(block, terms)) for block in layout.blocks]
-        self.names = [own for own, times in zip(names, sent, strict=True) for _ in range(times)]
+        of_reads = iter(
+            [own for own, block in zip(names, layout.blocks, strict=True) for _ in plan.as_sent(block, terms)]
+        )
+        self.names = [next(of_reads) if one.block.items else [] for one in found.requests]
 
     def print(self, title: str, also: Sequence[str]) -> None:
         """Print the requests as a table, the totals, and the cost of one request for each register."""
@@ -190,8 +191,8 @@ class _PlanReport:
         serial = f"{line.baud} baud, {line.bits} bits a character, {cost.framing.upper()}" if line else ""
         show_table(COLUMNS, [*head, *rows], title=f"{title}, {' to '.join(filter(None, (way, serial)))}")
         total = f"{count(len(found.requests), 'request')}, {found.wanted} addresses wanted, {found.carried} carried"
-        single = f"{count(len(self.single.requests), 'request')}, {self.single.ms:.1f} ms"
-        ratio = self.single.ms / found.ms if found.ms else 1
+        single = f"{count(len(self.one_by_one.requests), 'request')}, {self.one_by_one.ms:.1f} ms"
+        ratio = self.one_by_one.ms / found.ms if found.ms else 1
         tell(f"{total}, {found.bytes} bytes, {found.ms:.1f} ms\n")
         tell(f"one request a register: {single}, {ratio:.1f} times as long\n")
         if also:
@@ -228,12 +229,13 @@ class _PlanReport:
                     "ms": round(one.ms, 3),
                     "apart": {"because": str(one.split.reason), "detail": one.split.detail},
                     "registers": names,
+                    **({"words": list(one.words)} if one.words else {}),
                 }
                 for one, names in zip(found.requests, self.names, strict=True)
             ],
             "total": {"requests": len(found.requests), "wanted": found.wanted, "carried": found.carried}
             | {"bytes": found.bytes, "ms": round(found.ms, 3)},
-            "one_by_one": {"requests": len(self.single.requests), "ms": round(self.single.ms, 3)},
+            "one_by_one": {"requests": len(self.one_by_one.requests), "ms": round(self.one_by_one.ms, 3)},
         }
 
 

@@ -11,6 +11,7 @@ from regscribe.reference import Surroundings, UnknownValueError, holds, surround
 from regscribe_runtime.planning.address_ranges import ground_of
 from regscribe_runtime.planning.cost import Cost
 from regscribe_runtime.planning.plan import RequestLimits, Terms
+from regscribe_runtime.values.facts import Page
 from regscribe_runtime.values.protocol import Protocol
 
 
@@ -49,7 +50,8 @@ class PlannedModel:
         """Limits, readable ground and cost that a plan is made under."""
         unused = (*self.model.unused, *self.layout.stretches)
         ground = ground_of(self.registers.values(), unused=unused, holes=self.protocol.read_holes, absent=absent)
-        return Terms(RequestLimits.of(self.protocol), ground, cost)
+        pages = tuple(Page(page.steps, page.unit, page.at_once) for page in self.model.pages)
+        return Terms(RequestLimits.of(self.protocol), ground, cost, pages)
 
 
 def _may_hold(condition: compiled.Condition, known: Surroundings) -> bool:

@@ -61,7 +61,8 @@ def _page(context: PageContext, model: Model, group: Group) -> Md:
     )
     if page.unit:
         return md(f"page {number}: unit id {page.unit}")
-    return md(f"page {number}, selected by ", join(", ", written))
+    how = "selected by function 23 in the request that reads" if page.at_once else "selected by"
+    return md(f"page {number}, {how} ", join(", ", written))
 
 
 def _entries(

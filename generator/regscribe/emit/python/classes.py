@@ -194,7 +194,7 @@ class Classes:
     def _pages(self, model: Model) -> list[str]:
         if not any(page.steps or page.unit for page in model.pages):
             return []
-        pages = group([expression(PageFacts(page.steps, page.unit)) for page in model.pages])
+        pages = group([expression(PageFacts(page.steps, page.unit, page.at_once)) for page in model.pages])
         name = self.pool.share(pages, "pages", f"pages_{model.name}", comment="how each page is reached")
         return [f"{INDENT}_pages = {name}"]
 

@@ -9,10 +9,10 @@ from regscribe.simulate.device.device_plan import AddressSpan
 from regscribe.simulate.line.server_context import BROADCAST
 from regscribe.simulate.line.service import Exchange
 from regscribe_runtime.values.kinds import OCTETS
-from regscribe_runtime.values.wire_types import PAGE_BITS
+from regscribe_runtime.values.wire_types import PAGE_BITS, WRITE_AND_READ
 from regscribe_runtime.wire.packing import MalformedError
 from regscribe_runtime.wire.pdu import EXCEPTION_BIT, decode_reply, decode_request
-from regscribe_runtime.wire.requests import SPACES, Request
+from regscribe_runtime.wire.requests import READ_HOLDING, SPACES, Request
 
 NAMES = dict.fromkeys(READS, "read") | dict.fromkeys((5, 6, 15, 16, 21), "write")
 NAMES |= {7: "read status", 20: "read", 24: "read", 43: "read", 8: "loopback", 22: "mask", 23: "write and read"}
@@ -60,11 +60,13 @@ def _registers(device: SimulatedDevice, exchange: Exchange) -> str:
         request = decode_request(pdu)
     except MalformedError:
         return pdu.hex(" ")
+    words = request.words
+    if request.fetches and exchange.answer is not None:
+        words = decode_reply(request, exchange.answer).words
+    if request.function == WRITE_AND_READ:
+        request = request._replace(function=READ_HOLDING)
     if request.function not in SPACES:
         return pdu[1:].hex(" ")
-    words = request.words
-    if request.reads and exchange.answer is not None:
-        words = decode_reply(request, exchange.answer).words
     shown = list(_values(device, request, words, exchange.request.unit))
     if not shown:
         first, last = request.address, request.address + request.quantity - 1

@@ -17,7 +17,7 @@ from regscribe.simulate.errors import SimulatorError
 from regscribe.simulate.line.line_settings import Tuning
 from regscribe.simulate.process.controller import controller_of
 from regscribe.simulate.process.thermal_process import ThermalProcess
-from regscribe_runtime.values.wire_types import PAGE_BITS
+from regscribe_runtime.values.wire_types import PAGE_BITS, WRITE_AND_READ
 from regscribe_runtime.wire import identification, parts
 from regscribe_runtime.wire import requests as functions
 from regscribe_runtime.wire.packing import MalformedError
@@ -74,7 +74,7 @@ class SimulatedDevice:
             functions.IDENTIFY: self._identify,
             functions.LOOPBACK: self._loopback,
             functions.MASK_REGISTER: self._mask_word,
-            functions.WRITE_AND_READ: self._write_and_read,
+            WRITE_AND_READ: self._write_and_read,
         }
 
     @property
@@ -184,7 +184,7 @@ class SimulatedDevice:
             raise Refusal(faults.value) from None
         except MalformedError:
             raise Refusal(faults.quantity) from None
-        if request.address < 0:
+        if request.address < 0 or request.into < 0:
             raise Refusal(faults.address)
         return request
 
@@ -240,12 +240,11 @@ class SimulatedDevice:
         return pdu
 
     def _write_and_read(self, pdu: bytes) -> bytes:
-        """Function 23: a read behind a write, whose parameters stand behind those of the read."""
-        function = pdu[0]
-        read = self._request(bytes([functions.READ_HOLDING]) + pdu[1:5])
-        write = self._request(bytes([functions.WRITE_REGISTERS]) + pdu[5:])
-        self._words.write(Space.HOLDING, function, write.address, write.words)
-        words = self._words.read(Space.HOLDING, function, read.address, read.quantity)
+        """Function 23: a read behind a write, so of the page that the write selects."""
+        request = self._request(pdu)
+        function, space = request.function, Space.HOLDING
+        self._words.write(space, function, self.on_page(space, request.into, self._asked), request.words)
+        words = self._words.read(space, function, self.on_page(space, request.address, self._asked), request.quantity)
         return encode_reply(Reply(function, words))
 
     def _status(self, pdu: bytes) -> bytes:

@@ -8,10 +8,11 @@ from random import Random
 from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.simulate.errors import SimulatorError
 from regscribe_runtime.values.serial_line import SerialLine
+from regscribe_runtime.values.wire_types import WRITE_AND_READ
 from regscribe_runtime.wire.framing import Frame
 from regscribe_runtime.wire.packing import MalformedError
 from regscribe_runtime.wire.pdu import decode_request, encode_reply
-from regscribe_runtime.wire.requests import READ_HOLDING, READ_INPUT, WRITE_AND_READ, WRITE_REGISTERS, Reply
+from regscribe_runtime.wire.requests import READ_HOLDING, READ_INPUT, WRITE_REGISTERS, Reply
 
 BROADCAST = 0
 NO_RESPONSE_FROM_TARGET = 0x0B

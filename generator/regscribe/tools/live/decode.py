@@ -16,6 +16,7 @@ from regscribe_runtime.errors import STANDARD
 from regscribe_runtime.registers import codec
 from regscribe_runtime.values.blocks import stated_bases
 from regscribe_runtime.values.facts import CommandStep
+from regscribe_runtime.values.wire_types import WRITE_AND_READ
 from regscribe_runtime.wire.capture import CapturedFrame
 from regscribe_runtime.wire.packing import MalformedError
 from regscribe_runtime.wire.pdu import EXCEPTION_BIT, decode_reply, decode_request
@@ -25,9 +26,11 @@ from regscribe_runtime.wire.requests import (
     HEAD_SIZE,
     LOOPBACK,
     MASK_REGISTER,
+    READ_HOLDING,
     READ_STATUS,
     SPACES,
     WORD_READS,
+    WRITE_REGISTERS,
     WRITES,
     Request,
     sizes,
@@ -124,6 +127,9 @@ class Decoder:
                 self._places[frame.unit].wrote(SPACES[request.function], request.address, request.words)
             return _decoded("response", frame, "written", request)
         words = decode_reply(request, frame.pdu).words
+        if request.function == WRITE_AND_READ:
+            self._places[frame.unit].wrote(SPACES[WRITE_REGISTERS], request.into, request.words)
+            request = request._replace(function=READ_HOLDING)
         if len(words) != request.quantity:
             return self._strange("response", frame, f"{len(words)} values where {request.quantity} were asked for")
         self._learn(frame.unit, request, words)
@@ -141,6 +147,10 @@ class Decoder:
         if request.function == MASK_REGISTER:
             keep, put = request.words
             return f"write bits {~keep & 0xFFFF:04X} of holding {request.address} as {put & ~keep & 0xFFFF:04X}"
+        if request.function == WRITE_AND_READ:
+            written = " ".join(f"{word:04X}" for word in request.words)
+            reads = self._action(unit, request._replace(function=READ_HOLDING))
+            return f"write {written} to holding {request.into} and {reads}"
         space, end = SPACES[request.function], request.address + request.quantity - 1
         where = f"{space} {request.address}" + (f" to {end}" if end > request.address else "")
         placed = self._places[unit].placed
@@ -204,7 +214,7 @@ class Decoder:
         space = SPACES.get(request.function, "")
         for offset in range(request.quantity):
             here = self._places[unit].at(space, request.address + offset, unit)
-            meant = [one for one in here if _serves(*one, reading=request.reads)]
+            meant = [one for one in here if _serves(*one, reading=request.fetches)]
             for register, view in meant or here:
                 yield register, view, (words or ())[offset : offset + view.words]
 
@@ -259,6 +269,6 @@ def _request(frame: CapturedFrame, first: int) -> Request | None:
         return None
     return (
         request._replace(address=max(request.address, 0))
-        if request.function in {*SPACES, LOOPBACK, MASK_REGISTER}
+        if request.function in {*SPACES, LOOPBACK, MASK_REGISTER, WRITE_AND_READ}
         else None
     )

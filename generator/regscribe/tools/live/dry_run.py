@@ -6,7 +6,7 @@ from typing import Any, cast
 from regscribe_runtime import BareDevice, Link, Register, ValueRefused
 from regscribe_runtime.operations.session import Session
 from regscribe_runtime.registers import codec
-from regscribe_runtime.values.wire_types import PAGE_BITS
+from regscribe_runtime.values.wire_types import PAGE_BITS, WRITE_AND_READ, Space
 from regscribe_runtime.wire.requests import (
     BLOCK_WRITES,
     MASK_REGISTER,
@@ -43,14 +43,14 @@ class DryLink:
 
     def call(self, unit: int, request: Request) -> Reply:
         """Answer a write with its echo; send a read, and lay what was written over its answer."""
-        if request.selects:  # reads would show another page
+        if request.selects and not request.fetches:  # reads would show another page
             return self._link.call(unit, request)
         address = request.page << PAGE_BITS | request.address
         if request.function == MASK_REGISTER:
             return self._mask(unit, request, address)
         if request.function not in WRITES:
             reply = self._link.call(unit, request)
-            space = READ_SPACES.get(request.function)
+            space = Space.HOLDING if request.function == WRITE_AND_READ else READ_SPACES.get(request.function)
             if space is None or reply.exception is not None:
                 return reply
             held = (self._held.get((unit, space, address + at), word) for at, word in enumerate(reply.words))

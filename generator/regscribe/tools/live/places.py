@@ -39,8 +39,10 @@ class RegisterPlaces:
         """Learn which page was selected."""
         for number, steps in enumerate(self._pages, start=1):
             for step in steps.steps:
-                if (step.space, step.address) == (space, address):
-                    self._page = number if step.words == tuple(words) else self._page * (self._page != number)
+                start = step.address - address
+                if step.space == space and 0 <= start < len(words):
+                    held = tuple(words[start : start + len(step.words)]) == step.words
+                    self._page = number if held else self._page * (self._page != number)
 
     def placed(self, step: CommandStep) -> CommandStep:
         """A step of a command with the address that it has on this unit."""

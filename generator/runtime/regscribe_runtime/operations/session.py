@@ -19,8 +19,8 @@ from regscribe_runtime.values.blocks import Chain, Header, RegisterBlock, find, 
 from regscribe_runtime.values.facts import Page
 from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.serial_line import MODBUS, LineChange, SerialLine
-from regscribe_runtime.values.wire_types import WIRE, Space
-from regscribe_runtime.wire.requests import READ_SPACES, SPACES, Reply, Request, verify
+from regscribe_runtime.values.wire_types import WIRE, WRITE_AND_READ, Space
+from regscribe_runtime.wire.requests import READ_HOLDING, READ_SPACES, SPACES, Reply, Request, verify
 
 T = TypeVar("T")
 
@@ -215,7 +215,8 @@ class Session:
             ground = self._ground
             if self.absences:
                 ground = ground.refusing(self.absences.items(alone=True), apart=self.absences.items(alone=False))
-            self.prepared[TERMS] = Terms(RequestLimits.of(self.protocol), ground, Cost.of(self.protocol, self.line))
+            cost = Cost.of(self.protocol, self.line)
+            self.prepared[TERMS] = Terms(RequestLimits.of(self.protocol), ground, cost, self.pages)
         found: Terms = self.prepared[TERMS]
         return found
 
@@ -305,12 +306,22 @@ class Session:
     def _on_its_page(self, request: Request) -> Operation[Request]:
         """The request as it goes out once its page is selected."""
         page = SPACES[request.function].page(request.address) if request.function in SPACES else 0
+        if page and self.pages[page - 1].at_once and request.function == READ_HOLDING:
+            return self._selecting(request, page)
         if page:
             yield from self._turn_to(page)
             return request._replace(address=request.address & WIRE, page=page, unit=self.pages[page - 1].unit)
         if not request.reads and not request.selects:
             self.page = 0
         return request
+
+    def _selecting(self, request: Request, page: int) -> Request:
+        """The read of holding registers on a page as a request that selects the page as well, whatever was before."""
+        self.page, how = 0, self.pages[page - 1]
+        at, into = request.address & WIRE, how.steps[0].address
+        return Request(
+            WRITE_AND_READ, at, request.quantity, how.words, page=page, selects=True, unit=how.unit, into=into
+        )
 
     def _turn_to(self, page: int) -> Operation[None]:
         """Write what selects a page, unless this operation has done so, and nothing else since."""

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from regscribe_runtime.values.numbers import Number
 from regscribe_runtime.values.protocol import Latency, Protocol, SerialDefaults
 from regscribe_runtime.values.serial_line import SerialLine
-from regscribe_runtime.values.wire_types import Space
+from regscribe_runtime.values.wire_types import WRITE_AND_READ, Space
 
 BITS_IN_BYTE, BITS_IN_WORD, BYTES_IN_WORD = 8, 16, 2
 NANOSECONDS = 1_000_000
@@ -24,6 +24,10 @@ REQUEST_BYTES = {Space.STATUS: 1, Space.FILE: 9, Space.QUEUE: 3, Space.IDENTIFIC
 """Bytes of a request to read, where they are not 5: function code, address, quantity."""
 ANSWER_BYTES = {Space.FILE: 4, Space.QUEUE: 5, Space.IDENTIFICATION: 9}
 """Bytes of an answer before the values, where they are not 2: function code, byte count."""
+
+BIT_WRITES, SINGLE_WRITES = Space.COIL.write_functions, frozenset({5, 6})
+WRITE_HEAD = 5
+"""Bytes of a write of one value, and of any answer to a write; a write of several has a byte count and the values."""
 
 TCP_BYTE = 80
 """Nanoseconds of a byte at 100 Mbit/s."""
@@ -88,19 +92,31 @@ class Cost(NamedTuple):
         """Over TCP; `line` is the one behind a gateway, if it is known."""
         return cls(line, protocol.serial.gap, TCP_ROUND_TRIP, protocol.latencies, framing, protocol.pause)
 
-    def tariff(self, space: Space) -> Tariff:
-        """The cost of reads of one space."""
-        function, bits = space.read_function, space.is_bits
-        latency = next((one for one in self.latencies if one.function == function), None)
-        fixed, per_byte = self._frames(REQUEST_BYTES.get(space, 5), ANSWER_BYTES.get(space, 2))
-        fixed, per_word = fixed + float(self.pause), 0.0
-        if latency:
-            character = 1000 * self.line.character if self.line else 0
-            fixed += float(latency.minimum + latency.maximum) / 2 + float(latency.characters) * character
-            per_word = float(latency.minimum_per_word + latency.maximum_per_word) / 2
+    def tariff(self, space: Space, written: int = 0) -> Tariff:
+        """The cost of reads of one space; of those that write so many words first, by function 23."""
+        bits = space.is_bits
+        fixed, per_byte = self._frames(_read_size(space, written), ANSWER_BYTES.get(space, 2))
+        device, per_word = self._latency(WRITE_AND_READ if written else space.read_function)
+        fixed += device
         if not bits:
             per_word, per_byte = per_word + BYTES_IN_WORD * per_byte, 0
         return Tariff(round(fixed * NANOSECONDS), round(per_word * NANOSECONDS), round(per_byte * NANOSECONDS), bits)
+
+    def of_write(self, function: int, count: int) -> int:
+        """The cost of a write of so many words or bits, in nanoseconds."""
+        frames, _ = self._frames(_write_size(function, count), WRITE_HEAD)
+        fixed, per_word = self._latency(function)
+        words = -(-count // BITS_IN_WORD) if function in BIT_WRITES else count
+        return round((frames + fixed + per_word * words) * NANOSECONDS)
+
+    def _latency(self, function: int) -> tuple[float, float]:
+        """Milliseconds that the device takes for a request, and for each word of it."""
+        latency = next((one for one in self.latencies if one.function == function), None)
+        if latency is None:
+            return float(self.pause), 0.0
+        character = 1000 * self.line.character if self.line else 0
+        fixed = float(latency.minimum + latency.maximum) / 2 + float(latency.characters) * character
+        return fixed + float(self.pause), float(latency.minimum_per_word + latency.maximum_per_word) / 2
 
     def _frames(self, request: int, answer: int) -> tuple[float, float]:
         """Milliseconds of both frames without the values, and of a byte of values; `request`, `answer`: PDU bytes."""
@@ -117,11 +133,29 @@ class Cost(NamedTuple):
         """Of the frame around a function code and its data: with unit and CRC, or the ASCII one with LRC."""
         return 3 + 2 * (pdu + 2) if self.framing == "ascii" else pdu + 3
 
-    def frame_bytes(self, space: Space, quantity: int) -> int:
-        """The characters on the line (bytes over TCP) of a request and its answer."""
+    def frame_bytes(self, space: Space, quantity: int, written: int = 0) -> int:
+        """The characters on the line (bytes over TCP) of a request (see `tariff`) and its answer."""
         values = -(-quantity // BITS_IN_BYTE) if space.is_bits else BYTES_IN_WORD * quantity
-        pdus = (REQUEST_BYTES.get(space, 5), ANSWER_BYTES.get(space, 2) + values)
+        return self._bytes(_read_size(space, written), ANSWER_BYTES.get(space, 2) + values)
+
+    def write_bytes(self, function: int, count: int) -> int:
+        """As `frame_bytes`, of a write of so many words or bits."""
+        return self._bytes(_write_size(function, count), WRITE_HEAD)
+
+    def _bytes(self, *pdus: int) -> int:
         return sum(map(self._characters, pdus)) if self.line else sum(pdus) + 2 * MBAP_BYTES
+
+
+def _read_size(space: Space, written: int) -> int:
+    """Bytes of a PDU that reads, or that writes so many words before."""
+    return REQUEST_BYTES.get(space, 5) + (WRITE_HEAD + BYTES_IN_WORD * written if written else 0)
+
+
+def _write_size(function: int, count: int) -> int:
+    """Bytes of a PDU that writes."""
+    if function in SINGLE_WRITES:
+        return WRITE_HEAD
+    return WRITE_HEAD + 1 + (-(-count // BITS_IN_BYTE) if function in BIT_WRITES else BYTES_IN_WORD * count)
 
 
 def milliseconds(nanoseconds: int) -> float:

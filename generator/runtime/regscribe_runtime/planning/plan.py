@@ -12,13 +12,14 @@ from typing import NamedTuple
 
 from regscribe_runtime.planning.address_ranges import AddressRanges, AddressStretch, RegisterSpan
 from regscribe_runtime.planning.block_cover import cheapest_cover
-from regscribe_runtime.planning.cost import Cost, milliseconds
+from regscribe_runtime.planning.cost import Cost, Tariff, milliseconds
+from regscribe_runtime.values.facts import CommandStep, Page
 from regscribe_runtime.values.protocol import Protocol, SpaceLimits
-from regscribe_runtime.values.wire_types import Space
+from regscribe_runtime.values.wire_types import WRITE_AND_READ, Space, written_space
 
 
 class Block(NamedTuple):
-    """One read request and the items that it carries, in the order of their addresses."""
+    """One read request and the items that it carries, in the order of their addresses; without items, a write."""
 
     function: int
     address: int
@@ -27,8 +28,8 @@ class Block(NamedTuple):
 
     @property
     def space(self) -> Space:
-        """The space that is read."""
-        return self.items[0].space
+        """The space that is read, or written."""
+        return self.items[0].space if self.items else written_space(self.function)
 
     @property
     def end(self) -> int:
@@ -58,11 +59,33 @@ class RequestLimits(NamedTuple):
 
 
 class Terms(NamedTuple):
-    """Constraints and prices of a plan: the device's limits, the addresses that may be read, the cost of requests."""
+    """Constraints and prices of a plan: the device's limits, the addresses that may be read, the cost of requests.
+
+    `pages` are how each page is reached.
+    """
 
     limits: RequestLimits
     ground: AddressRanges
     cost: Cost
+    pages: tuple[Page, ...] = ()
+
+    def tariff(self, space: Space, address: int) -> Tariff:
+        """The cost of reads where an address stands."""
+        return self.cost.tariff(space, len(self.words(space, address)))
+
+    def words(self, space: Space, address: int) -> tuple[int, ...]:
+        """What a read of an address writes in the same request, to select a page."""
+        page = space.page(address) if space is Space.HOLDING else 0
+        return self.pages[page - 1].words if page and self.pages[page - 1].at_once else ()
+
+    def steps(self, block: "Block", selected: int) -> tuple[int, tuple[CommandStep, ...]]:
+        """The page that is selected for a read while `selected` is (0: none), and what is written to select it."""
+        page = block.space.page(block.address)
+        if self.words(block.space, block.address):
+            return 0, ()
+        if page in {0, selected} or not self.pages or not self.pages[page - 1].steps:
+            return selected, ()
+        return page, self.pages[page - 1].steps
 
     def most(self, block: Block) -> int:
         """The most addresses of one request there."""
@@ -83,6 +106,7 @@ class SplitReason(StrEnum):
     CLEARS = "clears"
     CHEAPER = "cheaper apart"
     AGAIN = "once more"
+    SELECTS = "selects a page"
 
 
 class Split(NamedTuple):
@@ -93,13 +117,17 @@ class Split(NamedTuple):
 
 
 class Planned(NamedTuple):
-    """One request of a plan: how many of its addresses are wanted, bytes of its frames, expected milliseconds."""
+    """One request of a plan: how many of its addresses are wanted, bytes of its frames, expected milliseconds.
+
+    `words` are what it writes, to select a page.
+    """
 
     block: Block
     wanted: int
     bytes: int
     ms: float
     split: Split
+    words: tuple[int, ...] = ()
 
 
 class Plan(NamedTuple):
@@ -115,7 +143,7 @@ class Plan(NamedTuple):
     @property
     def carried(self) -> int:
         """Addresses that the answers carry."""
-        return sum(one.block.quantity for one in self.requests)
+        return sum(one.block.quantity for one in self.requests if one.block.items)
 
     @property
     def bytes(self) -> int:
@@ -140,11 +168,11 @@ def blocks(items: Iterable[RegisterSpan], terms: Terms) -> tuple[Block, ...]:
             message = f"{item.space} {item.address}..{item.end - 1} cannot be read"
             raise ValueError(message)
         stretches[item.space, stretch].setdefault(terms.ground.widened(item), []).append(item)
-    tariffs = {space: terms.cost.tariff(space) for space, _ in stretches}
     found = []
     for (space, stretch), held in stretches.items():
         most = terms.limits.most(space)
-        for spans in cheapest_cover(sorted(held, key=_longer_first), tariffs[space], most - most % stretch.align):
+        tariff = terms.tariff(space, stretch.first)
+        for spans in cheapest_cover(sorted(held, key=_longer_first), tariff, most - most % stretch.align):
             first, end = spans[0].address, max(span.end for span in spans)
             carried = sorted(item for span in spans for item in held[span])
             found.append(Block(space.read_function, first, end - first, tuple(carried)))
@@ -160,21 +188,20 @@ def _longer_first(item: RegisterSpan) -> tuple[int, int]:
 def explain(requests: Sequence[Block], terms: Terms, *, again: int = 0) -> Plan:
     """Requests in the order of sending, each with its cost and why it is not one with its neighbour by address.
 
-    The last `again` of them are repeated reads.
+    The last `again` of them are repeated reads. Before them stand the writes that select a page.
     """
     sent = [
         (part, number >= len(requests) - again) for number, one in enumerate(requests) for part in as_sent(one, terms)
     ]
     first_time = sorted((part for part, repeated in sent if not repeated), key=lambda one: (one.space, one.address))
     reasons = {block: split(before, block, terms) for before, block in pairwise((None, *first_time)) if block}
-    planned = []
+    planned: list[Planned] = []
+    selected = 0
     for block, repeated in sent:
-        held = range(block.address, block.end)
-        wanted = {address for item in block.items for address in range(item.address, item.end) if address in held}
-        size = terms.cost.frame_bytes(block.space, block.quantity)
-        ms = milliseconds(terms.cost.tariff(block.space).of(block.quantity))
+        selected, steps = terms.steps(block, selected)
+        planned += [_selecting(selected, step, terms.cost) for step in steps]
         reason = Split(SplitReason.AGAIN, "others depend on it, and it on them") if repeated else reasons[block]
-        planned.append(Planned(block, len(wanted), size, ms, reason))
+        planned.append(_reading(block, reason, terms))
     return Plan(tuple(planned))
 
 
@@ -183,6 +210,31 @@ def as_sent(block: Block, terms: Terms) -> list[Block]:
     most = terms.most(block)
     starts = range(block.address, block.end, most)
     return [block._replace(address=start, quantity=min(most, block.end - start)) for start in starts]
+
+
+def _reading(block: Block, reason: Split, terms: Terms) -> Planned:
+    """A request of a plan, by function 23 where it selects the page of what it reads."""
+    held = range(block.address, block.end)
+    wanted = {address for item in block.items for address in range(item.address, item.end) if address in held}
+    words = terms.words(block.space, block.address)
+    size = terms.cost.frame_bytes(block.space, block.quantity, len(words))
+    ms = milliseconds(terms.tariff(block.space, block.address).of(block.quantity))
+    sent = block._replace(function=WRITE_AND_READ) if words else block
+    return Planned(sent, len(wanted), size, ms, reason, words)
+
+
+def one_by_one(items: Iterable[RegisterSpan], terms: Terms) -> Plan:
+    """A request for each item, after the writes that select its page."""
+    made = (Block(one.space.read_function, one.address, one.words, (one,)) for one in items)
+    return Plan(tuple(one for block in made for one in explain([block], terms).requests))
+
+
+def _selecting(page: int, step: CommandStep, cost: Cost) -> Planned:
+    """A write that selects a page."""
+    count = len(step.words)
+    block = Block(step.function, step.address, count, ())
+    size, ms = cost.write_bytes(step.function, count), milliseconds(cost.of_write(step.function, count))
+    return Planned(block, 0, size, ms, Split(SplitReason.SELECTS, str(page)), step.words)
 
 
 GAPS = {
@@ -211,7 +263,7 @@ def split(before: Block | None, block: Block, terms: Terms) -> Split:
         return Split(SplitReason.LIMIT, beyond)
     if barred:
         return Split(SplitReason.ALIGNMENT, f"requests from {block.address} on must be aligned")
-    tariff = terms.cost.tariff(block.space)
+    tariff = terms.tariff(block.space, block.address)
     saved = tariff.of(block.end - before.address) - tariff.of(before.quantity) - tariff.of(block.quantity)
     return Split(SplitReason.CHEAPER, f"{gap} between, saves {milliseconds(saved):.1f} ms")
 

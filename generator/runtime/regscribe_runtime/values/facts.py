@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 from regscribe_runtime.values.conditions import ALWAYS, Condition, State
 from regscribe_runtime.values.numbers import Number
-from regscribe_runtime.values.wire_types import Space
+from regscribe_runtime.values.wire_types import Space, written_space
 
 
 class Setting(StrEnum):
@@ -104,11 +104,20 @@ class CommandStep(NamedTuple):
     @property
     def space(self) -> Space:
         """The address space that the function writes."""
-        return next((space for space in Space if self.function in space.write_functions), Space.HOLDING)
+        return written_space(self.function)
 
 
 class Page(NamedTuple):
-    """How registers with addresses of their own are reached: after `steps`, or at another unit id (0: the same)."""
+    """How registers with addresses of their own are reached: after `steps`, or at another unit id (0: the same).
+
+    `at_once`: holding registers there are read by function 23, whose request writes the words of all steps first.
+    """
 
     steps: tuple[CommandStep, ...] = ()
     unit: int = 0
+    at_once: bool = False
+
+    @property
+    def words(self) -> tuple[int, ...]:
+        """The words of all steps, whose addresses follow each other where all are written `at_once`."""
+        return tuple(word for step in self.steps for word in step.words)

@@ -10,7 +10,7 @@ from regscribe_runtime.values.numbers import Number
 from regscribe_runtime.values.orders import OrderCases, WordOrder, orders_of
 from regscribe_runtime.values.scales import Conversion, Range, Sentinel
 from regscribe_runtime.values.terms import Term, registers_in
-from regscribe_runtime.values.wire_types import Order, Rounding, Space, WireType
+from regscribe_runtime.values.wire_types import WRITE_AND_READ, Order, Rounding, Space, WireType
 
 ONE_BYTE = frozenset({WireType.UINT8, WireType.INT8})
 
@@ -74,8 +74,13 @@ class View(NamedTuple):
 
     @property
     def readable(self) -> bool:
-        """Whether the read function of its space may address it."""
-        return self.allows(self.space.read_function)
+        """Whether the read function of its space may address it, or the one that selects its page as well."""
+        return self.allows(self.space.read_function) or self.is_read_behind_write
+
+    @property
+    def is_read_behind_write(self) -> bool:
+        """Whether it is read by function 23, which writes what selects its page in the same request."""
+        return WRITE_AND_READ in self.functions and not self.allows(self.space.read_function)
 
     @property
     def writable(self) -> bool:

@@ -13,6 +13,10 @@ PAGE_BITS, WIRE = 16, 0xFFFF
 """Above the bits of a wire address an address has the number of its page, and of its page the wire address alone."""
 
 
+WRITE_AND_READ = 23
+"""The function that writes holding registers and then reads some, in one request (V1.1b3, section 6.17)."""
+
+
 class Space(StrEnum):
     """A Modbus address space; `STATUS` is the single byte that function 07 returns (address 0).
 
@@ -81,6 +85,11 @@ class Space(StrEnum):
     def is_words(self) -> bool:
         """Whether an address names a word; the byte of function 07 comes as one number, as bits do."""
         return not self.is_bits and self is not Space.STATUS
+
+
+def written_space(function: int) -> Space:
+    """The space that a function writes; holding registers for a function that writes none."""
+    return next((space for space in Space if function in space.write_functions), Space.HOLDING)
 
 
 def spelled_address(function: int, address: int) -> str:

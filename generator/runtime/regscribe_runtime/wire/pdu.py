@@ -7,6 +7,7 @@ its answers.
 import struct
 from typing import Protocol
 
+from regscribe_runtime.values.wire_types import WRITE_AND_READ
 from regscribe_runtime.wire import identification, parts
 from regscribe_runtime.wire import requests as functions
 from regscribe_runtime.wire.packing import (
@@ -17,7 +18,15 @@ from regscribe_runtime.wire.packing import (
     unpack_bits,
     unpack_words,
 )
-from regscribe_runtime.wire.requests import BIT_READS, BITS_IN_BYTE, WORD_READS, Reply, Request, bytes_of_bits
+from regscribe_runtime.wire.requests import (
+    BIT_READS,
+    BITS_IN_BYTE,
+    WORD_READS,
+    WRITE_REGISTERS,
+    Reply,
+    Request,
+    bytes_of_bits,
+)
 
 EXCEPTION_BIT = 0x80
 ON, OFF = 0xFF00, 0x0000
@@ -56,6 +65,8 @@ def encode_request(request: Request) -> bytes:
     try:
         if function in WORD_READS or function in BIT_READS:
             return ADDRESSED.pack(function, address, quantity)
+        if function == WRITE_AND_READ:
+            return ADDRESSED.pack(function, address, quantity) + _write(WRITE_REGISTERS, request.into, words)[1:]
         special = _FORMS.get(function)
         return special.encode_request(request) if special else _write(function, address, words)
     except struct.error:
@@ -79,13 +90,15 @@ def _write(function: int, address: int, words: tuple[int, ...]) -> bytes:
 def decode_request(pdu: bytes) -> Request:
     """Decode a request; MalformedError for an unknown function, or a length that does not fit it.
 
-    A coil's state is 0 or 1 in `words`. Function 23 is two requests behind one code, which a device takes apart.
+    A coil's state is 0 or 1 in `words`.
     """
     function, data = pdu[0], pdu[1:]
     if special := _FORMS.get(function):
         return special.decode_request(pdu)
     if function in functions.BLOCK_WRITES:
         return _block_write(function, data)
+    if function == WRITE_AND_READ:
+        return _write_and_read(data)
     if function not in _DATA_SIZES:
         message = f"function {function:02d} is not known"
         raise MalformedError(message)
@@ -110,6 +123,13 @@ def _block_write(function: int, data: bytes) -> Request:
     return Request(function, address, quantity, unpack_bits(values, quantity) if bits else unpack_words(values))
 
 
+def _write_and_read(data: bytes) -> Request:
+    head = data[: functions.HEAD_SIZE]
+    expect_bytes(head, functions.HEAD_SIZE)
+    (address, quantity), write = unpack_words(head), _block_write(WRITE_REGISTERS, data[functions.HEAD_SIZE :])
+    return Request(WRITE_AND_READ, address, quantity, write.words, into=write.address)
+
+
 def _coil_state(word: int) -> int:
     if word not in (ON, OFF):
         message = f"{word:04X} is no state of a coil: FF00 is on, 0000 is off"
@@ -128,7 +148,7 @@ def encode_reply(reply: Reply) -> bytes:
         return ADDRESSED.pack(function, address, quantity)
     if function == functions.READ_STATUS:
         return bytes((function, *words))
-    if function in BIT_READS or function in WORD_READS or function == functions.WRITE_AND_READ:
+    if function in BIT_READS or function in WORD_READS or function == WRITE_AND_READ:
         data = pack_bits(words) if function in BIT_READS else pack_words(words)
         return bytes((function, len(data))) + data
     return _write(function, address, words)
@@ -137,7 +157,7 @@ def encode_reply(reply: Reply) -> bytes:
 def decode_reply(request: Request, pdu: bytes) -> Reply:
     """Decode an answer; one of a wrong length or byte count gets no words, so it fits no request."""
     code = pdu[0]
-    if code in WORD_READS:
+    if code in WORD_READS or code == WRITE_AND_READ:
         return _words_read(pdu)
     data = pdu[1:]
     if code & EXCEPTION_BIT:  # a good answer with one bit flipped has more than one byte: it is no refusal

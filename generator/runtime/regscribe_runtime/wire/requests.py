@@ -8,12 +8,12 @@ from typing import NamedTuple
 
 from regscribe_runtime.errors import ExceptionAnswer, PartialWrite, WrongAnswer
 from regscribe_runtime.values.protocol import Protocol
-from regscribe_runtime.values.wire_types import Space
+from regscribe_runtime.values.wire_types import WRITE_AND_READ, Space
 
 READ_COILS, READ_DISCRETE_INPUTS, READ_HOLDING, READ_INPUT = 1, 2, 3, 4
 WRITE_COIL, WRITE_REGISTER, READ_STATUS, LOOPBACK, WRITE_COILS, WRITE_REGISTERS = 5, 6, 7, 8, 15, 16
 READ_FILE, WRITE_FILE, READ_QUEUE = Space.FILE.read_function, Space.FILE.write_functions[0], Space.QUEUE.read_function
-MASK_REGISTER, WRITE_AND_READ, IDENTIFY = 22, 23, Space.IDENTIFICATION.read_function
+MASK_REGISTER, IDENTIFY = 22, Space.IDENTIFICATION.read_function
 READ_SPACES = {space.read_function: space for space in Space}
 READS = frozenset(READ_SPACES)
 WRITES = frozenset(function for space in Space for function in space.write_functions)
@@ -25,8 +25,8 @@ BLOCK_WRITES = (WRITE_COILS, WRITE_REGISTERS)
 UNADDRESSED = frozenset({READ_STATUS, LOOPBACK, READ_FILE, WRITE_FILE, IDENTIFY})
 
 BITS_IN_BYTE, BYTES_IN_WORD = 8, 2
-HEAD_SIZE, BLOCK_HEAD_SIZE = 4, 5
-"""Bytes of an address with a quantity or a value, and of both with a byte count."""
+HEAD_SIZE, BLOCK_HEAD_SIZE, BOTH_HEAD_SIZE = 4, 5, 9
+"""Bytes of an address with a quantity or a value, of both with a byte count, and of all that for a read and a write."""
 IDENTITY_HEAD_SIZE = 9
 """Bytes of an answer about one object before its text."""
 FILE_HEAD_SIZE, QUEUE_HEAD_SIZE = 8, 4
@@ -39,6 +39,7 @@ class Request(NamedTuple):
     `seconds` is its response timeout, set on the way to the link; 0 leaves it to the link. `answered`: unit 0 is no
     broadcast but a device that answers. `page` is the number of the page that it means
     (0: none), `selects` whether it writes what selects one. `unit` is the unit id, where it is not that of the device.
+    Function 23 writes its words from the address `into` on, and then reads.
     """
 
     function: int
@@ -50,6 +51,12 @@ class Request(NamedTuple):
     page: int = 0
     selects: bool = False
     unit: int = 0
+    into: int = 0
+
+    @property
+    def fetches(self) -> bool:
+        """Whether its answer has what registers hold."""
+        return self.function in READS or self.function == WRITE_AND_READ
 
     @property
     def reads(self) -> bool:
@@ -73,7 +80,8 @@ class Request(NamedTuple):
         if not steps or self.function in UNADDRESSED:
             return self
         part_bits = Space.QUEUE.part_bits if self.function == READ_QUEUE else 0
-        return self._replace(address=self.address + (steps << part_bits))
+        into = self.into + steps if self.function == WRITE_AND_READ else 0
+        return self._replace(address=self.address + (steps << part_bits), into=into)
 
 
 class Reply(NamedTuple):
@@ -97,15 +105,17 @@ def sizes(request: Request) -> tuple[int, int]:
     values = bytes_of_bits(count) if function in (*BIT_READS, WRITE_COILS) else BYTES_IN_WORD * count
     if function in BLOCK_WRITES:
         return 1 + BLOCK_HEAD_SIZE + values, 1 + HEAD_SIZE
-    if function == READ_STATUS:
-        return 1, 2
-    if function in {READ_FILE, WRITE_FILE}:
-        whole = 1 + FILE_HEAD_SIZE
-        return (whole, 4 + values) if function == READ_FILE else (whole + values, whole + values)
-    if function == IDENTIFY:
-        return HEAD_SIZE, IDENTITY_HEAD_SIZE + values
-    if function == READ_QUEUE:
-        return 3, 1 + QUEUE_HEAD_SIZE + BYTES_IN_WORD * (Space.QUEUE.most - 1)
+    of_file = 1 + FILE_HEAD_SIZE
+    special = {
+        READ_STATUS: (1, 2),
+        READ_FILE: (of_file, 4 + values),
+        WRITE_FILE: (of_file + values, of_file + values),
+        IDENTIFY: (HEAD_SIZE, IDENTITY_HEAD_SIZE + values),
+        READ_QUEUE: (3, 1 + QUEUE_HEAD_SIZE + BYTES_IN_WORD * (Space.QUEUE.most - 1)),
+        WRITE_AND_READ: (1 + BOTH_HEAD_SIZE + BYTES_IN_WORD * len(request.words), 2 + values),
+    }
+    if function in special:
+        return special[function]
     whole = 1 + HEAD_SIZE + (BYTES_IN_WORD if function == MASK_REGISTER else 0)
     return whole, 2 + values if request.reads else whole
 
@@ -116,7 +126,7 @@ def fits(request: Request, reply: Reply) -> bool:
         return False
     if reply.exception is not None:
         return True
-    return len(reply.words) == request.quantity if request.reads else reply.address == request.address
+    return len(reply.words) == request.quantity if request.fetches else reply.address == request.address
 
 
 def verify(request: Request, reply: Reply, *, unit: int, protocol: Protocol) -> tuple[int, ...]:
@@ -127,13 +137,13 @@ def verify(request: Request, reply: Reply, *, unit: int, protocol: Protocol) -> 
         raise ExceptionAnswer(
             unit=unit, function=function, address=address, code=code, name=found.name, meaning=found.meaning
         )
-    if reply.function == request.function and request.function in READS and len(reply.words) == request.quantity:
+    if reply.function == request.function and request.fetches and len(reply.words) == request.quantity:
         return reply.words
     asked = f"unit {unit}, function {request.function:02d}, address {request.address}"
     if reply.function != request.function:
         message = f"{asked}: the answer is to function {reply.function:02d}"
         raise WrongAnswer(message)
-    if request.function in READS:
+    if request.fetches:
         message = f"{asked}: {len(reply.words)} values came where {request.quantity} were asked for"
         raise WrongAnswer(message)
     _verify_echo(request, reply, unit=unit, asked=asked)
