@@ -133,6 +133,7 @@ TRIALS: dict[str, tuple[Trial, ...]] = {
     "static": ((True, {}),),
     "mandatory": ((True, {}), (False, {})),
     "shadows": (("low", {}), ("words", {})),
+    "rereads": (("low", {}), ("low", {"access": "r"})),
     "follows": (("low", {}), ([{"when": SEL, "is": "low"}], {}), ("words", {})),
     "difference": ((True, {"unit": "temperature"}), (True, {})),
     "inferred": (([{"what": "something", "why": "because"}], {}),),

@@ -22,6 +22,7 @@ from regscribe.checks import (  # noqa: F401 (each declares its rules)
     programs,
     ranges,
     references,
+    rereads,
     scales,
     stated_numbers,
     views,

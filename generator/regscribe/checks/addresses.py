@@ -19,7 +19,7 @@ from regscribe.checks.rule import (
     register_rule,
 )
 from regscribe.lower.conditions import both, excludes
-from regscribe.model import Condition, Order, Page, Register, RegisterMap, Related, Space, View
+from regscribe.model import Access, Condition, Order, Page, Register, RegisterMap, Related, Space, View
 from regscribe_runtime.values.wire_types import PAGE_BITS, WRITE_AND_READ
 
 WRITE_IN = "name under `written_in` the notation that the rows are written in (`modicon` for 40001 and 400001)"
@@ -93,6 +93,7 @@ def _overlaps(every: Iterable[TakenAddresses], scope: RuleScope) -> Iterator[Fin
     for stretch in every:
         before = [one for one in before if one.ground == stretch.ground and one.last >= stretch.first]
         rivals = [one for one in before if not _other_bytes(one.view, stretch.view)]
+        rivals = [one for one in rivals if not _one_again(one.register, stretch.register)]
         rivals = [one for one in rivals if not _apart(one.register.when, stretch.register.when, scope)]
         if rivals:
             earlier, later = sorted((max(rivals, key=attrgetter("last")), stretch), key=lambda one: one.register.span)
@@ -101,6 +102,11 @@ def _overlaps(every: Iterable[TakenAddresses], scope: RuleScope) -> Iterator[Fin
             related = Related(f"`{other.path}` takes {earlier}", other.span)
             yield Finding.at(later.register, message, _advice(earlier.register, later.register), related)
         before.append(stretch)
+
+
+def _one_again(one: Register, other: Register) -> bool:
+    """Whether one of two registers reads the words of the other again, or both those of a third."""
+    return (one.rereads or one.path) == (other.rereads or other.path)
 
 
 def _other_bytes(one: View, other: View) -> bool:
@@ -176,7 +182,9 @@ def _apart(one: Condition, other: Condition, scope: RuleScope) -> bool:
 
 def _advice(one: Register, other: Register) -> str:
     if one.when.always and other.when.always:
-        return "correct `at`, the type, the array's stride or (if one is read and one written) `access`"
+        twice = one.address == other.address and other.access is Access.READ and "." not in one.path
+        again = f", or say `rereads: {one.path}`" if twice else ""
+        return f"correct `at`, the type, the array's stride or (if one is read and one written) `access`{again}"
     return "give both a `when` such that they never hold together, or correct `at`"
 
 

@@ -106,6 +106,7 @@ def register_of(entry: TreeNode, everywhere: Scope) -> Register:
         static=settings.truth_of("static"),
         mandatory=settings["mandatory"].truth() if "mandatory" in settings else None,
         shadows=scope.path(settings.get("shadows")),
+        rereads=scope.path(settings.get("rereads")),
         follows=_follows(settings.get("follows"), scope),
         difference=settings.truth_of("difference"),
         inferred=inferred_of(settings),

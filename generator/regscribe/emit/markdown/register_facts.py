@@ -96,6 +96,7 @@ def _facts(context: PageContext, leaf: Leaf, model: Model, register: Register) -
     yield "Kept in", _persistence(register)
     shadowed = md("takes the value of ", context.register(register.shadows)) if register.shadows else Md()
     yield "When power comes", shadowed
+    yield "Reads again", md("the words of ", context.register(register.rereads)) if register.rereads else Md()
     yield "Follows", follows(context, model, register)
     unit = link(register.rescales, context.anchor("unit", register.rescales)) if register.rescales else Md()
     yield "Changing it", md("the device converts every value whose unit is ", unit) if unit else unit

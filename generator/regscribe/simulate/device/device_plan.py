@@ -137,7 +137,12 @@ def _addresses(stretches: Iterable[tuple[Space, int, int]]) -> frozenset[tuple[S
 
 
 def places_of(register: Register) -> tuple[AddressSpan, ...]:
-    """Every place where a register is transmitted: its views, then the aliases of the base view."""
+    """Every place where a register is transmitted: its views, then the aliases of the base view.
+
+    What reads the words of another register again has none: they are shown, and held, for the other alone.
+    """
+    if register.rereads:
+        return ()
     views = (AddressSpan(register, view, view.address(register.at)) for view in register.views)
     return (*views, *(AddressSpan(register, register.base, address) for address in register.aliases))
 
@@ -149,7 +154,8 @@ class Blueprint:
     `stored` and `image` are the state of a new device, of which each device keeps only what is different; `DeviceState`
     fills them once. `places` are where a register is transmitted, `ordered_by` the registers whose word order a
     register sets, `followers` those that (or whose bits) change with it, `shadows` the registers that take their value
-    from another one when power comes, each behind the one that it shadows.
+    from another one when power comes, each behind the one that it shadows; `rereading` those that read the words of
+    another one.
     """
 
     register_map: RegisterMap
@@ -160,6 +166,7 @@ class Blueprint:
     ordered_by: Mapping[str, tuple[Register, ...]]
     followers: Mapping[str, tuple[Register, ...]]
     shadows: tuple[Register, ...]
+    rereading: frozenset[str]
     stored: dict[str, Stored] = field(default_factory=dict)
     image: Image = field(default_factory=lambda: {space: {} for space in Space})
 
@@ -178,6 +185,7 @@ def draw(
         _by_source(model.registers, lambda register: {path for view in register.views for path in view.needs()}),
         _by_source(model.registers, sources_of),
         tuple(model.register(path) for path in sorted(origins, key=lambda path: _depth(path, origins))),
+        frozenset(register.path for register in model.registers if register.rereads),
     )
 
 

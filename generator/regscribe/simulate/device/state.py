@@ -129,15 +129,38 @@ class DeviceState(PresentMeaning):
 
     def stored(self, path: str) -> Stored:
         """Return the stored value of the register `path`."""
+        if path in self.blueprint.rereading:
+            return self._reread(self._model.register(path))
         for kept in (self._stored, self.blueprint.stored):
             if path in kept:
                 return kept[path]
         self._stored[path] = first = self._first(self._model.register(path))
         return first
 
+    def _reread(self, register: Register) -> Stored:
+        """What the words of another register are to one that reads them again; NaN where they are no value."""
+        stored = codec.decode(self.seen(register.base), self.peek_words(register.path), self.order(register.base))
+        return NAN if stored is None else stored
+
+    def _store_again(self, register: Register, stored: Stored) -> None:
+        """Give another register the words that one which reads them again is to have; none that are no value to it."""
+        held, words = self._model.register(register.rereads), list(self.peek_words(register.rereads))
+        words[self._inside(register)] = codec.encode(self.seen(register.base), stored, self.order(register.base))
+        new = codec.decode(self.seen(held.base), words, self.order(held.base))
+        if new is not None:
+            self.store(held.path, new)
+
+    def _inside(self, register: Register) -> slice:
+        """Where the words of a register that reads again stand among those of the other."""
+        before = register.address - self._model.register(register.rereads).address
+        return slice(before, before + register.base.words)
+
     def store(self, path: str, stored: Stored) -> None:
         """Set the stored value of the register `path`, and all words that depend on it."""
         register = self._model.register(path)
+        if register.rereads:
+            self._store_again(register, stored)
+            return
         self._stored[path] = self.quantise(register, stored) if isinstance(stored, Fraction) else stored
         self._show(register, self._image)
         if path not in self._pending:
@@ -274,6 +297,8 @@ class DeviceState(PresentMeaning):
     def peek_words(self, path: str, view: str = "") -> tuple[int, ...]:
         """Return the words that a view (default: the base view) transmits now; of a write-only register too."""
         register, _ = self.find(path)
+        if register.rereads:
+            return self.peek_words(register.rereads)[self._inside(register)]
         shown = next((each for each in register.views if view in ("", each.name)), None)
         if shown is None:
             names = ", ".join(each.name for each in register.views)
