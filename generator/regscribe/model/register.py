@@ -46,8 +46,8 @@ class Register:
     model has it (None: the map does not say).
     `page` is the number of the page that it stands on (0: on none).
     `shadows` is the register from which it takes its value when power comes, `rereads` the one whose words it has,
-    `follows` by case the register whose value it always has (none holding: its own). `difference`: it counts a distance in its unit, whose zero point does
-    not matter, as a proportional band does.
+    `follows` by case the register whose value it always has (none holding: its own). `difference`: it counts a distance
+    in its unit, whose zero point does not matter, as a proportional band does.
     `symbol` is a clean reading of the manual's short code, `printed` the code as it is printed (empty: the same).
     `version_digits` is how many decimal digits a `VERSION` packs, `version_groups` how many digits stand in a group.
     In a `block` addresses count from its base, which each device tells.
