@@ -137,15 +137,19 @@ def _in_layout(layout: str, raw: bytes) -> datetime:
     return datetime(**parts)  # type: ignore[arg-type] # noqa: DTZ001 (a device tells no zone)
 
 
-def _tokens(layout: str) -> tuple[bool, list[str]]:
+def _tokens(layout: str) -> tuple[str, list[str]]:
+    """Return how the digits stand (bcd, ascii, or nothing special), and what is in the words."""
     words = layout.split(" ")
-    return (True, words[1:]) if words[0] == "bcd" else (False, words)
+    return (words[0], words[1:]) if words[0] in {"bcd", "ascii"} else ("", words)
 
 
 def _parts(layout: str, raw: bytes) -> Iterator[tuple[str, int]]:
     """Yield the letters of a layout with the numbers that stand for them."""
-    bcd, tokens = _tokens(layout)
-    rest = list(raw)
+    form, tokens = _tokens(layout)
+    if form == "ascii":
+        yield from _characters("".join(tokens), raw)
+        return
+    bcd, rest = form == "bcd", list(raw)
     for token in tokens:
         size = 4 if len(token) > 4 else 2  # noqa: PLR2004 (digits that fit a word)
         cells, rest = rest[:size], rest[size:]
@@ -158,6 +162,14 @@ def _parts(layout: str, raw: bytes) -> Iterator[tuple[str, int]]:
             if len(digits) > len(token):
                 raise MeaninglessError(layout)
             yield from ((run[0][0], int(digits[run.start() : run.end()])) for run in re.finditer(r"(.)\1*", token))
+
+
+def _characters(letters: str, raw: bytes) -> Iterator[tuple[str, int]]:
+    for run in re.finditer(r"(.)\1*", letters):
+        text = raw[run.start() : run.end()]
+        if run[1] != "_" and any(cell not in b"0123456789" for cell in text):
+            raise MeaninglessError(text)
+        yield run[1], int(text) if run[1] != "_" else 0
 
 
 def _whole(cells: list[int], *, bcd: bool) -> int:
@@ -183,8 +195,11 @@ def _moment_bytes(register: Register, said: str) -> bytes:
 def _layout_bytes(layout: str, value: datetime) -> bytes:
     numbers = {letter: getattr(value, name) for letter, name in NUMBERS.items()}
     numbers |= {"y": value.year - 2000, "w": value.weekday() + 1, "_": 0}
-    bcd, tokens = _tokens(layout)
-    raw = b""
+    form, tokens = _tokens(layout)
+    bcd, raw = form == "bcd", b""
+    if form == "ascii":
+        runs = re.finditer(r"(.)\1*", "".join(tokens))
+        return "".join(str(numbers[run[1]]).zfill(len(run[0])) for run in runs).encode()
     for token in tokens:
         runs = [(run[0][0], len(run[0])) for run in re.finditer(r"(.)\1*", token)]
         if len(token) <= len(runs) <= 2:  # noqa: PLR2004 (one letter, or a byte each)

@@ -84,6 +84,11 @@ def _part(part: Part, raw: bytes) -> int:
             message = f"{cells.hex()} has a digit beyond 9"
             raise ValueError(message)
         return int(cells.hex())
+    if part.ascii:
+        if not (cells.isascii() and cells.isdigit()):
+            message = f"{brief(cells)} are no digits"
+            raise ValueError(message)
+        return int(cells)
     above: int = int.from_bytes(cells) // 10**part.after
     number = above % 10**part.digits if part.digits else above
     if part.letter == "y" and number > 99:  # noqa: PLR2004 (two digits)
@@ -112,6 +117,8 @@ def _spell(layout: Layout, moment: datetime, *, midnight: bool) -> bytes:
         place = slice(part.place, part.place + part.size)
         if part.bcd:
             raw[place] = bytes.fromhex(f"{number:0{2 * part.size}d}")
+        elif part.ascii:
+            raw[place] = f"{number:0{part.size}d}".encode()
         else:
             raw[place] = (int.from_bytes(raw[place]) + number * 10**part.after).to_bytes(part.size)
     return bytes(raw)

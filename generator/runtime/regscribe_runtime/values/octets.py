@@ -3,7 +3,7 @@
 import re
 from datetime import date, datetime
 from functools import cache
-from itertools import groupby
+from itertools import accumulate, groupby
 from typing import NamedTuple
 
 from regscribe_runtime.values.kinds import Kind
@@ -66,7 +66,7 @@ class Part(NamedTuple):
     """A part of a date: a letter, its bytes (`place`, `size`), and how they spell it.
 
     Of a number of decimal digits the part is that above the last `after`, of which the last `digits` count (0: all).
-    In `bcd`, each four bits are a digit.
+    In `bcd`, each four bits are a digit; in `ascii`, each byte is the character of one.
     """
 
     letter: str
@@ -75,6 +75,7 @@ class Part(NamedTuple):
     digits: int = 0
     after: int = 0
     bcd: bool = False
+    ascii: bool = False
 
 
 class Layout(NamedTuple):
@@ -98,11 +99,11 @@ def layout_of(text: str) -> Layout:
     if text == IEC870:
         return Layout(4)
     words = text.split()
-    bcd = words[:1] == ["bcd"]
+    bcd, characters = words[:1] == ["bcd"], words[:1] == ["ascii"]
     parts: list[Part] = []
     place = 0
-    for token in words[bcd:]:
-        found = _parts(token, place, bcd=bcd)
+    for token in words[bcd or characters :]:
+        found = _characters(token, place) if characters else _parts(token, place, bcd=bcd)
         parts += found
         place = max(part.place + part.size for part in found)
     _check_once(parts)
@@ -128,6 +129,16 @@ def _parts(token: str, place: int, *, bcd: bool) -> list[Part]:
         left -= digits
         found.append(Part(letter, place, size, digits if found else 0, left))
     return found
+
+
+def _characters(token: str, place: int) -> list[Part]:
+    """The parts of words of two characters each."""
+    runs = [(letter, len(list(run))) for letter, run in groupby(token)]
+    if not _TOKEN.fullmatch(token) or len(token) % 2 or any(size != DIGITS.get(letter, 2) for letter, size in runs):
+        message = f"`{token}` are no words of a date in characters: they are YYYY, yy, MM, DD, hh, mm, ss, two a word"
+        raise ValueError(message)
+    starts = accumulate((size for _, size in runs), initial=place)
+    return [Part(letter, start, size, ascii=True) for (letter, size), start in zip(runs, starts, strict=False)]
 
 
 def _check_once(parts: list[Part]) -> None:
