@@ -23,7 +23,7 @@ def octets_words(register: Register) -> str:
     return f"{KINDS[register.kind]}{register.layout and f', as {register.layout}'}{about}"
 
 
-LETTERS = "Y year, y year since 2000, M month, D day, h hour, m minute, s second; a word each, or a byte, or digits, or characters"
+LETTERS = "Y year, y year since 2000, M month, D day, h hour, m minute, s second; a word or a byte each, or digits"
 
 
 def _counts(layout: str) -> bool:

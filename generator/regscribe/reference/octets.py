@@ -198,8 +198,8 @@ def _layout_bytes(layout: str, value: datetime) -> bytes:
     form, tokens = _tokens(layout)
     bcd, raw = form == "bcd", b""
     if form == "ascii":
-        runs = re.finditer(r"(.)\1*", "".join(tokens))
-        return "".join(str(numbers[run[1]]).zfill(len(run[0])) for run in runs).encode()
+        found = re.finditer(r"(.)\1*", "".join(tokens))
+        return "".join(str(numbers[run[1]]).zfill(len(run[0])) for run in found).encode()
     for token in tokens:
         runs = [(run[0][0], len(run[0])) for run in re.finditer(r"(.)\1*", token)]
         if len(token) <= len(runs) <= 2:  # noqa: PLR2004 (one letter, or a byte each)
